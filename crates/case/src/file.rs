@@ -1,0 +1,324 @@
+//! One case file: parsing, the product of its axes, and the cases it stands for.
+
+use crate::error::{At, CaseError};
+use crate::resolve;
+use crate::scene::Scene;
+use crate::wire::{ExpectWire, FileWire, SceneWire};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// The most cases that one file may stand for.
+const MAX_CASES: usize = 1 << 20;
+
+/// A parsed case file.
+#[derive(Clone, Debug)]
+pub struct CaseFile {
+    name: String,
+    stem: String,
+    text: String,
+    wire: FileWire,
+    count: usize,
+}
+
+/// One case of a file, by its place in the product of the axes.
+#[derive(Clone, Copy, Debug)]
+pub struct CaseRef<'a> {
+    file: &'a CaseFile,
+    index: usize,
+}
+
+/// One fully expanded unit of work.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The stable id.
+    pub id: String,
+    /// What the case proves.
+    pub about: String,
+    /// The clauses that bind.
+    pub spec: Vec<String>,
+    /// What adapters draw.
+    pub scene: Scene,
+    /// Selftests: the scene that the judge believes was drawn; a Fail is due.
+    pub judged_as: Option<Scene>,
+    /// Literal values that must come back.
+    pub expect: Vec<Expect>,
+}
+
+/// One literal colour that must come back.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expect {
+    /// Index into the scene's attachments.
+    pub attachment: usize,
+    /// Column and row.
+    pub texel: [u32; 2],
+    /// The values, channel by channel.
+    pub value: Vec<f64>,
+}
+
+impl Case {
+    /// The scene that the judge looks at.
+    pub fn judged_scene(&self) -> &Scene {
+        self.judged_as.as_ref().unwrap_or(&self.scene)
+    }
+
+    /// The first part of the id.
+    pub fn area(&self) -> &str {
+        self.id.split('/').next().unwrap_or_default()
+    }
+}
+
+impl CaseFile {
+    /// Parses a case file. `name` is the path below the cases folder, with `.json`.
+    ///
+    /// # Errors
+    /// With file, line and key, when the text is not JSON, a key is unknown or an axis is unusable.
+    /// Scenes are checked by [`CaseRef::build`].
+    pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
+        let fail = |at: At| at.locate(name, text);
+        let value: Value = serde_json::from_str(text).map_err(|e| CaseError {
+            file: name.to_owned(),
+            line: e.line(),
+            key: String::new(),
+            message: format!("not valid JSON: {e}"),
+        })?;
+        let wire: FileWire = typed(&value).map_err(fail)?;
+        let stem = name.strip_suffix(".json").unwrap_or(name).to_owned();
+        if !stem.split('/').all(is_word) {
+            return Err(fail(At::new(
+                "the file's path becomes part of ids: letters, digits, '-', '_' and '.' only",
+            )));
+        }
+        let mut count = 1_usize;
+        for (axis, values) in &wire.axes {
+            let bad = |message: &str| fail(At::new(message).key(axis).key("axes"));
+            if !is_word(axis) {
+                return Err(bad(
+                    "an axis's name is made of letters, digits, '-', '_' and '.'",
+                ));
+            }
+            if values.is_empty() {
+                return Err(bad("an axis needs a value"));
+            }
+            for (i, value) in values.iter().enumerate() {
+                let bad = |message: String| fail(At::new(message).index(i).key(axis).key("axes"));
+                if !is_word(&value.name) {
+                    return Err(bad(format!(
+                        "`{}` would stand in ids: letters, digits, '-', '_', '+' and '.' only; give it a name",
+                        value.name
+                    )));
+                }
+                if values[..i].iter().any(|v| v.name == value.name) {
+                    return Err(bad(format!("`{}` is named twice", value.name)));
+                }
+            }
+            count = count
+                .checked_mul(values.len())
+                .filter(|n| *n <= MAX_CASES)
+                .ok_or_else(|| bad("the product of the axes is too large"))?;
+        }
+        for (name, derived) in &wire.derived {
+            if wire.axes.contains_key(name) {
+                return Err(fail(
+                    At::new("an axis has this name already")
+                        .key(name)
+                        .key("derived"),
+                ));
+            }
+            if !wire.axes.contains_key(&derived.axis) {
+                return Err(fail(
+                    At::new(format!("there is no axis `{}`", derived.axis))
+                        .key("axis")
+                        .key(name)
+                        .key("derived"),
+                ));
+            }
+        }
+        Ok(Self {
+            name: name.to_owned(),
+            stem,
+            text: text.to_owned(),
+            wire,
+            count,
+        })
+    }
+
+    /// The file's path below the cases folder.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The cases, the last axis (in alphabetical order) varying fastest.
+    pub fn cases(&self) -> impl Iterator<Item = CaseRef<'_>> {
+        (0..self.count).map(move |index| CaseRef { file: self, index })
+    }
+
+    fn positions(&self, mut index: usize) -> BTreeMap<&str, usize> {
+        let mut positions = BTreeMap::new();
+        for (axis, values) in self.wire.axes.iter().rev() {
+            positions.insert(axis.as_str(), index % values.len());
+            index /= values.len();
+        }
+        positions
+    }
+}
+
+impl CaseRef<'_> {
+    /// The stable id: the file's path and each axis with its value, in alphabetical order.
+    pub fn id(&self) -> String {
+        let mut id = self.file.stem.clone();
+        for (axis, at) in self.file.positions(self.index) {
+            id.push('/');
+            id.push_str(axis);
+            id.push('=');
+            id.push_str(&self.file.wire.axes[axis][at].name);
+        }
+        id
+    }
+
+    /// Builds the case.
+    ///
+    /// # Errors
+    /// With file, line and key, when a value is of the wrong type or a state is impossible.
+    pub fn build(&self) -> Result<Case, CaseError> {
+        self.try_build()
+            .map_err(|at| at.locate(&self.file.name, &self.file.text))
+    }
+
+    fn try_build(&self) -> Result<Case, At> {
+        let wire = &self.file.wire;
+        let values = self.values();
+        let scene_value = substitute(&wire.scene, &values).map_err(|e| e.key("scene"))?;
+        let scene = parse_scene(&scene_value).map_err(|e| e.key("scene"))?;
+        let judged_as = if wire.judged_as.is_empty() {
+            None
+        } else {
+            let mut judged = scene_value;
+            for (pointer, value) in &wire.judged_as {
+                let patch = || -> Result<(), At> {
+                    let target = judged
+                        .pointer_mut(pointer)
+                        .ok_or_else(|| At::new("the scene has no value at this JSON pointer"))?;
+                    *target = substitute(value, &values)?;
+                    Ok(())
+                };
+                let mut patch = patch;
+                patch().map_err(|e| e.key(pointer).key("judged_as"))?;
+            }
+            Some(parse_scene(&judged).map_err(|e| e.key("judged_as"))?)
+        };
+        let expect = self.expect(&scene, &values).map_err(|e| e.key("expect"))?;
+        Ok(Case {
+            id: self.id(),
+            about: wire.about.clone(),
+            spec: wire.spec.clone(),
+            scene,
+            judged_as,
+            expect,
+        })
+    }
+
+    fn expect(&self, scene: &Scene, values: &BTreeMap<&str, &Value>) -> Result<Vec<Expect>, At> {
+        let wire = &self.file.wire;
+        if wire.expect.is_null() {
+            return Ok(Vec::new());
+        }
+        let value = substitute(&wire.expect, values)?;
+        let list: Vec<ExpectWire> = typed(&value)?;
+        let mut result = Vec::new();
+        for (i, e) in list.into_iter().enumerate() {
+            let found = scene
+                .read
+                .iter()
+                .copied()
+                .find(|index| scene.attachments[*index].name == e.attachment);
+            let Some(attachment) = found else {
+                return Err(At::new(format!("`{}` is not read back", e.attachment))
+                    .key("attachment")
+                    .index(i));
+            };
+            let target = &scene.attachments[attachment];
+            let channels = target.format.color_channels().len();
+            if channels == 0 || e.value.len() != channels {
+                return Err(
+                    At::new(format!("{} has {channels} colour channels", target.format))
+                        .key("value")
+                        .index(i),
+                );
+            }
+            if e.texel[0] >= target.size[0] || e.texel[1] >= target.size[1] {
+                return Err(At::new("the texel lies outside").key("texel").index(i));
+            }
+            result.push(Expect {
+                attachment,
+                texel: e.texel,
+                value: e.value,
+            });
+        }
+        Ok(result)
+    }
+
+    fn values(&self) -> BTreeMap<&str, &Value> {
+        let wire = &self.file.wire;
+        let positions = self.file.positions(self.index);
+        let mut values: BTreeMap<&str, &Value> = positions
+            .iter()
+            .map(|(axis, at)| (*axis, &wire.axes[*axis][*at].value))
+            .collect();
+        for (name, derived) in &wire.derived {
+            let list = &wire.axes[&derived.axis];
+            let at = (positions[derived.axis.as_str()] + derived.shift) % list.len();
+            values.insert(name, &list[at].value);
+        }
+        values
+    }
+}
+
+fn is_word(text: &str) -> bool {
+    !text.is_empty()
+        && text
+            .bytes()
+            .all(|b| b.is_ascii_alphanumeric() || b"-_.+".contains(&b))
+}
+
+fn typed<T: DeserializeOwned>(value: &Value) -> Result<T, At> {
+    serde_path_to_error::deserialize(value).map_err(At::from_typed)
+}
+
+fn parse_scene(value: &Value) -> Result<Scene, At> {
+    resolve::scene(&typed::<SceneWire>(value)?)
+}
+
+/// Replaces every string `"$name"` by the value of that name.
+fn substitute(value: &Value, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
+    Ok(match value {
+        Value::String(text) => match text.strip_prefix('$') {
+            None => value.clone(),
+            Some(name) => match values.get(name) {
+                Some(found) => (*found).clone(),
+                None => {
+                    let known: Vec<&str> = values.keys().copied().collect();
+                    return Err(At::new(format!(
+                        "there is no axis or derived value `{name}`; there are: {}",
+                        known.join(", ")
+                    )));
+                }
+            },
+        },
+        Value::Array(list) => Value::Array(
+            list.iter()
+                .enumerate()
+                .map(|(i, v)| substitute(v, values).map_err(|e| e.index(i)))
+                .collect::<Result<_, _>>()?,
+        ),
+        Value::Object(map) => Value::Object(
+            map.iter()
+                .map(|(k, v)| {
+                    let v = substitute(v, values).map_err(|e| e.key(k))?;
+                    Ok((k.clone(), v))
+                })
+                .collect::<Result<_, At>>()?,
+        ),
+        Value::Null | Value::Bool(_) | Value::Number(_) => value.clone(),
+    })
+}

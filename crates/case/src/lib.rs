@@ -1,0 +1,21 @@
+//! Case files: parsing, axes, expansion, ids, meshes and the JSON schema.
+//!
+//! A [`Library`] holds case files, compiled in or from a folder. Each file expands into
+//! [`CaseRef`]s, whose ids cost nothing; [`CaseRef::build`] makes the [`Case`] with its [`Scene`].
+
+mod error;
+mod file;
+mod library;
+mod mesh;
+mod resolve;
+pub mod scene;
+mod schema;
+pub mod state;
+mod wire;
+
+pub use error::CaseError;
+pub use file::{Case, CaseFile, CaseRef, Expect};
+pub use library::Library;
+pub use mesh::{Mesh, MeshSource, Splat, Vertex};
+pub use scene::Scene;
+pub use schema::schema;

@@ -1,0 +1,425 @@
+//! Meshes: described in case files, expanded here, the same bits for every backend.
+
+use crate::state::{FrontFace, PrimitiveTopology};
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec2, DVec4};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// One vertex: 40 bytes, attributes in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Pod, Zeroable)]
+#[repr(C)]
+pub struct Vertex {
+    /// Clip-space position, y up, depth 0..=w.
+    pub position: [f32; 4],
+    /// Colour or any four values.
+    pub color: [f32; 4],
+    /// Texture coordinates.
+    pub uv: [f32; 2],
+}
+
+/// Vertices in drawing order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mesh {
+    /// The vertices.
+    pub vertices: Vec<Vertex>,
+}
+
+impl Mesh {
+    /// The vertices as bytes, [`Vertex`] after [`Vertex`].
+    pub fn bytes(&self) -> &[u8] {
+        bytemuck::cast_slice(&self.vertices)
+    }
+
+    /// The vertex indices of each primitive in order, each in its own winding: of a strip's odd
+    /// triangles the first two vertices are exchanged (Vulkan, Triangle Strips; OpenGL 4.6, 10.1.8).
+    pub fn triangles(&self, topology: PrimitiveTopology) -> Vec<[usize; 3]> {
+        let n = self.vertices.len();
+        match topology {
+            PrimitiveTopology::TriangleList => {
+                (0..n / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()
+            }
+            PrimitiveTopology::TriangleStrip => (0..n.saturating_sub(2))
+                .map(|i| {
+                    if i % 2 == 0 {
+                        [i, i + 1, i + 2]
+                    } else {
+                        [i + 1, i, i + 2]
+                    }
+                })
+                .collect(),
+        }
+    }
+}
+
+/// A mesh as a case file describes it.
+///
+/// Rectangles are given in texels of the pass's attachments and cover the samples at texel centres
+/// of a single-sample attachment, no others: every edge keeps at least 0.17 texels away from every
+/// centre, so that no legal snapping of vertices changes what is covered. Attributes are constant
+/// over each triangle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum MeshSource {
+    /// The whole attachment.
+    Full {
+        /// Vertex depth.
+        #[serde(default)]
+        z: f32,
+        /// The vertex colour.
+        #[serde(default)]
+        value: Splat,
+        /// The winding.
+        #[serde(default = "ccw")]
+        winding: FrontFace,
+    },
+    /// A rectangle.
+    Rect {
+        /// Left, top, right and bottom edge in texels.
+        texels: [u32; 4],
+        /// Vertex depth.
+        #[serde(default)]
+        z: f32,
+        /// The vertex colour.
+        #[serde(default)]
+        value: Splat,
+        /// The winding.
+        #[serde(default = "ccw")]
+        winding: FrontFace,
+    },
+    /// The attachment divided into columns of equal width as far as whole texels allow.
+    Columns {
+        /// The vertex colour of each column.
+        values: Vec<Splat>,
+        /// Vertex depths of the columns, repeated as needed.
+        #[serde(default = "zero")]
+        z: Vec<f32>,
+        /// Windings of the columns, repeated as needed.
+        #[serde(default = "one_ccw")]
+        windings: Vec<FrontFace>,
+    },
+    /// The attachment divided into rows of equal height as far as whole texels allow.
+    Rows {
+        /// The vertex colour of each row.
+        values: Vec<Splat>,
+        /// Vertex depths of the rows, repeated as needed.
+        #[serde(default = "zero")]
+        z: Vec<f32>,
+        /// Windings of the rows, repeated as needed.
+        #[serde(default = "one_ccw")]
+        windings: Vec<FrontFace>,
+    },
+    /// Vertices one by one.
+    Vertices {
+        /// Clip-space positions x, y, z.
+        positions: Vec<[f32; 3]>,
+        /// Vertex colours, repeated as needed.
+        #[serde(default = "one_splat")]
+        values: Vec<Splat>,
+    },
+}
+
+fn ccw() -> FrontFace {
+    FrontFace::Ccw
+}
+
+fn one_ccw() -> Vec<FrontFace> {
+    vec![FrontFace::Ccw]
+}
+
+fn zero() -> Vec<f32> {
+    vec![0.0]
+}
+
+fn one_splat() -> Vec<Splat> {
+    vec![Splat::default()]
+}
+
+/// Four values, written as a list of four or as one number for all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Splat(pub [f32; 4]);
+
+impl<'de> Deserialize<'de> for Splat {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+        impl<'de> serde::de::Visitor<'de> for Visitor {
+            type Value = Splat;
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a number or a list of four numbers")
+            }
+            fn visit_f64<E>(self, v: f64) -> Result<Splat, E> {
+                Ok(Splat([v as f32; 4]))
+            }
+            fn visit_u64<E>(self, v: u64) -> Result<Splat, E> {
+                Ok(Splat([v as f32; 4]))
+            }
+            fn visit_i64<E>(self, v: i64) -> Result<Splat, E> {
+                Ok(Splat([v as f32; 4]))
+            }
+            fn visit_seq<A: serde::de::SeqAccess<'de>>(self, seq: A) -> Result<Splat, A::Error> {
+                let inner = serde::de::value::SeqAccessDeserializer::new(seq);
+                <[f32; 4]>::deserialize(inner).map(Splat)
+            }
+        }
+        deserializer.deserialize_any(Visitor)
+    }
+}
+
+impl JsonSchema for Splat {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Splat".into()
+    }
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({
+            "description": "Four values, or one number for all four.",
+            "anyOf": [
+                { "type": "number" },
+                { "type": "array", "items": { "type": "number" }, "minItems": 4, "maxItems": 4 }
+            ]
+        })
+    }
+}
+
+impl MeshSource {
+    /// The mesh for attachments of a size in texels, or what is wrong with the description.
+    ///
+    /// # Errors
+    /// A sentence when a list is empty, a rectangle is empty or reaches outside, or a part would
+    /// be narrower than a texel.
+    pub fn expand(&self, size: [u32; 2]) -> Result<Mesh, String> {
+        let mut builder = Builder::new(size);
+        match self {
+            Self::Full { z, value, winding } => {
+                builder.rect([0, 0, size[0], size[1]], *z, value.0, *winding)?;
+            }
+            Self::Rect {
+                texels,
+                z,
+                value,
+                winding,
+            } => builder.rect(*texels, *z, value.0, *winding)?,
+            Self::Columns {
+                values,
+                z,
+                windings,
+            } => builder.bands(values, z, windings, true)?,
+            Self::Rows {
+                values,
+                z,
+                windings,
+            } => builder.bands(values, z, windings, false)?,
+            Self::Vertices { positions, values } => {
+                if values.is_empty() {
+                    return Err("`values` is empty".to_owned());
+                }
+                for (position, value) in positions.iter().zip(values.iter().cycle()) {
+                    builder.vertices.push(Vertex {
+                        position: [position[0], position[1], position[2], 1.0],
+                        color: value.0,
+                        uv: [0.0; 2],
+                    });
+                }
+            }
+        }
+        let finite = |v: &Vertex| v.position.iter().chain(&v.color).all(|c| c.is_finite());
+        if !builder.vertices.iter().all(finite) {
+            return Err("a vertex holds a value that is not a finite 32-bit float".to_owned());
+        }
+        Ok(Mesh {
+            vertices: builder.vertices,
+        })
+    }
+}
+
+struct Builder {
+    size: [u32; 2],
+    vertices: Vec<Vertex>,
+}
+
+impl Builder {
+    fn new(size: [u32; 2]) -> Self {
+        Self {
+            size,
+            vertices: Vec::new(),
+        }
+    }
+
+    fn bands(
+        &mut self,
+        values: &[Splat],
+        z: &[f32],
+        windings: &[FrontFace],
+        columns: bool,
+    ) -> Result<(), String> {
+        if values.is_empty() || z.is_empty() || windings.is_empty() {
+            return Err("`values`, `z` and `windings` must not be empty".to_owned());
+        }
+        let n = values.len() as u64;
+        let length = u64::from(self.size[usize::from(!columns)]);
+        if n > length {
+            return Err(format!("{n} parts do not fit into {length} texels"));
+        }
+        let edge = |i: u64| (i * length / n) as u32;
+        for (i, value) in values.iter().enumerate() {
+            let (a, b) = (edge(i as u64), edge(i as u64 + 1));
+            let texels = if columns {
+                [a, 0, b, self.size[1]]
+            } else {
+                [0, a, self.size[0], b]
+            };
+            self.rect(
+                texels,
+                z[i % z.len()],
+                value.0,
+                windings[i % windings.len()],
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Covers a rectangle with squares, the largest first: only a square's diagonal can be kept
+    /// away from all texel centres.
+    fn rect(
+        &mut self,
+        texels: [u32; 4],
+        z: f32,
+        value: [f32; 4],
+        winding: FrontFace,
+    ) -> Result<(), String> {
+        let [left, top, right, bottom] = texels;
+        if left >= right || top >= bottom || right > self.size[0] || bottom > self.size[1] {
+            return Err(format!(
+                "rectangle {texels:?} is empty or reaches outside {:?}",
+                self.size
+            ));
+        }
+        let (mut x, mut y) = (left, top);
+        while x < right && y < bottom {
+            let (w, h) = (right - x, bottom - y);
+            let side = w.min(h);
+            if w >= h {
+                self.square(x, y, side, z, value, winding);
+                x += side;
+            } else {
+                self.square(x, y, side, z, value, winding);
+                y += side;
+            }
+        }
+        Ok(())
+    }
+
+    /// Two triangles over the texels from (x, y) on. With y down, the corners stand at (0, -1/4)
+    /// bottom left, (0, 0) bottom right, (-1/4, 0) top right and (0, 0) top left from the square's;
+    /// so the diagonal lies 0.177 texels beside the nearest centres and nothing leaves the square.
+    fn square(&mut self, x: u32, y: u32, side: u32, z: f32, value: [f32; 4], winding: FrontFace) {
+        let (x0, y0) = (f64::from(x), f64::from(y));
+        let (x1, y1) = (x0 + f64::from(side), y0 + f64::from(side));
+        let bottom_left = DVec2::new(x0, y1 - 0.25);
+        let bottom_right = DVec2::new(x1, y1);
+        let top_right = DVec2::new(x1 - 0.25, y0);
+        let top_left = DVec2::new(x0, y0);
+        let mut corners = [
+            bottom_left,
+            bottom_right,
+            top_right,
+            bottom_left,
+            top_right,
+            top_left,
+        ];
+        if winding == FrontFace::Cw {
+            corners.reverse();
+        }
+        for corner in corners {
+            let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
+            let ndc = (corner / size * 2.0 - 1.0) * DVec2::new(1.0, -1.0);
+            let position = DVec4::new(ndc.x, ndc.y, f64::from(z), 1.0).as_vec4();
+            self.vertices.push(Vertex {
+                position: position.to_array(),
+                color: value,
+                uv: [0.0; 2],
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Twice the signed area with y up, and the least distance of any edge from any texel centre.
+    fn measure(mesh: &Mesh, size: [u32; 2]) -> (Vec<f64>, f64) {
+        let to_texels = |v: &Vertex| {
+            DVec2::new(
+                (f64::from(v.position[0]) + 1.0) / 2.0 * f64::from(size[0]),
+                (1.0 - f64::from(v.position[1])) / 2.0 * f64::from(size[1]),
+            )
+        };
+        let mut areas = Vec::new();
+        let mut least = f64::MAX;
+        for t in mesh.triangles(PrimitiveTopology::TriangleList) {
+            let p = t.map(|i| to_texels(&mesh.vertices[i]));
+            areas.push(-(p[1] - p[0]).perp_dot(p[2] - p[0]));
+            for (a, b) in [(p[0], p[1]), (p[1], p[2]), (p[2], p[0])] {
+                for y in 0..size[1] {
+                    for x in 0..size[0] {
+                        let c = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+                        let along = (b - a).normalize();
+                        let t = (c - a).dot(along).clamp(0.0, (b - a).length());
+                        least = least.min((a + along * t).distance(c));
+                    }
+                }
+            }
+        }
+        (areas, least)
+    }
+
+    #[test]
+    fn every_edge_keeps_away_from_every_centre() {
+        let sources = [
+            MeshSource::Full {
+                z: 0.0,
+                value: Splat::default(),
+                winding: FrontFace::Ccw,
+            },
+            MeshSource::Columns {
+                values: vec![Splat::default(); 5],
+                z: zero(),
+                windings: one_ccw(),
+            },
+            MeshSource::Rect {
+                texels: [3, 1, 10, 4],
+                z: 0.0,
+                value: Splat::default(),
+                winding: FrontFace::Ccw,
+            },
+        ];
+        for source in sources {
+            let mesh = source.expand([16, 16]).expect("valid");
+            let (areas, least) = measure(&mesh, [16, 16]);
+            assert!(areas.iter().all(|a| *a > 0.0), "{source:?} is not ccw");
+            assert!(least > 0.17, "{source:?}: {least}");
+        }
+    }
+
+    #[test]
+    fn clockwise_is_clockwise() {
+        let source = MeshSource::Full {
+            z: 0.5,
+            value: Splat([1.0; 4]),
+            winding: FrontFace::Cw,
+        };
+        let mesh = source.expand([16, 16]).expect("valid");
+        let (areas, _) = measure(&mesh, [16, 16]);
+        assert!(areas.iter().all(|a| *a < 0.0));
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused() {
+        let source = MeshSource::Columns {
+            values: vec![Splat::default(); 17],
+            z: zero(),
+            windings: one_ccw(),
+        };
+        assert!(source.expand([16, 16]).is_err());
+    }
+}

@@ -1,0 +1,388 @@
+//! From the parsed scene to the domain's: defaults, names to indices, impossible states refused.
+
+use crate::error::{At, Step};
+use crate::scene::{
+    Attachment, ColorTarget, Contents, Draw, Params, Pass, Scene, StencilFace, StencilState,
+};
+use crate::wire::{
+    AttachmentWire, ClearWire, DrawWire, PassWire, SceneWire, StencilFaceWire, StencilWire,
+    TexelsWire,
+};
+use etalon_frame::{ChannelEncoding, TextureFormat};
+
+/// The largest width or height of an attachment that a case file may ask for.
+const MAX_SIZE: u32 = 4096;
+/// The most vertices of one mesh.
+const MAX_VERTICES: usize = 4 << 20;
+
+pub(crate) fn scene(wire: &SceneWire) -> Result<Scene, At> {
+    let size = default_size(wire);
+    let mut attachments = Vec::new();
+    for (name, a) in &wire.attachments {
+        let attachment = attachment(name, a, size).map_err(|e| e.key(name).key("attachments"))?;
+        attachments.push(attachment);
+    }
+    let mut passes = Vec::new();
+    for (i, p) in wire.passes.iter().enumerate() {
+        passes.push(pass(p, &attachments).map_err(|e| e.index(i).key("passes"))?);
+    }
+    let drawn = |index: usize| {
+        passes
+            .iter()
+            .any(|p: &Pass| p.color.contains(&index) || p.depth_stencil == Some(index))
+    };
+    for (p, pass) in passes.iter().enumerate() {
+        for (d, draw) in pass.draws.iter().enumerate() {
+            if let Some(t) = draw.textures.iter().position(|t| drawn(*t)) {
+                return Err(At::new(
+                    "a pass draws to this attachment, so it cannot be fetched from",
+                )
+                .index(t)
+                .key("textures")
+                .index(d)
+                .key("draws")
+                .index(p)
+                .key("passes"));
+            }
+        }
+    }
+    let mut read = Vec::new();
+    for (i, name) in wire.read.iter().enumerate() {
+        let index = find(name, &attachments).map_err(|e| e.index(i).key("read"))?;
+        if read.contains(&index) {
+            return Err(At::new(format!("`{name}` is named twice"))
+                .index(i)
+                .key("read"));
+        }
+        read.push(index);
+    }
+    if read.is_empty() {
+        return Err(At::new("nothing is read back, so nothing could be judged").key("read"));
+    }
+    Ok(Scene {
+        attachments,
+        passes,
+        read,
+    })
+}
+
+fn default_size(wire: &SceneWire) -> [u32; 2] {
+    wire.attachments
+        .values()
+        .find_map(|a| a.size)
+        .unwrap_or([16, 16])
+}
+
+fn find(name: &str, attachments: &[Attachment]) -> Result<usize, At> {
+    attachments
+        .iter()
+        .position(|a| a.name == name)
+        .ok_or_else(|| {
+            let names: Vec<_> = attachments.iter().map(|a| a.name.as_str()).collect();
+            At::new(format!(
+                "there is no attachment `{name}`; there are: {}",
+                names.join(", ")
+            ))
+        })
+}
+
+fn attachment(name: &str, wire: &AttachmentWire, size: [u32; 2]) -> Result<Attachment, At> {
+    let size = wire.size.unwrap_or(size);
+    if size.contains(&0) || size.iter().any(|s| *s > MAX_SIZE) {
+        return Err(At::new(format!("a side is 1 to {MAX_SIZE} texels long")).key("size"));
+    }
+    let samples = wire.samples.unwrap_or(1);
+    if ![1, 2, 4, 8, 16].contains(&samples) {
+        return Err(At::new("samples are 1, 2, 4, 8 or 16").key("samples"));
+    }
+    let contents = match (&wire.clear, &wire.texels) {
+        (Some(_), Some(_)) => {
+            return Err(
+                At::new("an attachment starts from `clear` or from `texels`").key("texels"),
+            );
+        }
+        (None, Some(texels)) => {
+            self::texels(texels, wire.format, size, samples).map_err(|e| e.key("texels"))?
+        }
+        (Some(clear), None) => self::clear(clear, wire.format).map_err(|e| e.key("clear"))?,
+        (None, None) if wire.format.is_color() => Contents::Color([0.0; 4]),
+        (None, None) => Contents::DepthStencil {
+            depth: 1.0,
+            stencil: 0,
+        },
+    };
+    Ok(Attachment {
+        name: name.to_owned(),
+        format: wire.format,
+        size,
+        samples,
+        contents,
+    })
+}
+
+fn clear(wire: &ClearWire, format: TextureFormat) -> Result<Contents, At> {
+    let (has_depth, has_stencil) = (format.has_depth(), format.has_stencil());
+    let contents = match wire {
+        ClearWire::Color(color) if format.is_color() => Contents::Color(*color),
+        ClearWire::Number(depth) if has_depth && !has_stencil => Contents::DepthStencil {
+            depth: *depth as f32,
+            stencil: 0,
+        },
+        ClearWire::Number(stencil) if has_stencil && !has_depth => Contents::DepthStencil {
+            depth: 1.0,
+            stencil: stencil_code(*stencil)?,
+        },
+        ClearWire::DepthStencil(both) if has_depth && has_stencil => Contents::DepthStencil {
+            depth: both.depth,
+            stencil: both.stencil,
+        },
+        _ => {
+            let form = match (has_depth, has_stencil) {
+                (false, false) => "four numbers",
+                (true, true) => "{\"depth\": …, \"stencil\": …}",
+                _ => "a number",
+            };
+            return Err(At::new(format!("the clear value of {format} is {form}")));
+        }
+    };
+    if let Contents::DepthStencil { depth, .. } = contents
+        && !(0.0..=1.0).contains(&depth)
+    {
+        return Err(At::new("a cleared depth lies between 0 and 1"));
+    }
+    Ok(contents)
+}
+
+fn stencil_code(value: f64) -> Result<u8, At> {
+    if value.fract() == 0.0 && (0.0..=255.0).contains(&value) {
+        Ok(value as u8)
+    } else {
+        Err(At::new("a stencil value is an integer from 0 to 255"))
+    }
+}
+
+fn texels(
+    wire: &TexelsWire,
+    format: TextureFormat,
+    size: [u32; 2],
+    samples: u32,
+) -> Result<Contents, At> {
+    if !format.is_color() || samples != 1 {
+        return Err(At::new(
+            "only single-sample colour attachments take texels; use `clear`",
+        ));
+    }
+    let (values, columns) = match wire {
+        TexelsWire::Columns { values } => (values, true),
+        TexelsWire::Rows { values } => (values, false),
+    };
+    let due = if columns { size[0] } else { size[1] };
+    if values.len() != due as usize {
+        return Err(At::new(format!(
+            "{} texels are given where the attachment has {due}",
+            values.len()
+        ))
+        .key("values"));
+    }
+    let mut codes: Vec<[u32; 4]> = Vec::new();
+    for (i, texel) in values.iter().enumerate() {
+        let mut code = [0; 4];
+        for (c, encoding) in format.color_channels().iter().enumerate() {
+            code[c] = encode(*encoding, texel[c]).map_err(|e| e.index(c).index(i).key("values"))?;
+        }
+        codes.push(code);
+    }
+    let channels = format.color_channels().len();
+    let mut all = Vec::with_capacity(size[0] as usize * size[1] as usize * channels);
+    for y in 0..size[1] as usize {
+        for x in 0..size[0] as usize {
+            all.extend_from_slice(&codes[if columns { x } else { y }][..channels]);
+        }
+    }
+    Ok(Contents::Texels(all))
+}
+
+fn encode(encoding: ChannelEncoding, value: f64) -> Result<u32, At> {
+    match encoding {
+        ChannelEncoding::Unorm(_) | ChannelEncoding::Uint(_) => {
+            let most = encoding.max_order();
+            if value.fract() == 0.0 && (0.0..=most as f64).contains(&value) {
+                Ok(value as u32)
+            } else {
+                Err(At::new(format!(
+                    "an uploaded code of a {encoding} is an integer from 0 to {most}"
+                )))
+            }
+        }
+        ChannelEncoding::Float32 => {
+            let float = value as f32;
+            if float.is_finite() {
+                Ok(float.to_bits())
+            } else {
+                Err(At::new("the number does not fit into a 32-bit float"))
+            }
+        }
+    }
+}
+
+fn pass(wire: &PassWire, attachments: &[Attachment]) -> Result<Pass, At> {
+    let mut color = Vec::new();
+    for (i, name) in wire.color.iter().enumerate() {
+        let check = || -> Result<usize, At> {
+            let index = find(name, attachments)?;
+            if !attachments[index].format.is_color() {
+                return Err(At::new(format!("`{name}` is not a colour attachment")));
+            }
+            if color.contains(&index) {
+                return Err(At::new(format!("`{name}` is named twice")));
+            }
+            Ok(index)
+        };
+        let index = check().map_err(|e| e.index(i).key("color"))?;
+        color.push(index);
+    }
+    let depth_stencil = match &wire.depth_stencil {
+        None => None,
+        Some(name) => {
+            let index = find(name, attachments).map_err(|e| e.key("depth_stencil"))?;
+            if attachments[index].format.is_color() {
+                return Err(
+                    At::new(format!("`{name}` is a colour attachment")).key("depth_stencil")
+                );
+            }
+            Some(index)
+        }
+    };
+    let all: Vec<&Attachment> = color
+        .iter()
+        .chain(&depth_stencil)
+        .map(|i| &attachments[*i])
+        .collect();
+    let Some(first) = all.first() else {
+        return Err(At::new("a pass needs an attachment"));
+    };
+    let shape = |a: &Attachment| (a.size, a.samples);
+    if let Some(other) = all.iter().find(|a| shape(a) != shape(first)) {
+        return Err(At::new(format!(
+            "`{}` and `{}` differ in size or samples",
+            first.name, other.name
+        )));
+    }
+    let format = depth_stencil.map(|i| attachments[i].format);
+    let mut draws = Vec::new();
+    for (i, d) in wire.draws.iter().enumerate() {
+        let draw = draw(d, first.size, color.len(), format, attachments)
+            .map_err(|e| e.index(i).key("draws"))?;
+        draws.push(draw);
+    }
+    Ok(Pass {
+        color,
+        depth_stencil,
+        draws,
+    })
+}
+
+fn draw(
+    wire: &DrawWire,
+    size: [u32; 2],
+    targets: usize,
+    depth_stencil: Option<TextureFormat>,
+    attachments: &[Attachment],
+) -> Result<Draw, At> {
+    let mesh = wire
+        .mesh
+        .expand(size)
+        .map_err(|message| At::new(message).key("mesh"))?;
+    if mesh.vertices.is_empty() || mesh.vertices.len() > MAX_VERTICES {
+        return Err(At::new(format!("a mesh has 1 to {MAX_VERTICES} vertices")).key("mesh"));
+    }
+    if wire.depth.is_some() && !depth_stencil.is_some_and(TextureFormat::has_depth) {
+        return Err(At::new("a depth test needs a depth attachment").key("depth"));
+    }
+    if wire.stencil.is_some() && !depth_stencil.is_some_and(TextureFormat::has_stencil) {
+        return Err(At::new("a stencil test needs a stencil attachment").key("stencil"));
+    }
+    let mut textures = Vec::new();
+    for (i, name) in wire.textures.iter().enumerate() {
+        let check = || -> Result<usize, At> {
+            let index = find(name, attachments)?;
+            let attachment = &attachments[index];
+            if !matches!(attachment.contents, Contents::Texels(_)) {
+                return Err(At::new(format!("`{name}` is not uploaded from `texels`")));
+            }
+            if attachment.size != size {
+                return Err(At::new(format!(
+                    "`{name}` differs in size from the pass's attachments"
+                )));
+            }
+            Ok(index)
+        };
+        textures.push(check().map_err(|e| e.index(i).key("textures"))?);
+    }
+    if textures.len() != wire.shader.textures() {
+        return Err(At::new(format!(
+            "shader {} fetches from {} textures, {} are given",
+            wire.shader.name(),
+            wire.shader.textures(),
+            textures.len()
+        ))
+        .key("textures"));
+    }
+    let mut write_mask = 0;
+    for letter in wire.write_mask.chars() {
+        match "rgba".find(letter) {
+            Some(bit) if write_mask & (1 << bit) == 0 => write_mask |= 1 << bit,
+            _ => {
+                return Err(At::new(
+                    "a write mask is made of the letters r, g, b, a, each at most once",
+                )
+                .key("write_mask"));
+            }
+        }
+    }
+    let numbers = [
+        wire.params.color,
+        wire.params.back_color,
+        wire.blend_constant,
+    ];
+    if numbers.iter().any(|s| s.0.iter().any(|v| !v.is_finite())) {
+        return Err(At::new("a parameter does not fit into a 32-bit float")
+            .below(Step::Key("params".to_owned())));
+    }
+    let target = ColorTarget {
+        blend: wire.blend,
+        write_mask,
+    };
+    Ok(Draw {
+        mesh,
+        topology: wire.topology,
+        shader: wire.shader,
+        params: Params {
+            color: wire.params.color.0,
+            back_color: wire.params.back_color.0,
+        },
+        textures,
+        cull: wire.cull,
+        front_face: wire.front_face,
+        depth: wire.depth,
+        stencil: wire.stencil.as_ref().map(stencil),
+        targets: vec![target; targets],
+        blend_constant: wire.blend_constant.0,
+    })
+}
+
+fn stencil(wire: &StencilWire) -> StencilState {
+    let face = |face: &StencilFaceWire| StencilFace {
+        compare: face.compare,
+        fail_op: face.fail_op,
+        depth_fail_op: face.depth_fail_op,
+        pass_op: face.pass_op,
+        read_mask: face.read_mask.unwrap_or(wire.read_mask),
+        write_mask: face.write_mask.unwrap_or(wire.write_mask),
+        reference: face.reference.unwrap_or(wire.reference),
+    };
+    StencilState {
+        front: face(&wire.front),
+        back: face(wire.back.as_ref().unwrap_or(&wire.front)),
+    }
+}

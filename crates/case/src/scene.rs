@@ -1,0 +1,213 @@
+//! What a case draws: the domain types that backends and the judge work on.
+//!
+//! Scenes are valid by construction ([`crate::expand`] builds them): indices are in range, sizes
+//! agree within a pass, textures are uploads.
+
+use crate::mesh::Mesh;
+use crate::state::{BlendFactor, BlendOperation, CompareFunction};
+use crate::state::{
+    BlendState, CullMode, DepthState, FrontFace, PrimitiveTopology, Shader, StencilOperation,
+};
+use etalon_frame::{Feature, Requirement, TextureFormat};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+/// Everything a device needs to know of a case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scene {
+    /// Textures that passes draw to or fetch from, by name in ascending order.
+    pub attachments: Vec<Attachment>,
+    /// Passes, in order.
+    pub passes: Vec<Pass>,
+    /// Indices of the attachments to read back at the end: all aspects, depth before stencil.
+    pub read: Vec<usize>,
+}
+
+/// One texture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Attachment {
+    /// Name in the case file.
+    pub name: String,
+    /// Format.
+    pub format: TextureFormat,
+    /// Width and height in texels.
+    pub size: [u32; 2],
+    /// Samples per texel.
+    pub samples: u32,
+    /// What it starts from. Every attachment is initialised before the first pass.
+    pub contents: Contents,
+}
+
+/// What an attachment starts from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Contents {
+    /// A colour clear in red, green, blue, alpha, converted by the API.
+    Color([f32; 4]),
+    /// A depth and stencil clear; the part that the format lacks is ignored.
+    DepthStencil {
+        /// Depth in 0..=1.
+        depth: f32,
+        /// Stencil.
+        stencil: u8,
+    },
+    /// Uploaded codes, index `(y * width + x) * channels + channel`, row 0 at the top. Only
+    /// single-sample colour.
+    Texels(Vec<u32>),
+}
+
+/// One render pass. Attachments keep their contents from the pass before.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pass {
+    /// Indices of the colour attachments, in location order.
+    pub color: Vec<usize>,
+    /// Index of the depth-stencil attachment.
+    pub depth_stencil: Option<usize>,
+    /// Draws, in order.
+    pub draws: Vec<Draw>,
+}
+
+/// One draw call with all its state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Draw {
+    /// Vertices.
+    pub mesh: Mesh,
+    /// How they become primitives.
+    pub topology: PrimitiveTopology,
+    /// Vertex and fragment shader.
+    pub shader: Shader,
+    /// The shader's parameters.
+    pub params: Params,
+    /// Indices of the attachments that the shader fetches from.
+    pub textures: Vec<usize>,
+    /// Culled faces.
+    pub cull: CullMode,
+    /// The front face's winding.
+    pub front_face: FrontFace,
+    /// Depth test; `None` is off.
+    pub depth: Option<DepthState>,
+    /// Stencil test; `None` is off.
+    pub stencil: Option<StencilState>,
+    /// One per colour attachment of the pass.
+    pub targets: Vec<ColorTarget>,
+    /// The blend constant in red, green, blue, alpha.
+    pub blend_constant: [f32; 4],
+}
+
+/// The parameter block: 32 bytes of uniform memory, in this order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[repr(C)]
+pub struct Params {
+    /// A colour.
+    pub color: [f32; 4],
+    /// A second colour, of back faces.
+    pub back_color: [f32; 4],
+}
+
+impl Params {
+    /// The block as the shader sees it: two `vec4f`, little endian.
+    pub fn to_bytes(self) -> [u8; 32] {
+        let mut bytes = [0; 32];
+        let values = self.color.iter().chain(&self.back_color);
+        for (chunk, value) in bytes.chunks_exact_mut(4).zip(values) {
+            chunk.copy_from_slice(&value.to_le_bytes());
+        }
+        bytes
+    }
+}
+
+/// How one colour attachment takes a draw's fragments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct ColorTarget {
+    /// Blending; `None` is off.
+    pub blend: Option<BlendState>,
+    /// Written channels: bit 0 red to bit 3 alpha.
+    pub write_mask: u8,
+}
+
+/// The stencil test of a draw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct StencilState {
+    /// For front faces.
+    pub front: StencilFace,
+    /// For back faces.
+    pub back: StencilFace,
+}
+
+/// The stencil test for one face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct StencilFace {
+    /// The comparison: masked reference on the left, masked stored value on the right.
+    pub compare: CompareFunction,
+    /// When the stencil test fails.
+    pub fail_op: StencilOperation,
+    /// When the stencil test passes and the depth test fails.
+    pub depth_fail_op: StencilOperation,
+    /// When both pass.
+    pub pass_op: StencilOperation,
+    /// Bits that take part in the comparison.
+    pub read_mask: u8,
+    /// Bits that an operation may change.
+    pub write_mask: u8,
+    /// The reference.
+    pub reference: u8,
+}
+
+impl Scene {
+    /// What the scene needs of an adapter, without repetition, in ascending order.
+    pub fn requirements(&self) -> Vec<Requirement> {
+        let mut needed = BTreeSet::new();
+        for attachment in &self.attachments {
+            needed.insert(Requirement::Format(attachment.format));
+            if attachment.samples > 1 {
+                needed.insert(Requirement::Samples(attachment.format, attachment.samples));
+            }
+            let largest = attachment.size[0].max(attachment.size[1]);
+            needed.insert(Requirement::Size(largest));
+        }
+        for draw in self.passes.iter().flat_map(|p| &p.draws) {
+            needed.extend(draw.features().into_iter().map(Requirement::Feature));
+        }
+        needed.into_iter().collect()
+    }
+
+    /// The formats of all attachments.
+    pub fn formats(&self) -> Vec<TextureFormat> {
+        let set: BTreeSet<_> = self.attachments.iter().map(|a| a.format).collect();
+        set.into_iter().collect()
+    }
+}
+
+impl Draw {
+    fn features(&self) -> Vec<Feature> {
+        let mut needed = Vec::new();
+        if self.cull == CullMode::FrontAndBack {
+            needed.push(Feature::FrontAndBackCulling);
+        }
+        if let Some(stencil) = &self.stencil {
+            let key = |f: &StencilFace| (f.read_mask, f.write_mask, f.reference);
+            if key(&stencil.front) != key(&stencil.back) {
+                needed.push(Feature::SeparateStencilMasks);
+            }
+        }
+        for blend in self.targets.iter().filter_map(|t| t.blend) {
+            let constant_alpha = [
+                BlendFactor::ConstantAlpha,
+                BlendFactor::OneMinusConstantAlpha,
+            ];
+            for (component, is_color) in [(blend.color, true), (blend.alpha, false)] {
+                let factors = [component.src_factor, component.dst_factor];
+                let ignores = matches!(
+                    component.operation,
+                    BlendOperation::Min | BlendOperation::Max
+                );
+                if ignores && factors != [BlendFactor::One; 2] {
+                    needed.push(Feature::MinMaxBlendFactors);
+                }
+                if is_color && factors.iter().any(|f| constant_alpha.contains(f)) {
+                    needed.push(Feature::ConstantAlphaBlendFactor);
+                }
+            }
+        }
+        needed
+    }
+}

@@ -1,0 +1,233 @@
+//! Pipeline state, spelled as WebGPU spells it and extended where OpenGL and Vulkan have more.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+macro_rules! state_enum {
+    ($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $variant:ident = $text:literal),+ $(,)? }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema)]
+        pub enum $name { $($(#[$doc])* #[serde(rename = $text)] $variant),+ }
+
+        impl $name {
+            /// Every value, in declaration order.
+            pub const ALL: &'static [Self] = &[$(Self::$variant),+];
+
+            /// The name in case files and stories.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$variant => $text),+ }
+            }
+        }
+    };
+}
+
+state_enum! {
+    /// A depth or stencil comparison: incoming (reference) value on the left, stored on the right.
+    CompareFunction {
+        /// Never true.
+        Never = "never",
+        /// Incoming below stored.
+        Less = "less",
+        /// Incoming equals stored.
+        Equal = "equal",
+        /// Incoming not above stored.
+        LessEqual = "less-equal",
+        /// Incoming above stored.
+        Greater = "greater",
+        /// Incoming differs from stored.
+        NotEqual = "not-equal",
+        /// Incoming not below stored.
+        GreaterEqual = "greater-equal",
+        /// Always true.
+        Always = "always",
+    }
+}
+
+state_enum! {
+    /// What happens to a stored stencil value.
+    StencilOperation {
+        /// Unchanged.
+        Keep = "keep",
+        /// Set to 0.
+        Zero = "zero",
+        /// Set to the reference.
+        Replace = "replace",
+        /// All bits inverted.
+        Invert = "invert",
+        /// Plus one, held at the largest value.
+        IncrementClamp = "increment-clamp",
+        /// Minus one, held at 0.
+        DecrementClamp = "decrement-clamp",
+        /// Plus one, the largest value becoming 0.
+        IncrementWrap = "increment-wrap",
+        /// Minus one, 0 becoming the largest value.
+        DecrementWrap = "decrement-wrap",
+    }
+}
+
+state_enum! {
+    /// A factor of a blend equation.
+    BlendFactor {
+        /// 0.
+        Zero = "zero",
+        /// 1.
+        One = "one",
+        /// The source, channel by channel.
+        Src = "src",
+        /// 1 minus the source.
+        OneMinusSrc = "one-minus-src",
+        /// The source's alpha.
+        SrcAlpha = "src-alpha",
+        /// 1 minus the source's alpha.
+        OneMinusSrcAlpha = "one-minus-src-alpha",
+        /// The destination, channel by channel.
+        Dst = "dst",
+        /// 1 minus the destination.
+        OneMinusDst = "one-minus-dst",
+        /// The destination's alpha.
+        DstAlpha = "dst-alpha",
+        /// 1 minus the destination's alpha.
+        OneMinusDstAlpha = "one-minus-dst-alpha",
+        /// min(source alpha, 1 - destination alpha); 1 for alpha.
+        SrcAlphaSaturated = "src-alpha-saturated",
+        /// The blend constant, channel by channel.
+        Constant = "constant",
+        /// 1 minus the blend constant.
+        OneMinusConstant = "one-minus-constant",
+        /// The blend constant's alpha.
+        ConstantAlpha = "constant-alpha",
+        /// 1 minus the blend constant's alpha.
+        OneMinusConstantAlpha = "one-minus-constant-alpha",
+    }
+}
+
+state_enum! {
+    /// How the two weighted sides of a blend equation are joined.
+    BlendOperation {
+        /// Source plus destination.
+        Add = "add",
+        /// Source minus destination.
+        Subtract = "subtract",
+        /// Destination minus source.
+        ReverseSubtract = "reverse-subtract",
+        /// The smaller of the two, factors ignored.
+        Min = "min",
+        /// The larger of the two, factors ignored.
+        Max = "max",
+    }
+}
+
+state_enum! {
+    /// Which faces are culled.
+    CullMode {
+        /// None.
+        None = "none",
+        /// Front faces.
+        Front = "front",
+        /// Back faces.
+        Back = "back",
+        /// Both; points and lines remain.
+        FrontAndBack = "front-and-back",
+    }
+}
+
+state_enum! {
+    /// Which winding is a front face.
+    FrontFace {
+        /// Counter-clockwise.
+        Ccw = "ccw",
+        /// Clockwise.
+        Cw = "cw",
+    }
+}
+
+state_enum! {
+    /// How vertices become primitives.
+    PrimitiveTopology {
+        /// Three vertices a triangle.
+        TriangleList = "triangle-list",
+        /// Each vertex after the second makes a triangle with the two before it.
+        TriangleStrip = "triangle-strip",
+    }
+}
+
+state_enum! {
+    /// The suite's shaders. Each has a WGSL file in `shaders/` and a twin in the reference.
+    Shader {
+        /// The vertex colour, flat.
+        FlatColor = "flat_color",
+        /// `params.color`; writes the vertex colour's red as depth.
+        FlatColorDepth = "flat_color_depth",
+        /// `params.color` on front faces, `params.back_color` on back faces.
+        FrontFacing = "front_facing",
+        /// The texel of texture 0 under the fragment.
+        TexelColor = "texel_color",
+        /// `params.color`.
+        UniformColor = "uniform_color",
+    }
+}
+
+impl Shader {
+    /// The WGSL text: a vertex entry point `vs` and a fragment entry point `fs`. Vertex inputs are
+    /// location 0 position, 1 colour, 2 uv; group 0 holds the parameters at binding 0 and the
+    /// textures from binding 1 on.
+    pub fn wgsl(self) -> &'static str {
+        match self {
+            Self::FlatColor => include_str!("../../../shaders/flat_color.wgsl"),
+            Self::FlatColorDepth => include_str!("../../../shaders/flat_color_depth.wgsl"),
+            Self::FrontFacing => include_str!("../../../shaders/front_facing.wgsl"),
+            Self::TexelColor => include_str!("../../../shaders/texel_color.wgsl"),
+            Self::UniformColor => include_str!("../../../shaders/uniform_color.wgsl"),
+        }
+    }
+
+    /// How many textures the shader fetches from.
+    pub fn textures(self) -> usize {
+        usize::from(self == Self::TexelColor)
+    }
+
+    /// Whether the fragment shader replaces the fragment's depth.
+    pub fn writes_depth(self) -> bool {
+        self == Self::FlatColorDepth
+    }
+
+    /// Whether the shader reads the parameter block.
+    pub fn uses_params(self) -> bool {
+        matches!(
+            self,
+            Self::FlatColorDepth | Self::FrontFacing | Self::UniformColor
+        )
+    }
+}
+
+/// One blend equation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BlendComponent {
+    /// The operation.
+    pub operation: BlendOperation,
+    /// The source's factor.
+    pub src_factor: BlendFactor,
+    /// The destination's factor.
+    pub dst_factor: BlendFactor,
+}
+
+/// Blending of one attachment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BlendState {
+    /// Red, green and blue.
+    pub color: BlendComponent,
+    /// Alpha.
+    pub alpha: BlendComponent,
+}
+
+/// The depth test of a draw. A draw without one neither tests nor writes depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DepthState {
+    /// The comparison, incoming depth on the left.
+    pub compare: CompareFunction,
+    /// Whether passing fragments store their depth.
+    pub write: bool,
+}

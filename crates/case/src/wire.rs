@@ -1,0 +1,321 @@
+//! The shape of a case file. These types parse; [`crate::scene`] computes.
+
+use crate::mesh::{MeshSource, Splat};
+use crate::state::{
+    BlendState, CompareFunction, CullMode, DepthState, FrontFace, PrimitiveTopology, Shader,
+    StencilOperation,
+};
+use etalon_frame::TextureFormat;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// A case file. In `scene`, `judged_as` and `expect`, the string `"$name"` stands for the value of
+/// the axis or derived value of that name.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FileWire {
+    /// What the cases prove, in a sentence.
+    pub(crate) about: String,
+    /// The clauses of the specifications that bind, each as `API: section`.
+    pub(crate) spec: Vec<String>,
+    /// The axes; the file stands for their whole product.
+    #[serde(default)]
+    pub(crate) axes: BTreeMap<String, Vec<AxisValue>>,
+    /// Values that follow from an axis and are no part of the id.
+    #[serde(default)]
+    pub(crate) derived: BTreeMap<String, DerivedWire>,
+    /// What is drawn.
+    #[schemars(with = "SceneWire")]
+    pub(crate) scene: Value,
+    /// Selftests only: changes to the scene, as JSON pointers and values, that the judge sees and
+    /// the adapter does not. A Fail is then due.
+    #[serde(default)]
+    pub(crate) judged_as: BTreeMap<String, Value>,
+    /// Literal values that must come back.
+    #[serde(default)]
+    #[schemars(with = "Vec<ExpectWire>")]
+    pub(crate) expect: Value,
+}
+
+/// One value of an axis: a string, number or boolean, or a named value of any kind.
+#[derive(Clone, Debug)]
+pub(crate) struct AxisValue {
+    pub(crate) name: String,
+    pub(crate) value: Value,
+}
+
+impl<'de> Deserialize<'de> for AxisValue {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Named {
+            name: String,
+            value: Value,
+        }
+        use serde::de::Error;
+        let value = Value::deserialize(deserializer)?;
+        let name = match &value {
+            Value::String(text) => text.clone(),
+            Value::Bool(flag) => flag.to_string(),
+            Value::Number(number) => match number.as_f64() {
+                Some(float) if !number.is_i64() && !number.is_u64() => float.to_string(),
+                _ => number.to_string(),
+            },
+            Value::Object(_) => {
+                let named: Named = serde_json::from_value(value).map_err(D::Error::custom)?;
+                return Ok(Self {
+                    name: named.name,
+                    value: named.value,
+                });
+            }
+            Value::Null | Value::Array(_) => {
+                return Err(D::Error::custom(
+                    "an axis value is a string, number, boolean or {\"name\": …, \"value\": …}",
+                ));
+            }
+        };
+        Ok(Self { name, value })
+    }
+}
+
+impl JsonSchema for AxisValue {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "AxisValue".into()
+    }
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({
+            "description": "A value of an axis, or any value with a name for the id.",
+            "anyOf": [
+                { "type": ["string", "number", "boolean"] },
+                {
+                    "type": "object",
+                    "properties": { "name": { "type": "string" }, "value": {} },
+                    "required": ["name", "value"],
+                    "additionalProperties": false
+                }
+            ]
+        })
+    }
+}
+
+/// A value taken from an axis, some places further on, so that two states differ in every case.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DerivedWire {
+    /// The axis.
+    pub(crate) axis: String,
+    /// How many values further on, past the end from the start again.
+    pub(crate) shift: usize,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SceneWire {
+    /// Textures by name.
+    pub(crate) attachments: BTreeMap<String, AttachmentWire>,
+    /// Passes, in order.
+    pub(crate) passes: Vec<PassWire>,
+    /// The attachments to read back.
+    pub(crate) read: Vec<String>,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AttachmentWire {
+    pub(crate) format: TextureFormat,
+    /// Width and height in texels; without it, what the scene's other attachments say, or 16 by 16.
+    pub(crate) size: Option<[u32; 2]>,
+    /// Samples per texel.
+    pub(crate) samples: Option<u32>,
+    /// A list of four numbers for colour, a number for depth or for stencil alone, both for both.
+    pub(crate) clear: Option<ClearWire>,
+    /// Uploaded values, instead of a clear.
+    pub(crate) texels: Option<TexelsWire>,
+}
+
+/// A clear value, whose form follows the format.
+#[derive(Clone, Debug)]
+pub(crate) enum ClearWire {
+    Number(f64),
+    Color([f32; 4]),
+    DepthStencil(DepthStencilWire),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DepthStencilWire {
+    pub(crate) depth: f32,
+    pub(crate) stencil: u8,
+}
+
+impl<'de> Deserialize<'de> for ClearWire {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        use serde::de::Error;
+        let value = Value::deserialize(deserializer)?;
+        match &value {
+            Value::Number(number) => number
+                .as_f64()
+                .map(Self::Number)
+                .ok_or_else(|| D::Error::custom("the number is too large")),
+            Value::Array(_) => serde_json::from_value(value)
+                .map(Self::Color)
+                .map_err(D::Error::custom),
+            Value::Object(_) => serde_json::from_value(value)
+                .map(Self::DepthStencil)
+                .map_err(D::Error::custom),
+            _ => Err(D::Error::custom(
+                "a clear value is a number, four numbers or {\"depth\": …, \"stencil\": …}",
+            )),
+        }
+    }
+}
+
+impl JsonSchema for ClearWire {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Clear".into()
+    }
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let both = generator.subschema_for::<DepthStencilWire>();
+        schemars::json_schema!({
+            "anyOf": [
+                { "type": "number" },
+                { "type": "array", "items": { "type": "number" }, "minItems": 4, "maxItems": 4 },
+                both
+            ]
+        })
+    }
+}
+
+/// Uploaded values: integer codes for normalized formats, numbers for float formats.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub(crate) enum TexelsWire {
+    /// One texel per column, the same in all rows.
+    Columns {
+        /// As many texels as the attachment is wide.
+        values: Vec<[f64; 4]>,
+    },
+    /// One texel per row, the same in all columns.
+    Rows {
+        /// As many texels as the attachment is high.
+        values: Vec<[f64; 4]>,
+    },
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PassWire {
+    /// Names of the colour attachments.
+    #[serde(default)]
+    pub(crate) color: Vec<String>,
+    /// Name of the depth-stencil attachment.
+    pub(crate) depth_stencil: Option<String>,
+    /// Draws, in order.
+    pub(crate) draws: Vec<DrawWire>,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DrawWire {
+    pub(crate) mesh: MeshSource,
+    #[serde(default = "triangle_list")]
+    pub(crate) topology: PrimitiveTopology,
+    pub(crate) shader: Shader,
+    #[serde(default)]
+    pub(crate) params: ParamsWire,
+    /// Names of the attachments that the shader fetches from.
+    #[serde(default)]
+    pub(crate) textures: Vec<String>,
+    #[serde(default = "cull_none")]
+    pub(crate) cull: CullMode,
+    #[serde(default = "ccw")]
+    pub(crate) front_face: FrontFace,
+    /// The depth test; without it, off.
+    pub(crate) depth: Option<DepthState>,
+    /// The stencil test; without it, off.
+    pub(crate) stencil: Option<StencilWire>,
+    /// Blending; without it, off.
+    pub(crate) blend: Option<BlendState>,
+    /// Written channels, as letters of `rgba`.
+    #[serde(default = "all_channels")]
+    pub(crate) write_mask: String,
+    /// The blend constant.
+    #[serde(default)]
+    pub(crate) blend_constant: Splat,
+}
+
+fn triangle_list() -> PrimitiveTopology {
+    PrimitiveTopology::TriangleList
+}
+
+fn cull_none() -> CullMode {
+    CullMode::None
+}
+
+fn ccw() -> FrontFace {
+    FrontFace::Ccw
+}
+
+fn all_channels() -> String {
+    "rgba".to_owned()
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ParamsWire {
+    #[serde(default)]
+    pub(crate) color: Splat,
+    #[serde(default)]
+    pub(crate) back_color: Splat,
+}
+
+/// The stencil test. Masks and reference hold for both faces unless a face has its own.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StencilWire {
+    pub(crate) front: StencilFaceWire,
+    /// Without it, as the front.
+    pub(crate) back: Option<StencilFaceWire>,
+    #[serde(default = "all_bits")]
+    pub(crate) read_mask: u8,
+    #[serde(default = "all_bits")]
+    pub(crate) write_mask: u8,
+    #[serde(default)]
+    pub(crate) reference: u8,
+}
+
+fn all_bits() -> u8 {
+    0xff
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StencilFaceWire {
+    pub(crate) compare: CompareFunction,
+    #[serde(default = "keep")]
+    pub(crate) fail_op: StencilOperation,
+    #[serde(default = "keep")]
+    pub(crate) depth_fail_op: StencilOperation,
+    #[serde(default = "keep")]
+    pub(crate) pass_op: StencilOperation,
+    pub(crate) read_mask: Option<u8>,
+    pub(crate) write_mask: Option<u8>,
+    pub(crate) reference: Option<u8>,
+}
+
+fn keep() -> StencilOperation {
+    StencilOperation::Keep
+}
+
+/// One literal colour that must come back.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ExpectWire {
+    pub(crate) attachment: String,
+    /// Column and row.
+    pub(crate) texel: [u32; 2],
+    /// The values, channel by channel, as the textbook gives them; the nearest code is meant.
+    pub(crate) value: Vec<f64>,
+}

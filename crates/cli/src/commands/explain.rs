@@ -1,0 +1,170 @@
+//! `etalon explain`.
+
+use crate::adapters::discover;
+use crate::args::ExplainArguments;
+use crate::commands::library;
+use crate::failure::{Failure, UNEXPECTED};
+use crate::output::print;
+use etalon_backend::Backend;
+use etalon_case::Case;
+use etalon_cpu::CpuBackend;
+use etalon_frame::{Frame, LegalSet, Limits};
+use etalon_reference::{Rules, Sample, explain, judge};
+use std::fmt::Write;
+
+/// Tells the story of one texel by the rules and by the yardstick; with an adapter, also what came
+/// back and whether it is legal.
+pub(crate) fn run(arguments: &ExplainArguments) -> Result<u8, Failure> {
+    let library = library(arguments.cases.as_ref())?;
+    let Some(found) = library.cases().find(|c| c.id() == arguments.case) else {
+        return Err(Failure::usage(format!(
+            "there is no case `{}`; `etalon list` names them all",
+            arguments.case
+        )));
+    };
+    let case = found.build().map_err(Failure::usage)?;
+    let scene = case.judged_scene();
+    let [x, y] = arguments.texel;
+    let inside = |index: &usize| {
+        let [w, h] = scene.attachments[*index].size;
+        x < w && y < h
+    };
+    if !scene.read.iter().any(inside) {
+        return Err(Failure::usage(format!(
+            "texel {x},{y} lies outside everything that the case reads back"
+        )));
+    }
+    let (limits, frame) = match &arguments.adapter {
+        None => (CpuBackend::new("cpu").limits().clone(), None),
+        Some(name) => {
+            let (limits, frame) = draw(name, &case)?;
+            (limits, Some(frame))
+        }
+    };
+    let mut text = format!("{}\n{}\n\n", case.id, case.about);
+    let mut legal_everywhere = false;
+    for limits in limits.alternatives(&scene.formats()) {
+        legal_everywhere |= tell(&mut text, &case, &limits, [x, y], frame.as_ref());
+    }
+    print(&text)?;
+    let wrong = frame.is_some() && !legal_everywhere && case.judged_as.is_none();
+    Ok(if wrong { UNEXPECTED } else { 0 })
+}
+
+/// Adds both stories; whether the frame's texel is legal.
+fn tell(
+    text: &mut String,
+    case: &Case,
+    limits: &Limits,
+    [x, y]: [u32; 2],
+    frame: Option<&Frame>,
+) -> bool {
+    let scene = case.judged_scene();
+    let mut legal = true;
+    for rules in [Rules::of(limits.api), Rules::yardstick(limits)] {
+        let set = judge(scene, limits, &rules);
+        let encodings: Vec<String> = set
+            .images
+            .iter()
+            .map(|i| format!("{} {} {}", i.attachment, i.aspect, i.channels[0]))
+            .collect();
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "By the rules of {} ({}):",
+            rules.name,
+            encodings.join(", ")
+        );
+        for group in &set.groups {
+            if x >= group.size[0] || y >= group.size[1] {
+                continue;
+            }
+            for sample in 0..group.samples {
+                let at = Sample {
+                    size: group.size,
+                    samples: group.samples,
+                    x,
+                    y,
+                    sample,
+                };
+                let _ = write!(text, "{}", explain(scene, limits, &rules, at));
+            }
+        }
+        if let Some(frame) = frame {
+            let fits = fits(text, &set, frame, [x, y]);
+            if rules.name != "yardstick" {
+                legal = fits;
+            }
+        }
+        text.push('\n');
+    }
+    legal
+}
+
+/// Adds what came back at a texel; whether the set allows it.
+fn fits(text: &mut String, set: &LegalSet, frame: &Frame, [x, y]: [u32; 2]) -> bool {
+    let mut all = true;
+    for (g, group) in set.groups.iter().enumerate() {
+        if x >= group.size[0] || y >= group.size[1] {
+            continue;
+        }
+        for sample in 0..group.samples {
+            let mut orders = Vec::new();
+            let mut parts = Vec::new();
+            for (image, info) in frame.images.iter().zip(&set.images) {
+                if info.group != g || !info.matches(image) {
+                    continue;
+                }
+                let codes = image.sample(x, y, sample);
+                let own: Vec<i64> = codes
+                    .iter()
+                    .zip(&info.channels)
+                    .map(|(code, e)| e.order_of_code(*code))
+                    .collect();
+                let values: Vec<String> = own
+                    .iter()
+                    .zip(&info.channels)
+                    .map(|(order, e)| {
+                        format!(
+                            "{} ({:?})",
+                            e.code_of_order(*order),
+                            e.value_of_order(*order)
+                        )
+                    })
+                    .collect();
+                parts.push(format!(
+                    "{} {}: {}",
+                    info.attachment,
+                    info.aspect,
+                    values.join(", ")
+                ));
+                orders.extend(own);
+            }
+            let allowed =
+                orders.len() == group.channels.len() && group.sample(x, y, sample).allows(&orders);
+            let word = if allowed { "allowed" } else { "NOT ALLOWED" };
+            let _ = writeln!(text, "came back: {}: {word}", parts.join("; "));
+            all &= allowed;
+        }
+    }
+    all
+}
+
+fn draw(name: &str, case: &Case) -> Result<(Limits, Frame), Failure> {
+    let adapters = discover(&[name.to_owned()])?;
+    if let Some(absent) = adapters.absent.first() {
+        return Err(Failure::usage(format!(
+            "adapter {name} cannot be used: {}; {}",
+            absent.reason, absent.remedy
+        )));
+    }
+    let Some((_, mut worker)) = adapters.ready.into_iter().next() else {
+        return Err(Failure::usage(format!("adapter {name} cannot be used")));
+    };
+    let limits = worker.hello.limits.clone();
+    if let Some(missing) = limits.missing(&case.scene.requirements()) {
+        return Err(Failure::usage(format!("{name} does not support {missing}")));
+    }
+    let frame = worker.draw(&case.scene).map_err(Failure::incomplete)?;
+    Ok((limits, frame))
+}

@@ -1,0 +1,117 @@
+//! The hidden side of the binary: opening one backend, or listing a backend's devices.
+
+use crate::adapters::{BackendName, Found, Open};
+use crate::args::WorkerArguments;
+use crate::failure::Failure;
+use etalon_backend::{Backend, Unavailable};
+use etalon_cpu::CpuBackend;
+use std::fs::File;
+use std::io::{self, BufReader, BufWriter, Write};
+
+/// Serves one adapter, or prints what a backend finds.
+pub(crate) fn run(arguments: &WorkerArguments) -> Result<u8, Failure> {
+    let mut output = private_output()?;
+    if let Some(name) = &arguments.enumerate {
+        let name: BackendName = parse(&format!("\"{name}\""))?;
+        let found = enumerate(name).unwrap_or_default();
+        let text = serde_json::to_string(&found).map_err(Failure::usage)?;
+        output.write_all(text.as_bytes())?;
+        return Ok(0);
+    }
+    let Some(text) = &arguments.open else {
+        return Err(Failure::usage("a worker needs --open or --enumerate"));
+    };
+    let what: Open = parse(text)?;
+    let mut input = BufReader::new(io::stdin().lock());
+    let mut output = BufWriter::new(output);
+    etalon_runner::serve(|| open(&what), &mut input, &mut output)?;
+    Ok(0)
+}
+
+fn parse<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Failure> {
+    serde_json::from_str(text).map_err(|e| Failure::usage(format!("--open or --enumerate: {e}")))
+}
+
+/// Keeps standard output for the protocol alone: what a driver prints goes to standard error.
+fn private_output() -> Result<File, Failure> {
+    let private = rustix::io::dup(io::stdout()).map_err(io::Error::from)?;
+    rustix::stdio::dup2_stdout(io::stderr()).map_err(io::Error::from)?;
+    Ok(File::from(private))
+}
+
+fn open(what: &Open) -> Result<Box<dyn Backend>, Unavailable> {
+    let name = &what.name;
+    let device = what.device.unwrap_or(0);
+    let gl = |profile| {
+        let options = etalon_gl::Options {
+            profile,
+            platform: match what.device {
+                None => etalon_gl::Platform::Surfaceless,
+                Some(index) => etalon_gl::Platform::Device(index),
+            },
+            debug: false,
+        };
+        etalon_gl::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
+    };
+    let wgpu = |via| {
+        let options = etalon_wgpu::Options {
+            via,
+            device,
+            validate: false,
+        };
+        etalon_wgpu::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
+    };
+    match what.backend {
+        BackendName::Cpu => Ok(Box::new(CpuBackend::new(name))),
+        BackendName::Vulkan => {
+            let options = etalon_vulkan::Options {
+                device,
+                validate: false,
+            };
+            etalon_vulkan::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
+        }
+        BackendName::Gl => gl(etalon_gl::Profile::Core),
+        BackendName::GlEs => gl(etalon_gl::Profile::Es),
+        BackendName::WgpuVulkan => wgpu(etalon_wgpu::Via::Vulkan),
+        BackendName::WgpuGl => wgpu(etalon_wgpu::Via::Gl),
+    }
+}
+
+/// The devices that are not the processor: software drivers are described in the data file.
+fn enumerate(backend: BackendName) -> Result<Vec<Found>, Unavailable> {
+    let infos = |all: Vec<etalon_backend::AdapterInfo>| {
+        all.into_iter()
+            .enumerate()
+            .filter(|(_, info)| !info.software)
+            .map(|(device, info)| Found {
+                name: info.name,
+                device,
+            })
+            .collect()
+    };
+    match backend {
+        BackendName::Cpu => Ok(Vec::new()),
+        BackendName::Vulkan => etalon_vulkan::enumerate().map(infos),
+        BackendName::Gl | BackendName::GlEs => {
+            let prefix = if backend == BackendName::Gl {
+                "gl"
+            } else {
+                "gl:es"
+            };
+            let devices = etalon_gl::enumerate()?;
+            let hardware = devices.into_iter().filter(|d| !d.software);
+            Ok(hardware
+                .enumerate()
+                .map(|(n, d)| Found {
+                    name: match n {
+                        0 => format!("{prefix}:gpu"),
+                        n => format!("{prefix}:gpu-{n}"),
+                    },
+                    device: d.index,
+                })
+                .collect())
+        }
+        BackendName::WgpuVulkan => etalon_wgpu::enumerate(etalon_wgpu::Via::Vulkan).map(infos),
+        BackendName::WgpuGl => etalon_wgpu::enumerate(etalon_wgpu::Via::Gl).map(infos),
+    }
+}

@@ -1,0 +1,200 @@
+//! A frame held against its legal set and the yardstick.
+
+use crate::format::{Aspect, ChannelEncoding};
+use crate::image::{Frame, FrameError};
+use crate::legal::{ImageInfo, LegalSet, TexelSet};
+use serde::{Deserialize, Serialize};
+
+/// Which of the two bands a texel fell out of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Band {
+    /// Legal, but outside the yardstick.
+    Imprecise,
+    /// Outside what the API's text allows.
+    Fail,
+}
+
+/// One channel outside its interval. Codes are bit patterns in the channel's encoding.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ChannelMismatch {
+    /// The attachment.
+    pub attachment: String,
+    /// The aspect.
+    pub aspect: Aspect,
+    /// The channel's position: red is 0.
+    pub channel: u8,
+    /// The channel's encoding.
+    pub encoding: ChannelEncoding,
+    /// Code of the lowest allowed value.
+    pub low: u32,
+    /// Code of the highest allowed value.
+    pub high: u32,
+    /// The code that came back.
+    pub actual: u32,
+}
+
+/// One sample outside a band. The channels are those outside the nearest allowed box.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WrongTexel {
+    /// Column, from the left.
+    pub x: u32,
+    /// Row, from the top.
+    pub y: u32,
+    /// Sample within the texel.
+    pub sample: u32,
+    /// The worst band left.
+    pub band: Band,
+    /// What is wrong.
+    pub channels: Vec<ChannelMismatch>,
+}
+
+/// How many samples fell where.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TexelCounts {
+    /// All samples judged.
+    pub total: u64,
+    /// Samples outside the legal set.
+    pub wrong: u64,
+    /// Legal samples outside the yardstick.
+    pub imprecise: u64,
+    /// Samples of which the legal set asserts nothing.
+    pub open: u64,
+}
+
+/// The outcome of [`compare`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Comparison {
+    /// Counts over all samples.
+    pub texels: TexelCounts,
+    /// The first wrong samples, failures before imprecise ones, as many as asked for.
+    pub wrong: Vec<WrongTexel>,
+}
+
+/// Holds a frame against both bands, keeping the first `keep` samples that leave one.
+///
+/// # Errors
+/// When the frame's images are not those that the legal set speaks of.
+pub fn compare(
+    frame: &Frame,
+    legal: &LegalSet,
+    yardstick: &LegalSet,
+    keep: usize,
+) -> Result<Comparison, FrameError> {
+    check_images(frame, legal)?;
+    let mut result = Comparison::default();
+    let mut imprecise = Vec::new();
+    let mut orders: Vec<i64> = Vec::new();
+    for (g, group) in legal.groups.iter().enumerate() {
+        let images: Vec<(usize, &ImageInfo)> = legal
+            .images
+            .iter()
+            .enumerate()
+            .filter(|(_, i)| i.group == g)
+            .collect();
+        for y in 0..group.size[1] {
+            for x in 0..group.size[0] {
+                for sample in 0..group.samples {
+                    orders.clear();
+                    for (i, info) in &images {
+                        let codes = frame.images[*i].sample(x, y, sample);
+                        orders.extend(
+                            codes
+                                .iter()
+                                .zip(&info.channels)
+                                .map(|(code, e)| e.order_of_code(*code)),
+                        );
+                    }
+                    let allowed = group.sample(x, y, sample);
+                    let tight = yardstick.groups[g].sample(x, y, sample);
+                    result.texels.total += 1;
+                    result.texels.open += u64::from(allowed.is_open());
+                    let describe = |band, set: &TexelSet| WrongTexel {
+                        x,
+                        y,
+                        sample,
+                        band,
+                        channels: mismatches(&images, set, &orders),
+                    };
+                    if !allowed.allows(&orders) {
+                        result.texels.wrong += 1;
+                        if result.wrong.len() < keep {
+                            result.wrong.push(describe(Band::Fail, allowed));
+                        }
+                    } else if !tight.allows(&orders) {
+                        result.texels.imprecise += 1;
+                        if imprecise.len() < keep {
+                            imprecise.push(describe(Band::Imprecise, tight));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    imprecise.truncate(keep - result.wrong.len());
+    result.wrong.append(&mut imprecise);
+    Ok(result)
+}
+
+fn check_images(frame: &Frame, legal: &LegalSet) -> Result<(), FrameError> {
+    if frame.images.len() != legal.images.len() {
+        return Err(FrameError::ImageCount {
+            actual: frame.images.len(),
+            expected: legal.images.len(),
+        });
+    }
+    for (index, (image, info)) in frame.images.iter().zip(&legal.images).enumerate() {
+        if !info.matches(image) {
+            return Err(FrameError::Image {
+                index,
+                actual: format!(
+                    "{} {} {:?} x{} {:?} by {:?}, {} codes",
+                    image.attachment,
+                    image.aspect,
+                    image.size,
+                    image.samples,
+                    image.channels,
+                    image.read,
+                    image.codes.len()
+                ),
+                expected: format!(
+                    "{} {} {:?} x{} {:?} by {:?}",
+                    info.attachment, info.aspect, info.size, info.samples, info.channels, info.read
+                ),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn mismatches(
+    images: &[(usize, &ImageInfo)],
+    set: &TexelSet,
+    orders: &[i64],
+) -> Vec<ChannelMismatch> {
+    let Some(world) = set.nearest(orders) else {
+        return Vec::new();
+    };
+    let mut result = Vec::new();
+    for (_, info) in images {
+        for (channel, encoding) in info.channels.iter().enumerate() {
+            let at = info.first_channel + channel;
+            let interval = world.channels[at];
+            if !interval.contains(orders[at]) {
+                result.push(ChannelMismatch {
+                    attachment: info.attachment.clone(),
+                    aspect: info.aspect,
+                    channel: channel as u8,
+                    encoding: *encoding,
+                    low: encoding.code_of_order(interval.low),
+                    high: encoding.code_of_order(interval.high),
+                    actual: encoding.code_of_order(orders[at]),
+                });
+            }
+        }
+    }
+    result
+}

@@ -1,0 +1,81 @@
+//! What came back from a device.
+
+use crate::format::{Aspect, ChannelEncoding};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// How an image reached the processor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ReadPath {
+    /// The API copied the attachment's codes.
+    Copy,
+    /// A shader read the attachment and stored what it saw; a normalized depth arrives as a 32-bit
+    /// float whose rounding belongs to the legal set.
+    Shader,
+}
+
+/// One aspect of one attachment.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Image {
+    /// The attachment's name in the scene.
+    pub attachment: String,
+    /// Which aspect of it this is.
+    pub aspect: Aspect,
+    /// Width and height in texels.
+    pub size: [u32; 2],
+    /// Samples per texel.
+    pub samples: u32,
+    /// The encodings of `codes`' channels: as stored, or what a shader read delivers.
+    pub channels: Vec<ChannelEncoding>,
+    /// How the codes were read.
+    pub read: ReadPath,
+    /// Codes, index `((y * width + x) * samples + sample) * channels + channel`, row 0 at the top.
+    pub codes: Vec<u32>,
+}
+
+impl Image {
+    /// The number of codes that size, samples and channels call for.
+    pub fn expected_len(&self) -> usize {
+        self.size[0] as usize * self.size[1] as usize * self.samples as usize * self.channels.len()
+    }
+
+    /// The codes of one sample, one per channel. The position must lie inside the image.
+    pub fn sample(&self, x: u32, y: u32, sample: u32) -> &[u32] {
+        let n = self.channels.len();
+        let at = ((y as usize * self.size[0] as usize + x as usize) * self.samples as usize
+            + sample as usize)
+            * n;
+        &self.codes[at..at + n]
+    }
+}
+
+/// Everything a scene asked to be read back.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Frame {
+    /// The images, in the order of the scene's `read` list, depth before stencil.
+    pub images: Vec<Image>,
+}
+
+/// A frame that is not the one that was asked for. This is our backend's bug, never the driver's.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum FrameError {
+    /// The frame has another number of images than the legal set.
+    #[error("the frame holds {actual} images where {expected} were asked for")]
+    ImageCount {
+        /// Images that came.
+        actual: usize,
+        /// Images that were asked for.
+        expected: usize,
+    },
+    /// An image is not the one asked for at its place.
+    #[error("image {index} of the frame is {actual}, where {expected} was asked for")]
+    Image {
+        /// Position in the frame.
+        index: usize,
+        /// What came.
+        actual: String,
+        /// What was asked for.
+        expected: String,
+    },
+}

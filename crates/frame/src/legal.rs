@@ -1,0 +1,387 @@
+//! Legal sets: what the rules allow at each sample of each image.
+
+use crate::format::{Aspect, ChannelEncoding};
+use crate::image::{Image, ReadPath};
+use smallvec::SmallVec;
+use std::collections::HashMap;
+
+/// A closed interval of code orders (see [`ChannelEncoding`]); never empty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct CodeInterval {
+    /// The smallest order.
+    pub low: i64,
+    /// The largest order.
+    pub high: i64,
+}
+
+impl CodeInterval {
+    /// The interval between two orders.
+    ///
+    /// # Panics
+    /// If `low` is above `high`: an empty set of legal values is a bug of the reference.
+    pub fn new(low: i64, high: i64) -> Self {
+        assert!(low <= high, "empty code interval {low}..={high}");
+        Self { low, high }
+    }
+
+    /// The interval of one order.
+    pub fn exact(order: i64) -> Self {
+        Self {
+            low: order,
+            high: order,
+        }
+    }
+
+    /// Whether the order lies inside.
+    pub fn contains(self, order: i64) -> bool {
+        self.low <= order && order <= self.high
+    }
+
+    /// Whether the interval is a single order.
+    pub fn is_exact(self) -> bool {
+        self.low == self.high
+    }
+
+    /// How many orders lie inside.
+    pub fn count(self) -> u64 {
+        (self.high - self.low) as u64 + 1
+    }
+
+    /// The smallest interval that holds both.
+    pub fn hull(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+}
+
+/// One consistent story's outcome: an interval per channel of a [`SampleGroup`].
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct WorldBox {
+    /// Channel intervals in the order of the group's channels.
+    pub channels: SmallVec<[CodeInterval; 6]>,
+}
+
+impl WorldBox {
+    /// How many channels of a sample lie outside.
+    pub fn violations(&self, orders: &[i64]) -> usize {
+        self.channels
+            .iter()
+            .zip(orders)
+            .filter(|(interval, order)| !interval.contains(**order))
+            .count()
+    }
+}
+
+/// What is legal at one sample: any of these boxes. No box at all means *open*: nothing is asserted.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct TexelSet {
+    /// The boxes, sorted and without repetition.
+    pub worlds: Vec<WorldBox>,
+}
+
+impl TexelSet {
+    /// Whether nothing is asserted.
+    pub fn is_open(&self) -> bool {
+        self.worlds.is_empty()
+    }
+
+    /// Whether a sample is legal.
+    pub fn allows(&self, orders: &[i64]) -> bool {
+        self.is_open() || self.worlds.iter().any(|w| w.violations(orders) == 0)
+    }
+
+    /// The box that a sample violates in the fewest channels.
+    pub fn nearest(&self, orders: &[i64]) -> Option<&WorldBox> {
+        self.worlds.iter().min_by_key(|w| w.violations(orders))
+    }
+
+    /// The hull of one channel over all boxes; `None` where the set is open.
+    pub fn hull(&self, channel: usize) -> Option<CodeInterval> {
+        self.worlds
+            .iter()
+            .map(|w| w.channels[channel])
+            .reduce(CodeInterval::hull)
+    }
+
+    /// How many codes of one channel lie in some box.
+    pub fn count(&self, channel: usize) -> u64 {
+        let mut intervals: Vec<CodeInterval> =
+            self.worlds.iter().map(|w| w.channels[channel]).collect();
+        intervals.sort_unstable();
+        let mut total = 0;
+        let mut reached = i64::MIN;
+        for interval in intervals {
+            let low = interval.low.max(reached.saturating_add(1));
+            if low <= interval.high {
+                total += CodeInterval::new(low, interval.high).count();
+                reached = interval.high;
+            }
+        }
+        total
+    }
+}
+
+/// One image that a legal set speaks of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ImageInfo {
+    /// The attachment's name.
+    pub attachment: String,
+    /// The aspect.
+    pub aspect: Aspect,
+    /// Width and height in texels.
+    pub size: [u32; 2],
+    /// Samples per texel.
+    pub samples: u32,
+    /// Channel encodings as read back.
+    pub channels: Vec<ChannelEncoding>,
+    /// How the image must have been read.
+    pub read: ReadPath,
+    /// Which [`SampleGroup`] holds the image's samples.
+    pub group: usize,
+    /// The image's first channel within the group.
+    pub first_channel: usize,
+}
+
+impl ImageInfo {
+    /// Whether a frame's image is this one.
+    pub fn matches(&self, image: &Image) -> bool {
+        self.attachment == image.attachment
+            && self.aspect == image.aspect
+            && self.size == image.size
+            && self.samples == image.samples
+            && self.channels == image.channels
+            && self.read == image.read
+            && image.codes.len() == image.expected_len()
+    }
+}
+
+/// Images of one size and sample count, whose samples are judged jointly.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SampleGroup {
+    /// Width and height in texels.
+    pub size: [u32; 2],
+    /// Samples per texel.
+    pub samples: u32,
+    /// Encodings of all channels, image by image.
+    pub channels: Vec<ChannelEncoding>,
+    palette: Vec<TexelSet>,
+    index: Vec<u32>,
+}
+
+impl SampleGroup {
+    /// The legal values of one sample. The position must lie inside the group's size.
+    pub fn sample(&self, x: u32, y: u32, sample: u32) -> &TexelSet {
+        let at = (y as usize * self.size[0] as usize + x as usize) * self.samples as usize
+            + sample as usize;
+        &self.palette[self.index[at] as usize]
+    }
+
+    /// The distinct sets, each with how many samples have it.
+    pub fn distinct(&self) -> Vec<(&TexelSet, u64)> {
+        let mut counts = vec![0_u64; self.palette.len()];
+        for i in &self.index {
+            counts[*i as usize] += 1;
+        }
+        self.palette.iter().zip(counts).collect()
+    }
+}
+
+/// What the rules allow of a whole frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LegalSet {
+    /// The images, in the order of the scene's `read` list.
+    pub images: Vec<ImageInfo>,
+    /// The groups they belong to.
+    pub groups: Vec<SampleGroup>,
+}
+
+/// How much a legal set asserts of one aspect.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AspectStatistics {
+    /// Channel values in all samples of the aspect.
+    pub channels: u64,
+    /// Those of which something is asserted.
+    pub asserted: u64,
+    /// Those with exactly one legal code.
+    pub exact: u64,
+    /// Legal codes, summed over the asserted channel values.
+    pub codes: u64,
+}
+
+impl AspectStatistics {
+    /// Adds another image's or case's figures.
+    pub fn add(&mut self, other: Self) {
+        self.channels += other.channels;
+        self.asserted += other.asserted;
+        self.exact += other.exact;
+        self.codes = self.codes.saturating_add(other.codes);
+    }
+}
+
+impl LegalSet {
+    /// Figures per aspect, in the order colour, depth, stencil; aspects not read are absent.
+    pub fn statistics(&self) -> Vec<(Aspect, AspectStatistics)> {
+        let mut result: Vec<(Aspect, AspectStatistics)> = Vec::new();
+        for image in &self.images {
+            let group = &self.groups[image.group];
+            let mut sum = AspectStatistics::default();
+            for (set, times) in group.distinct() {
+                for (i, encoding) in image.channels.iter().enumerate() {
+                    let all = CodeInterval::new(encoding.min_order(), encoding.max_order());
+                    let codes = set.count(image.first_channel + i);
+                    sum.channels += times;
+                    if !set.is_open() && codes < all.count() {
+                        sum.asserted += times;
+                        sum.codes = sum.codes.saturating_add(codes.saturating_mul(times));
+                        sum.exact += if codes == 1 { times } else { 0 };
+                    }
+                }
+            }
+            match result
+                .iter_mut()
+                .find(|(aspect, _)| *aspect == image.aspect)
+            {
+                Some((_, total)) => total.add(sum),
+                None => result.push((image.aspect, sum)),
+            }
+        }
+        result.sort_by_key(|(aspect, _)| *aspect);
+        result
+    }
+
+    /// Bytes that the set holds, roughly; for cache limits.
+    pub fn weight(&self) -> usize {
+        self.groups
+            .iter()
+            .map(|g| {
+                g.index.len() * 4
+                    + g.palette
+                        .iter()
+                        .map(|t| 32 + t.worlds.len() * 128)
+                        .sum::<usize>()
+            })
+            .sum()
+    }
+}
+
+/// Builds a [`LegalSet`]: images first, then every group's samples in storage order.
+#[derive(Debug, Default)]
+pub struct LegalSetBuilder {
+    images: Vec<ImageInfo>,
+    groups: Vec<SampleGroup>,
+    interned: Vec<HashMap<TexelSet, u32>>,
+}
+
+impl LegalSetBuilder {
+    /// Adds an image; it joins the group of its size and sample count. Returns the group.
+    pub fn image(
+        &mut self,
+        attachment: &str,
+        aspect: Aspect,
+        size: [u32; 2],
+        samples: u32,
+        channels: &[ChannelEncoding],
+        read: ReadPath,
+    ) -> usize {
+        let group = self
+            .groups
+            .iter()
+            .position(|g| g.size == size && g.samples == samples)
+            .unwrap_or_else(|| {
+                self.interned.push(HashMap::new());
+                self.groups.push(SampleGroup {
+                    size,
+                    samples,
+                    channels: Vec::new(),
+                    palette: Vec::new(),
+                    index: Vec::new(),
+                });
+                self.groups.len() - 1
+            });
+        self.images.push(ImageInfo {
+            attachment: attachment.to_owned(),
+            aspect,
+            size,
+            samples,
+            channels: channels.to_vec(),
+            read,
+            group,
+            first_channel: self.groups[group].channels.len(),
+        });
+        self.groups[group].channels.extend_from_slice(channels);
+        group
+    }
+
+    /// Adds the next sample of a group.
+    pub fn sample(&mut self, group: usize, mut set: TexelSet) {
+        set.worlds.sort_unstable();
+        set.worlds.dedup();
+        let target = &mut self.groups[group];
+        let next = target.palette.len() as u32;
+        let at = *self.interned[group].entry(set).or_insert_with_key(|set| {
+            target.palette.push(set.clone());
+            next
+        });
+        target.index.push(at);
+    }
+
+    /// The finished set.
+    ///
+    /// # Panics
+    /// If a group has too few or too many samples: a bug of the judge.
+    pub fn build(self) -> LegalSet {
+        for group in &self.groups {
+            let due = group.size[0] as usize * group.size[1] as usize * group.samples as usize;
+            assert_eq!(group.index.len(), due, "a group's samples are not complete");
+        }
+        LegalSet {
+            images: self.images,
+            groups: self.groups,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set(boxes: &[&[(i64, i64)]]) -> TexelSet {
+        TexelSet {
+            worlds: boxes
+                .iter()
+                .map(|b| WorldBox {
+                    channels: b.iter().map(|(l, h)| CodeInterval::new(*l, *h)).collect(),
+                })
+                .collect(),
+        }
+    }
+
+    #[test]
+    fn codes_in_overlapping_boxes_count_once() {
+        let s = set(&[&[(0, 3)], &[(2, 5)], &[(9, 9)]]);
+        assert_eq!(s.count(0), 7);
+    }
+
+    #[test]
+    fn a_texel_must_lie_in_one_box_as_a_whole() {
+        let s = set(&[&[(0, 0), (0, 0)], &[(255, 255), (9, 9)]]);
+        assert!(s.allows(&[0, 0]));
+        assert!(s.allows(&[255, 9]));
+        assert!(!s.allows(&[255, 0]));
+        assert_eq!(s.nearest(&[255, 8]).map(|w| w.channels[1].low), Some(9));
+    }
+
+    #[test]
+    fn a_set_of_everything_is_not_asserted() {
+        let mut builder = LegalSetBuilder::default();
+        let unorm = ChannelEncoding::Unorm(8);
+        builder.image("c", Aspect::Color, [2, 1], 1, &[unorm], ReadPath::Copy);
+        builder.sample(0, set(&[&[(0, 255)]]));
+        builder.sample(0, set(&[&[(7, 8)]]));
+        let (_, figures) = builder.build().statistics()[0];
+        assert_eq!((figures.channels, figures.asserted), (2, 1));
+        assert_eq!((figures.exact, figures.codes), (0, 2));
+    }
+}

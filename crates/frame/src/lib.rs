@@ -1,0 +1,23 @@
+//! Texel formats, frames, limits, features, legal sets and their comparison.
+//!
+//! This crate holds the nouns that every other crate shares and no arithmetic of the pipeline:
+//! what a texel is made of ([`TextureFormat`], [`ChannelEncoding`]), what came back from a device
+//! ([`Frame`]), what an adapter can do ([`Limits`], [`Feature`]), what the rules allow
+//! ([`LegalSet`]) and how the last two are held against each other ([`compare`]).
+
+mod compare;
+mod format;
+mod image;
+mod legal;
+mod limits;
+mod story;
+
+pub use compare::{Band, ChannelMismatch, Comparison, TexelCounts, WrongTexel, compare};
+pub use format::{Aspect, ChannelEncoding, TextureFormat};
+pub use image::{Frame, FrameError, Image, ReadPath};
+pub use legal::{
+    AspectStatistics, CodeInterval, ImageInfo, LegalSet, LegalSetBuilder, SampleGroup, TexelSet,
+    WorldBox,
+};
+pub use limits::{Api, Feature, FormatSupport, Limits, Requirement};
+pub use story::{Story, StoryLine};

@@ -1,0 +1,176 @@
+//! What an adapter can do.
+
+use crate::format::{ChannelEncoding, TextureFormat};
+use crate::image::ReadPath;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+/// The API whose specification binds an adapter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Api {
+    /// Vulkan 1.x.
+    Vulkan,
+    /// OpenGL, core profile.
+    OpenGl,
+    /// OpenGL ES.
+    OpenGlEs,
+    /// WebGPU.
+    WebGpu,
+}
+
+impl Api {
+    /// The name of the API's rules: `vulkan`, `opengl`, `opengl-es`, `webgpu`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Vulkan => "vulkan",
+            Self::OpenGl => "opengl",
+            Self::OpenGlEs => "opengl-es",
+            Self::WebGpu => "webgpu",
+        }
+    }
+}
+
+impl fmt::Display for Api {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A capability that not every adapter has and that a scene may need.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Feature {
+    /// Culling front and back faces together.
+    FrontAndBackCulling,
+    /// The operations `min` and `max` with factors other than `one` (which they ignore).
+    MinMaxBlendFactors,
+    /// The factors `constant-alpha` and `one-minus-constant-alpha` for colour.
+    ConstantAlphaBlendFactor,
+    /// Stencil masks or references that differ between front and back faces.
+    SeparateStencilMasks,
+}
+
+impl Feature {
+    /// Every feature.
+    pub const ALL: [Self; 4] = [
+        Self::FrontAndBackCulling,
+        Self::MinMaxBlendFactors,
+        Self::ConstantAlphaBlendFactor,
+        Self::SeparateStencilMasks,
+    ];
+
+    /// The feature's name in records and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FrontAndBackCulling => "front-and-back-culling",
+            Self::MinMaxBlendFactors => "min-max-blend-factors",
+            Self::ConstantAlphaBlendFactor => "constant-alpha-blend-factor",
+            Self::SeparateStencilMasks => "separate-stencil-masks",
+        }
+    }
+}
+
+/// One thing that a scene needs of an adapter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Requirement {
+    /// A capability.
+    Feature(Feature),
+    /// An attachment of this format that can be drawn to (or, for an upload, sampled) and read.
+    Format(TextureFormat),
+    /// So many samples per texel in this format.
+    Samples(TextureFormat, u32),
+    /// Attachments at least so wide and high.
+    Size(u32),
+}
+
+impl fmt::Display for Requirement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Feature(feature) => write!(f, "feature {}", feature.name()),
+            Self::Format(format) => write!(f, "format {format}"),
+            Self::Samples(format, n) => write!(f, "{n} samples of {format}"),
+            Self::Size(size) => write!(f, "attachments of {size} texels a side"),
+        }
+    }
+}
+
+/// What an adapter does with one format.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FormatSupport {
+    /// Sample counts of attachments that can be drawn and read back; `1` always among them.
+    pub samples: Vec<u32>,
+    /// The real encoding of the depth aspect. More than one where the API does not tell: then all
+    /// of a frame is one or the other. Empty for formats without depth.
+    pub depth: Vec<ChannelEncoding>,
+    /// How the depth aspect (or colour, where there is no depth) is read back.
+    pub read: ReadPath,
+}
+
+/// What an adapter can do, as far as the suite asks.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Limits {
+    /// Whose rules bind the adapter.
+    pub api: Api,
+    /// Bits of sub-pixel precision in vertex positions; the API's minimum where it does not tell.
+    pub sub_pixel_bits: u8,
+    /// The largest width and height of an attachment.
+    pub max_size: u32,
+    /// Formats that can be drawn to and read back (`rgba32float`: uploaded and fetched).
+    pub formats: BTreeMap<TextureFormat, FormatSupport>,
+    /// Features.
+    pub features: BTreeSet<Feature>,
+    /// Sample positions in units of 1/256 texel from the top left corner, per sample count.
+    pub sample_positions: BTreeMap<u32, Vec<[u16; 2]>>,
+}
+
+impl Limits {
+    /// The first requirement that is not met.
+    pub fn missing(&self, requirements: &[Requirement]) -> Option<Requirement> {
+        requirements.iter().copied().find(|r| !self.meets(*r))
+    }
+
+    fn meets(&self, requirement: Requirement) -> bool {
+        match requirement {
+            Requirement::Feature(feature) => self.features.contains(&feature),
+            Requirement::Format(format) => self.formats.contains_key(&format),
+            Requirement::Samples(format, n) => self
+                .formats
+                .get(&format)
+                .is_some_and(|support| support.samples.contains(&n)),
+            Requirement::Size(size) => size <= self.max_size,
+        }
+    }
+
+    /// These limits once per possible depth encoding of the given formats, each with that one
+    /// encoding only: a format whose encoding is not told is one or the other for a whole frame,
+    /// never texel by texel. Two formats may differ in their choice.
+    pub fn alternatives(&self, formats: &[TextureFormat]) -> Vec<Self> {
+        let mut all = vec![self.clone()];
+        for format in formats {
+            let Some(support) = self.formats.get(format) else {
+                continue;
+            };
+            if support.depth.len() < 2 {
+                continue;
+            }
+            all = all
+                .iter()
+                .flat_map(|limits| {
+                    support.depth.iter().map(|encoding| {
+                        let mut one = limits.clone();
+                        if let Some(entry) = one.formats.get_mut(format) {
+                            entry.depth = vec![*encoding];
+                        }
+                        one
+                    })
+                })
+                .collect();
+        }
+        all
+    }
+}

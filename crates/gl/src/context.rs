@@ -1,0 +1,452 @@
+//! A current context: glow, what glow lacks, what the context can do, and its errors.
+
+use crate::egl::EglContext;
+use crate::{Options, Profile, Tuning};
+use etalon_backend::{BackendError, Unavailable};
+use glow::HasContext;
+use naga::back::glsl;
+use std::collections::HashSet;
+use std::ffi::{CStr, c_char, c_void};
+use std::sync::{Mutex, PoisonError};
+
+/// The most debug messages that are kept between two calls that fetch them.
+const MAX_MESSAGES: usize = 1000;
+/// A lost context may report errors without end.
+const MAX_ERRORS: usize = 16;
+
+const UPPER_LEFT: u32 = 0x8CA2;
+const ZERO_TO_ONE: u32 = 0x935F;
+const QUERY_COUNTER_BITS: u32 = 0x8864;
+const GPU_DISJOINT_EXT: u32 = 0x8FBB;
+const CONTEXT_LOST: u32 = 0x0507;
+
+/// What the context can do, as far as it matters here.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Caps {
+    pub(crate) es: bool,
+    pub(crate) version: (u32, u32),
+    pub(crate) glsl: glsl::Version,
+    /// `glClipControl` is set to WebGPU's conventions; else the shaders adapt.
+    pub(crate) clip_control: bool,
+    /// Blend functions may differ between colour targets.
+    pub(crate) indexed_blend: bool,
+    /// A shader can fetch the stencil of a depth-stencil texture.
+    pub(crate) stencil_texturing: bool,
+    /// Textures may hold stencil alone.
+    pub(crate) stencil_textures: bool,
+    /// `GL_TIME_ELAPSED` queries count.
+    pub(crate) timer: bool,
+    pub(crate) max_color_targets: usize,
+}
+
+type DebugCallback =
+    unsafe extern "system" fn(u32, u32, u32, u32, i32, *const c_char, *const c_void);
+
+macro_rules! extra {
+    ($($field:ident: fn($($arg:ty),*) $(-> $ret:ty)?;)*) => {
+        /// Entry points that glow lacks, or chooses by address alone; `None` where neither the
+        /// version nor an extension promises them.
+        #[derive(Default)]
+        struct Extra { $($field: Option<unsafe extern "system" fn($($arg),*) $(-> $ret)?>,)* }
+    };
+}
+
+extra! {
+    clip_control: fn(u32, u32);
+    get_query: fn(u32, u32, *mut i32);
+    get_query_result: fn(u32, u32, *mut u64);
+    get_reset_status: fn() -> u32;
+    debug_callback: fn(Option<DebugCallback>, *const c_void);
+}
+
+/// A context with everything that lives as long as it does.
+pub(crate) struct Context {
+    pub(crate) gl: glow::Context,
+    pub(crate) caps: Caps,
+    pub(crate) names: Names,
+    extra: Extra,
+    // The order is that of dropping: the driver may call back until the context is gone.
+    egl: EglContext,
+    log: Box<Mutex<Vec<String>>>,
+}
+
+/// What the driver calls itself.
+pub(crate) struct Names {
+    pub(crate) renderer: String,
+    pub(crate) vendor: String,
+    pub(crate) version: String,
+}
+
+impl Context {
+    /// Wraps a context that has just been made current.
+    pub(crate) fn new(
+        egl: EglContext,
+        options: &Options,
+        tuning: Tuning,
+    ) -> Result<Self, Unavailable> {
+        let names = Names::query(&egl)?;
+        let es = options.profile == Profile::Es;
+        let version = parse_version(&names.version).ok_or_else(|| broken("GL_VERSION"))?;
+        if version < if es { (3, 0) } else { (3, 3) } {
+            return Err(broken("GL_VERSION"));
+        }
+        // SAFETY: the context is current, has told a version in the documented form, and stays
+        // current on this thread whenever the functions are called.
+        let gl = unsafe { glow::Context::from_loader_function_cstr(|name| egl.proc_address(name)) };
+        let known = gl.supported_extensions();
+        let has = |name: &str| known.contains(name);
+        let since =
+            |core: (u32, u32), embedded: (u32, u32)| version >= if es { embedded } else { core };
+        const NEVER: (u32, u32) = (u32::MAX, 0);
+
+        let extra = Extra::load(&egl, es, version, known);
+        let indexed_blend = since((4, 0), (3, 2)) || (!es && has("GL_ARB_draw_buffers_blend"));
+        let stencil_texturing = since((4, 3), (3, 1)) || has("GL_ARB_stencil_texturing");
+        let stencil_textures = since((4, 4), (3, 2))
+            || has("GL_ARB_texture_stencil8")
+            || has("GL_OES_texture_stencil8");
+        let timer = since((3, 3), NEVER) || has("GL_EXT_disjoint_timer_query");
+        let debug = options.debug && (since((4, 3), (3, 2)) || has("GL_KHR_debug"));
+        // SAFETY: the context is current and has the limit since version 3.
+        let targets = unsafe { gl.get_parameter_i32(glow::MAX_DRAW_BUFFERS) };
+        let mut context = Self {
+            gl,
+            caps: Caps {
+                es,
+                version,
+                glsl: glsl_version(es, version),
+                clip_control: extra.clip_control.is_some() && tuning.clip_control,
+                indexed_blend,
+                stencil_texturing,
+                stencil_textures,
+                timer: false,
+                max_color_targets: usize::try_from(targets).unwrap_or(0),
+            },
+            names,
+            extra,
+            egl,
+            log: Box::default(),
+        };
+        context.caps.timer = timer && context.timer_counts();
+        if debug {
+            context.start_debug_output();
+        }
+        context
+            .check("opening the context")
+            .map_err(|e| Unavailable::new(e.to_string(), "use another driver"))?;
+        Ok(context)
+    }
+
+    /// Makes the context current on this thread.
+    pub(crate) fn make_current(&self) -> Result<(), BackendError> {
+        self.egl.make_current().map_err(|(lost, message)| {
+            if lost {
+                BackendError::DeviceLost(message)
+            } else {
+                BackendError::Internal(format!("eglMakeCurrent failed: {message}"))
+            }
+        })
+    }
+
+    /// Whether the processor does the drawing, by the names that Mesa, SwiftShader and ANGLE use.
+    pub(crate) fn is_software(&self) -> bool {
+        let renderer = self.names.renderer.to_lowercase();
+        let known = ["llvmpipe", "softpipe", "swiftshader", "swrast", "lavapipe"];
+        known.iter().any(|name| renderer.contains(name))
+            // Under zink EGL's device says nothing of the Vulkan device behind it.
+            || (self.egl.is_software() && !renderer.starts_with("zink"))
+    }
+
+    /// Sets WebGPU's conventions, where the context can.
+    pub(crate) fn set_clip_control(&self) {
+        if self.caps.clip_control
+            && let Some(clip_control) = self.extra.clip_control
+        {
+            // SAFETY: the context is current and has the function.
+            unsafe { clip_control(UPPER_LEFT, ZERO_TO_ONE) };
+        }
+    }
+
+    /// The result of a finished `GL_TIME_ELAPSED` query in nanoseconds, if it can be trusted.
+    pub(crate) fn elapsed(&self, query: glow::Query) -> Option<u64> {
+        let get = self.extra.get_query_result?;
+        let mut nanoseconds = 0;
+        // SAFETY: the context is current, the query has ended and the result has room.
+        unsafe {
+            get(query.0.get(), glow::QUERY_RESULT, &mut nanoseconds);
+            let disjoint = self.caps.es && self.gl.get_parameter_i32(GPU_DISJOINT_EXT) != 0;
+            (!disjoint).then_some(nanoseconds)
+        }
+    }
+
+    fn timer_counts(&self) -> bool {
+        let (Some(get), Some(_)) = (self.extra.get_query, self.extra.get_query_result) else {
+            return false;
+        };
+        let mut bits = 0;
+        // SAFETY: the context is current, has timer queries, and the result has room.
+        unsafe { get(glow::TIME_ELAPSED, QUERY_COUNTER_BITS, &mut bits) };
+        bits > 0
+    }
+
+    fn start_debug_output(&self) {
+        let Some(set) = self.extra.debug_callback else {
+            return;
+        };
+        let log: *const Mutex<Vec<String>> = &*self.log;
+        // SAFETY: the context is current and has debug output; the log outlives the context.
+        unsafe {
+            self.gl.enable(glow::DEBUG_OUTPUT);
+            self.gl.enable(glow::DEBUG_OUTPUT_SYNCHRONOUS);
+            set(Some(debug_message), log.cast());
+        }
+    }
+
+    /// The debug messages since the last call.
+    pub(crate) fn messages(&self) -> Vec<String> {
+        std::mem::take(&mut *self.log.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Fetches pending errors; the gravest becomes the result.
+    pub(crate) fn check(&self, what: &str) -> Result<(), BackendError> {
+        let mut result = Ok(());
+        for _ in 0..MAX_ERRORS {
+            // SAFETY: the context is current.
+            let code = unsafe { self.gl.get_error() };
+            match code {
+                glow::NO_ERROR => break,
+                CONTEXT_LOST => {
+                    result = Err(lost(what));
+                    break;
+                }
+                glow::OUT_OF_MEMORY => {
+                    result = Err(refused(what, "GL_OUT_OF_MEMORY"));
+                }
+                _ if result.is_ok() => {
+                    let message = format!("{what}: {}", error_name(code));
+                    result = Err(BackendError::Internal(message));
+                }
+                _ => {}
+            }
+        }
+        if let Some(status) = self.extra.get_reset_status {
+            // SAFETY: the context is current and has the function.
+            if unsafe { status() } != glow::NO_ERROR {
+                result = Err(lost(what));
+            }
+        }
+        result
+    }
+}
+
+impl Drop for Context {
+    fn drop(&mut self) {
+        if self.egl.make_current().is_ok()
+            && let Some(set) = self.extra.debug_callback
+        {
+            // SAFETY: the context is current and has debug output.
+            unsafe { set(None, std::ptr::null()) };
+        }
+    }
+}
+
+impl Extra {
+    fn load(egl: &EglContext, es: bool, version: (u32, u32), known: &HashSet<String>) -> Self {
+        let has = |name: &str| known.contains(name);
+        let mut extra = Self::default();
+        macro_rules! load {
+            ($field:ident, $name:literal) => {
+                // SAFETY: the specification gives this name the field's type, and the version or
+                // extension that promises it has been seen.
+                extra.$field = unsafe { entry_point(egl.proc_address($name)) };
+            };
+        }
+        if es {
+            if has("GL_EXT_clip_control") {
+                load!(clip_control, c"glClipControlEXT");
+            }
+            if has("GL_EXT_disjoint_timer_query") {
+                load!(get_query, c"glGetQueryivEXT");
+                load!(get_query_result, c"glGetQueryObjectui64vEXT");
+            }
+            if version >= (3, 2) {
+                load!(debug_callback, c"glDebugMessageCallback");
+                load!(get_reset_status, c"glGetGraphicsResetStatus");
+            } else {
+                if has("GL_KHR_debug") {
+                    load!(debug_callback, c"glDebugMessageCallbackKHR");
+                }
+                if has("GL_KHR_robustness") {
+                    load!(get_reset_status, c"glGetGraphicsResetStatusKHR");
+                }
+            }
+        } else {
+            if version >= (4, 5) || has("GL_ARB_clip_control") {
+                load!(clip_control, c"glClipControl");
+            }
+            load!(get_query, c"glGetQueryiv");
+            load!(get_query_result, c"glGetQueryObjectui64v");
+            if version >= (4, 3) || has("GL_KHR_debug") {
+                load!(debug_callback, c"glDebugMessageCallback");
+            }
+            if version >= (4, 5) || has("GL_KHR_robustness") {
+                load!(get_reset_status, c"glGetGraphicsResetStatus");
+            }
+        }
+        extra
+    }
+}
+
+/// The function at an address, if it is one.
+///
+/// # Safety
+/// `F` is the type of the function there.
+unsafe fn entry_point<F: Copy>(address: *const c_void) -> Option<F> {
+    const { assert!(size_of::<F>() == size_of::<*const c_void>()) };
+    // SAFETY: function pointers have the size of an address, and the caller vouches for the type.
+    (!address.is_null()).then(|| unsafe { std::mem::transmute_copy(&address) })
+}
+
+impl Names {
+    fn query(egl: &EglContext) -> Result<Self, Unavailable> {
+        let address = egl.proc_address(c"glGetString");
+        if address.is_null() {
+            return Err(broken("glGetString"));
+        }
+        type GetString = unsafe extern "system" fn(u32) -> *const c_char;
+        // SAFETY: every version of GL gives this name this type.
+        let get = unsafe { std::mem::transmute::<*const c_void, GetString>(address) };
+        let text = |name, what| {
+            // SAFETY: a context is current, and GL's strings are terminated.
+            let pointer = unsafe { get(name) };
+            if pointer.is_null() {
+                return Err(broken(what));
+            }
+            // SAFETY: as above.
+            Ok(unsafe { CStr::from_ptr(pointer) }
+                .to_string_lossy()
+                .into_owned())
+        };
+        Ok(Self {
+            renderer: text(glow::RENDERER, "GL_RENDERER")?,
+            vendor: text(glow::VENDOR, "GL_VENDOR")?,
+            version: text(glow::VERSION, "GL_VERSION")?,
+        })
+    }
+
+    /// The part of `GL_VERSION` that names the driver's version: `Mesa 22.3.6`.
+    pub(crate) fn driver_version(&self) -> &str {
+        let rest = self.version.trim_start_matches("OpenGL ES ");
+        let rest = rest.split_once(' ').map_or("", |(_, rest)| rest);
+        rest.trim_start_matches("(Core Profile) ").trim()
+    }
+}
+
+/// Collects what a correct program never causes; performance hints and chatter are left out.
+extern "system" fn debug_message(
+    _source: u32,
+    kind: u32,
+    id: u32,
+    severity: u32,
+    length: i32,
+    message: *const c_char,
+    user: *const c_void,
+) {
+    let kind = match kind {
+        glow::DEBUG_TYPE_ERROR => "error",
+        glow::DEBUG_TYPE_UNDEFINED_BEHAVIOR => "undefined behaviour",
+        glow::DEBUG_TYPE_DEPRECATED_BEHAVIOR => "deprecated",
+        glow::DEBUG_TYPE_PORTABILITY => "portability",
+        _ => return,
+    };
+    let grave = [glow::DEBUG_SEVERITY_HIGH, glow::DEBUG_SEVERITY_MEDIUM].contains(&severity);
+    if !grave || message.is_null() {
+        return;
+    }
+    let length = usize::try_from(length).unwrap_or(0);
+    // SAFETY: the driver gives a message of this length and the pointer that it was given, which
+    // outlives the context.
+    let (bytes, log) = unsafe {
+        (
+            std::slice::from_raw_parts(message.cast::<u8>(), length),
+            &*user.cast::<Mutex<Vec<String>>>(),
+        )
+    };
+    let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
+    if log.len() < MAX_MESSAGES {
+        log.push(format!(
+            "{kind} {id}: {}",
+            String::from_utf8_lossy(bytes).trim()
+        ));
+    }
+}
+
+/// An object that the driver would not make.
+pub(crate) fn refused(what: &str, message: impl Into<String>) -> BackendError {
+    BackendError::Resource {
+        what: what.to_owned(),
+        message: message.into(),
+    }
+}
+
+fn lost(what: &str) -> BackendError {
+    BackendError::DeviceLost(format!("{what}: the context was lost"))
+}
+
+fn broken(what: &str) -> Unavailable {
+    Unavailable::new(
+        format!("the context tells no usable {what}"),
+        "use another driver",
+    )
+}
+
+fn error_name(code: u32) -> String {
+    match code {
+        glow::INVALID_ENUM => "GL_INVALID_ENUM".to_owned(),
+        glow::INVALID_VALUE => "GL_INVALID_VALUE".to_owned(),
+        glow::INVALID_OPERATION => "GL_INVALID_OPERATION".to_owned(),
+        glow::INVALID_FRAMEBUFFER_OPERATION => "GL_INVALID_FRAMEBUFFER_OPERATION".to_owned(),
+        _ => format!("GL error 0x{code:04X}"),
+    }
+}
+
+/// The first two numbers of `GL_VERSION`.
+fn parse_version(text: &str) -> Option<(u32, u32)> {
+    let text = text.trim_start_matches("OpenGL ES ");
+    let (major, rest) = text.split_once('.')?;
+    let minor = rest.split(|c: char| !c.is_ascii_digit()).next()?;
+    Some((major.parse().ok()?, minor.parse().ok()?))
+}
+
+/// The shading language of a context; of a future one, the newest that naga knows.
+fn glsl_version(es: bool, (major, minor): (u32, u32)) -> glsl::Version {
+    let number = (major * 100 + minor * 10) as u16;
+    if es {
+        glsl::Version::new_gles(number.min(320))
+    } else {
+        glsl::Version::Desktop(number.min(460))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn versions_are_parsed() {
+        let names = |version: &str| Names {
+            renderer: String::new(),
+            vendor: String::new(),
+            version: version.to_owned(),
+        };
+        for (text, numbers, driver) in [
+            ("4.5 (Core Profile) Mesa 22.3.6", (4, 5), "Mesa 22.3.6"),
+            ("OpenGL ES 3.1 Mesa 22.3.6", (3, 1), "Mesa 22.3.6"),
+            ("4.6.0 NVIDIA 535.54", (4, 6), "NVIDIA 535.54"),
+        ] {
+            assert_eq!(parse_version(text), Some(numbers));
+            assert_eq!(names(text).driver_version(), driver);
+        }
+        assert_eq!(parse_version("none"), None);
+    }
+}

@@ -1,0 +1,507 @@
+//! EGL, loaded at run time: displays, devices and contexts without a surface.
+//!
+//! The entry points are loaded here and not through `khronos-egl`, whose wrappers panic on error
+//! codes that they do not know.
+
+use etalon_backend::Unavailable;
+use libloading::Library;
+use std::collections::HashSet;
+use std::ffi::{CStr, c_char, c_void};
+use std::sync::OnceLock;
+
+type Display = *mut c_void;
+type Config = *mut c_void;
+type ContextHandle = *mut c_void;
+type Device = *mut c_void;
+
+const EXTENSIONS: i32 = 0x3055;
+const NONE: i32 = 0x3038;
+const SURFACE_TYPE: i32 = 0x3033;
+const RENDERABLE_TYPE: i32 = 0x3040;
+const OPENGL_BIT: i32 = 0x0008;
+const OPENGL_ES3_BIT: i32 = 0x0040;
+const OPENGL_API: u32 = 0x30A2;
+const OPENGL_ES_API: u32 = 0x30A0;
+const CONTEXT_MAJOR_VERSION: i32 = 0x3098;
+const CONTEXT_MINOR_VERSION: i32 = 0x30FB;
+const CONTEXT_FLAGS_KHR: i32 = 0x30FC;
+const CONTEXT_DEBUG_BIT_KHR: i32 = 1;
+const CONTEXT_PROFILE_MASK: i32 = 0x30FD;
+const CONTEXT_CORE_PROFILE_BIT: i32 = 1;
+const CONTEXT_RESET_STRATEGY: i32 = 0x31BD;
+const CONTEXT_RESET_STRATEGY_EXT: i32 = 0x3138;
+const LOSE_CONTEXT_ON_RESET: i32 = 0x31BF;
+const CONTEXT_DEBUG: i32 = 0x31B0;
+const PLATFORM_SURFACELESS_MESA: u32 = 0x31DD;
+const PLATFORM_DEVICE_EXT: u32 = 0x313F;
+const DEVICE_EXT: i32 = 0x322C;
+const DRM_DEVICE_FILE_EXT: i32 = 0x3233;
+const DRM_RENDER_NODE_FILE_EXT: i32 = 0x3377;
+const RENDERER_EXT: i32 = 0x335F;
+const CONTEXT_LOST: i32 = 0x300E;
+
+const INSTALL_EGL: &str = "apt-get install libegl1 libgl1-mesa-dri";
+
+/// Through which EGL platform a driver is reached.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Platform {
+    /// `EGL_MESA_platform_surfaceless`, or the default display where EGL lacks it: the environment
+    /// chooses the driver.
+    Surfaceless,
+    /// The device of this position in the order of `EGL_EXT_device_enumeration`.
+    Device(usize),
+}
+
+/// One EGL device.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EglDevice {
+    /// The device's position: opens with [`Platform::Device`].
+    pub index: usize,
+    /// Whether the processor does the drawing (`EGL_MESA_device_software`).
+    pub software: bool,
+    /// The DRM node (`/dev/dri/renderD128`), the primary node where no render node is told.
+    pub drm_node: Option<String>,
+    /// The renderer's name, where EGL tells it before a context exists (`EGL_EXT_device_query_name`).
+    pub renderer: Option<String>,
+}
+
+macro_rules! entry_points {
+    ($($field:ident = $name:literal : fn($($arg:ty),*) -> $ret:ty;)*) => {
+        struct Functions { $($field: unsafe extern "system" fn($($arg),*) -> $ret,)* }
+
+        impl Functions {
+            fn load(library: &Library) -> Result<Self, libloading::Error> {
+                Ok(Self {
+                    $($field: {
+                        // SAFETY: the types are those of the EGL headers, and the library is
+                        // never unloaded.
+                        *unsafe { library.get::<unsafe extern "system" fn($($arg),*) -> $ret>($name) }?
+                    },)*
+                })
+            }
+        }
+    };
+}
+
+entry_points! {
+    get_proc_address = c"eglGetProcAddress": fn(*const c_char) -> *const c_void;
+    get_error = c"eglGetError": fn() -> i32;
+    query_string = c"eglQueryString": fn(Display, i32) -> *const c_char;
+    get_display = c"eglGetDisplay": fn(*mut c_void) -> Display;
+    initialize = c"eglInitialize": fn(Display, *mut i32, *mut i32) -> u32;
+    bind_api = c"eglBindAPI": fn(u32) -> u32;
+    choose_config = c"eglChooseConfig": fn(Display, *const i32, *mut Config, i32, *mut i32) -> u32;
+    create_context = c"eglCreateContext": fn(Display, Config, ContextHandle, *const i32) -> ContextHandle;
+    destroy_context = c"eglDestroyContext": fn(Display, ContextHandle) -> u32;
+    make_current = c"eglMakeCurrent": fn(Display, *mut c_void, *mut c_void, ContextHandle) -> u32;
+    get_current_context = c"eglGetCurrentContext": fn() -> ContextHandle;
+}
+
+type GetPlatformDisplay = unsafe extern "system" fn(u32, *mut c_void, *const i32) -> Display;
+type QueryDevices = unsafe extern "system" fn(i32, *mut Device, *mut i32) -> u32;
+type QueryDeviceString = unsafe extern "system" fn(Device, i32) -> *const c_char;
+type QueryDisplayAttrib = unsafe extern "system" fn(Display, i32, *mut isize) -> u32;
+
+/// The loaded library. It stays for the life of the process: drivers do not survive unloading.
+pub(crate) struct Egl {
+    functions: Functions,
+    extensions: HashSet<String>,
+    _library: Library,
+}
+
+/// The entry points, loaded at the first call.
+pub(crate) fn egl() -> Result<&'static Egl, Unavailable> {
+    static EGL: OnceLock<Result<Egl, Unavailable>> = OnceLock::new();
+    EGL.get_or_init(Egl::load).as_ref().map_err(Clone::clone)
+}
+
+/// What a context is asked to be.
+#[derive(Clone, Copy)]
+pub(crate) struct Wanted {
+    pub(crate) es: bool,
+    pub(crate) debug: bool,
+}
+
+impl Egl {
+    fn load() -> Result<Self, Unavailable> {
+        // SAFETY: libEGL's initialisers have no preconditions.
+        let library = unsafe { Library::new("libEGL.so.1") }
+            .map_err(|_| Unavailable::new("libEGL.so.1 not found", INSTALL_EGL))?;
+        let functions = Functions::load(&library).map_err(|e| {
+            Unavailable::new(format!("libEGL.so.1 is not usable: {e}"), INSTALL_EGL)
+        })?;
+        let mut egl = Self {
+            functions,
+            extensions: HashSet::new(),
+            _library: library,
+        };
+        egl.extensions = egl.display_extensions(std::ptr::null_mut());
+        Ok(egl)
+    }
+
+    /// The address of an EGL extension's or a GL entry point. Being told one proves nothing:
+    /// dispatch libraries make stubs for names they have never heard.
+    pub(crate) fn proc_address(&self, name: &CStr) -> *const c_void {
+        // SAFETY: the name is terminated.
+        unsafe { (self.functions.get_proc_address)(name.as_ptr()) }
+    }
+
+    fn display_extensions(&self, display: Display) -> HashSet<String> {
+        // SAFETY: EGL takes any display handle it made, and none for client extensions.
+        let text = unsafe { text((self.functions.query_string)(display, EXTENSIONS)) };
+        // Without client extensions the query fails; that error must not be taken for a later one.
+        if text.is_none() {
+            self.error();
+        }
+        words(text)
+    }
+
+    fn error(&self) -> String {
+        // SAFETY: no preconditions.
+        error_name(unsafe { (self.functions.get_error)() })
+    }
+
+    fn devices(&self) -> Result<Vec<Device>, Unavailable> {
+        let enumerates = ["EGL_EXT_device_base", "EGL_EXT_device_enumeration"]
+            .iter()
+            .any(|e| self.extensions.contains(*e));
+        let address = self.proc_address(c"eglQueryDevicesEXT");
+        if !enumerates || address.is_null() {
+            return Err(Unavailable::new(
+                "EGL lacks EGL_EXT_device_enumeration",
+                INSTALL_EGL,
+            ));
+        }
+        // SAFETY: the extension gives this name this type.
+        let query = unsafe { std::mem::transmute::<*const c_void, QueryDevices>(address) };
+        let mut devices = [std::ptr::null_mut(); 64];
+        let mut count = 0;
+        // SAFETY: the array is as long as it is said to be.
+        let done = unsafe { query(devices.len() as i32, devices.as_mut_ptr(), &mut count) };
+        if done == 0 {
+            let reason = format!("eglQueryDevicesEXT failed: {}", self.error());
+            return Err(Unavailable::new(reason, INSTALL_EGL));
+        }
+        let count = usize::try_from(count).unwrap_or(0).min(devices.len());
+        Ok(devices[..count].to_vec())
+    }
+
+    fn device_string(&self, device: Device, name: i32) -> Option<String> {
+        let known = ["EGL_EXT_device_base", "EGL_EXT_device_query"]
+            .iter()
+            .any(|e| self.extensions.contains(*e));
+        let address = self.proc_address(c"eglQueryDeviceStringEXT");
+        if !known || address.is_null() {
+            return None;
+        }
+        // SAFETY: the extension gives this name this type.
+        let query = unsafe { std::mem::transmute::<*const c_void, QueryDeviceString>(address) };
+        // SAFETY: the handle came from EGL.
+        let result = unsafe { text(query(device, name)) };
+        if result.is_none() {
+            self.error();
+        }
+        result
+    }
+
+    fn is_software(&self, device: Device) -> bool {
+        words(self.device_string(device, EXTENSIONS)).contains("EGL_MESA_device_software")
+    }
+
+    fn display(&self, platform: Platform) -> Result<Display, Unavailable> {
+        let (platform, native) = match platform {
+            Platform::Surfaceless if !self.extensions.contains("EGL_MESA_platform_surfaceless") => {
+                // SAFETY: the default display has no preconditions.
+                let display = unsafe { (self.functions.get_display)(std::ptr::null_mut()) };
+                return self.some_display(display, "there is no default EGL display");
+            }
+            Platform::Surfaceless => (PLATFORM_SURFACELESS_MESA, std::ptr::null_mut()),
+            Platform::Device(index) => {
+                let devices = self.devices()?;
+                let device = devices.get(index).copied().ok_or_else(|| {
+                    Unavailable::new(
+                        format!("EGL device {index} asked for, {} found", devices.len()),
+                        "name one of the devices that EGL enumerates",
+                    )
+                })?;
+                (PLATFORM_DEVICE_EXT, device)
+            }
+        };
+        let address = self.proc_address(c"eglGetPlatformDisplayEXT");
+        if !self.extensions.contains("EGL_EXT_platform_base") || address.is_null() {
+            return Err(Unavailable::new(
+                "EGL lacks EGL_EXT_platform_base",
+                INSTALL_EGL,
+            ));
+        }
+        // SAFETY: the extension gives this name this type.
+        let get = unsafe { std::mem::transmute::<*const c_void, GetPlatformDisplay>(address) };
+        // SAFETY: the native handle is what the platform asks for: none, or a device.
+        let display = unsafe { get(platform, native, [NONE].as_ptr()) };
+        self.some_display(display, "EGL has no display for this platform")
+    }
+
+    fn some_display(&self, display: Display, reason: &str) -> Result<Display, Unavailable> {
+        if display.is_null() {
+            let reason = format!("{reason}: {}", self.error());
+            return Err(Unavailable::new(reason, INSTALL_EGL));
+        }
+        Ok(display)
+    }
+
+    fn display_is_software(&self, display: Display) -> bool {
+        let known = ["EGL_EXT_device_base", "EGL_EXT_device_query"]
+            .iter()
+            .any(|e| self.extensions.contains(*e));
+        let address = self.proc_address(c"eglQueryDisplayAttribEXT");
+        if !known || address.is_null() {
+            return false;
+        }
+        // SAFETY: the extension gives this name this type.
+        let query = unsafe { std::mem::transmute::<*const c_void, QueryDisplayAttrib>(address) };
+        let mut device = 0_isize;
+        // SAFETY: the display is initialised and the result has room.
+        if unsafe { query(display, DEVICE_EXT, &mut device) } == 0 || device == 0 {
+            self.error();
+            return false;
+        }
+        self.is_software(device as Device)
+    }
+
+    /// Opens the display and makes a context of the highest version from `versions`.
+    pub(crate) fn context(
+        &'static self,
+        platform: Platform,
+        wanted: Wanted,
+        versions: &[(i32, i32)],
+    ) -> Result<EglContext, Unavailable> {
+        let display = self.display(platform)?;
+        let (mut major, mut minor) = (0, 0);
+        // SAFETY: the display came from EGL and the results have room.
+        if unsafe { (self.functions.initialize)(display, &mut major, &mut minor) } == 0 {
+            let reason = format!("eglInitialize failed: {}", self.error());
+            return Err(Unavailable::new(
+                reason,
+                "check the driver's installation and the environment variables that choose it",
+            ));
+        }
+        let extensions = self.display_extensions(display);
+        let has = |name: &str| extensions.contains(name);
+        if !has("EGL_KHR_surfaceless_context") {
+            return Err(Unavailable::new(
+                "the driver lacks EGL_KHR_surfaceless_context",
+                "use a driver that draws without a window",
+            ));
+        }
+        let at_least_1_5 = (major, minor) >= (1, 5);
+        if !at_least_1_5 && !has("EGL_KHR_create_context") {
+            return Err(Unavailable::new(
+                "the driver lacks EGL 1.5 and EGL_KHR_create_context",
+                "use a newer driver",
+            ));
+        }
+        let api = if wanted.es { OPENGL_ES_API } else { OPENGL_API };
+        // SAFETY: no preconditions.
+        if unsafe { (self.functions.bind_api)(api) } == 0 {
+            let reason = format!("eglBindAPI failed: {}", self.error());
+            return Err(Unavailable::new(reason, "use a driver that has this API"));
+        }
+        let config = if has("EGL_KHR_no_config_context") || has("EGL_MESA_configless_context") {
+            std::ptr::null_mut()
+        } else {
+            self.choose_config(display, wanted.es)?
+        };
+        let robust = match (at_least_1_5, has("EGL_EXT_create_context_robustness")) {
+            (true, _) if !wanted.es => Some(CONTEXT_RESET_STRATEGY),
+            (_, true) => Some(CONTEXT_RESET_STRATEGY_EXT),
+            _ => None,
+        };
+        let mut failure = String::new();
+        for &(major, minor) in versions {
+            // A driver that cannot tell of resets refuses the first attempt, not the second.
+            let strategies = [robust, None];
+            let attempts = &strategies[usize::from(robust.is_none())..];
+            for strategy in attempts {
+                let mut list = vec![CONTEXT_MAJOR_VERSION, major, CONTEXT_MINOR_VERSION, minor];
+                if !wanted.es {
+                    list.extend([CONTEXT_PROFILE_MASK, CONTEXT_CORE_PROFILE_BIT]);
+                }
+                if wanted.debug && at_least_1_5 {
+                    list.extend([CONTEXT_DEBUG, 1]);
+                } else if wanted.debug {
+                    list.extend([CONTEXT_FLAGS_KHR, CONTEXT_DEBUG_BIT_KHR]);
+                }
+                if let Some(name) = strategy {
+                    list.extend([*name, LOSE_CONTEXT_ON_RESET]);
+                }
+                list.push(NONE);
+                // SAFETY: the display is initialised, the config is its own or none, and the list
+                // is terminated.
+                let context = unsafe {
+                    (self.functions.create_context)(
+                        display,
+                        config,
+                        std::ptr::null_mut(),
+                        list.as_ptr(),
+                    )
+                };
+                if !context.is_null() {
+                    let context = EglContext {
+                        egl: self,
+                        display,
+                        context,
+                        software: self.display_is_software(display),
+                    };
+                    context.make_current().map_err(|(_, e)| {
+                        Unavailable::new(
+                            format!("eglMakeCurrent failed: {e}"),
+                            "use a driver that draws without a window",
+                        )
+                    })?;
+                    return Ok(context);
+                }
+                failure = self.error();
+            }
+        }
+        let (major, minor) = versions.last().copied().unwrap_or_default();
+        let what = if wanted.es {
+            "OpenGL ES"
+        } else {
+            "OpenGL core"
+        };
+        Err(Unavailable::new(
+            format!("no {what} context of version {major}.{minor} or above: {failure}"),
+            "use a newer driver, or check the environment variables that choose it",
+        ))
+    }
+
+    fn choose_config(&self, display: Display, es: bool) -> Result<Config, Unavailable> {
+        let renderable = if es { OPENGL_ES3_BIT } else { OPENGL_BIT };
+        let list = [SURFACE_TYPE, 0, RENDERABLE_TYPE, renderable, NONE];
+        let (mut config, mut count) = (std::ptr::null_mut(), 0);
+        // SAFETY: the display is initialised, the list is terminated and the result has room.
+        let done = unsafe {
+            (self.functions.choose_config)(display, list.as_ptr(), &mut config, 1, &mut count)
+        };
+        if done == 0 || count < 1 {
+            return Err(Unavailable::new(
+                format!("no EGL config: {}", self.error()),
+                "use a driver that has this API",
+            ));
+        }
+        Ok(config)
+    }
+}
+
+/// Lists the EGL devices, for finding hardware.
+///
+/// # Errors
+/// When there is no EGL, or it cannot enumerate devices.
+pub fn enumerate() -> Result<Vec<EglDevice>, Unavailable> {
+    let egl = egl()?;
+    let mut result = Vec::new();
+    for (index, device) in egl.devices()?.into_iter().enumerate() {
+        let extensions = words(egl.device_string(device, EXTENSIONS));
+        let query = |extension: &str, name| {
+            let known = extensions.contains(extension);
+            known.then(|| egl.device_string(device, name)).flatten()
+        };
+        result.push(EglDevice {
+            index,
+            software: extensions.contains("EGL_MESA_device_software"),
+            drm_node: query("EGL_EXT_device_drm_render_node", DRM_RENDER_NODE_FILE_EXT)
+                .or_else(|| query("EGL_EXT_device_drm", DRM_DEVICE_FILE_EXT)),
+            renderer: query("EGL_EXT_device_query_name", RENDERER_EXT),
+        });
+    }
+    Ok(result)
+}
+
+/// A context, destroyed on drop. The raw handles keep it on the thread that made it.
+pub(crate) struct EglContext {
+    egl: &'static Egl,
+    display: Display,
+    context: ContextHandle,
+    software: bool,
+}
+
+impl EglContext {
+    /// Makes the context current on this thread, if it is not. Fails with whether the context is
+    /// lost and EGL's word.
+    pub(crate) fn make_current(&self) -> Result<(), (bool, String)> {
+        let functions = &self.egl.functions;
+        let none = std::ptr::null_mut();
+        // SAFETY: display and context live; no surface is needed (EGL_KHR_surfaceless_context).
+        unsafe {
+            // Asking costs less than a cache that other users of EGL in this process could defeat.
+            if (functions.get_current_context)() == self.context
+                || (functions.make_current)(self.display, none, none, self.context) != 0
+            {
+                return Ok(());
+            }
+            let error = (functions.get_error)();
+            Err((error == CONTEXT_LOST, error_name(error)))
+        }
+    }
+
+    /// Whether EGL says that the processor does the drawing.
+    pub(crate) fn is_software(&self) -> bool {
+        self.software
+    }
+
+    /// See [`Egl::proc_address`].
+    pub(crate) fn proc_address(&self, name: &CStr) -> *const c_void {
+        self.egl.proc_address(name)
+    }
+}
+
+impl Drop for EglContext {
+    fn drop(&mut self) {
+        let functions = &self.egl.functions;
+        let none = std::ptr::null_mut();
+        // SAFETY: display and context live. The display is shared by all contexts of the process,
+        // so it is never terminated.
+        unsafe {
+            if (functions.get_current_context)() == self.context {
+                (functions.make_current)(self.display, none, none, none);
+            }
+            (functions.destroy_context)(self.display, self.context);
+        }
+    }
+}
+
+/// A driver's string, if there is one.
+///
+/// # Safety
+/// The pointer is null or a terminated string.
+unsafe fn text(pointer: *const c_char) -> Option<String> {
+    if pointer.is_null() {
+        return None;
+    }
+    // SAFETY: not null, and the caller vouches for the rest.
+    let text = unsafe { CStr::from_ptr(pointer) };
+    Some(text.to_string_lossy().into_owned())
+}
+
+fn words(text: Option<String>) -> HashSet<String> {
+    let text = text.unwrap_or_default();
+    text.split_whitespace().map(str::to_owned).collect()
+}
+
+fn error_name(code: i32) -> String {
+    let name = match code {
+        0x3000 => "EGL_SUCCESS",
+        0x3001 => "EGL_NOT_INITIALIZED",
+        0x3002 => "EGL_BAD_ACCESS",
+        0x3003 => "EGL_BAD_ALLOC",
+        0x3004 => "EGL_BAD_ATTRIBUTE",
+        0x3005 => "EGL_BAD_CONFIG",
+        0x3006 => "EGL_BAD_CONTEXT",
+        0x3008 => "EGL_BAD_DISPLAY",
+        0x3009 => "EGL_BAD_MATCH",
+        0x300C => "EGL_BAD_PARAMETER",
+        CONTEXT_LOST => "EGL_CONTEXT_LOST",
+        _ => return format!("EGL error 0x{code:04X}"),
+    };
+    name.to_owned()
+}

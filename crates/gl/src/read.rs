@@ -1,0 +1,300 @@
+//! Reading attachments back, as codes.
+
+use crate::context::{Context, refused};
+use crate::format::{ReadPlan, ShaderStencil};
+use crate::program::{Programs, Reader};
+use crate::state;
+use crate::surface::{Pool, Surface, SurfaceKind};
+use etalon_backend::BackendError;
+use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath, TextureFormat};
+use glow::HasContext;
+
+const STENCIL_INDEX: u32 = 0x1901;
+const DEPTH_STENCIL_TEXTURE_MODE: u32 = 0x90EA;
+
+/// What a read needs besides the surface.
+pub(crate) struct Reading<'a> {
+    pub(crate) context: &'a Context,
+    pub(crate) pool: &'a mut Pool,
+    pub(crate) programs: &'a mut Programs,
+    /// A vertex array without attributes.
+    pub(crate) no_vertices: glow::VertexArray,
+}
+
+/// The codes of depth and of stencil, as far as a format has them.
+type DepthStencil = (Option<Vec<u32>>, Option<Vec<u32>>);
+
+/// One attachment to be read.
+pub(crate) struct Source<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) format: TextureFormat,
+    pub(crate) plan: ReadPlan,
+    pub(crate) depth: &'a [ChannelEncoding],
+    pub(crate) surface: &'a Surface,
+}
+
+impl Reading<'_> {
+    /// The images of all aspects of an attachment, depth before stencil.
+    pub(crate) fn images(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
+        let image = |aspect, channels, read, codes| Image {
+            attachment: source.name.to_owned(),
+            aspect,
+            size: source.surface.size(),
+            samples: 1,
+            channels,
+            read,
+            codes,
+        };
+        if source.format.is_color() {
+            let (codes, _) = copy(self.context, source.surface, source.plan);
+            let channels = source.format.color_channels().to_vec();
+            return Ok(vec![image(Aspect::Color, channels, ReadPath::Copy, codes)]);
+        }
+        let (depth, stencil) = self.depth_stencil(source)?;
+        let mut images = Vec::new();
+        if let Some(codes) = depth {
+            let (channels, path) = match source.plan {
+                ReadPlan::Shader { .. } => (vec![ChannelEncoding::Float32], ReadPath::Shader),
+                _ => (source.depth.to_vec(), ReadPath::Copy),
+            };
+            images.push(image(Aspect::Depth, channels, path, codes));
+        }
+        if let Some(codes) = stencil {
+            // Integers arrive exactly on either path, so that there is nothing to tell.
+            let channels = vec![ChannelEncoding::Uint(8)];
+            images.push(image(Aspect::Stencil, channels, ReadPath::Copy, codes));
+        }
+        Ok(images)
+    }
+
+    fn depth_stencil(&mut self, source: &Source<'_>) -> Result<DepthStencil, BackendError> {
+        let ReadPlan::Shader { depth, stencil } = source.plan else {
+            let (first, second) = copy(self.context, source.surface, source.plan);
+            return Ok(if source.format.has_depth() {
+                (Some(first), second)
+            } else {
+                (None, Some(first))
+            });
+        };
+        let depth = if depth {
+            Some(self.fetch(source.surface, Reader::Depth)?)
+        } else {
+            None
+        };
+        let stencil = match stencil {
+            ShaderStencil::None => None,
+            ShaderStencil::Copy => Some(copy(self.context, source.surface, ReadPlan::Stencil).0),
+            ShaderStencil::Shader => Some(self.fetch(source.surface, Reader::Stencil)?),
+        };
+        Ok((depth, stencil))
+    }
+
+    /// Draws what a shader fetches from the surface and reads that.
+    fn fetch(&mut self, surface: &Surface, reader: Reader) -> Result<Vec<u32>, BackendError> {
+        let context = self.context;
+        let gl = &context.gl;
+        let Some(texture) = surface.texture() else {
+            return Err(BackendError::Internal(
+                "a renderbuffer was to be fetched from".to_owned(),
+            ));
+        };
+        let program = self.programs.reader(context, reader)?;
+        let size = surface.size();
+        let target = self.pool.surface(context, SurfaceKind::Fetched, size)?;
+        if !target.is_complete() {
+            target.delete(context);
+            return Err(refused("a framebuffer for reading back", "incomplete"));
+        }
+        state::reset(context);
+        let set_mode = |mode: u32| {
+            if context.caps.stencil_texturing {
+                // SAFETY: the texture is bound and the context knows the parameter.
+                unsafe {
+                    gl.tex_parameter_i32(glow::TEXTURE_2D, DEPTH_STENCIL_TEXTURE_MODE, mode as i32);
+                }
+            }
+        };
+        // SAFETY: the context is current, all objects are its own, and the draw reads no vertices.
+        unsafe {
+            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(target.framebuffer));
+            gl.viewport(0, 0, size[0] as i32, size[1] as i32);
+            gl.use_program(Some(program));
+            gl.bind_vertex_array(Some(self.no_vertices));
+            gl.active_texture(glow::TEXTURE0);
+            gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+            if reader == Reader::Stencil {
+                set_mode(STENCIL_INDEX);
+            }
+            gl.draw_arrays(glow::TRIANGLES, 0, 3);
+            if reader == Reader::Stencil {
+                set_mode(glow::DEPTH_COMPONENT);
+            }
+        }
+        let texels = size[0] as usize * size[1] as usize;
+        let mut wide = vec![0_u32; texels * 4];
+        // Every version reads unsigned integers as four channels.
+        read_pixels(gl, size, glow::RGBA_INTEGER, glow::UNSIGNED_INT, &mut wide);
+        self.pool.put_surface(context, target);
+        Ok(wide.chunks_exact(4).map(|texel| texel[0]).collect())
+    }
+}
+
+/// Reads a surface by `glReadPixels`: colour, depth or else stencil, and the stencil beside depth.
+fn copy(context: &Context, surface: &Surface, plan: ReadPlan) -> (Vec<u32>, Option<Vec<u32>>) {
+    let gl = &context.gl;
+    let size = surface.size();
+    let texels = size[0] as usize * size[1] as usize;
+    // SAFETY: the context is current and the framebuffer is its own.
+    unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer)) };
+    let words = |format, kind, per_texel: usize| {
+        let mut words = vec![0_u32; texels * per_texel];
+        read_pixels(gl, size, format, kind, &mut words);
+        words
+    };
+    let depth = glow::DEPTH_COMPONENT;
+    match plan {
+        ReadPlan::Bytes => {
+            let mut bytes = vec![0_u8; texels * 4];
+            read_pixels(gl, size, glow::RGBA, glow::UNSIGNED_BYTE, &mut bytes);
+            (bytes.into_iter().map(u32::from).collect(), None)
+        }
+        ReadPlan::Floats => (words(glow::RGBA, glow::FLOAT, 4), None),
+        ReadPlan::Depth16 => {
+            let mut codes = vec![0_u16; texels];
+            read_pixels(gl, size, depth, glow::UNSIGNED_SHORT, &mut codes);
+            (codes.into_iter().map(u32::from).collect(), None)
+        }
+        ReadPlan::Depth24 => {
+            let mut codes = words(depth, glow::UNSIGNED_INT, 1);
+            codes.iter_mut().for_each(|code| *code >>= 8);
+            (codes, None)
+        }
+        ReadPlan::DepthFloat => (words(depth, glow::FLOAT, 1), None),
+        ReadPlan::Depth24Stencil8 => {
+            let both = words(glow::DEPTH_STENCIL, glow::UNSIGNED_INT_24_8, 1);
+            let stencil = both.iter().map(|word| word & 0xff).collect();
+            (both.iter().map(|word| word >> 8).collect(), Some(stencil))
+        }
+        ReadPlan::DepthFloatStencil8 => {
+            let kind = glow::FLOAT_32_UNSIGNED_INT_24_8_REV;
+            let both = words(glow::DEPTH_STENCIL, kind, 2);
+            let every = |at: usize| both.iter().skip(at).step_by(2);
+            let stencil = every(1).map(|word| word & 0xff).collect();
+            (every(0).copied().collect(), Some(stencil))
+        }
+        ReadPlan::Stencil | ReadPlan::Shader { .. } => {
+            let mut values = vec![0_u8; texels];
+            read_pixels(gl, size, STENCIL_INDEX, glow::UNSIGNED_BYTE, &mut values);
+            (values.into_iter().map(u32::from).collect(), None)
+        }
+    }
+}
+
+/// Reads the bound framebuffer into a slice that has room for exactly this.
+fn read_pixels<T: bytemuck::Pod>(
+    gl: &glow::Context,
+    size: [u32; 2],
+    format: u32,
+    kind: u32,
+    into: &mut [T],
+) {
+    let pixels = glow::PixelPackData::Slice(Some(bytemuck::cast_slice_mut(into)));
+    // SAFETY: rows are packed tightly (`state::reset`) and the callers size the slice by format
+    // and type.
+    unsafe {
+        gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
+        gl.read_pixels(0, 0, size[0] as i32, size[1] as i32, format, kind, pixels);
+    }
+}
+
+/// The first 32-bit code that is not below a 24-bit one, so that it becomes that again whether a
+/// driver truncates or rounds.
+fn widened(code: u32) -> u32 {
+    let exact = u64::from(code) * u64::from(u32::MAX);
+    exact.div_ceil(0xff_ffff) as u32
+}
+
+/// Whether codes that are uploaded to a depth texture come back unchanged, so that reading is an
+/// exact copy: GL describes both ways as conversions, which might round.
+pub(crate) fn round_trips(
+    context: &Context,
+    surface: &Surface,
+    format: TextureFormat,
+    plan: ReadPlan,
+) -> bool {
+    let Some(texture) = surface.texture() else {
+        return false;
+    };
+    let size = surface.size();
+    let last = size[0] * size[1] - 1;
+    let spread = |most: u32| {
+        let code = move |i| (u64::from(i) * u64::from(most) / u64::from(last)) as u32;
+        (0..=last).map(code)
+    };
+    let floats = || (0..=last).map(|i| (i as f32 / last as f32).to_bits());
+    let stencils = || (0..=last).map(|i| i & 0xff);
+    let (kind, bytes, codes): (u32, Vec<u8>, Vec<u32>) = match plan {
+        ReadPlan::Depth16 => (
+            glow::UNSIGNED_SHORT,
+            spread(0xffff)
+                .flat_map(|c| (c as u16).to_ne_bytes())
+                .collect(),
+            spread(0xffff).collect(),
+        ),
+        ReadPlan::Depth24 => (
+            glow::UNSIGNED_INT,
+            spread(0xff_ffff)
+                .flat_map(|c| widened(c).to_ne_bytes())
+                .collect(),
+            spread(0xff_ffff).collect(),
+        ),
+        ReadPlan::DepthFloat => (
+            glow::FLOAT,
+            floats().flat_map(u32::to_ne_bytes).collect(),
+            floats().collect(),
+        ),
+        ReadPlan::Depth24Stencil8 => (
+            glow::UNSIGNED_INT_24_8,
+            spread(0xff_ffff)
+                .zip(stencils())
+                .flat_map(|(c, s)| (c << 8 | s).to_ne_bytes())
+                .collect(),
+            spread(0xff_ffff).collect(),
+        ),
+        ReadPlan::DepthFloatStencil8 => (
+            glow::FLOAT_32_UNSIGNED_INT_24_8_REV,
+            floats()
+                .zip(stencils())
+                .flat_map(|(c, s)| [c, s])
+                .flat_map(u32::to_ne_bytes)
+                .collect(),
+            floats().collect(),
+        ),
+        _ => return false,
+    };
+    let layout = if format.has_stencil() {
+        glow::DEPTH_STENCIL
+    } else {
+        glow::DEPTH_COMPONENT
+    };
+    let gl = &context.gl;
+    state::reset(context);
+    // SAFETY: the context is current, rows are packed tightly, and the bytes cover the texture.
+    unsafe {
+        gl.active_texture(glow::TEXTURE0);
+        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+        gl.tex_sub_image_2d(
+            glow::TEXTURE_2D,
+            0,
+            0,
+            0,
+            size[0] as i32,
+            size[1] as i32,
+            layout,
+            kind,
+            glow::PixelUnpackData::Slice(Some(&bytes)),
+        );
+    }
+    let (read, stencil) = copy(context, surface, plan);
+    read == codes && stencil.is_none_or(|s| s.into_iter().eq(stencils()))
+}

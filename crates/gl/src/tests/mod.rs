@@ -1,0 +1,174 @@
+//! Every check on every software driver, each driver in a process of its own: the environment
+//! chooses it before libEGL is loaded.
+
+mod checks;
+
+use crate::{GlBackend, Options, Platform, Profile, Tuning, open_with};
+use etalon_backend::Backend;
+use etalon_frame::Api;
+use std::process::Command;
+
+const CHILD: &str = "ETALON_GL_TEST_CHILD";
+const INSTALL: &str = "apt-get install libegl1 libgl1-mesa-dri mesa-vulkan-drivers";
+
+const LLVMPIPE: &[(&str, &str)] = &[
+    ("LIBGL_ALWAYS_SOFTWARE", "1"),
+    ("GALLIUM_DRIVER", "llvmpipe"),
+];
+const SOFTPIPE: &[(&str, &str)] = &[
+    ("LIBGL_ALWAYS_SOFTWARE", "1"),
+    ("GALLIUM_DRIVER", "softpipe"),
+];
+const ZINK: &[(&str, &str)] = &[
+    ("LIBGL_ALWAYS_SOFTWARE", "1"),
+    ("MESA_LOADER_DRIVER_OVERRIDE", "zink"),
+    ("GALLIUM_DRIVER", "zink"),
+    (
+        "VK_ICD_FILENAMES",
+        "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json",
+    ),
+    (
+        "VK_DRIVER_FILES",
+        "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json",
+    ),
+];
+
+/// Runs the body in a process with this environment: the test of this name, once more.
+fn in_child(test: &str, environment: &[(&str, &str)], body: fn()) {
+    if std::env::var_os(CHILD).is_some() {
+        body();
+        return;
+    }
+    let program = std::env::current_exe().expect("the test's own path");
+    let output = Command::new(program)
+        .args([&format!("tests::{test}"), "--exact", "--nocapture"])
+        .env(CHILD, "1")
+        .envs(environment.iter().copied())
+        .output()
+        .expect("the test starts itself");
+    let text = format!(
+        "{}{}",
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(
+        output.status.success(),
+        "{test} with {environment:?}:\n{text}"
+    );
+    assert!(text.contains("1 passed"), "{test} did not run:\n{text}");
+    print!("{text}");
+}
+
+/// Opens an adapter and holds that the driver is the one that was asked for.
+fn adapter(profile: Profile, driver: &str, clip_control: bool) -> GlBackend {
+    let options = Options {
+        profile,
+        platform: Platform::Surfaceless,
+        debug: true,
+    };
+    let backend = match open_with("gl:test", &options, Tuning { clip_control }) {
+        Ok(backend) => backend,
+        Err(e) => panic!("{driver} cannot be opened: {e} ({INSTALL})"),
+    };
+    let info = backend.adapter();
+    println!("{info:?}\n{:?}", backend.limits());
+    let device = info.device.to_lowercase();
+    assert!(
+        device.starts_with(driver),
+        "{device} is not {driver} ({INSTALL})"
+    );
+    assert!(info.software);
+    assert_eq!(backend.context.caps.clip_control, clip_control);
+    let expected = match profile {
+        Profile::Core => Api::OpenGl,
+        Profile::Es => Api::OpenGlEs,
+    };
+    assert_eq!(backend.limits().api, expected);
+    backend
+}
+
+#[test]
+fn llvmpipe() {
+    in_child("llvmpipe", LLVMPIPE, || {
+        checks::all(&adapter(Profile::Core, "llvmpipe", true));
+    });
+}
+
+#[test]
+fn llvmpipe_es() {
+    in_child("llvmpipe_es", LLVMPIPE, || {
+        checks::all(&adapter(Profile::Es, "llvmpipe", true));
+    });
+}
+
+#[test]
+fn llvmpipe_without_clip_control() {
+    in_child("llvmpipe_without_clip_control", LLVMPIPE, || {
+        checks::all(&adapter(Profile::Core, "llvmpipe", false));
+        checks::all(&adapter(Profile::Es, "llvmpipe", false));
+    });
+}
+
+#[test]
+fn softpipe() {
+    in_child("softpipe", SOFTPIPE, || {
+        checks::all(&adapter(Profile::Core, "softpipe", true));
+    });
+}
+
+#[test]
+fn softpipe_es() {
+    in_child("softpipe_es", SOFTPIPE, || {
+        checks::all(&adapter(Profile::Es, "softpipe", true));
+    });
+}
+
+#[test]
+fn softpipe_without_clip_control() {
+    in_child("softpipe_without_clip_control", SOFTPIPE, || {
+        checks::all(&adapter(Profile::Core, "softpipe", false));
+        checks::all(&adapter(Profile::Es, "softpipe", false));
+    });
+}
+
+#[test]
+fn zink() {
+    in_child("zink", ZINK, || {
+        checks::all(&adapter(Profile::Core, "zink", true));
+    });
+}
+
+#[test]
+fn devices_are_enumerated_and_open() {
+    in_child("devices_are_enumerated_and_open", LLVMPIPE, || {
+        let devices = crate::enumerate().expect("EGL enumerates devices");
+        println!("{devices:?}");
+        let software = devices
+            .iter()
+            .find(|d| d.software)
+            .expect("Mesa's software device");
+        let options = Options {
+            profile: Profile::Core,
+            platform: Platform::Device(software.index),
+            debug: true,
+        };
+        let backend = crate::open("gl:device", &options).expect("the software device opens");
+        checks::all(&backend);
+        let none = Options {
+            platform: Platform::Device(devices.len()),
+            ..options
+        };
+        assert!(crate::open("gl:none", &none).is_err());
+    });
+}
+
+#[test]
+fn two_adapters_take_turns() {
+    in_child("two_adapters_take_turns", LLVMPIPE, || {
+        let core = adapter(Profile::Core, "llvmpipe", true);
+        let es = adapter(Profile::Es, "llvmpipe", true);
+        checks::interleaved(&[&core, &es]);
+        drop(core);
+        checks::interleaved(&[&es]);
+    });
+}

@@ -1,0 +1,61 @@
+//! What a number system offers to the pipeline.
+
+use etalon_frame::ChannelEncoding;
+
+/// A number system. Operations take `&mut self` so that a system may keep notes of what it did.
+///
+/// The named steps exist because the specifications grant each its own freedom: a store may round
+/// to either neighbour, a blend may work at the destination's precision. [`crate::Plain`] takes
+/// the one result that the yardstick wants; the judging system takes all that are allowed.
+pub trait Arithmetic {
+    /// One real value or several side by side.
+    type Real: Copy;
+    /// Codes of one channel, as the walker stores them.
+    type Code: Copy;
+
+    /// A value that is exactly this float.
+    fn constant(&mut self, value: f32) -> Self::Real;
+    /// Sum.
+    fn add(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
+    /// Difference.
+    fn sub(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
+    /// Product.
+    fn mul(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
+    /// Quotient by a value that is not zero.
+    fn div(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
+    /// The smaller of two.
+    fn min(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
+    /// The larger of two.
+    fn max(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
+
+    /// A window coordinate computed by the viewport transform, in texels of an axis so long.
+    fn window_coordinate(&mut self, value: Self::Real, length: f32) -> Self::Real;
+    /// A window depth computed by the viewport transform.
+    fn window_depth(&mut self, value: Self::Real) -> Self::Real;
+
+    /// The value that a stored code stands for.
+    fn decode(&mut self, encoding: ChannelEncoding, code: Self::Code) -> Self::Real;
+    /// The code that a value is stored as.
+    fn encode(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Code;
+
+    /// A source, destination or constant as it enters a blend into this encoding: clamped to what
+    /// the encoding can hold, at the precision of blending.
+    fn blend_operand(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
+    /// A blend factor of the form `1 - value`.
+    fn blend_complement(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
+    /// One side of a blend equation: operand times factor.
+    fn blend_product(
+        &mut self,
+        encoding: ChannelEncoding,
+        operand: Self::Real,
+        factor: Self::Real,
+    ) -> Self::Real;
+    /// The two sides of a blend equation joined: `a + b`, or `a - b`.
+    fn blend_sum(
+        &mut self,
+        encoding: ChannelEncoding,
+        a: Self::Real,
+        b: Self::Real,
+        subtract: bool,
+    ) -> Self::Real;
+}

@@ -1,0 +1,185 @@
+//! Blending (Vulkan, Blending; OpenGL 4.6, 17.3.6; WebGPU, blend state).
+
+use crate::arithmetic::Arithmetic;
+use etalon_case::state::{BlendComponent, BlendFactor, BlendOperation, BlendState};
+use etalon_frame::ChannelEncoding;
+
+/// What a blend works on. Channels in the order red, green, blue, alpha.
+#[derive(Clone, Copy, Debug)]
+pub struct BlendInput<R> {
+    /// The fragment's colour.
+    pub src: [R; 4],
+    /// The stored colour.
+    pub dst: [R; 4],
+    /// The blend constant.
+    pub constant: [R; 4],
+}
+
+/// A factor before it is multiplied: the two that no arithmetic is needed for stay apart, since
+/// `0 * x = 0` and `1 * x = x` are exact for finite `x` in every specification.
+enum Factor<R> {
+    Zero,
+    One,
+    Value(R),
+}
+
+/// Blends one colour. `encodings` are the destination's channels; all four must be given.
+pub fn blend<A: Arithmetic>(
+    a: &mut A,
+    state: &BlendState,
+    encodings: [ChannelEncoding; 4],
+    input: &BlendInput<A::Real>,
+) -> [A::Real; 4] {
+    // Operands are taken at blending precision once, so that all uses agree.
+    let mut operands = *input;
+    for c in 0..4 {
+        operands.src[c] = a.blend_operand(encodings[c], input.src[c]);
+        operands.dst[c] = a.blend_operand(encodings[c], input.dst[c]);
+        operands.constant[c] = a.blend_operand(encodings[c], input.constant[c]);
+    }
+    std::array::from_fn(|c| {
+        let component = if c == 3 { &state.alpha } else { &state.color };
+        channel(a, component, encodings[c], &operands, c)
+    })
+}
+
+fn channel<A: Arithmetic>(
+    a: &mut A,
+    component: &BlendComponent,
+    encoding: ChannelEncoding,
+    input: &BlendInput<A::Real>,
+    c: usize,
+) -> A::Real {
+    let (src, dst) = (input.src[c], input.dst[c]);
+    match component.operation {
+        BlendOperation::Min => a.min(src, dst),
+        BlendOperation::Max => a.max(src, dst),
+        BlendOperation::Add | BlendOperation::Subtract | BlendOperation::ReverseSubtract => {
+            let src_factor = factor(a, component.src_factor, encoding, input, c);
+            let dst_factor = factor(a, component.dst_factor, encoding, input, c);
+            let s = side(a, encoding, src, src_factor);
+            let d = side(a, encoding, dst, dst_factor);
+            match component.operation {
+                BlendOperation::Subtract => a.blend_sum(encoding, s, d, true),
+                BlendOperation::ReverseSubtract => a.blend_sum(encoding, d, s, true),
+                _ => a.blend_sum(encoding, s, d, false),
+            }
+        }
+    }
+}
+
+fn side<A: Arithmetic>(
+    a: &mut A,
+    encoding: ChannelEncoding,
+    operand: A::Real,
+    factor: Factor<A::Real>,
+) -> A::Real {
+    match factor {
+        Factor::Zero => a.constant(0.0),
+        Factor::One => operand,
+        Factor::Value(value) => a.blend_product(encoding, operand, value),
+    }
+}
+
+fn factor<A: Arithmetic>(
+    a: &mut A,
+    factor: BlendFactor,
+    encoding: ChannelEncoding,
+    input: &BlendInput<A::Real>,
+    c: usize,
+) -> Factor<A::Real> {
+    let value = match factor {
+        BlendFactor::Zero => return Factor::Zero,
+        BlendFactor::One => return Factor::One,
+        BlendFactor::SrcAlphaSaturated if c == 3 => return Factor::One,
+        BlendFactor::SrcAlphaSaturated => {
+            let rest = a.blend_complement(encoding, input.dst[3]);
+            a.min(input.src[3], rest)
+        }
+        BlendFactor::Src | BlendFactor::OneMinusSrc => input.src[c],
+        BlendFactor::SrcAlpha | BlendFactor::OneMinusSrcAlpha => input.src[3],
+        BlendFactor::Dst | BlendFactor::OneMinusDst => input.dst[c],
+        BlendFactor::DstAlpha | BlendFactor::OneMinusDstAlpha => input.dst[3],
+        BlendFactor::Constant | BlendFactor::OneMinusConstant => input.constant[c],
+        BlendFactor::ConstantAlpha | BlendFactor::OneMinusConstantAlpha => input.constant[3],
+    };
+    Factor::Value(match factor {
+        BlendFactor::OneMinusSrc
+        | BlendFactor::OneMinusSrcAlpha
+        | BlendFactor::OneMinusDst
+        | BlendFactor::OneMinusDstAlpha
+        | BlendFactor::OneMinusConstant
+        | BlendFactor::OneMinusConstantAlpha => a.blend_complement(encoding, value),
+        _ => value,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plain::Plain;
+
+    fn over(operation: BlendOperation) -> BlendState {
+        let component = BlendComponent {
+            operation,
+            src_factor: BlendFactor::SrcAlpha,
+            dst_factor: BlendFactor::OneMinusSrcAlpha,
+        };
+        BlendState {
+            color: component,
+            alpha: component,
+        }
+    }
+
+    fn run(state: &BlendState, src: [f32; 4], dst: [f32; 4]) -> [f32; 4] {
+        let input = BlendInput {
+            src: src.map(|v| [v]),
+            dst: dst.map(|v| [v]),
+            constant: [[0.0]; 4],
+        };
+        blend(
+            &mut Plain::<1>,
+            state,
+            [ChannelEncoding::Unorm(8); 4],
+            &input,
+        )
+        .map(|v| v[0])
+    }
+
+    #[test]
+    fn the_textbook_example_of_over() {
+        let state = over(BlendOperation::Add);
+        let result = run(&state, [0.0, 0.0, 1.0, 0.6], [1.0, 0.0, 0.0, 1.0]);
+        for (value, due) in result.into_iter().zip([0.4, 0.0, 0.6, 0.76]) {
+            assert!((value - due).abs() < 1e-6, "{value} for {due}");
+        }
+    }
+
+    #[test]
+    fn min_and_max_ignore_factors() {
+        let (src, dst) = ([0.2, 0.8, 0.5, 0.0], [0.4, 0.4, 0.5, 1.0]);
+        assert_eq!(
+            run(&over(BlendOperation::Min), src, dst),
+            [0.2, 0.4, 0.5, 0.0]
+        );
+        assert_eq!(
+            run(&over(BlendOperation::Max), src, dst),
+            [0.4, 0.8, 0.5, 1.0]
+        );
+    }
+
+    #[test]
+    fn saturate_is_one_for_alpha() {
+        let component = BlendComponent {
+            operation: BlendOperation::Add,
+            src_factor: BlendFactor::SrcAlphaSaturated,
+            dst_factor: BlendFactor::Zero,
+        };
+        let state = BlendState {
+            color: component,
+            alpha: component,
+        };
+        let result = run(&state, [1.0, 0.5, 0.0, 0.75], [0.0, 0.0, 0.0, 0.5]);
+        assert_eq!(result, [0.5, 0.25, 0.0, 0.75]);
+    }
+}

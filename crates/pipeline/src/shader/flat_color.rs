@@ -1,0 +1,13 @@
+//! Twin of `shaders/flat_color.wgsl`.
+
+use super::{FragmentInput, FragmentOutput};
+use crate::arithmetic::Arithmetic;
+
+pub(super) fn fragment<A: Arithmetic>(
+    input: &FragmentInput<'_, A::Real>,
+) -> FragmentOutput<A::Real> {
+    FragmentOutput {
+        color: input.color,
+        depth: None,
+    }
+}

@@ -1,0 +1,14 @@
+//! Twin of `shaders/flat_color_depth.wgsl`.
+
+use super::{FragmentInput, FragmentOutput};
+use crate::arithmetic::Arithmetic;
+
+pub(super) fn fragment<A: Arithmetic>(
+    a: &mut A,
+    input: &FragmentInput<'_, A::Real>,
+) -> FragmentOutput<A::Real> {
+    FragmentOutput {
+        color: input.params.color.map(|v| a.constant(v)),
+        depth: Some(input.color[0]),
+    }
+}

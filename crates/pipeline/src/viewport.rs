@@ -1,0 +1,55 @@
+//! From clip space to the window, and which faces are left.
+
+use crate::arithmetic::Arithmetic;
+use etalon_case::state::{CullMode, FrontFace};
+
+/// The window position of a clip-space position: x and y in texels from the top left corner, depth
+/// in 0..=1. The viewport covers attachments of the given size (Vulkan, Controlling the Viewport;
+/// WebGPU, 23.2.4: y up in clip space is down in the window).
+pub fn window_position<A: Arithmetic>(
+    a: &mut A,
+    position: [f32; 4],
+    size: [u32; 2],
+) -> [A::Real; 3] {
+    let clip = position.map(|v| a.constant(v));
+    let half = a.constant(0.5);
+    let ndc = if position[3] == 1.0 {
+        [clip[0], clip[1], clip[2]]
+    } else {
+        [0, 1, 2].map(|i| a.div(clip[i], clip[3]))
+    };
+    let axis = |a: &mut A, value: A::Real, length: u32, flip: bool| {
+        let length = length as f32;
+        let halved = a.mul(value, half);
+        let unit = if flip {
+            a.sub(half, halved)
+        } else {
+            a.add(half, halved)
+        };
+        let size = a.constant(length);
+        let exact = a.mul(unit, size);
+        a.window_coordinate(exact, length)
+    };
+    let x = axis(a, ndc[0], size[0], false);
+    let y = axis(a, ndc[1], size[1], true);
+    let z = a.window_depth(ndc[2]);
+    [x, y, z]
+}
+
+/// Whether a triangle of this signed area (y up) faces front. Zero area faces back.
+pub fn front_facing(signed_area: i64, front_face: FrontFace) -> bool {
+    match front_face {
+        FrontFace::Ccw => signed_area > 0,
+        FrontFace::Cw => signed_area < 0,
+    }
+}
+
+/// Whether a face is culled.
+pub fn is_culled(mode: CullMode, front: bool) -> bool {
+    match mode {
+        CullMode::None => false,
+        CullMode::Front => front,
+        CullMode::Back => !front,
+        CullMode::FrontAndBack => true,
+    }
+}

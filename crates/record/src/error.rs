@@ -1,0 +1,94 @@
+//! What can go wrong with run folders and expectations.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a run folder or an expectations file could not be read or written.
+#[derive(Debug, Error)]
+pub enum RecordError {
+    /// The system refused to read or write.
+    #[error("cannot {action} {}: {source}", path.display())]
+    Io {
+        /// `read`, `write`, `create`, `remove`.
+        action: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// The system's word.
+        source: io::Error,
+    },
+    /// The folder holds no run.
+    #[error(
+        "{} holds no run.jsonl; name a folder that `etalon run --out` wrote",
+        path.display()
+    )]
+    NoRun {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The run was written in another format.
+    #[error(
+        "{} is in format {found} where this etalon reads format {expected}; \
+         read it with the version that wrote it, or record the run again",
+        path.display()
+    )]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// The format that the file states.
+        found: u32,
+        /// The format that this crate reads.
+        expected: u32,
+    },
+    /// A line of a run, a frame file or an expectations file does not parse.
+    #[error("{}:{line}: {message}; {remedy}", path.display())]
+    Parse {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong.
+        message: String,
+        /// What to do about it.
+        remedy: &'static str,
+    },
+    /// A path in a record leaves the run folder.
+    #[error("{path:?} is no path below a run folder; the record that names it is damaged")]
+    Outside {
+        /// The path as recorded.
+        path: String,
+    },
+    /// A record's case, adapter or first wrong texel alone fill more than a line.
+    #[error("the record of {case:?} on {adapter:?} cannot be shortened to {limit} bytes")]
+    TooLong {
+        /// The case.
+        case: String,
+        /// The adapter.
+        adapter: String,
+        /// The limit.
+        limit: usize,
+    },
+    /// A value has no JSON form.
+    #[error("cannot write {what} as JSON: {source}")]
+    Serialize {
+        /// What was to be written.
+        what: &'static str,
+        /// The reason.
+        source: serde_json::Error,
+    },
+}
+
+impl RecordError {
+    pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::Io {
+            action,
+            path,
+            source,
+        }
+    }
+
+    pub(crate) fn serialize(what: &'static str) -> impl FnOnce(serde_json::Error) -> Self {
+        move |source| Self::Serialize { what, source }
+    }
+}

@@ -1,0 +1,29 @@
+//! Run, record and verdict: the wire format of a run folder and of the expectations.
+//!
+//! A run folder holds `run.jsonl`, one [`Header`] line and then one [`Record`] line per case and
+//! adapter, and below `frames/` one [`FrameFile`] per frame that is worth looking at. [`RunWriter`]
+//! writes such a folder, [`Run`] reads it; reports are made from it alone. [`Expectations`] name
+//! the verdicts that are known and explained.
+
+#![cfg_attr(
+    test,
+    expect(clippy::unwrap_used, reason = "a test that panics has failed")
+)]
+
+mod error;
+mod expectations;
+mod frame_file;
+mod header;
+mod record;
+mod run;
+mod verdict;
+mod writer;
+
+pub use error::RecordError;
+pub use expectations::{Entry, Expectation, Expectations};
+pub use frame_file::{FrameFile, FrameImage};
+pub use header::{AbsentAdapter, AdapterRecord, FORMAT, Header, Machine};
+pub use record::{Assertion, Expected, MAX_WRONG_TEXELS, Record, Seconds};
+pub use run::Run;
+pub use verdict::Verdict;
+pub use writer::{MAX_LINE, RunWriter};

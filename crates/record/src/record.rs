@@ -1,0 +1,280 @@
+//! One line of a run: what became of a case on an adapter.
+
+use crate::expectations::{Expectation, Expectations};
+use crate::header::AdapterRecord;
+use crate::verdict::Verdict;
+use etalon_frame::{Aspect, AspectStatistics, Story, TexelCounts, WrongTexel};
+use serde::{Deserialize, Serialize};
+
+/// The most wrong texels that a record lists.
+pub const MAX_WRONG_TEXELS: usize = 64;
+
+/// What became of one case on one adapter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Record {
+    /// The case's id.
+    pub case: String,
+    /// The adapter's name.
+    pub adapter: String,
+    /// The raw verdict, whatever was expected.
+    pub verdict: Verdict,
+    /// Set when the verdict agrees with an entry of the expectations.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expected: Option<Expected>,
+    /// The bad verdict that the expectations name here, when the raw one is better.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub improves: Option<Verdict>,
+    /// Whether the case is a selftest that must fail.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub due_fail: bool,
+    /// The missing requirement, the error, or the end of what the process wrote before it died.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub message: String,
+    /// How many samples fell where; all zero when no frame came back.
+    pub texels: TexelCounts,
+    /// How much was asserted, per aspect.
+    pub assertions: Vec<Assertion>,
+    /// The first wrong samples, failures before imprecise ones; at most [`MAX_WRONG_TEXELS`].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub wrong: Vec<WrongTexel>,
+    /// What the reference did to the first wrong sample.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub story: Option<Story>,
+    /// The frame file's path below the run folder, with `/` between its parts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<String>,
+    /// How long it took.
+    pub seconds: Seconds,
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
+impl Record {
+    /// A record of a verdict and nothing else yet.
+    pub fn new(case: impl Into<String>, adapter: impl Into<String>, verdict: Verdict) -> Self {
+        Self {
+            case: case.into(),
+            adapter: adapter.into(),
+            verdict,
+            expected: None,
+            improves: None,
+            due_fail: false,
+            message: String::new(),
+            texels: TexelCounts::default(),
+            assertions: Vec::new(),
+            wrong: Vec::new(),
+            story: None,
+            frame: None,
+            seconds: Seconds::default(),
+        }
+    }
+
+    /// Holds the verdict against the expectations and notes what they say.
+    pub fn expect(&mut self, expectations: &Expectations, adapter: &AdapterRecord) {
+        (self.expected, self.improves) =
+            match expectations.look_up(adapter, &self.case, self.verdict) {
+                Expectation::None => (None, None),
+                Expectation::Agrees(entry) => (
+                    Some(Expected {
+                        reason: entry.reason.clone(),
+                    }),
+                    None,
+                ),
+                Expectation::Better(entry) => (None, Some(entry.verdict)),
+            };
+    }
+
+    /// Whether the record speaks against the run: a bad verdict that no expectation names, or a
+    /// selftest that was due to fail and did not.
+    pub fn unexpected(&self) -> bool {
+        if self.expected.is_some() {
+            return false;
+        }
+        if self.due_fail {
+            !matches!(self.verdict, Verdict::Fail | Verdict::NotSupported)
+        } else {
+            self.verdict.is_bad()
+        }
+    }
+
+    /// Whether the verdict is better than the expectations say.
+    pub fn improvement(&self) -> bool {
+        self.improves.is_some() && !self.unexpected()
+    }
+
+    /// The case's area: the first part of its id.
+    pub fn area(&self) -> &str {
+        self.case.split('/').next().unwrap_or_default()
+    }
+
+    /// The id without its axis values: what all cases of one case file share.
+    pub fn case_file(&self) -> &str {
+        let mut end = 0;
+        for part in self.case.split('/') {
+            if part.contains('=') {
+                break;
+            }
+            end += part.len() + 1;
+        }
+        // An id that begins with an axis value has no such part; then the whole id stands for it.
+        match end {
+            0 => &self.case,
+            _ => &self.case[..end - 1],
+        }
+    }
+}
+
+/// An entry of the expectations that a record agrees with.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expected {
+    /// Why the verdict is known and accepted.
+    pub reason: String,
+}
+
+/// How long one case took, in seconds of wall time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Seconds {
+    /// Preparing, drawing and reading back.
+    pub draw: f64,
+    /// Judging.
+    pub judge: f64,
+}
+
+/// How much the legal set and the yardstick assert of one aspect. A *channel* here is one channel
+/// of one sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Assertion {
+    /// The aspect.
+    pub aspect: Aspect,
+    /// Channels in all samples.
+    pub channels: u64,
+    /// Channels of which the legal set asserts something.
+    pub asserted: u64,
+    /// Channels with exactly one legal code.
+    pub exact: u64,
+    /// Legal codes, summed over the asserted channels.
+    pub codes: u64,
+    /// Channels with exactly one code inside the yardstick.
+    pub yardstick_exact: u64,
+    /// Codes inside the yardstick, summed over the channels that it asserts.
+    pub yardstick_codes: u64,
+    /// Channels of which the yardstick asserts something.
+    pub yardstick_asserted: u64,
+}
+
+impl Assertion {
+    /// The figures of a legal set and its yardstick.
+    pub fn new(aspect: Aspect, legal: AspectStatistics, yardstick: AspectStatistics) -> Self {
+        Self {
+            aspect,
+            channels: legal.channels,
+            asserted: legal.asserted,
+            exact: legal.exact,
+            codes: legal.codes,
+            yardstick_exact: yardstick.exact,
+            yardstick_codes: yardstick.codes,
+            yardstick_asserted: yardstick.asserted,
+        }
+    }
+
+    /// Adds another case's figures of the same aspect.
+    pub fn add(&mut self, other: &Self) {
+        self.channels = self.channels.saturating_add(other.channels);
+        self.asserted = self.asserted.saturating_add(other.asserted);
+        self.exact = self.exact.saturating_add(other.exact);
+        self.codes = self.codes.saturating_add(other.codes);
+        self.yardstick_exact = self.yardstick_exact.saturating_add(other.yardstick_exact);
+        self.yardstick_codes = self.yardstick_codes.saturating_add(other.yardstick_codes);
+        self.yardstick_asserted = self
+            .yardstick_asserted
+            .saturating_add(other.yardstick_asserted);
+    }
+
+    /// The asserted share of all channels, 0 to 1; 0 where there are none.
+    pub fn share(&self) -> f64 {
+        ratio(self.asserted, self.channels).unwrap_or(0.0)
+    }
+
+    /// The mean number of legal codes per asserted channel; 1 is the sharpest.
+    pub fn sharpness(&self) -> Option<f64> {
+        ratio(self.codes, self.asserted)
+    }
+
+    /// The mean number of codes inside the yardstick per channel that it asserts.
+    pub fn yardstick_sharpness(&self) -> Option<f64> {
+        ratio(self.yardstick_codes, self.yardstick_asserted)
+    }
+
+    /// The share of all channels that the yardstick asserts, 0 to 1.
+    pub fn yardstick_share(&self) -> f64 {
+        ratio(self.yardstick_asserted, self.channels).unwrap_or(0.0)
+    }
+}
+
+fn ratio(part: u64, whole: u64) -> Option<f64> {
+    (whole > 0).then(|| part as f64 / whole as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bad_verdicts_are_unexpected_unless_an_entry_agrees() {
+        for verdict in Verdict::ALL {
+            let mut record = Record::new("depth/a", "cpu", verdict);
+            assert_eq!(record.unexpected(), verdict.is_bad(), "{verdict}");
+            record.expected = Some(Expected {
+                reason: "known".to_owned(),
+            });
+            assert!(!record.unexpected(), "{verdict}");
+        }
+    }
+
+    #[test]
+    fn a_selftest_that_does_not_fail_is_unexpected() {
+        for verdict in Verdict::ALL {
+            let mut record = Record::new("selftest/a", "cpu", verdict);
+            record.due_fail = true;
+            let due = matches!(verdict, Verdict::Fail | Verdict::NotSupported);
+            assert_eq!(record.unexpected(), !due, "{verdict}");
+        }
+    }
+
+    #[test]
+    fn the_case_file_is_the_id_without_axis_values() {
+        let file = |id: &str| Record::new(id, "cpu", Verdict::Pass).case_file().to_owned();
+        assert_eq!(
+            file("depth/compare/compare=less/write=true"),
+            "depth/compare"
+        );
+        assert_eq!(file("depth/a/b"), "depth/a/b");
+        assert_eq!(file("a=1/b"), "a=1/b");
+        assert_eq!(file(""), "");
+    }
+
+    #[test]
+    fn shares_and_sharpness_know_nothing_of_nothing() {
+        let mut a = Assertion::new(
+            Aspect::Color,
+            AspectStatistics::default(),
+            AspectStatistics::default(),
+        );
+        assert_eq!((a.share(), a.sharpness()), (0.0, None));
+        let some = AspectStatistics {
+            channels: 4,
+            asserted: 2,
+            exact: 1,
+            codes: 3,
+        };
+        a.add(&Assertion::new(Aspect::Color, some, some));
+        assert_eq!((a.share(), a.sharpness()), (0.5, Some(1.5)));
+        assert_eq!(a.yardstick_sharpness(), Some(1.5));
+    }
+}

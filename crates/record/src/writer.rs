@@ -1,0 +1,231 @@
+//! Writing a run folder.
+
+use crate::error::RecordError;
+use crate::frame_file::FrameFile;
+use crate::header::Header;
+use crate::record::{MAX_WRONG_TEXELS, Record};
+use etalon_frame::StoryLine;
+use serde::Serialize;
+use std::fs::{self, File};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// The most bytes of a record's line, its newline among them.
+pub const MAX_LINE: usize = 64 * 1024;
+
+/// Writes a run folder, line by line. What was appended survives the writer's death.
+#[derive(Debug)]
+pub struct RunWriter {
+    folder: PathBuf,
+    path: PathBuf,
+    file: File,
+}
+
+impl RunWriter {
+    /// Begins a run in a folder, which is made when it does not exist. A run that the folder
+    /// already holds is replaced, with its frames and reports; a folder without a run loses
+    /// nothing.
+    ///
+    /// # Errors
+    /// When the folder cannot be written to.
+    pub fn create(folder: &Path, header: &Header) -> Result<Self, RecordError> {
+        let path = folder.join("run.jsonl");
+        if path.is_file() {
+            // The run goes last: while it is there, the rest is known to be ours to remove.
+            gone(fs::remove_dir_all(folder.join("frames")), folder, "frames")?;
+            for name in ["index.html", "junit.xml", "run.jsonl"] {
+                gone(fs::remove_file(folder.join(name)), folder, name)?;
+            }
+        }
+        fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
+        let mut file = File::create(&path).map_err(RecordError::io("create", &path))?;
+        let line = json_line("the header", header)?;
+        file.write_all(&line)
+            .map_err(RecordError::io("write", &path))?;
+        Ok(Self {
+            folder: folder.to_owned(),
+            path,
+            file,
+        })
+    }
+
+    /// Appends one record in a single write. A record longer than [`MAX_LINE`] is shortened: wrong
+    /// texels first, then the story, then the message.
+    ///
+    /// # Errors
+    /// When the file cannot be written, or the record cannot be shortened enough.
+    pub fn append(&mut self, record: &Record) -> Result<(), RecordError> {
+        let line = fit(record)?;
+        self.file
+            .write_all(&line)
+            .map_err(RecordError::io("write", &self.path))
+    }
+
+    /// Writes a frame file and returns its path below the run folder, for [`Record::frame`]. Call
+    /// it before the record is appended, so that no record names a file that is not there.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_frame(&self, frame: &FrameFile) -> Result<String, RecordError> {
+        let relative = frame_path(&frame.adapter, &frame.case);
+        let path = self.folder.join(&relative);
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).map_err(RecordError::io("create", parent))?;
+        }
+        let bytes = json_line("a frame", frame)?;
+        fs::write(&path, bytes).map_err(RecordError::io("write", &path))?;
+        Ok(relative)
+    }
+
+    /// The run folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+}
+
+fn gone(result: std::io::Result<()>, folder: &Path, name: &str) -> Result<(), RecordError> {
+    match result {
+        Err(e) if e.kind() != ErrorKind::NotFound => {
+            Err(RecordError::io("remove", &folder.join(name))(e))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn json_line(what: &'static str, value: &impl Serialize) -> Result<Vec<u8>, RecordError> {
+    let mut line = serde_json::to_vec(value).map_err(RecordError::serialize(what))?;
+    line.push(b'\n');
+    Ok(line)
+}
+
+/// `frames/<adapter>/<case>.json`, with everything that could mislead a file system replaced.
+fn frame_path(adapter: &str, case: &str) -> String {
+    let mut path = format!("frames/{}", safe(adapter));
+    for part in case.split('/') {
+        path.push('/');
+        path.push_str(&safe(part));
+    }
+    path.push_str(".json");
+    path
+}
+
+/// One safe path component. `:` becomes `_`; a component that changes otherwise also gets a hash
+/// of what it was, so that two of them do not become one.
+fn safe(part: &str) -> String {
+    const LONGEST: usize = 160;
+    let fine = |c: char| c.is_ascii_alphanumeric() || "._=+-".contains(c);
+    let mut name: String = part
+        .chars()
+        .map(|c| if fine(c) { c } else { '_' })
+        .take(LONGEST)
+        .collect();
+    if name.starts_with('.') {
+        name.replace_range(..1, "_");
+    }
+    if name.is_empty() || name != part.replace(':', "_") {
+        name.push_str(&format!("-{:016x}", fnv1a(part.as_bytes())));
+    }
+    name
+}
+
+/// FNV-1a, 64 bits: stable over releases, unlike the standard library's hasher.
+fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+/// The record's line, shortened until it fits.
+fn fit(record: &Record) -> Result<Vec<u8>, RecordError> {
+    let write = |record: &Record| json_line("a record", record);
+    let mut line = write(record)?;
+    if line.len() <= MAX_LINE && record.wrong.len() <= MAX_WRONG_TEXELS {
+        return Ok(line);
+    }
+    let mut short = record.clone();
+    short.wrong.truncate(MAX_WRONG_TEXELS);
+    line = write(&short)?;
+    while line.len() > MAX_LINE && short.wrong.len() > 1 {
+        short.wrong.truncate(short.wrong.len() * 3 / 4);
+        line = write(&short)?;
+    }
+    while line.len() > MAX_LINE
+        && let Some(story) = &mut short.story
+    {
+        let kept = story.lines.len() / 2;
+        if kept < 3 {
+            short.story = None;
+        } else {
+            story.lines.truncate(kept);
+            story.lines.push(StoryLine {
+                at: "end of the record".to_owned(),
+                operation: "cut".to_owned(),
+                detail: "the rest of the story did not fit".to_owned(),
+                citation: None,
+            });
+        }
+        line = write(&short)?;
+    }
+    while line.len() > MAX_LINE && !short.message.is_empty() {
+        cut(&mut short.message);
+        line = write(&short)?;
+    }
+    if line.len() > MAX_LINE {
+        return Err(RecordError::TooLong {
+            case: record.case.chars().take(200).collect(),
+            adapter: record.adapter.chars().take(200).collect(),
+            limit: MAX_LINE,
+        });
+    }
+    Ok(line)
+}
+
+/// Takes a quarter off the front of a message: the reason of a death usually stands at its end.
+fn cut(message: &mut String) {
+    const MARK: &str = "[cut] ";
+    let text = message.strip_prefix(MARK).unwrap_or(message);
+    let mut from = text.len() / 4 + 1;
+    while from < text.len() && !text.is_char_boundary(from) {
+        from += 1;
+    }
+    let rest = text.get(from..).unwrap_or_default();
+    *message = if rest.is_empty() {
+        String::new()
+    } else {
+        format!("{MARK}{rest}")
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frame_paths_stay_below_the_folder_and_apart() {
+        assert_eq!(
+            frame_path("gl:es:softpipe", "depth/compare/stored=0.5"),
+            "frames/gl_es_softpipe/depth/compare/stored=0.5.json"
+        );
+        for hostile in [
+            "../../x",
+            "/etc/passwd",
+            "a//b",
+            "..",
+            ".",
+            "",
+            "a\\b\0c",
+            "ü",
+        ] {
+            let path = frame_path(hostile, hostile);
+            assert!(
+                path.split('/')
+                    .all(|p| !p.is_empty() && !p.starts_with('.')),
+                "{path}"
+            );
+            assert!(path.is_ascii() && !path.contains('\\'), "{path}");
+        }
+        assert_ne!(frame_path("a", "x y"), frame_path("a", "x?y"));
+        let long = frame_path("a", &"v".repeat(5000));
+        assert!(long.len() < 255, "{}", long.len());
+    }
+}

@@ -1,0 +1,293 @@
+//! Run folders: what is written is read again, and damage is named or survived.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use etalon_frame::{
+    Api, Aspect, Band, ChannelEncoding, ChannelMismatch, Limits, Story, StoryLine, TexelCounts,
+    WrongTexel,
+};
+use etalon_record::{
+    AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header, MAX_LINE,
+    MAX_WRONG_TEXELS, Machine, Record, RecordError, Run, RunWriter, Seconds, Verdict,
+};
+use proptest::prelude::*;
+use std::fs;
+use std::path::Path;
+
+fn header() -> Header {
+    Header {
+        format: FORMAT,
+        etalon: "0.1.0".to_owned(),
+        commit: None,
+        machine: Machine::default(),
+        started: "2026-01-02T03:04:05Z".to_owned(),
+        command: vec!["etalon".to_owned(), "run".to_owned()],
+        cases: 3,
+        adapters: vec![AdapterRecord {
+            name: "gl:es:soft".to_owned(),
+            backend: "gl".to_owned(),
+            device: "d".to_owned(),
+            driver: "Mesa".to_owned(),
+            driver_version: "25".to_owned(),
+            api_version: "3.2".to_owned(),
+            software: true,
+            limits: Limits {
+                api: Api::OpenGlEs,
+                sub_pixel_bits: 8,
+                max_size: 4096,
+                formats: Default::default(),
+                features: Default::default(),
+                sample_positions: [(1, vec![[128, 128]])].into(),
+            },
+        }],
+        absent: Vec::new(),
+    }
+}
+
+fn wrong_texel(attachment: String, x: u32, code: u32) -> WrongTexel {
+    WrongTexel {
+        x,
+        y: 1,
+        sample: 0,
+        band: Band::Fail,
+        channels: vec![ChannelMismatch {
+            attachment,
+            aspect: Aspect::Depth,
+            channel: 0,
+            encoding: ChannelEncoding::Unorm(16),
+            low: 0,
+            high: 7,
+            actual: code,
+        }],
+    }
+}
+
+prop_compose! {
+    fn story()(lines in prop::collection::vec((".*", ".{0,40}", ".*", prop::option::of(".*")), 0..4)) -> Story {
+        let line = |(at, operation, detail, citation)| StoryLine { at, operation, detail, citation };
+        Story { lines: lines.into_iter().map(line).collect() }
+    }
+}
+
+prop_compose! {
+    fn record()(
+        (case, adapter) in ("[a-z/=.0-9]{1,40}", ".{1,20}"),
+        verdict in prop::sample::select(Verdict::ALL.to_vec()),
+        improves in prop::option::of(prop::sample::select(Verdict::ALL.to_vec())),
+        expected in prop::option::of(".*"),
+        due_fail in any::<bool>(),
+        message in ".*",
+        counts in any::<[u64; 4]>(),
+        figures in prop::collection::vec(any::<[u64; 7]>(), 0..3),
+        wrong in prop::collection::vec((".{0,9}", any::<u32>(), any::<u32>()), 0..5),
+        story in prop::option::of(story()),
+        frame in prop::option::of(".*"),
+        seconds in any::<[u32; 2]>(),
+    ) -> Record {
+        let assertion = |f: [u64; 7]| Assertion {
+            aspect: Aspect::Stencil,
+            channels: f[0], asserted: f[1], exact: f[2], codes: f[3],
+            yardstick_exact: f[4], yardstick_codes: f[5], yardstick_asserted: f[6],
+        };
+        Record {
+            case, adapter, verdict, improves, due_fail, message, story, frame,
+            expected: expected.map(|reason| Expected { reason }),
+            texels: TexelCounts { total: counts[0], wrong: counts[1], imprecise: counts[2], open: counts[3] },
+            assertions: figures.into_iter().map(assertion).collect(),
+            wrong: wrong.into_iter().map(|(a, x, c)| wrong_texel(a, x, c)).collect(),
+            seconds: Seconds { draw: f64::from(seconds[0]) / 8.0, judge: f64::from(seconds[1]) / 8.0 },
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn records_survive_json(record in record()) {
+        let line = serde_json::to_string(&record).unwrap();
+        prop_assert!(!line.contains('\n'));
+        prop_assert_eq!(serde_json::from_str::<Record>(&line).unwrap(), record);
+    }
+
+    #[test]
+    fn a_run_cut_anywhere_keeps_its_whole_records(
+        records in prop::collection::vec(record(), 1..5), at in any::<prop::sample::Index>()
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let mut writer = RunWriter::create(folder.path(), &header()).unwrap();
+        records.iter().for_each(|r| writer.append(r).unwrap());
+        let path = folder.path().join("run.jsonl");
+        let bytes = fs::read(&path).unwrap();
+        let first = bytes.iter().position(|b| *b == b'\n').unwrap() + 1;
+        let end = first + at.index(bytes.len() - first);
+        fs::write(&path, &bytes[..end]).unwrap();
+        let run = Run::read(folder.path()).unwrap();
+        let newlines = bytes[first..end].iter().filter(|b| **b == b'\n').count();
+        // A record that lacks no more than its newline is whole.
+        prop_assert!(run.records.len() == newlines || bytes[end] == b'\n');
+        prop_assert_eq!(&run.records[..], &records[..run.records.len()]);
+        let partial = bytes[end - 1] != b'\n' && bytes[end] != b'\n';
+        prop_assert_eq!(run.truncated, partial);
+    }
+}
+
+fn written(folder: &Path, verdicts: &[Verdict]) -> String {
+    let mut writer = RunWriter::create(folder, &header()).unwrap();
+    for (i, verdict) in verdicts.iter().enumerate() {
+        writer
+            .append(&Record::new(format!("a/{i}"), "gl:es:soft", *verdict))
+            .unwrap();
+    }
+    fs::read_to_string(folder.join("run.jsonl")).unwrap()
+}
+
+#[test]
+fn what_is_written_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    written(folder.path(), &Verdict::ALL);
+    let run = Run::read(folder.path()).unwrap();
+    assert_eq!(run.header, header());
+    let verdicts: Vec<Verdict> = run.records.iter().map(|r| r.verdict).collect();
+    assert_eq!(verdicts, Verdict::ALL);
+    assert!(!run.truncated);
+    written(folder.path(), &[Verdict::Pass]);
+    assert_eq!(Run::read(folder.path()).unwrap().missing(), 2);
+}
+
+#[test]
+fn damage_in_the_middle_names_file_and_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.jsonl");
+    let text = written(folder.path(), &[Verdict::Pass; 3]);
+    let lines: Vec<&str> = text.lines().collect();
+    for damage in ["{\"case\":", "", "null", "\u{0}\u{0}"] {
+        let broken = [lines[0], lines[1], damage, lines[3], ""].join("\n");
+        fs::write(&path, broken).unwrap();
+        let error = Run::read(folder.path()).unwrap_err().to_string();
+        assert!(error.contains("run.jsonl:3: "), "{error}");
+    }
+}
+
+#[test]
+fn a_last_line_of_another_shape_is_an_error_and_a_cut_one_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.jsonl");
+    let text = written(folder.path(), &[Verdict::Pass]);
+    fs::write(&path, format!("{text}{{\"case\":\"a/1\",\"colour\":1}}\n")).unwrap();
+    let error = Run::read(folder.path()).unwrap_err().to_string();
+    assert!(
+        error.contains("run.jsonl:3: ") && error.contains("colour"),
+        "{error}"
+    );
+    fs::write(&path, format!("{text}{{\"case\":\"a/1\",\"ad")).unwrap();
+    let run = Run::read(folder.path()).unwrap();
+    assert_eq!((run.records.len(), run.truncated), (1, true));
+}
+
+#[test]
+fn folders_without_a_readable_header_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.jsonl");
+    assert!(matches!(
+        Run::read(folder.path()),
+        Err(RecordError::NoRun { .. })
+    ));
+    fs::write(&path, "").unwrap();
+    let error = Run::read(folder.path()).unwrap_err().to_string();
+    assert!(error.contains("run.jsonl:1: "), "{error}");
+    fs::write(&path, "{\"format\":2,\"new\":true}\n").unwrap();
+    assert!(matches!(
+        Run::read(folder.path()),
+        Err(RecordError::Format { found: 2, .. })
+    ));
+}
+
+#[test]
+fn a_new_run_replaces_the_old_one_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let frames = folder.path().join("frames");
+    fs::create_dir(&frames).unwrap();
+    fs::write(frames.join("mine"), "").unwrap();
+    fs::write(folder.path().join("notes.txt"), "").unwrap();
+    written(folder.path(), &[Verdict::Pass]);
+    assert!(frames.join("mine").exists(), "not a run folder before");
+    written(folder.path(), &[Verdict::Pass]);
+    assert!(!frames.exists());
+    assert!(folder.path().join("notes.txt").exists());
+}
+
+#[test]
+fn frames_come_back_and_do_not_leave_the_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let writer = RunWriter::create(folder.path(), &header()).unwrap();
+    let frame = FrameFile {
+        case: "depth/a/b=1".to_owned(),
+        adapter: "gl:es:soft".to_owned(),
+        about: "about".to_owned(),
+        spec: vec!["s".to_owned()],
+        images: vec![FrameImage {
+            attachment: "depth".to_owned(),
+            aspect: Aspect::Depth,
+            size: [2, 1],
+            samples: 1,
+            channels: vec![ChannelEncoding::Unorm(16)],
+            low: vec![0, 1],
+            high: vec![0, 1],
+            actual: vec![0, 2],
+            wrong: vec![FrameImage::FINE, FrameImage::FAIL],
+        }],
+    };
+    assert!(frame.images[0].is_whole());
+    let path = writer.write_frame(&frame).unwrap();
+    assert_eq!(path, "frames/gl_es_soft/depth/a/b=1.json");
+    assert_eq!(Run::read_frame(folder.path(), &path).unwrap(), frame);
+    for outside in ["", "..", "../x", "/etc/hostname", "frames/../../x"] {
+        assert!(matches!(
+            Run::read_frame(folder.path(), outside),
+            Err(RecordError::Outside { .. })
+        ));
+    }
+    fs::write(folder.path().join(&path), "{").unwrap();
+    let error = Run::read_frame(folder.path(), &path).unwrap_err();
+    assert!(error.to_string().contains("b=1.json:1: "), "{error}");
+}
+
+#[test]
+fn long_records_are_shortened_in_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = RunWriter::create(folder.path(), &header()).unwrap();
+    let line = StoryLine {
+        at: "draw 0".to_owned(),
+        operation: "blend".to_owned(),
+        detail: "d".repeat(500),
+        citation: None,
+    };
+    let lengths = [(100, 50, 10, 0), (1, 50, 500, 0), (64, 400, 500, 300_000)];
+    for (i, (texels, name, lines, message)) in lengths.into_iter().enumerate() {
+        let mut record = Record::new(format!("a/{i}"), "gl:es:soft", Verdict::Fail);
+        let texel = |x| wrong_texel("n".repeat(name), x, 9);
+        record.wrong = (0..texels).map(texel).collect();
+        record.story = Some(Story {
+            lines: vec![line.clone(); lines],
+        });
+        record.message = "ü".repeat(message) + "end";
+        writer.append(&record).unwrap();
+    }
+    let text = fs::read_to_string(folder.path().join("run.jsonl")).unwrap();
+    assert!(text.lines().all(|l| l.len() < MAX_LINE));
+    let run = Run::read(folder.path()).unwrap();
+    let story = |i: usize| run.records[i].story.as_ref().map_or(0, |s| s.lines.len());
+    assert_eq!(
+        (run.records[0].wrong.len(), story(0)),
+        (MAX_WRONG_TEXELS, 10)
+    );
+    assert_eq!(run.records[1].wrong.len(), 1);
+    assert!((10..500).contains(&story(1)), "{}", story(1));
+    assert_eq!((run.records[2].wrong.len(), story(2)), (1, 0));
+    assert!(run.records[2].message.ends_with("üend"));
+
+    let mut hopeless = Record::new("c".repeat(MAX_LINE), "gl:es:soft", Verdict::Fail);
+    hopeless.message = "m".to_owned();
+    assert!(matches!(
+        writer.append(&hopeless),
+        Err(RecordError::TooLong { .. })
+    ));
+}

@@ -1,0 +1,314 @@
+//! What happens to one fragment in one world: culling, shading, tests, blending, stores.
+
+use crate::interval::Interval;
+use crate::judge::{Notes, Place, Sample, Walk, codes_text};
+use crate::judging::{Judging, Range};
+use crate::rules::DepthOrder;
+use crate::world::World;
+use etalon_case::scene::{Contents, Draw, StencilFace};
+use etalon_case::state::CompareFunction;
+use etalon_frame::{ChannelEncoding, CodeInterval};
+use etalon_pipeline::shader::{FragmentInput, fragment};
+use etalon_pipeline::{
+    Arithmetic, BlendInput, blend, front_facing, is_culled, stencil_passes, stencil_write,
+};
+use smallvec::SmallVec;
+
+impl Walk<'_> {
+    /// One fragment at this sample: culling, shading, tests, blending, stores.
+    pub(crate) fn fragment(
+        &self,
+        place: Place<'_>,
+        world: World,
+        positive_area: bool,
+        result: &mut SmallVec<[World; 2]>,
+        notes: &mut Notes<'_>,
+    ) {
+        let draw = place.draw;
+        let front = front_facing(if positive_area { 1 } else { -1 }, draw.front_face);
+        if is_culled(draw.cull, front) {
+            notes.add(
+                || place.name(),
+                "cull",
+                || {
+                    let face = if front { "front" } else { "back" };
+                    format!("a {face} face, culled by {}", draw.cull.name())
+                },
+                Some(self.rules.facing),
+            );
+            result.push(world);
+            return;
+        }
+        let mut judging = Judging::new(self.rules);
+        let input = FragmentInput {
+            color: place.primitive.color,
+            front,
+            texel: self.texel(&mut judging, draw, place.at),
+            params: &draw.params,
+        };
+        let output = fragment(&mut judging, draw.shader, &input);
+        notes.add(
+            || place.name(),
+            "shade",
+            || {
+                let color = output.color.map(|c| c.hull().to_string()).join(", ");
+                let face = if front { "front" } else { "back" };
+                format!("{face} face, {} gives ({color})", draw.shader.name())
+            },
+            None,
+        );
+        let pass = &self.scene.passes[place.pass];
+        let depth_stencil = pass.depth_stencil;
+        let mut world = world;
+        let face = draw
+            .stencil
+            .as_ref()
+            .map(|s| if front { s.front } else { s.back });
+        if let (Some(face), Some(index)) = (face, depth_stencil) {
+            let stored = world.cells[index].stencil;
+            if !stencil_passes(&face, stored) {
+                let new = stencil_write(&face, face.fail_op, stored);
+                self.note_stencil(
+                    place,
+                    &face,
+                    stored,
+                    "fails",
+                    face.fail_op.name(),
+                    new,
+                    notes,
+                );
+                world.cells[index].stencil = new;
+                result.push(world);
+                return;
+            }
+        }
+        let incoming = output.depth.unwrap_or(place.primitive.depth);
+        let incoming = Range::same(incoming.float.clamp(0.0, 1.0));
+        let outcomes = match (draw.depth, depth_stencil) {
+            (Some(state), Some(index)) => {
+                let encoding = self.depth_encoding(index);
+                let stored = world.cells[index].channels[0];
+                self.depth_test(place, state.compare, incoming, stored, encoding, notes)
+            }
+            _ => [true, false],
+        };
+        for passes in [true, false] {
+            if !outcomes[usize::from(!passes)] {
+                continue;
+            }
+            let mut world = world.clone();
+            if let (Some(face), Some(index)) = (face, depth_stencil) {
+                let (operation, word) = if passes {
+                    (face.pass_op, "passes")
+                } else {
+                    (face.depth_fail_op, "passes, depth fails")
+                };
+                let stored = world.cells[index].stencil;
+                let new = stencil_write(&face, operation, stored);
+                self.note_stencil(place, &face, stored, word, operation.name(), new, notes);
+                world.cells[index].stencil = new;
+            }
+            if passes {
+                self.write(place, &mut world, output.color, incoming, notes);
+            }
+            result.push(world);
+        }
+    }
+
+    /// The texel of texture 0 under the sample.
+    fn texel(&self, judging: &mut Judging<'_>, draw: &Draw, at: Sample) -> [Range; 4] {
+        let mut texel = [Range::exact(0.0); 4];
+        if let Some(index) = draw.textures.first() {
+            let attachment = &self.scene.attachments[*index];
+            if let Contents::Texels(codes) = &attachment.contents {
+                let encodings = attachment.format.color_channels();
+                let start = (at.y as usize * at.size[0] as usize + at.x as usize) * encodings.len();
+                for (c, encoding) in encodings.iter().enumerate() {
+                    let order = encoding.order_of_code(codes[start + c]);
+                    texel[c] = judging.decode(*encoding, CodeInterval::exact(order));
+                }
+            }
+        }
+        texel
+    }
+
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one line of the story, all of it"
+    )]
+    fn note_stencil(
+        &self,
+        place: Place<'_>,
+        face: &StencilFace,
+        stored: u8,
+        outcome: &str,
+        operation: &str,
+        new: u8,
+        notes: &mut Notes<'_>,
+    ) {
+        notes.add(
+            || place.name(),
+            "stencil",
+            || {
+                format!(
+                    "reference {} {} stored {stored} under read mask {:#04x} {outcome}; {operation} \
+                     under write mask {:#04x} leaves {new}",
+                    face.reference,
+                    face.compare.name(),
+                    face.read_mask,
+                    face.write_mask
+                )
+            },
+            Some(self.rules.stencil),
+        );
+    }
+
+    /// Which outcomes of a depth test are possible: passing, failing.
+    fn depth_test(
+        &self,
+        place: Place<'_>,
+        function: CompareFunction,
+        incoming: Range,
+        stored: CodeInterval,
+        encoding: ChannelEncoding,
+        notes: &mut Notes<'_>,
+    ) -> [bool; 2] {
+        let mut judging = Judging::new(self.rules);
+        let codes = judging.encode(encoding, incoming);
+        let of_codes = |codes: CodeInterval| Interval {
+            low: encoding.value_of_order(codes.low),
+            high: encoding.value_of_order(codes.high),
+        };
+        let (left, right) = match self.rules.depth_order.value {
+            DepthOrder::Either => (
+                of_codes(codes).hull(incoming.hull()),
+                of_codes(stored).hull(judging.decode(encoding, stored).hull()),
+            ),
+            DepthOrder::ConvertedFirst => (of_codes(codes), of_codes(stored)),
+        };
+        let outcomes = possible(function, left, right);
+        notes.add(
+            || place.name(),
+            "depth test",
+            || {
+                let word = match outcomes {
+                    [true, true] => "may be either",
+                    [true, false] => "is true",
+                    _ => "is false",
+                };
+                format!("{left} {} stored {right} {word}", function.name())
+            },
+            Some(self.rules.depth_order.citation),
+        );
+        outcomes
+    }
+
+    /// Stores depth and colours of a fragment that passed all tests.
+    fn write(
+        &self,
+        place: Place<'_>,
+        world: &mut World,
+        color: [Range; 4],
+        depth: Range,
+        notes: &mut Notes<'_>,
+    ) {
+        let mut judging = Judging::new(self.rules);
+        let pass = &self.scene.passes[place.pass];
+        if let (Some(state), Some(index)) = (place.draw.depth, pass.depth_stencil)
+            && state.write
+        {
+            let encoding = self.depth_encoding(index);
+            let codes = judging.encode(encoding, depth);
+            world.cells[index].channels[0] = codes;
+            notes.add(
+                || place.name(),
+                "store depth",
+                || format!("{} as {}", depth.hull(), codes_text(encoding, codes)),
+                Some(self.rules.store.citation),
+            );
+        }
+        for (target, index) in place.draw.targets.iter().zip(&pass.color) {
+            let attachment = &self.scene.attachments[*index];
+            let encodings = attachment.format.color_channels();
+            let all: [ChannelEncoding; 4] =
+                std::array::from_fn(|c| encodings[c.min(encodings.len() - 1)]);
+            let cell = &mut world.cells[*index];
+            let value = match &target.blend {
+                None => color,
+                Some(state) => {
+                    let dst = std::array::from_fn(|c| judging.decode(all[c], cell.channels[c]));
+                    let constant = place.draw.blend_constant.map(|v| judging.constant(v));
+                    let input = BlendInput {
+                        src: color,
+                        dst,
+                        constant,
+                    };
+                    let value = blend(&mut judging, state, all, &input);
+                    notes.add(
+                        || place.name(),
+                        "blend",
+                        || {
+                            let side = |c: usize| {
+                                let part = if c == 3 { state.alpha } else { state.color };
+                                format!(
+                                    "{}: {} × {} {} {} × {} = {}",
+                                    ["red", "green", "blue", "alpha"][c],
+                                    color[c].hull(),
+                                    part.src_factor.name(),
+                                    part.operation.name(),
+                                    dst[c].hull(),
+                                    part.dst_factor.name(),
+                                    value[c].hull()
+                                )
+                            };
+                            [0, 1, 2, 3].map(side).join("; ")
+                        },
+                        Some(self.rules.blend.citation),
+                    );
+                    value
+                }
+            };
+            for (c, encoding) in encodings.iter().enumerate() {
+                if target.write_mask & (1 << c) != 0 {
+                    cell.channels[c] = judging.encode(*encoding, value[c]);
+                }
+            }
+            let cell = *cell;
+            let masked = target.write_mask != 0xf;
+            notes.add(
+                || place.name(),
+                "store color",
+                || {
+                    format!(
+                        "{} holds {}",
+                        attachment.name,
+                        self.cell_text(*index, &cell)
+                    )
+                },
+                Some(if masked {
+                    self.rules.write_mask
+                } else {
+                    self.rules.store.citation
+                }),
+            );
+        }
+    }
+}
+
+/// Whether a comparison of some value of `left` with some value of `right` can be true, and whether
+/// it can be false.
+fn possible(function: CompareFunction, left: Interval, right: Interval) -> [bool; 2] {
+    let can_be_less = left.low < right.high;
+    let can_be_greater = left.high > right.low;
+    let can_be_equal = left.low <= right.high && right.low <= left.high;
+    match function {
+        CompareFunction::Never => [false, true],
+        CompareFunction::Always => [true, false],
+        CompareFunction::Less => [can_be_less, can_be_greater || can_be_equal],
+        CompareFunction::LessEqual => [can_be_less || can_be_equal, can_be_greater],
+        CompareFunction::Greater => [can_be_greater, can_be_less || can_be_equal],
+        CompareFunction::GreaterEqual => [can_be_greater || can_be_equal, can_be_less],
+        CompareFunction::Equal => [can_be_equal, can_be_less || can_be_greater],
+        CompareFunction::NotEqual => [can_be_less || can_be_greater, can_be_equal],
+    }
+}

@@ -1,0 +1,114 @@
+//! Closed intervals of real numbers.
+
+use std::fmt;
+
+/// The real numbers from `low` to `high`, both included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// The least.
+    pub low: f64,
+    /// The greatest.
+    pub high: f64,
+}
+
+impl Interval {
+    /// The interval of one number.
+    pub fn exact(value: f64) -> Self {
+        Self {
+            low: value,
+            high: value,
+        }
+    }
+
+    /// The interval between two numbers, in whichever order.
+    pub fn between(a: f64, b: f64) -> Self {
+        Self {
+            low: a.min(b),
+            high: a.max(b),
+        }
+    }
+
+    /// Whether this is the one number.
+    pub fn is(self, value: f64) -> bool {
+        self.low == value && self.high == value
+    }
+
+    /// Whether the number lies inside.
+    pub fn contains(self, value: f64) -> bool {
+        self.low <= value && value <= self.high
+    }
+
+    /// The smallest interval that holds both.
+    pub fn hull(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+
+    /// Applies a function that grows with its argument.
+    pub fn map_increasing(self, f: impl Fn(f64) -> f64) -> Self {
+        Self {
+            low: f(self.low),
+            high: f(self.high),
+        }
+    }
+
+    /// Applies a function that is monotone in each argument alone; its extremes stand at corners.
+    pub fn corners(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let values = [
+            f(self.low, other.low),
+            f(self.low, other.high),
+            f(self.high, other.low),
+            f(self.high, other.high),
+        ];
+        Self {
+            low: values.iter().copied().fold(f64::INFINITY, f64::min),
+            high: values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+
+    /// Widens each end by a share of its magnitude; zero stays zero.
+    pub fn widen_relative(self, share: f64) -> Self {
+        Self {
+            low: self.low - self.low.abs() * share,
+            high: self.high + self.high.abs() * share,
+        }
+    }
+
+    /// Widens each end by an amount.
+    pub fn widen(self, amount: f64) -> Self {
+        Self {
+            low: self.low - amount,
+            high: self.high + amount,
+        }
+    }
+
+    /// Restricts both ends to a range.
+    pub fn clamp(self, low: f64, high: f64) -> Self {
+        self.map_increasing(|v| v.clamp(low, high))
+    }
+}
+
+impl fmt::Display for Interval {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.low == self.high {
+            write!(f, "{}", Short(self.low))
+        } else {
+            write!(f, "{}..{}", Short(self.low), Short(self.high))
+        }
+    }
+}
+
+/// A number with as many digits as tell it from its neighbours in a story.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0 == f64::from(self.0 as f32) {
+            write!(f, "{}", self.0 as f32)
+        } else {
+            write!(f, "{:.7}", self.0)
+        }
+    }
+}

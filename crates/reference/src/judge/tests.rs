@@ -1,0 +1,163 @@
+use super::*;
+use etalon_case::{Case, CaseFile};
+use etalon_frame::{Api, Feature, FormatSupport, TextureFormat};
+
+/// Limits of an adapter that has everything, copies everything, and has 8 sub-pixel bits.
+pub(crate) fn limits(api: Api) -> Limits {
+    let formats = TextureFormat::ALL
+        .into_iter()
+        .map(|format| {
+            let support = FormatSupport {
+                samples: vec![1],
+                depth: format.depth_encodings().iter().copied().take(1).collect(),
+                read: ReadPath::Copy,
+            };
+            (format, support)
+        })
+        .collect();
+    Limits {
+        api,
+        sub_pixel_bits: 8,
+        max_size: 4096,
+        formats,
+        features: Feature::ALL.into_iter().collect(),
+        sample_positions: [(1, vec![[128, 128]])].into_iter().collect(),
+    }
+}
+
+fn case(text: &str) -> Case {
+    let file = CaseFile::parse("t.json", text).expect("parses");
+    file.cases()
+        .next()
+        .expect("one case")
+        .build()
+        .expect("builds")
+}
+
+fn scene(attachments: &str, draws: &str, read: &str) -> Scene {
+    case(&format!(
+        r#"{{"about":"t","spec":["t"],"scene":{{"attachments":{{{attachments}}},
+           "passes":[{{"color":["color"],"depth_stencil":"depth","draws":[{draws}]}}],
+           "read":[{read}]}}}}"#
+    ))
+    .scene
+}
+
+const COLOR: &str = r#""color":{"format":"rgba8unorm","size":[4,4]}"#;
+
+#[test]
+fn a_written_depth_of_zero_and_one_is_pinned_and_so_is_what_follows() {
+    let scene = scene(
+        &format!(r#"{COLOR},"depth":{{"format":"depth16unorm","clear":1}}"#),
+        r#"{"mesh":{"kind":"columns","values":[0,1]},"shader":"flat_color_depth",
+            "params":{"color":[1,0,0,1]},"depth":{"compare":"less","write":true}}"#,
+        r#""color","depth""#,
+    );
+    for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu] {
+        let limits = limits(api);
+        for rules in [Rules::of(api), Rules::yardstick(&limits)] {
+            let set = judge(&scene, &limits, &rules);
+            for (aspect, figures) in set.statistics() {
+                assert_eq!(figures.exact, figures.channels, "{api} {aspect}");
+            }
+            let group = &set.groups[0];
+            assert!(group.sample(0, 0, 0).allows(&[255, 0, 0, 255, 0]));
+            assert!(group.sample(3, 3, 0).allows(&[0, 0, 0, 0, 65535]));
+        }
+    }
+}
+
+#[test]
+fn a_vertex_depth_of_one_half_has_two_codes_on_16_bits_and_many_on_24() {
+    let of = |format: &str| {
+        let scene = scene(
+            &format!(r#"{COLOR},"depth":{{"format":"{format}","clear":1}}"#),
+            r#"{"mesh":{"kind":"full","z":0.5},"shader":"uniform_color",
+                "depth":{"compare":"always","write":true}}"#,
+            r#""depth""#,
+        );
+        let set = judge(&scene, &limits(Api::Vulkan), &Rules::of(Api::Vulkan));
+        set.groups[0].sample(1, 1, 0).count(0)
+    };
+    assert_eq!(of("depth16unorm"), 2);
+    assert!((150..190).contains(&of("depth24plus")));
+    assert!((200..300).contains(&of("depth32float")));
+}
+
+#[test]
+fn a_comparison_that_cannot_be_told_leaves_two_joint_outcomes() {
+    let scene = scene(
+        &format!(r#"{COLOR},"depth":{{"format":"depth24plus","clear":0.5}}"#),
+        r#"{"mesh":{"kind":"full","z":0.5},"shader":"uniform_color",
+            "params":{"color":[1,1,1,1]},"depth":{"compare":"less","write":true}}"#,
+        r#""color","depth""#,
+    );
+    let set = judge(&scene, &limits(Api::Vulkan), &Rules::of(Api::Vulkan));
+    let sample = set.groups[0].sample(0, 0, 0);
+    assert_eq!(sample.worlds.len(), 2);
+    let half = 1 << 23;
+    assert!(sample.allows(&[0, 0, 0, 0, half]));
+    assert!(sample.allows(&[255, 255, 255, 255, half - 1]));
+    // Half a colour, or a colour without its depth, is no consistent story.
+    assert!(!sample.allows(&[255, 0, 0, 0, half]));
+    assert!(!sample.allows(&[0, 0, 0, 0, half - 50]));
+}
+
+const SQUARE: &str = r#"{"mesh":{"kind":"vertices","positions":[[-1,-1,0],[1,-1,0],[1,1,0],[-1,-1,0],[1,1,0],[-1,1,0]]},
+    "shader":"uniform_color","stencil":{"front":{"compare":"always","pass_op":"increment-clamp"}}}"#;
+
+#[test]
+fn a_shared_diagonal_is_counted_exactly_once_where_the_rules_say_so() {
+    let attachments = format!(r#"{COLOR},"depth":{{"format":"stencil8","clear":0}}"#);
+    let scene = scene(&attachments, SQUARE, r#""depth""#);
+    let legal = |api| {
+        let limits = limits(api);
+        let set = judge(&scene, &limits, &Rules::of(api));
+        let sample = set.groups[0].sample(1, 2, 0).clone();
+        (0..4)
+            .filter(|n| sample.allows(&[*n]))
+            .collect::<Vec<i64>>()
+    };
+    assert_eq!(legal(Api::Vulkan), [1]);
+    assert_eq!(legal(Api::OpenGl), [1]);
+    assert_eq!(legal(Api::WebGpu), [0, 1, 2]);
+    let limits = limits(Api::Vulkan);
+    let set = judge(&scene, &limits, &Rules::yardstick(&limits));
+    assert_eq!(set.statistics()[0].1.exact, 16);
+}
+
+#[test]
+fn a_scene_without_decisions_costs_no_second_world() {
+    let library = etalon_case::Library::built_in().expect("built in");
+    let reference = library.cases().next().expect("a case");
+    let case = reference.build().expect("builds");
+    let limits = limits(Api::Vulkan);
+    let set = judge(&case.scene, &limits, &Rules::yardstick(&limits));
+    assert!(set.groups.iter().all(|g| g.distinct().len() < 256));
+}
+
+#[test]
+fn a_story_names_operations_and_citations() {
+    let scene = scene(
+        &format!(r#"{COLOR},"depth":{{"format":"depth32float","clear":0.25}}"#),
+        r#"{"mesh":{"kind":"columns","values":[0.5]},"shader":"flat_color_depth",
+            "params":{"color":[1,0,0,1]},"depth":{"compare":"less","write":true}}"#,
+        r#""color","depth""#,
+    );
+    let limits = limits(Api::Vulkan);
+    let at = Sample {
+        size: [4, 4],
+        samples: 1,
+        x: 2,
+        y: 1,
+        sample: 0,
+    };
+    let story = explain(&scene, &limits, &Rules::of(Api::Vulkan), at);
+    let test = story
+        .lines
+        .iter()
+        .find(|l| l.operation == "depth test")
+        .expect("a depth test");
+    assert_eq!(test.detail, "0.5 less stored 0.25 is false");
+    assert!(test.citation.as_ref().is_some_and(|c| c.contains("Depth")));
+}

@@ -1,0 +1,18 @@
+//! The judge: what the specifications allow at every sample of a scene.
+//!
+//! [`judge`] walks the scene sample by sample with the judging number system ([`Judging`]) and
+//! gives a [`LegalSet`](etalon_frame::LegalSet) per band; [`explain`] tells the story of one sample.
+//! The permissions it grants stand in [`rules`], with their citations.
+
+mod fragment;
+mod interval;
+mod judge;
+mod judging;
+pub mod rules;
+mod setup;
+mod world;
+
+pub use interval::Interval;
+pub use judge::{Judgement, Sample, explain, judge, judgements};
+pub use judging::{Judging, Range};
+pub use rules::{Permission, Rules};

@@ -1,0 +1,44 @@
+//! WebGPU's permissions. Where the text is silent, what the APIs under it permit.
+
+use super::{BlendPrecision, DepthOrder, Rounding, Rules, SharedEdge, Snap, permit};
+
+pub(super) fn rules() -> Rules {
+    Rules {
+        name: "webgpu",
+        float_error: permit(
+            1e-5,
+            "WebGPU: silent on fixed-function accuracy; Vulkan and OpenGL: about 1 part in 10^5",
+        ),
+        decode_error: permit(
+            1e-5,
+            "WebGPU: silent on normalized conversions; Vulkan and OpenGL: about 1 part in 10^5",
+        ),
+        snap: permit(
+            Snap::EitherSide,
+            "WebGPU: 23.2.5 Rasterization is silent on vertex snapping; Vulkan and OpenGL: at least \
+             4 bits, rounding open",
+        ),
+        shared_edge: permit(
+            SharedEdge::Independent,
+            "WebGPU: 23.2.5.3 Polygon Rasterization: whether a sample on an edge is inside is not \
+             defined",
+        ),
+        store: permit(
+            Rounding::EitherNeighbour,
+            "WebGPU: silent on the rounding of stores; Vulkan and OpenGL: one of the two closest \
+             values, an integer exactly",
+        ),
+        blend: permit(
+            BlendPrecision::DestinationCodes,
+            "WebGPU: silent on blend precision; Vulkan and OpenGL: no lower than the destination's",
+        ),
+        depth_order: permit(
+            DepthOrder::Either,
+            "WebGPU: 23.2.7 Output Merging is silent on the order of conversion and comparison",
+        ),
+        facing: "WebGPU: 23.2.5.3 Polygon Rasterization: front by the sign of the area; zero area \
+                 is back",
+        stencil: "WebGPU: 23.2.7 Output Merging: integer operations",
+        write_mask: "WebGPU: GPUColorWrite: channels not written keep their value",
+    }
+}

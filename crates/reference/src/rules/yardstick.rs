@@ -1,0 +1,41 @@
+//! The quality band, in the spirit of the Direct3D 11.3 functional specification.
+
+use super::{BlendPrecision, DepthOrder, Rounding, Rules, SharedEdge, Snap, permit};
+use etalon_frame::Api;
+
+pub(super) fn rules(api: Api) -> Rules {
+    // WebGPU does not tell the sub-pixel grid, so nothing tighter than the API's rule can be asked.
+    let snap = match api {
+        Api::WebGpu => Snap::EitherSide,
+        _ => Snap::Nearest,
+    };
+    Rules {
+        name: "yardstick",
+        // Two units in the last place of a 32-bit float: one rounding each of operand and result.
+        float_error: permit(
+            f64::from(f32::EPSILON),
+            "Direct3D 11.3: 3.1 Floating Point Rules: 1 ULP",
+        ),
+        decode_error: permit(
+            f64::from(f32::EPSILON),
+            "Direct3D 11.3: 3.2.3.5 UNORM to FLOAT: 1 ULP",
+        ),
+        snap: permit(snap, "Direct3D 11.3: 3.4.1 Coordinate Snapping: nearest"),
+        shared_edge: permit(SharedEdge::TopLeft, "Direct3D 11.3: 3.4.2.1 Top-Left Rule"),
+        store: permit(
+            Rounding::Within(0.6),
+            "Direct3D 11.3: 3.2.3.6 FLOAT to UNORM: 0.6 ULP",
+        ),
+        blend: permit(
+            BlendPrecision::Float32,
+            "Direct3D 11.3: 17.5 Blending Precision, held to 32-bit float",
+        ),
+        depth_order: permit(
+            DepthOrder::ConvertedFirst,
+            "Direct3D 11.3: 17.11 Depth Comparison: convert, then compare",
+        ),
+        facing: "Direct3D 11.3: 15.10 Facing: after snapping, zero area is back",
+        stencil: "Direct3D 11.3: 17.12 Stencil: integer operations",
+        write_mask: "Direct3D 11.3: 17.8 Write Masks",
+    }
+}

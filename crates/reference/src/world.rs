@@ -1,0 +1,62 @@
+//! Worlds: the consistent stories of one sample.
+
+use etalon_frame::CodeInterval;
+use smallvec::SmallVec;
+
+/// The most worlds that a sample is followed through; past it the sample is open.
+pub(crate) const WORLD_CAP: usize = 16;
+
+/// What one attachment holds at a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Cell {
+    /// Colour channels; of a depth attachment the first is the depth.
+    pub(crate) channels: [CodeInterval; 4],
+    /// Stencil.
+    pub(crate) stencil: u8,
+}
+
+/// A choice that the rules leave open, taken once per world: on which side of the edge between two
+/// positions of a draw the sample lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Decision {
+    /// The draw, counted over the scene. The invariance rules do not reach across draws whose state
+    /// differs, so neither does a choice.
+    pub(crate) draw: u32,
+    /// The positions, the lower number first.
+    pub(crate) ends: (u32, u32),
+    /// The primitive, where the rules let each decide for itself.
+    pub(crate) owner: Option<u32>,
+}
+
+/// One consistent story: what every attachment holds, and the choices that led there.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct World {
+    pub(crate) cells: SmallVec<[Cell; 2]>,
+    pub(crate) decisions: SmallVec<[(Decision, bool); 2]>,
+}
+
+impl World {
+    pub(crate) fn decided(&self, decision: Decision) -> Option<bool> {
+        self.decisions
+            .iter()
+            .find(|(d, _)| *d == decision)
+            .map(|(_, outcome)| *outcome)
+    }
+
+    /// This world with a choice taken; `true` is the positive side of the edge from the lower to the
+    /// higher number.
+    pub(crate) fn with(&self, decision: Decision, outcome: bool) -> Self {
+        let mut world = self.clone();
+        world.decisions.push((decision, outcome));
+        world
+    }
+}
+
+/// Merges equal worlds; `false` when more than [`WORLD_CAP`] remain.
+pub(crate) fn merge(worlds: &mut SmallVec<[World; 2]>) -> bool {
+    if worlds.len() > 1 {
+        worlds.sort_unstable();
+        worlds.dedup();
+    }
+    worlds.len() <= WORLD_CAP
+}

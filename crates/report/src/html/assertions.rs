@@ -1,0 +1,168 @@
+//! How much the legal sets and the yardstick asserted.
+
+use super::percent;
+use crate::grid::Grid;
+use etalon_frame::Aspect;
+use etalon_record::Assertion;
+use maud::{Markup, html};
+use std::collections::BTreeMap;
+
+pub(crate) fn section(grid: &Grid<'_>) -> Markup {
+    let rows: Vec<(usize, Aspect, Vec<Figures<'_>>)> = grid
+        .areas
+        .iter()
+        .enumerate()
+        .flat_map(|(a, _)| {
+            figures(grid, a)
+                .into_iter()
+                .map(move |(aspect, figures)| (a, aspect, figures))
+        })
+        .collect();
+    html! {
+        section id="asserted" {
+            h2 { "What was asserted" }
+            p {
+                "A channel is one channel of one sample. It is asserted when the rules forbid some of "
+                "its codes. Sharpness is the mean number of codes left to an asserted channel: 1 is "
+                "the sharpest. Fail means outside the legal band, Imprecise outside the yardstick. "
+                "Adapters stand apart where their figures differ."
+            }
+            @if rows.is_empty() {
+                p { "No frame was judged." }
+            } @else {
+                div.wide { table.figures {
+                    thead {
+                        tr {
+                            th rowspan="2" { "Area" } th rowspan="2" { "Aspect" }
+                            th rowspan="2" { "Adapters" } th rowspan="2" { "Channels" }
+                            th.band colspan="3" { "Legal band" } th.band colspan="3" { "Yardstick" }
+                        }
+                        tr {
+                            th.band { "asserted" } th { "exact" } th { "sharpness" }
+                            th.band { "asserted" } th { "exact" } th { "sharpness" }
+                        }
+                    }
+                    tbody {
+                        @for (area, aspect, figures) in &rows {
+                            @for f in figures { (row(grid, *area, *aspect, f)) }
+                        }
+                    }
+                } }
+            }
+        }
+    }
+}
+
+/// Adapters with the same figures.
+struct Figures<'a> {
+    adapters: Vec<&'a str>,
+    /// The fewest and the most channels that were judged on one of them.
+    channels: [u64; 2],
+    shown: [String; 6],
+}
+
+/// Grouped by the figures as they are shown: an adapter that lacks a case or two does not stand
+/// apart for that.
+fn figures<'a>(grid: &Grid<'a>, area: usize) -> Vec<(Aspect, Vec<Figures<'a>>)> {
+    let mut sums: BTreeMap<Aspect, BTreeMap<usize, Assertion>> = BTreeMap::new();
+    for column in 0..grid.adapters.len() {
+        for index in grid.areas[area].on(column) {
+            for assertion in &grid.record(index).assertions {
+                let of_aspect = sums.entry(assertion.aspect).or_default();
+                of_aspect
+                    .entry(column)
+                    .and_modify(|sum| sum.add(assertion))
+                    .or_insert(*assertion);
+            }
+        }
+    }
+    let group = |of_aspect: BTreeMap<usize, Assertion>| {
+        let mut groups: Vec<Figures<'a>> = Vec::new();
+        for (column, sum) in of_aspect {
+            let (adapter, shown) = (grid.adapters[column], shown(&sum));
+            match groups.iter_mut().find(|g| g.shown == shown) {
+                Some(group) => {
+                    group.adapters.push(adapter);
+                    let [least, most] = group.channels;
+                    group.channels = [least.min(sum.channels), most.max(sum.channels)];
+                }
+                None => groups.push(Figures {
+                    adapters: vec![adapter],
+                    channels: [sum.channels; 2],
+                    shown,
+                }),
+            }
+        }
+        groups
+    };
+    sums.into_iter()
+        .map(|(aspect, of_aspect)| (aspect, group(of_aspect)))
+        .collect()
+}
+
+fn shown(sum: &Assertion) -> [String; 6] {
+    let exact = |n: u64| percent(n as f64 / sum.channels.max(1) as f64);
+    [
+        percent(sum.share()),
+        exact(sum.exact),
+        sharpness(sum.sharpness()),
+        percent(sum.yardstick_share()),
+        exact(sum.yardstick_exact),
+        sharpness(sum.yardstick_sharpness()),
+    ]
+}
+
+fn row(grid: &Grid<'_>, area: usize, aspect: Aspect, figures: &Figures<'_>) -> Markup {
+    let [least, most] = figures.channels;
+    html! {
+        tr {
+            th scope="row" { (grid.areas[area].name) }
+            td { (aspect.name()) }
+            td.names {
+                @if figures.adapters.len() == grid.adapters.len() && grid.adapters.len() > 1 {
+                    "all"
+                } @else {
+                    (figures.adapters.join(", "))
+                }
+            }
+            td.num {
+                (thousands(most))
+                @if least < most { small { " (" (thousands(least)) " at least)" } }
+            }
+            @for (i, text) in figures.shown.iter().enumerate() {
+                td.num.band[i % 3 == 0] { (text) }
+            }
+        }
+    }
+}
+
+fn sharpness(value: Option<f64>) -> String {
+    match value {
+        None => "–".to_owned(),
+        Some(v) if v < 1000.0 => format!("{v:.2}"),
+        Some(v) if v < 1e6 => thousands(v.round() as u64),
+        Some(v) => format!("{v:.1e}"),
+    }
+}
+
+/// Digits in groups of three, with narrow spaces.
+fn thousands(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn digits_are_grouped_from_the_right() {
+        assert_eq!(super::thousands(1_234_567), "1\u{202f}234\u{202f}567");
+        assert_eq!(super::thousands(123), "123");
+    }
+}

@@ -1,0 +1,197 @@
+//! Everything known about one record.
+
+use crate::picture;
+use crate::words::{
+    allowed, channel_of, code_and_value, code_text, count, multisampled, place, value_text,
+};
+use etalon_frame::{Band, ChannelMismatch, Story, WrongTexel};
+use etalon_record::{FrameFile, Record, Run};
+use maud::{Markup, html};
+use std::path::Path;
+
+/// The most wrong texels in a table.
+const TEXELS: usize = 6;
+/// The most bytes that all pictures of a page take together.
+const PICTURE_BYTES: usize = 3 << 20;
+
+/// How much room is taken by pictures.
+#[derive(Default)]
+pub(crate) struct Budget {
+    bytes: usize,
+    /// Frames that had no room.
+    pub(crate) cut: u64,
+}
+
+pub(crate) fn body(folder: &Path, record: &Record, budget: &mut Budget) -> Markup {
+    let frame = record.frame.as_deref();
+    let frame = frame.map(|path| (path, Run::read_frame(folder, path)));
+    html! {
+        @if let Some((_, Ok(frame))) = &frame { (about(frame)) }
+        @if let Some(expected) = &record.expected { p { b { "Expected: " } (expected.reason) } }
+        @if record.due_fail {
+            p { b { "Selftest: " } "the judge was told otherwise than the driver, so this is due to fail." }
+        }
+        @if !record.message.is_empty() { pre { (record.message) } }
+        @if record.texels.total > 0 { p { (counts(record)) } }
+        @match &frame {
+            Some((_, Ok(frame))) => (pictures(frame, budget)),
+            Some((path, Err(error))) => p.note { "No pictures: " (path) ": " (error) },
+            None => {},
+        }
+        @if !record.wrong.is_empty() { (texels(record)) }
+        @if let Some(story) = &record.story { (tell(story, record)) }
+        p.again {
+            "Draw it again: "
+            code { "etalon run " (quoted(&record.case)) " --adapter " (quoted(&record.adapter)) }
+            @if let Some((path, _)) = &frame { ", frame: " code { (path) } }
+        }
+    }
+}
+
+fn about(frame: &FrameFile) -> Markup {
+    html! {
+        p.about { (frame.about) }
+        @if !frame.spec.is_empty() { p.spec { "Specifications: " (frame.spec.join("; ")) } }
+    }
+}
+
+fn counts(record: &Record) -> String {
+    let t = &record.texels;
+    format!(
+        "Of {}, {} outside the legal set, {} legal and outside the yardstick, {} open.",
+        count(t.total, "sample"),
+        t.wrong,
+        t.imprecise,
+        t.open
+    )
+}
+
+fn pictures(frame: &FrameFile, budget: &mut Budget) -> Markup {
+    if budget.bytes > PICTURE_BYTES {
+        budget.cut += 1;
+        return html! { p.note { "The page has no room left for these pictures." } };
+    }
+    let strips: Vec<_> = frame.images.iter().map(picture::strip).collect();
+    budget.bytes += strips
+        .iter()
+        .flatten()
+        .flat_map(|s| &s.pictures)
+        .map(|p| p.uri.len())
+        .sum::<usize>();
+    html! {
+        @for strip in strips {
+            @if let Some(strip) = strip {
+                div.strip {
+                    h5 { (strip.title) }
+                    @for p in &strip.pictures {
+                        figure {
+                            img src=(p.uri) width=(p.size[0]) height=(p.size[1])
+                                alt={ (p.label) " of " (strip.title) };
+                            figcaption { (p.label) }
+                        }
+                    }
+                    p.cap { (strip.caption) }
+                }
+            } @else {
+                p.note { "An image of this frame does not have the codes that its size calls for." }
+            }
+        }
+        p.cap {
+            "Difference: " span.cross { "✗" } " outside the legal set, " span.dot { "•" }
+            " legal but outside the yardstick; the brighter, the farther outside the allowed range, "
+            "in codes (for floats units in the last place) on a logarithmic scale. Allowed low and "
+            "high enclose all allowed outcomes, so a wrong texel may lie between them."
+        }
+    }
+}
+
+fn texels(record: &Record) -> Markup {
+    let shown = record.wrong.len().min(TEXELS);
+    let all = record.texels.wrong + record.texels.imprecise;
+    // The bounds of an imprecise texel are the yardstick's, which it left.
+    let imprecise = |t: &WrongTexel| t.band == Band::Imprecise;
+    let bound = match record.wrong[..shown]
+        .iter()
+        .filter(|t| imprecise(t))
+        .count()
+    {
+        0 => "Allowed",
+        n if n == shown => "Yardstick",
+        _ => "Allowed (≈: yardstick)",
+    };
+    html! {
+        h5 { "Wrong texels" }
+        div.wide { table.text.codes {
+            thead { tr {
+                th { "Place" } th { "Band" } th { "Channel" } th { "Encoding" } th { (bound) " code" }
+                th { (bound) " value" } th { "Actual" } th { "Off by" }
+            } }
+            tbody {
+                @for texel in &record.wrong[..shown] {
+                    @for (i, m) in texel.channels.iter().enumerate() { (texel_row(&place(texel, multisampled(record)), texel, i, m)) }
+                }
+            }
+        } }
+        @if all > shown as u64 { p.note { "and " (all - shown as u64) " more" } }
+    }
+}
+
+fn texel_row(place: &str, texel: &WrongTexel, i: usize, m: &ChannelMismatch) -> Markup {
+    let order = |code| m.encoding.order_of_code(code);
+    let off = (order(m.low) - order(m.actual)).max(order(m.actual) - order(m.high));
+    html! {
+        tr {
+            @if i == 0 {
+                th rowspan=(texel.channels.len()) { (place) }
+                td rowspan=(texel.channels.len()) {
+                    (match texel.band { Band::Fail => "✗ fail", Band::Imprecise => "≈ imprecise" })
+                }
+            }
+            td { (channel_of(m)) }
+            td { (m.encoding.to_string()) }
+            td { (allowed(m, code_text)) }
+            td { (allowed(m, value_text)) }
+            td { b { (code_and_value(m.encoding, m.actual)) } }
+            td {
+                @if m.encoding.is_nan(m.actual) { "not a number" }
+                @else { (count(off.max(0).unsigned_abs(), "code")) }
+            }
+        }
+    }
+}
+
+fn tell(story: &Story, record: &Record) -> Markup {
+    let mut at = "";
+    html! {
+        h5 { "What should have happened" @if let Some(texel) = record.wrong.first() { " at " (place(texel, multisampled(record))) } }
+        ol.story {
+            @for line in &story.lines {
+                @if line.at != at { li.at { ({ at = &line.at; at }) } }
+                li {
+                    b { (line.operation) } ": " (line.detail)
+                    @if let Some(citation) = &line.citation { " " cite { "[" (citation) "]" } }
+                }
+            }
+        }
+    }
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "/._=+-:,@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn words_are_quoted_for_a_shell() {
+        assert_eq!(super::quoted("gl:es/a=1"), "gl:es/a=1");
+        assert_eq!(super::quoted("a'; rm b"), "'a'\\''; rm b'");
+        assert_eq!(super::quoted(""), "''");
+    }
+}

@@ -1,0 +1,79 @@
+//! HTML, JUnit and terminal reports, made from a run folder alone.
+//!
+//! [`write()`] puts `index.html` and `junit.xml` beside a recorded run; [`table()`] is the summary for
+//! a terminal. None of them knows anything that the folder does not tell.
+
+#![cfg_attr(
+    test,
+    expect(clippy::unwrap_used, reason = "a test that panics has failed")
+)]
+
+mod grid;
+mod html;
+mod junit;
+mod picture;
+mod table;
+mod words;
+
+pub use table::{TableOptions, table};
+
+use etalon_record::{RecordError, Run};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// The reports that [`write()`] made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// The page for people.
+    pub html: PathBuf,
+    /// The file for continuous integration.
+    pub junit: PathBuf,
+}
+
+/// Why a report could not be made.
+#[derive(Debug, Error)]
+pub enum ReportError {
+    /// The run could not be read.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// A report could not be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// The system's word.
+        source: io::Error,
+    },
+    /// The JUnit report has no XML form.
+    #[error("cannot write the JUnit report: {0}")]
+    Junit(#[from] quick_junit::SerializeError),
+}
+
+/// Writes `index.html` and `junit.xml` into a run folder. Each is written beside its place and then
+/// renamed, so that a reader never sees half a report.
+///
+/// # Errors
+/// When the folder holds no readable run, or cannot be written to. A frame file that is missing or
+/// damaged is no error: the page says so in its place.
+pub fn write(folder: &Path) -> Result<Written, ReportError> {
+    let run = Run::read(folder)?;
+    let html = replace(folder, "index.html", html::page(folder, &run).as_bytes())?;
+    let junit = replace(folder, "junit.xml", junit::xml(&run)?.as_bytes())?;
+    Ok(Written { html, junit })
+}
+
+fn replace(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, ReportError> {
+    let path = folder.join(name);
+    let beside = folder.join(format!(".{name}.{}", std::process::id()));
+    let result = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, &path));
+    match result {
+        Ok(()) => Ok(path),
+        Err(source) => {
+            // Best effort: the first error is the one to tell.
+            let _ = fs::remove_file(&beside);
+            Err(ReportError::Io { path, source })
+        }
+    }
+}

@@ -1,0 +1,411 @@
+//! Images of frames as PNG data URIs: what was allowed, what came back, and where they differ.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use etalon_frame::{Aspect, ChannelEncoding};
+use etalon_record::FrameImage;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+
+/// The most texels a side that a picture shows; more are cut around the first wrong one.
+const WINDOW: u32 = 128;
+/// The side of a texel in the page, in pixels, for images up to 20 texels.
+const ENLARGED: u32 = 8;
+/// The page's width of a picture, roughly, that larger images are enlarged to.
+const TARGET: u32 = 160;
+
+const FAIL: [u8; 3] = [0xd5, 0x5e, 0x00];
+const IMPRECISE: [u8; 3] = [0x56, 0xb4, 0xe9];
+const FINE: [u8; 3] = [0x20, 0x24, 0x2a];
+
+/// One picture.
+pub(crate) struct Picture {
+    pub(crate) label: &'static str,
+    /// A `data:` address.
+    pub(crate) uri: String,
+    /// Width and height in the page.
+    pub(crate) size: [u32; 2],
+}
+
+/// All pictures of one image of a frame.
+pub(crate) struct Strip {
+    pub(crate) title: String,
+    pub(crate) pictures: Vec<Picture>,
+    pub(crate) caption: String,
+}
+
+/// The part of an image that is shown.
+#[derive(Clone, Copy)]
+struct Window {
+    x: u32,
+    y: u32,
+    width: u32,
+    height: u32,
+}
+
+struct View<'a> {
+    image: &'a FrameImage,
+    window: Window,
+    /// Page pixels per texel.
+    scale: u32,
+    /// Darkest and lightest value of grey pictures.
+    range: [f64; 2],
+}
+
+/// The pictures of an image. `None` when the image's lists do not fit its size.
+pub(crate) fn strip(image: &FrameImage) -> Option<Strip> {
+    if !image.is_whole() || image.wrong.is_empty() || image.channels.is_empty() {
+        return None;
+    }
+    let window = window(image);
+    let longest = window.width.max(window.height).max(1);
+    let view = View {
+        image,
+        window,
+        scale: (TARGET / longest).clamp(1, ENLARGED),
+        range: range(image),
+    };
+    let mut pictures = Vec::new();
+    let same = image.low == image.high;
+    let mut add = |labels: [&'static str; 4], look: Look| {
+        if same {
+            pictures.push(view.plain(labels[0], &image.low, look));
+        } else {
+            pictures.push(view.plain(labels[1], &image.low, look));
+            pictures.push(view.plain(labels[2], &image.high, look));
+        }
+        pictures.push(view.plain(labels[3], &image.actual, look));
+    };
+    let color = image.aspect == Aspect::Color;
+    let look = if color { Look::Rgb } else { Look::Grey(0) };
+    add(["allowed", "allowed low", "allowed high", "actual"], look);
+    let alpha = alpha(image);
+    if alpha == Alpha::Varies {
+        let labels = [
+            "allowed alpha",
+            "allowed low alpha",
+            "allowed high alpha",
+            "actual alpha",
+        ];
+        add(labels, Look::Grey(3));
+    }
+    pictures.push(view.difference());
+    let pictures = pictures.into_iter().collect::<Option<Vec<_>>>()?;
+    Some(Strip {
+        title: title(image),
+        pictures,
+        caption: view.caption(same, alpha),
+    })
+}
+
+fn title(image: &FrameImage) -> String {
+    let [width, height] = image.size;
+    let samples = match image.samples {
+        1 => String::new(),
+        n => format!(", {n} samples"),
+    };
+    let aspect = image.aspect.name();
+    let name = if image.attachment == aspect {
+        aspect.to_owned()
+    } else {
+        format!("{} ({aspect})", image.attachment)
+    };
+    format!("{name}: {width}×{height}{samples}, {}", image.channels[0])
+}
+
+fn window(image: &FrameImage) -> Window {
+    let [width, height] = image.size;
+    let first = image.wrong.iter().position(|w| *w != FrameImage::FINE);
+    let texel = (first.unwrap_or(0) as u64 / u64::from(image.samples.max(1))) as u32;
+    let (x, y) = (texel % width.max(1), texel / width.max(1));
+    let start = |at: u32, size: u32| {
+        at.saturating_sub(WINDOW / 2)
+            .min(size.saturating_sub(WINDOW))
+    };
+    Window {
+        x: start(x, width),
+        y: start(y, height),
+        width: width.min(WINDOW),
+        height: height.min(WINDOW),
+    }
+}
+
+/// Stencil values are small numbers in a large range, so their grey spans what is there.
+fn range(image: &FrameImage) -> [f64; 2] {
+    let ChannelEncoding::Uint(_) = image.channels[0] else {
+        return [0.0, 1.0];
+    };
+    let full = |low: u32, high: u32| {
+        let e = image.channels[0];
+        (e.order_of_code(low), e.order_of_code(high)) == (e.min_order(), e.max_order())
+    };
+    let allowed = image.low.iter().zip(&image.high);
+    let values = allowed
+        .filter(|(low, high)| !full(**low, **high))
+        .flat_map(|(low, high)| [*low, *high])
+        .chain(image.actual.iter().copied());
+    let (mut least, mut most) = (u32::MAX, 0);
+    for value in values {
+        least = least.min(value);
+        most = most.max(value);
+    }
+    [f64::from(least), f64::from(most)]
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Alpha {
+    None,
+    One(u32),
+    Varies,
+}
+
+fn alpha(image: &FrameImage) -> Alpha {
+    if image.aspect != Aspect::Color || image.channels.len() < 4 {
+        return Alpha::None;
+    }
+    let first = image.actual[3];
+    let n = image.channels.len();
+    let all = [&image.low, &image.high, &image.actual];
+    let same = all
+        .iter()
+        .all(|codes| codes.iter().skip(3).step_by(n).all(|c| *c == first));
+    if same {
+        Alpha::One(first)
+    } else {
+        Alpha::Varies
+    }
+}
+
+/// What a picture shows of a texel.
+#[derive(Clone, Copy)]
+enum Look {
+    Rgb,
+    Grey(usize),
+}
+
+impl View<'_> {
+    fn value(&self, codes: &[u32], sample: usize, channel: usize) -> u8 {
+        let Some(encoding) = self.image.channels.get(channel) else {
+            return 0;
+        };
+        let code = codes[sample * self.image.channels.len() + channel];
+        if encoding.is_nan(code) {
+            return 0;
+        }
+        let value = encoding.value_of_order(encoding.order_of_code(code));
+        let [low, high] = self.range;
+        let t = if high > low {
+            (value - low) / (high - low)
+        } else {
+            0.0
+        };
+        (t.clamp(0.0, 1.0) * 255.0).round() as u8
+    }
+
+    /// One pixel per sample; samples of one texel lie in pictures of their own, side by side.
+    fn plain(&self, label: &'static str, codes: &[u32], look: Look) -> Option<Picture> {
+        self.draw(label, 1, |sample, _, _| match look {
+            Look::Rgb => [0, 1, 2].map(|c| self.value(codes, sample, c)),
+            Look::Grey(channel) => [self.value(codes, sample, channel); 3],
+        })
+    }
+
+    /// Blocks of pixels, so that a wrong texel can carry a mark.
+    fn difference(&self) -> Option<Picture> {
+        let block = self.scale;
+        self.draw("difference", block, |sample, x, y| {
+            let (base, mark) = match self.image.wrong[sample] {
+                FrameImage::FINE => return FINE,
+                FrameImage::IMPRECISE => {
+                    // A dot.
+                    let inside = |v: u32| v * 2 + 2 >= block && v * 2 <= block;
+                    (IMPRECISE, inside(x) && inside(y))
+                }
+                _ => {
+                    // A cross.
+                    let edge = x == 0 || y == 0 || x == block - 1 || y == block - 1;
+                    (FAIL, !edge && (x == y || x + y == block - 1))
+                }
+            };
+            if mark && block >= 5 {
+                return [255; 3];
+            }
+            let bright = 0.4 + 0.6 * self.distance(sample);
+            base.map(|c| (f64::from(c) * bright).round() as u8)
+        })
+    }
+
+    /// How far a sample lies outside the allowed range, in codes on a log scale from 0 to 1.
+    fn distance(&self, sample: usize) -> f64 {
+        let n = self.image.channels.len();
+        let channel = |(i, e): (usize, &ChannelEncoding)| {
+            let at = sample * n + i;
+            let low = e.order_of_code(self.image.low[at]);
+            let high = e.order_of_code(self.image.high[at]);
+            let actual = e.order_of_code(self.image.actual[at]);
+            let codes = (low - actual).max(actual - high).max(0) as f64;
+            let most = (e.max_order() - e.min_order()) as f64;
+            (1.0 + codes).log2() / (1.0 + most).log2()
+        };
+        let channels = self.image.channels.iter().enumerate().map(channel);
+        channels.fold(0.0, f64::max).min(1.0)
+    }
+
+    /// Draws a picture of `block`² pixels per sample with a gap between the samples' tiles.
+    fn draw(
+        &self,
+        label: &'static str,
+        block: u32,
+        pixel: impl Fn(usize, u32, u32) -> [u8; 3],
+    ) -> Option<Picture> {
+        let w = self.window;
+        let samples = self.image.samples;
+        let gap = if samples > 1 { block } else { 0 };
+        let tile = w.width * block + gap;
+        let (width, height) = (tile * samples - gap, w.height * block);
+        let mut pixels = Vec::with_capacity(width as usize * height as usize);
+        for py in 0..height {
+            for px in 0..width {
+                let (sample, x) = (px / tile, px % tile);
+                if x >= w.width * block {
+                    pixels.push([0; 4]);
+                    continue;
+                }
+                let texel = u64::from(w.y + py / block) * u64::from(self.image.size[0])
+                    + u64::from(w.x + x / block);
+                let index = texel * u64::from(samples) + u64::from(sample);
+                let [r, g, b] = pixel(index as usize, x % block, py % block);
+                pixels.push([r, g, b, 255]);
+            }
+        }
+        let enlarge = self.scale / block;
+        Some(Picture {
+            label,
+            uri: uri(&pixels, width, height)?,
+            size: [width * enlarge, height * enlarge],
+        })
+    }
+
+    fn caption(&self, same: bool, alpha: Alpha) -> String {
+        let image = self.image;
+        let [low, high] = self.range;
+        let mut text = match image.aspect {
+            Aspect::Color => {
+                "Colours are shown opaque, 0 to 1, without a transfer function.".to_owned()
+            }
+            Aspect::Depth => "Black is depth 0, white is depth 1.".to_owned(),
+            Aspect::Stencil => format!("Black is {low}, white is {high}."),
+        };
+        match alpha {
+            Alpha::None => {}
+            Alpha::One(code) => {
+                let value = crate::words::value_text(image.channels[3], code);
+                text.push_str(&format!(" Alpha is {value} everywhere."));
+            }
+            Alpha::Varies => text.push_str(" Alpha has grey pictures of its own."),
+        }
+        if same {
+            text.push_str(" Exactly one code is allowed everywhere.");
+        }
+        if image.samples > 1 {
+            text.push_str(" Samples lie side by side.");
+        }
+        let [width, height] = image.size;
+        if (self.window.width, self.window.height) != (width, height) {
+            let Window { x, y, .. } = self.window;
+            text.push_str(&format!(" Only the part from texel ({x}, {y}) is shown."));
+        }
+        text
+    }
+}
+
+/// The smallest of the PNG forms that hold the pixels.
+fn uri(pixels: &[[u8; 4]], width: u32, height: u32) -> Option<String> {
+    let opaque = pixels.iter().all(|p| p[3] == 255);
+    let grey = pixels.iter().all(|p| p[0] == p[1] && p[1] == p[2]);
+    let (bytes, color): (Vec<u8>, _) = match (opaque, grey) {
+        (true, true) => (pixels.iter().map(|p| p[0]).collect(), ExtendedColorType::L8),
+        (true, false) => (
+            pixels.iter().flat_map(|p| [p[0], p[1], p[2]]).collect(),
+            ExtendedColorType::Rgb8,
+        ),
+        (false, _) => (pixels.concat(), ExtendedColorType::Rgba8),
+    };
+    let mut png = Vec::new();
+    PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive)
+        .write_image(&bytes, width, height, color)
+        .ok()?;
+    Some(format!("data:image/png;base64,{}", STANDARD.encode(&png)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn image(samples: u32, size: [u32; 2]) -> FrameImage {
+        let n = (size[0] * size[1] * samples) as usize;
+        let mut wrong = vec![0; n];
+        wrong[n - 1] = FrameImage::FAIL;
+        FrameImage {
+            attachment: "depth".to_owned(),
+            aspect: Aspect::Depth,
+            size,
+            samples,
+            channels: vec![ChannelEncoding::Unorm(16)],
+            low: vec![0; n],
+            high: vec![65535; n],
+            actual: vec![0x8000; n],
+            wrong,
+        }
+    }
+
+    fn decode(picture: &Picture) -> image::RgbaImage {
+        let data = picture.uri.strip_prefix("data:image/png;base64,").unwrap();
+        let bytes = STANDARD.decode(data).unwrap();
+        image::load_from_memory(&bytes).unwrap().to_rgba8()
+    }
+
+    #[test]
+    fn pictures_show_codes_and_mark_wrong_texels() {
+        let strip = strip(&image(1, [16, 16])).unwrap();
+        let labels: Vec<_> = strip.pictures.iter().map(|p| p.label).collect();
+        let due = ["allowed low", "allowed high", "actual", "difference"];
+        assert_eq!(labels, due);
+        assert!(strip.pictures.iter().all(|p| p.size == [128, 128]));
+        let pixel = |i: usize, x, y| decode(&strip.pictures[i]).get_pixel(x, y).0;
+        assert_eq!(pixel(0, 0, 0), [0, 0, 0, 255]);
+        assert_eq!(pixel(1, 0, 0), [255, 255, 255, 255]);
+        assert_eq!(pixel(2, 0, 0), [128, 128, 128, 255]);
+        assert_eq!(pixel(3, 0, 0)[..3], FINE);
+        assert_eq!(pixel(3, 124, 124)[..3], [255; 3], "the cross's middle");
+        assert_ne!(pixel(3, 127, 127)[..3], FINE);
+    }
+
+    #[test]
+    fn samples_lie_side_by_side_and_large_images_are_cut() {
+        let four = strip(&image(4, [16, 16])).unwrap();
+        assert_eq!(four.pictures[0].size, [(4 * 17 - 1) * 8, 128]);
+        let large = strip(&image(1, [1280, 720])).unwrap();
+        assert_eq!(large.pictures[0].size, [WINDOW, WINDOW]);
+        assert!(large.caption.contains("(1152, 592)"), "{}", large.caption);
+        let last = decode(&large.pictures[3]).get_pixel(127, 127).0;
+        assert_ne!(last[..3], FINE, "the wrong texel is in sight");
+    }
+
+    #[test]
+    fn images_of_the_wrong_shape_are_refused() {
+        let mut short = image(1, [4, 4]);
+        short.actual.pop();
+        assert!(strip(&short).is_none());
+        let mut huge = image(1, [4, 4]);
+        huge.size = [u32::MAX, u32::MAX];
+        assert!(strip(&huge).is_none());
+        assert!(
+            strip(&FrameImage {
+                size: [0, 0],
+                ..image(1, [1, 1])
+            })
+            .is_none()
+        );
+    }
+}

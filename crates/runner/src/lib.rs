@@ -1,0 +1,21 @@
+//! Selects, isolates, runs and judges; emits one event stream.
+//!
+//! Workers only draw: [`serve`] answers requests in a process of its own. The parent judges: [`run`]
+//! drives one worker per adapter, holds every frame against its legal set, writes one record per
+//! case and adapter, and tells [`Event`]s as they happen.
+
+mod event;
+mod process;
+mod protocol;
+mod run;
+mod select;
+mod verdict;
+mod worker;
+
+pub use event::Event;
+pub use process::{DrawError, Launch, StartError, Worker};
+pub use protocol::Hello;
+pub use run::{Outcome, Plan, RunError, run};
+pub use select::{SelectError, Selection, select};
+pub use verdict::{Judge, Judged};
+pub use worker::serve;

@@ -1,0 +1,108 @@
+//! What parent and worker say to each other: length-prefixed binary messages over two pipes.
+
+use etalon_backend::{AdapterInfo, BackendError, FrameTime, Unavailable};
+use etalon_case::Scene;
+use etalon_frame::{Frame, Limits};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use std::io::{self, Read, Write};
+use std::time::Duration;
+
+/// The longest message that is taken, in bytes; anything longer is garbage.
+const MAX_MESSAGE: u32 = 1 << 30;
+
+/// From the parent. `slot` is the parent's number for a prepared scene.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) enum Request {
+    /// Prepare a scene.
+    Prepare { slot: u32, scene: Box<Scene> },
+    /// Draw a prepared scene so many times.
+    Submit { slot: u32, times: u32 },
+    /// Read a drawn scene back.
+    ReadBack { slot: u32 },
+    /// Forget a scene.
+    Drop { slot: u32 },
+}
+
+/// From the worker, one per request and in their order.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) enum Response {
+    /// The first message: who the adapter is, or why there is none.
+    Hello(Result<Box<Hello>, Unavailable>),
+    /// The answer to a request.
+    Done {
+        outcome: Result<Payload, BackendError>,
+        /// How long the worker took.
+        elapsed: Duration,
+        /// Messages of validation layers and debug output that came meanwhile.
+        messages: Vec<String>,
+    },
+}
+
+/// What a request brought.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) enum Payload {
+    Prepared,
+    Submitted(Vec<FrameTime>),
+    Frame(Box<Frame>),
+    Dropped,
+}
+
+/// Who an adapter is and what it can do.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Hello {
+    /// Who it is.
+    pub info: AdapterInfo,
+    /// What it can do.
+    pub limits: Limits,
+}
+
+pub(crate) fn send<T: Serialize>(to: &mut impl Write, message: &T) -> io::Result<()> {
+    let bytes = postcard::to_stdvec(message).map_err(io::Error::other)?;
+    let length = u32::try_from(bytes.len())
+        .ok()
+        .filter(|n| *n <= MAX_MESSAGE)
+        .ok_or_else(|| io::Error::other("the message is too long"))?;
+    to.write_all(&length.to_le_bytes())?;
+    to.write_all(&bytes)?;
+    to.flush()
+}
+
+/// The next message; `None` at the end of the stream between two messages.
+pub(crate) fn receive<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<Option<T>> {
+    let mut length = [0; 4];
+    match from.read(&mut length[..1])? {
+        0 => return Ok(None),
+        _ => from.read_exact(&mut length[1..])?,
+    }
+    let length = u32::from_le_bytes(length);
+    if length > MAX_MESSAGE {
+        return Err(io::Error::other("not a message of the protocol"));
+    }
+    // Grown while reading, so that a lying length cannot take the memory first.
+    let mut bytes = Vec::new();
+    from.take(u64::from(length)).read_to_end(&mut bytes)?;
+    if bytes.len() < length as usize {
+        return Err(io::ErrorKind::UnexpectedEof.into());
+    }
+    postcard::from_bytes(&bytes)
+        .map(Some)
+        .map_err(|e| io::Error::other(format!("not a message of the protocol: {e}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_survive_the_pipe_and_garbage_is_refused() {
+        let mut pipe = Vec::new();
+        send(&mut pipe, &Request::Drop { slot: 7 }).expect("sent");
+        let mut from = pipe.as_slice();
+        let back: Option<Request> = receive(&mut from).expect("received");
+        assert!(matches!(back, Some(Request::Drop { slot: 7 })));
+        assert!(receive::<Request>(&mut from).expect("end").is_none());
+        assert!(receive::<Response>(&mut &b"hello, this is no message"[..]).is_err());
+        assert!(receive::<Response>(&mut &[3, 0, 0, 0, 1][..]).is_err());
+    }
+}

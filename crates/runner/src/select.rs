@@ -1,0 +1,79 @@
+//! Which cases run.
+
+use etalon_case::{CaseRef, Library};
+use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
+use thiserror::Error;
+
+/// Cases chosen from a library.
+#[derive(Debug)]
+pub struct Selection<'a> {
+    /// The cases, in the library's order.
+    pub cases: Vec<CaseRef<'a>>,
+}
+
+/// Why nothing could be chosen.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum SelectError {
+    /// A glob that cannot be read.
+    #[error("`{glob}` is not a glob: {message}")]
+    Glob {
+        /// The glob.
+        glob: String,
+        /// What is wrong.
+        message: String,
+    },
+}
+
+/// The cases whose ids match any of the globs; all where there are none. `*` also matches `/`, and
+/// a glob without special characters also names everything below it: `depth` is `depth/*`.
+///
+/// # Errors
+/// When a glob cannot be read.
+pub fn select<'a>(library: &'a Library, globs: &[String]) -> Result<Selection<'a>, SelectError> {
+    let set = glob_set(globs)?;
+    let chosen = |case: &CaseRef<'_>| globs.is_empty() || set.is_match(case.id());
+    Ok(Selection {
+        cases: library.cases().filter(chosen).collect(),
+    })
+}
+
+fn glob_set(globs: &[String]) -> Result<GlobSet, SelectError> {
+    let fail = |glob: &str, error: &globset::Error| SelectError::Glob {
+        glob: glob.to_owned(),
+        message: error.kind().to_string(),
+    };
+    let mut builder = GlobSetBuilder::new();
+    for glob in globs {
+        let mut add = |text: &str| -> Result<(), SelectError> {
+            let parsed = GlobBuilder::new(text)
+                .literal_separator(false)
+                .build()
+                .map_err(|e| fail(glob, &e))?;
+            builder.add(parsed);
+            Ok(())
+        };
+        add(glob)?;
+        if !glob.contains(['*', '?', '[', '{']) {
+            add(&format!("{}/*", glob.trim_end_matches('/')))?;
+        }
+    }
+    builder.build().map_err(|e| fail("", &e))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_matches_slashes_and_a_plain_name_what_is_below() {
+        let all = |globs: &[&str]| {
+            let globs: Vec<String> = globs.iter().map(|g| (*g).to_owned()).collect();
+            glob_set(&globs).expect("globs")
+        };
+        assert!(all(&["depth/*"]).is_match("depth/compare/compare=less/write=true"));
+        assert!(all(&["*write=true"]).is_match("depth/compare/compare=less/write=true"));
+        assert!(all(&["depth"]).is_match("depth/compare/compare=less"));
+        assert!(!all(&["depth"]).is_match("depths/compare"));
+        assert!(glob_set(&["a[".to_owned()]).is_err());
+    }
+}

@@ -1,0 +1,350 @@
+//! From a frame to a verdict.
+
+use etalon_case::Case;
+use etalon_frame::{
+    Aspect, AspectStatistics, Band, ChannelMismatch, Comparison, Frame, LegalSet, Limits,
+    SampleGroup, WrongTexel, compare,
+};
+use etalon_record::{Assertion, FrameFile, FrameImage, MAX_WRONG_TEXELS, Record, Verdict};
+use etalon_reference::{Judgement, Rules, Sample, explain, judgements};
+use std::collections::{HashMap, VecDeque};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// Bytes of legal sets that are kept for the adapters that come to a case later.
+const CACHE_BYTES: usize = 512 << 20;
+
+type Entry = Arc<OnceLock<Arc<Vec<Judgement>>>>;
+
+/// Judges frames; legal sets are cached by case and limits, so that adapters share them.
+#[derive(Debug, Default)]
+pub struct Judge {
+    cache: Mutex<Cache>,
+}
+
+#[derive(Debug, Default)]
+struct Cache {
+    entries: HashMap<(usize, Limits), Entry>,
+    order: VecDeque<(usize, Limits)>,
+    bytes: usize,
+}
+
+/// A record without its times, and the frame file that belongs to it.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// The record.
+    pub record: Record,
+    /// The frame, where it is worth looking at.
+    pub frame: Option<FrameFile>,
+}
+
+impl Judge {
+    /// Holds a frame against what the rules allow. `number` tells the case from others.
+    pub fn judge(
+        &self,
+        number: usize,
+        case: &Case,
+        adapter: &str,
+        limits: &Limits,
+        frame: &Frame,
+    ) -> Judged {
+        let judgements = self.judgements(number, case, limits);
+        let mut record = Record::new(&case.id, adapter, Verdict::Pass);
+        record.due_fail = case.judged_as.is_some();
+        // A format whose encoding the API hides is one or the other for the whole frame: the
+        // reading under which fewer samples are wrong counts.
+        let mut best: Option<(Comparison, &Judgement)> = None;
+        for judgement in judgements.iter() {
+            let compared = compare(
+                frame,
+                &judgement.legal,
+                &judgement.yardstick,
+                MAX_WRONG_TEXELS,
+            );
+            let comparison = match compared {
+                Ok(comparison) => comparison,
+                Err(error) => {
+                    record.verdict = Verdict::InternalError;
+                    record.message = error.to_string();
+                    return Judged {
+                        record,
+                        frame: None,
+                    };
+                }
+            };
+            let badness = |c: &Comparison| (c.texels.wrong, c.texels.imprecise);
+            if best
+                .as_ref()
+                .is_none_or(|(b, _)| badness(&comparison) < badness(b))
+            {
+                best = Some((comparison, judgement));
+            }
+        }
+        let Some((comparison, judgement)) = best else {
+            record.verdict = Verdict::InternalError;
+            record.message = "the limits leave no encoding to judge by".to_owned();
+            return Judged {
+                record,
+                frame: None,
+            };
+        };
+        record.texels = comparison.texels;
+        record.wrong = comparison.wrong;
+        record.assertions = assertions(judgement);
+        let asserted: u64 = record.assertions.iter().map(|a| a.asserted).sum();
+        record.verdict = if comparison.texels.wrong > 0 {
+            Verdict::Fail
+        } else if asserted == 0 {
+            Verdict::Open
+        } else if comparison.texels.imprecise > 0 {
+            Verdict::Imprecise
+        } else {
+            Verdict::Pass
+        };
+        expected_values(case, frame, &judgement.legal, &mut record);
+        let mut file = None;
+        if matches!(record.verdict, Verdict::Fail | Verdict::Imprecise) {
+            if let Some(wrong) = record.wrong.first() {
+                let rules = match wrong.band {
+                    Band::Fail => Rules::of(judgement.limits.api),
+                    Band::Imprecise => Rules::yardstick(&judgement.limits),
+                };
+                if let Some(at) = sample_of(case, wrong) {
+                    let scene = case.judged_scene();
+                    record.story = Some(explain(scene, &judgement.limits, &rules, at));
+                }
+            }
+            file = Some(frame_file(case, adapter, frame, judgement, record.verdict));
+        }
+        Judged {
+            record,
+            frame: file,
+        }
+    }
+
+    fn judgements(&self, number: usize, case: &Case, limits: &Limits) -> Arc<Vec<Judgement>> {
+        let key = (number, limits_that_matter(limits));
+        let entry = {
+            let mut cache = self.cache.lock().unwrap_or_else(PoisonError::into_inner);
+            match cache.entries.get(&key) {
+                Some(entry) => Arc::clone(entry),
+                None => {
+                    let entry = Entry::default();
+                    cache.entries.insert(key.clone(), Arc::clone(&entry));
+                    entry
+                }
+            }
+        };
+        let mut fresh = false;
+        let sets = Arc::clone(entry.get_or_init(|| {
+            fresh = true;
+            Arc::new(judgements(case.judged_scene(), limits))
+        }));
+        if fresh {
+            let weight = |all: &[Judgement]| -> usize {
+                all.iter()
+                    .map(|j| j.legal.weight() + j.yardstick.weight())
+                    .sum()
+            };
+            let mut cache = self.cache.lock().unwrap_or_else(PoisonError::into_inner);
+            cache.bytes += weight(&sets);
+            cache.order.push_back(key);
+            while cache.bytes > CACHE_BYTES {
+                let Some(oldest) = cache.order.pop_front() else {
+                    break;
+                };
+                if let Some(old) = cache.entries.remove(&oldest) {
+                    let freed = old.get().map_or(0, |sets| weight(sets));
+                    cache.bytes = cache.bytes.saturating_sub(freed);
+                }
+            }
+        }
+        sets
+    }
+}
+
+/// Limits without what no legal set depends on, so that more adapters share one.
+fn limits_that_matter(limits: &Limits) -> Limits {
+    let mut key = limits.clone();
+    key.features.clear();
+    key.max_size = 0;
+    for support in key.formats.values_mut() {
+        support.samples.clear();
+    }
+    key
+}
+
+fn assertions(judgement: &Judgement) -> Vec<Assertion> {
+    let tight = judgement.yardstick.statistics();
+    let of = |aspect: Aspect| -> AspectStatistics {
+        tight
+            .iter()
+            .find(|(a, _)| *a == aspect)
+            .map(|(_, figures)| *figures)
+            .unwrap_or_default()
+    };
+    judgement
+        .legal
+        .statistics()
+        .into_iter()
+        .map(|(aspect, legal)| Assertion::new(aspect, legal, of(aspect)))
+        .collect()
+}
+
+/// Holds the case's literal values against frame and legal set. A literal outside the legal set
+/// is the reference's error; a frame that is legal but not the literal is imprecise.
+fn expected_values(case: &Case, frame: &Frame, legal: &LegalSet, record: &mut Record) {
+    for expect in &case.expect {
+        let name = &case.scene.attachments[expect.attachment].name;
+        let found = legal
+            .images
+            .iter()
+            .position(|i| &i.attachment == name && i.aspect == Aspect::Color);
+        let Some(index) = found else { continue };
+        let info = &legal.images[index];
+        let [x, y] = expect.texel;
+        let set = legal.groups[info.group].sample(x, y, 0);
+        let mut channels = Vec::new();
+        for (c, value) in expect.value.iter().enumerate() {
+            let encoding = info.channels[c];
+            let due = encoding.nearest_code(*value);
+            let at = info.first_channel + c;
+            let legal_here = set
+                .hull(at)
+                .is_none_or(|hull| hull.contains(encoding.order_of_code(due)));
+            if !legal_here {
+                record.verdict = Verdict::InternalError;
+                record.message = format!(
+                    "the literal {value} of channel {c} at ({x}, {y}) is outside the legal set"
+                );
+                return;
+            }
+            let actual = frame.images[index].sample(x, y, 0)[c];
+            if actual != due {
+                channels.push(ChannelMismatch {
+                    attachment: name.clone(),
+                    aspect: Aspect::Color,
+                    channel: c as u8,
+                    encoding,
+                    low: due,
+                    high: due,
+                    actual,
+                });
+            }
+        }
+        if !channels.is_empty() {
+            if record.verdict == Verdict::Pass {
+                record.verdict = Verdict::Imprecise;
+                record.texels.imprecise += 1;
+            }
+            record.message = format!("texel ({x}, {y}) is not the literal value of the case");
+            record.wrong.push(WrongTexel {
+                x,
+                y,
+                sample: 0,
+                band: Band::Imprecise,
+                channels,
+            });
+        }
+    }
+}
+
+fn sample_of(case: &Case, wrong: &WrongTexel) -> Option<Sample> {
+    let name = &wrong.channels.first()?.attachment;
+    let attachment = case.scene.attachments.iter().find(|a| &a.name == name)?;
+    Some(Sample {
+        size: attachment.size,
+        samples: attachment.samples,
+        x: wrong.x,
+        y: wrong.y,
+        sample: wrong.sample,
+    })
+}
+
+fn frame_file(
+    case: &Case,
+    adapter: &str,
+    frame: &Frame,
+    judgement: &Judgement,
+    verdict: Verdict,
+) -> FrameFile {
+    let shown = match verdict {
+        Verdict::Fail => &judgement.legal,
+        _ => &judgement.yardstick,
+    };
+    let mut images = Vec::new();
+    for (image, info) in frame.images.iter().zip(&shown.images) {
+        let group = &shown.groups[info.group];
+        let mut low = Vec::with_capacity(image.codes.len());
+        let mut high = Vec::with_capacity(image.codes.len());
+        let mut wrong = Vec::new();
+        let mut orders = Vec::new();
+        for y in 0..image.size[1] {
+            for x in 0..image.size[0] {
+                for sample in 0..image.samples {
+                    let set = group.sample(x, y, sample);
+                    for (c, encoding) in info.channels.iter().enumerate() {
+                        let hull = set.hull(info.first_channel + c);
+                        let (l, h) = hull.map_or_else(
+                            || (encoding.min_order(), encoding.max_order()),
+                            |hull| (hull.low, hull.high),
+                        );
+                        low.push(encoding.code_of_order(l));
+                        high.push(encoding.code_of_order(h));
+                    }
+                    sample_orders(frame, shown, group, info.group, (x, y, sample), &mut orders);
+                    let legal = judgement.legal.groups[info.group].sample(x, y, sample);
+                    let tight = judgement.yardstick.groups[info.group].sample(x, y, sample);
+                    wrong.push(if !legal.allows(&orders) {
+                        FrameImage::FAIL
+                    } else if !tight.allows(&orders) {
+                        FrameImage::IMPRECISE
+                    } else {
+                        FrameImage::FINE
+                    });
+                }
+            }
+        }
+        images.push(FrameImage {
+            attachment: image.attachment.clone(),
+            aspect: image.aspect,
+            size: image.size,
+            samples: image.samples,
+            channels: image.channels.clone(),
+            low,
+            high,
+            actual: image.codes.clone(),
+            wrong,
+        });
+    }
+    FrameFile {
+        case: case.id.clone(),
+        adapter: adapter.to_owned(),
+        about: case.about.clone(),
+        spec: case.spec.clone(),
+        images,
+    }
+}
+
+/// The orders of one sample in all images of its group.
+fn sample_orders(
+    frame: &Frame,
+    set: &LegalSet,
+    group: &SampleGroup,
+    index: usize,
+    (x, y, sample): (u32, u32, u32),
+    orders: &mut Vec<i64>,
+) {
+    orders.clear();
+    orders.reserve(group.channels.len());
+    for (image, info) in frame.images.iter().zip(&set.images) {
+        if info.group == index {
+            let codes = image.sample(x, y, sample);
+            orders.extend(
+                codes
+                    .iter()
+                    .zip(&info.channels)
+                    .map(|(code, e)| e.order_of_code(*code)),
+            );
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! The crate's face: which adapters there are, and an open one.
+
+use crate::device::{Device, identify};
+use crate::error::unavailable;
+use crate::format::{self, Native};
+use crate::instance::Instance;
+use crate::limits;
+use crate::memory::Pool;
+use crate::pipeline::Pipelines;
+use crate::prepared::PreparedScene;
+use crate::samples::SampleReaders;
+use crate::slot::Slots;
+use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
+use etalon_case::Scene;
+use etalon_frame::{Limits, TextureFormat};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// How to open an adapter.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// The device's place in the order of `vkEnumeratePhysicalDevices`, which is also the order of
+    /// [`enumerate`].
+    pub device: usize,
+    /// Whether the Khronos validation layer watches our calls, synchronization included; what it
+    /// says comes out of [`Backend::messages`].
+    pub validate: bool,
+}
+
+/// An open Vulkan device. It belongs to one thread.
+pub struct VulkanBackend {
+    info: AdapterInfo,
+    limits: Limits,
+    pub(crate) natives: BTreeMap<TextureFormat, Native>,
+    pub(crate) pools: RefCell<Pools>,
+    /// Last, so that it outlives what was made of it.
+    pub(crate) device: Device,
+}
+
+/// Everything that is kept from scene to scene.
+#[derive(Default)]
+pub(crate) struct Pools {
+    pub(crate) slots: Slots,
+    pub(crate) memory: Pool,
+    pub(crate) pipelines: Pipelines,
+    pub(crate) readers: SampleReaders,
+}
+
+/// All physical devices that the installed drivers offer, in the order of [`Options::device`]. The
+/// name is `vulkan:<driver>`; a driver's second device gets `vulkan:<driver>:1`.
+///
+/// A device may be listed that [`open`] then refuses, for want of Vulkan 1.3.
+///
+/// # Errors
+/// When there is no Vulkan loader, no driver, or none that lists a device.
+pub fn enumerate() -> Result<Vec<AdapterInfo>, Unavailable> {
+    let instance = Instance::new(false)?;
+    let mut infos: Vec<AdapterInfo> = Vec::new();
+    for physical in instance.physical_devices()? {
+        let mut info = identify(&instance, physical).info;
+        let own = info.name.clone();
+        let mut number = 0;
+        while infos.iter().any(|i| i.name == info.name) {
+            number += 1;
+            info.name = format!("{own}:{number}");
+        }
+        infos.push(info);
+    }
+    Ok(infos)
+}
+
+/// Opens a device under a name, which becomes [`AdapterInfo::name`].
+///
+/// # Errors
+/// When there is no such device, it speaks no Vulkan 1.3, its driver fails, or validation was asked
+/// for and is not installed.
+pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable> {
+    let instance = Rc::new(Instance::new(options.validate)?);
+    let devices = instance.physical_devices()?;
+    let Some(physical) = devices.get(options.device).copied() else {
+        return Err(Unavailable::new(
+            format!(
+                "there is no Vulkan device {}, but {} devices",
+                options.device,
+                devices.len()
+            ),
+            "list the adapters anew: drivers may have come or gone",
+        ));
+    };
+    let identity = identify(&instance, physical);
+    let device = Device::new(instance, physical, &identity)?;
+    let natives = format::natives(&device);
+    let backend = VulkanBackend {
+        info: AdapterInfo {
+            name: name.to_owned(),
+            ..identity.info
+        },
+        limits: limits::limits(&device, &natives),
+        natives,
+        pools: RefCell::default(),
+        device,
+    };
+    let created = backend.pools.borrow_mut().pipelines.create(&backend.device);
+    created.map_err(|error| unavailable(&error))?;
+    Ok(backend)
+}
+
+impl Backend for VulkanBackend {
+    fn adapter(&self) -> &AdapterInfo {
+        &self.info
+    }
+
+    fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
+        Ok(Box::new(PreparedScene::new(self, scene)?))
+    }
+
+    fn messages(&self) -> Vec<String> {
+        self.device.instance.take_messages()
+    }
+}
+
+impl Drop for VulkanBackend {
+    fn drop(&mut self) {
+        let pools = self.pools.get_mut();
+        // Prepared scenes borrow the backend, so all of them are gone, and each has waited for the
+        // device to be done with it.
+        pools.slots.destroy(&self.device);
+        pools.memory.destroy(&self.device);
+        pools.pipelines.destroy(&self.device);
+        pools.readers.destroy(&self.device);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_case::Library;
+
+    /// The validation layer names every object that outlives its device.
+    #[test]
+    fn a_closed_backend_leaves_nothing_behind() {
+        let options = Options {
+            device: 0,
+            validate: true,
+        };
+        let backend = open("vulkan:0", &options).expect("this test needs a Vulkan driver");
+        let library = Library::built_in().expect("built-in files parse");
+        for case in library.cases().step_by(251) {
+            let scene = case.build().expect("built-in cases build").scene;
+            if backend.limits().missing(&scene.requirements()).is_none() {
+                let mut prepared = backend.prepare(&scene).expect("the limits allow it");
+                prepared.submit().expect("a working driver");
+                prepared.read_back().expect("a working driver");
+            }
+        }
+        let instance = backend.device.instance.clone();
+        drop(backend);
+        assert_eq!(instance.take_messages(), Vec::<String>::new());
+    }
+}

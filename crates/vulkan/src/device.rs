@@ -1,0 +1,237 @@
+//! Physical devices: who they are, and the logical device made of one.
+
+use crate::error::{Check, describe};
+use crate::instance::Instance;
+use ash::vk;
+use etalon_backend::{AdapterInfo, BackendError, Unavailable};
+use std::ffi::CStr;
+use std::rc::Rc;
+
+/// What is known of a physical device before it is opened.
+pub(crate) struct Identity {
+    pub(crate) properties: vk::PhysicalDeviceProperties,
+    pub(crate) info: AdapterInfo,
+}
+
+/// A logical device with its one queue.
+pub(crate) struct Device {
+    pub(crate) instance: Rc<Instance>,
+    pub(crate) physical: vk::PhysicalDevice,
+    pub(crate) raw: ash::Device,
+    pub(crate) queue: vk::Queue,
+    pub(crate) queue_family: u32,
+    pub(crate) limits: vk::PhysicalDeviceLimits,
+    pub(crate) memory: vk::PhysicalDeviceMemoryProperties,
+    /// Whether the queue runs compute shaders.
+    pub(crate) compute: bool,
+    /// Whether colour attachments may differ in blending.
+    pub(crate) independent_blend: bool,
+    /// Valid bits of a timestamp; 0 where there are none.
+    pub(crate) timestamp_bits: u32,
+}
+
+/// Who a physical device is; its name carries no index yet.
+pub(crate) fn identify(instance: &Instance, physical: vk::PhysicalDevice) -> Identity {
+    // SAFETY: `physical` is of this instance.
+    let properties = unsafe { instance.raw().get_physical_device_properties(physical) };
+    let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    if properties.api_version >= vk::API_VERSION_1_2 {
+        let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+        // SAFETY: a device of Vulkan 1.2 knows the chained structure.
+        unsafe {
+            instance
+                .raw()
+                .get_physical_device_properties2(physical, &mut both);
+        }
+    }
+    let text = |c: Result<&CStr, _>| {
+        c.map(|c| c.to_string_lossy().into_owned())
+            .unwrap_or_default()
+    };
+    let driver_info = text(driver.driver_info_as_c_str().map_err(|_| ()));
+    let info = AdapterInfo {
+        name: format!(
+            "vulkan:{}",
+            short_name(driver.driver_id, properties.vendor_id)
+        ),
+        backend: "vulkan".to_owned(),
+        device: text(properties.device_name_as_c_str().map_err(|_| ())),
+        driver: text(driver.driver_name_as_c_str().map_err(|_| ())),
+        driver_version: if driver_info.is_empty() {
+            format!("{:#x}", properties.driver_version)
+        } else {
+            driver_info
+        },
+        api_version: version(properties.api_version),
+        software: properties.device_type == vk::PhysicalDeviceType::CPU,
+    };
+    Identity { properties, info }
+}
+
+fn version(v: u32) -> String {
+    let (major, minor) = (vk::api_version_major(v), vk::api_version_minor(v));
+    format!("{major}.{minor}.{}", vk::api_version_patch(v))
+}
+
+fn short_name(id: vk::DriverId, vendor: u32) -> String {
+    let known = match id {
+        vk::DriverId::AMD_PROPRIETARY => "amd",
+        vk::DriverId::AMD_OPEN_SOURCE => "amdvlk",
+        vk::DriverId::MESA_RADV => "radv",
+        vk::DriverId::NVIDIA_PROPRIETARY => "nvidia",
+        vk::DriverId::INTEL_PROPRIETARY_WINDOWS => "intel",
+        vk::DriverId::INTEL_OPEN_SOURCE_MESA => "anv",
+        vk::DriverId::IMAGINATION_PROPRIETARY => "powervr",
+        vk::DriverId::IMAGINATION_OPEN_SOURCE_MESA => "pvr",
+        vk::DriverId::QUALCOMM_PROPRIETARY => "adreno",
+        vk::DriverId::ARM_PROPRIETARY => "mali",
+        vk::DriverId::GOOGLE_SWIFTSHADER => "swiftshader",
+        vk::DriverId::BROADCOM_PROPRIETARY => "broadcom",
+        vk::DriverId::MESA_LLVMPIPE => "lavapipe",
+        vk::DriverId::MOLTENVK => "moltenvk",
+        vk::DriverId::SAMSUNG_PROPRIETARY => "xclipse",
+        vk::DriverId::MESA_VENUS => "venus",
+        vk::DriverId::MESA_DOZEN => "dozen",
+        vk::DriverId::MESA_TURNIP => "turnip",
+        vk::DriverId::MESA_V3DV => "v3dv",
+        vk::DriverId::MESA_PANVK => "panvk",
+        vk::DriverId::MESA_NVK => "nvk",
+        _ => "",
+    };
+    match (known, id.as_raw()) {
+        ("", 0) => format!("vendor-{vendor:04x}"),
+        ("", raw) => format!("driver-{raw}"),
+        (name, _) => name.to_owned(),
+    }
+}
+
+impl Device {
+    pub(crate) fn new(
+        instance: Rc<Instance>,
+        physical: vk::PhysicalDevice,
+        identity: &Identity,
+    ) -> Result<Self, Unavailable> {
+        let properties = &identity.properties;
+        if properties.api_version < vk::API_VERSION_1_3 {
+            return Err(Unavailable::new(
+                format!(
+                    "{} speaks Vulkan {}, and 1.3 is needed",
+                    identity.info.device, identity.info.api_version
+                ),
+                "update the driver, or use an OpenGL adapter of the same device",
+            ));
+        }
+        let api = instance.raw();
+        // SAFETY: `physical` is of this instance.
+        let families = unsafe { api.get_physical_device_queue_family_properties(physical) };
+        let (graphics, compute) = (vk::QueueFlags::GRAPHICS, vk::QueueFlags::COMPUTE);
+        let Some((index, family)) = [graphics | compute, graphics].iter().find_map(|flags| {
+            let mut numbered = (0_u32..).zip(&families);
+            numbered.find(|(_, f)| f.queue_flags.contains(*flags))
+        }) else {
+            return Err(Unavailable::new(
+                format!("{} cannot draw", identity.info.device),
+                "choose another device",
+            ));
+        };
+        // SAFETY: as above.
+        let features = unsafe { api.get_physical_device_features(physical) };
+        // SAFETY: as above.
+        let memory = unsafe { api.get_physical_device_memory_properties(physical) };
+
+        let priorities = [1.0];
+        let queues = [vk::DeviceQueueCreateInfo::default()
+            .queue_family_index(index)
+            .queue_priorities(&priorities)];
+        let enabled = vk::PhysicalDeviceFeatures::default()
+            .independent_blend(features.independent_blend != 0);
+        // Both are mandatory in Vulkan 1.3.
+        let mut enabled13 = vk::PhysicalDeviceVulkan13Features::default()
+            .dynamic_rendering(true)
+            .synchronization2(true);
+        let info = vk::DeviceCreateInfo::default()
+            .queue_create_infos(&queues)
+            .enabled_features(&enabled)
+            .push_next(&mut enabled13);
+        // SAFETY: every pointer in `info` outlives the call.
+        let raw = unsafe { api.create_device(physical, &info, None) }.map_err(|code| {
+            Unavailable::new(
+                format!(
+                    "{} cannot be opened: {}",
+                    identity.info.device,
+                    describe(code)
+                ),
+                "check that this user may open the device (/dev/dri, /dev/nvidia*)",
+            )
+        })?;
+        // SAFETY: one queue of this family was asked for.
+        let queue = unsafe { raw.get_device_queue(index, 0) };
+        Ok(Self {
+            physical,
+            queue,
+            queue_family: index,
+            limits: properties.limits,
+            memory,
+            compute: family.queue_flags.contains(compute),
+            independent_blend: features.independent_blend != 0,
+            timestamp_bits: if properties.limits.timestamp_period > 0.0 {
+                family.timestamp_valid_bits
+            } else {
+                0
+            },
+            instance,
+            raw,
+        })
+    }
+
+    /// The types among `allowed` that have all of the flags, those of the first flags first.
+    pub(crate) fn memory_types(
+        &self,
+        allowed: u32,
+        wanted: &[vk::MemoryPropertyFlags],
+    ) -> Vec<u32> {
+        let types = &self.memory.memory_types_as_slice();
+        let mut found = Vec::new();
+        for flags in wanted {
+            for (index, kind) in (0_u32..).zip(types.iter()) {
+                let fits = allowed & (1 << index) != 0 && kind.property_flags.contains(*flags);
+                if fits && !found.contains(&index) {
+                    found.push(index);
+                }
+            }
+        }
+        found
+    }
+
+    /// Allocates from the first of the memory types that has room.
+    pub(crate) fn allocate(
+        &self,
+        needs: vk::MemoryRequirements,
+        wanted: &[vk::MemoryPropertyFlags],
+        what: &str,
+    ) -> Result<vk::DeviceMemory, BackendError> {
+        let mut result = Err(vk::Result::ERROR_OUT_OF_DEVICE_MEMORY);
+        for index in self.memory_types(needs.memory_type_bits, wanted) {
+            let info = vk::MemoryAllocateInfo::default()
+                .allocation_size(needs.size)
+                .memory_type_index(index);
+            // SAFETY: the type index is one of the device's.
+            result = unsafe { self.raw.allocate_memory(&info, None) };
+            if result != Err(vk::Result::ERROR_OUT_OF_DEVICE_MEMORY) {
+                break;
+            }
+        }
+        result.check(what)
+    }
+}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        // SAFETY: the backend destroyed all the device's objects before, and holds it last. Waiting
+        // may fail on a lost device, which may be destroyed all the same.
+        unsafe {
+            let _ = self.raw.device_wait_idle();
+            self.raw.destroy_device(None);
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! The loader, the instance, and what the validation layer says.
+
+use crate::error::describe;
+use ash::{ext, vk};
+use etalon_backend::Unavailable;
+use std::ffi::{CStr, c_void};
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
+/// The most messages kept between two calls of [`Instance::take_messages`].
+const MAX_MESSAGES: usize = 1000;
+const NO_DRIVER: &str =
+    "apt-get install mesa-vulkan-drivers libvulkan1, or install the GPU's own driver";
+
+/// A Vulkan instance, with a messenger where validation was asked for.
+pub(crate) struct Instance {
+    raw: ash::Instance,
+    messenger: Option<Messenger>,
+}
+
+struct Messenger {
+    functions: ext::debug_utils::Instance,
+    raw: vk::DebugUtilsMessengerEXT,
+    /// The layer holds this pointer until the messenger is destroyed, so it is freed by hand.
+    messages: *mut Messages,
+}
+
+type Messages = Mutex<Vec<String>>;
+
+/// The loader stays loaded as long as the process lives: drivers do not all survive `dlclose`.
+fn entry() -> Result<&'static ash::Entry, Unavailable> {
+    static ENTRY: OnceLock<Result<ash::Entry, String>> = OnceLock::new();
+    // SAFETY: loading the system's Vulkan loader runs no code of ours, and it is never unloaded.
+    let loaded = ENTRY.get_or_init(|| unsafe { ash::Entry::load() }.map_err(|e| e.to_string()));
+    loaded.as_ref().map_err(|message| {
+        Unavailable::new(format!("libvulkan.so.1 not found ({message})"), NO_DRIVER)
+    })
+}
+
+impl Instance {
+    pub(crate) fn new(validate: bool) -> Result<Self, Unavailable> {
+        let entry = entry()?;
+        // SAFETY: no requirements beyond a loaded entry.
+        let version = unsafe { entry.try_enumerate_instance_version() }
+            .ok()
+            .flatten()
+            .unwrap_or(vk::API_VERSION_1_0);
+        if version < vk::API_VERSION_1_1 {
+            return Err(Unavailable::new(
+                "the Vulkan loader speaks only Vulkan 1.0",
+                "apt-get install libvulkan1 of a current distribution",
+            ));
+        }
+        let has_sync_validation = validate && validation_extensions(entry)?;
+
+        let application = vk::ApplicationInfo::default()
+            .application_name(c"etalon")
+            .engine_name(c"etalon")
+            .api_version(vk::API_VERSION_1_3);
+        let mut layers = Vec::new();
+        let mut extensions = Vec::new();
+        let mut messages = None;
+        if validate {
+            layers.push(VALIDATION_LAYER.as_ptr());
+            extensions.push(ext::debug_utils::NAME.as_ptr());
+            if has_sync_validation {
+                extensions.push(ext::validation_features::NAME.as_ptr());
+            }
+            messages = Some(Box::into_raw(Box::new(Messages::default())));
+        }
+        let mut info = vk::InstanceCreateInfo::default()
+            .application_info(&application)
+            .enabled_layer_names(&layers)
+            .enabled_extension_names(&extensions);
+        let checks = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
+        let mut features =
+            vk::ValidationFeaturesEXT::default().enabled_validation_features(&checks);
+        if has_sync_validation {
+            info = info.push_next(&mut features);
+        }
+        // SAFETY: every pointer in `info` outlives the call.
+        let raw = unsafe { entry.create_instance(&info, None) }.map_err(|code| {
+            if let Some(messages) = messages {
+                // SAFETY: made by `Box::into_raw` above and given to nobody.
+                drop(unsafe { Box::from_raw(messages) });
+            }
+            let reason = format!("no Vulkan instance: {}", describe(code));
+            Unavailable::new(reason, NO_DRIVER)
+        })?;
+        let mut instance = Self {
+            raw,
+            messenger: None,
+        };
+        if let Some(messages) = messages {
+            instance.messenger = Some(messenger(entry, &instance.raw, messages)?);
+        }
+        Ok(instance)
+    }
+
+    pub(crate) fn raw(&self) -> &ash::Instance {
+        &self.raw
+    }
+
+    pub(crate) fn physical_devices(&self) -> Result<Vec<vk::PhysicalDevice>, Unavailable> {
+        // SAFETY: the instance is alive.
+        let devices = unsafe { self.raw.enumerate_physical_devices() }.map_err(|code| {
+            let reason = format!("the Vulkan drivers list no device: {}", describe(code));
+            Unavailable::new(reason, NO_DRIVER)
+        })?;
+        if devices.is_empty() {
+            return Err(Unavailable::new("no Vulkan driver is installed", NO_DRIVER));
+        }
+        Ok(devices)
+    }
+
+    /// The messages since the last call, oldest first.
+    pub(crate) fn take_messages(&self) -> Vec<String> {
+        let Some(messenger) = &self.messenger else {
+            return Vec::new();
+        };
+        // SAFETY: the pointer came from a box that lives until the messenger is dropped, and the
+        // mutex makes sharing it with the callback sound.
+        let messages = unsafe { &*messenger.messages };
+        std::mem::take(&mut *messages.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        if let Some(messenger) = &self.messenger {
+            // SAFETY: ours, and destroyed once.
+            unsafe {
+                messenger
+                    .functions
+                    .destroy_debug_utils_messenger(messenger.raw, None);
+            }
+        }
+        // SAFETY: devices hold the instance in an `Rc`, so none is left.
+        unsafe { self.raw.destroy_instance(None) };
+        if let Some(messenger) = self.messenger.take() {
+            // SAFETY: made by `Box::into_raw`; the messenger that knew the pointer is gone.
+            drop(unsafe { Box::from_raw(messenger.messages) });
+        }
+    }
+}
+
+/// Whether the validation layer can check synchronization, where there is a layer at all.
+fn validation_extensions(entry: &ash::Entry) -> Result<bool, Unavailable> {
+    // SAFETY: no requirements beyond a loaded entry.
+    let layers = unsafe { entry.enumerate_instance_layer_properties() }.unwrap_or_default();
+    let found = layers
+        .iter()
+        .any(|l| l.layer_name_as_c_str() == Ok(VALIDATION_LAYER));
+    if !found {
+        return Err(Unavailable::new(
+            "the layer VK_LAYER_KHRONOS_validation is not installed",
+            "apt-get install vulkan-validationlayers",
+        ));
+    }
+    // SAFETY: the layer's name is a static string.
+    let extensions =
+        unsafe { entry.enumerate_instance_extension_properties(Some(VALIDATION_LAYER)) }
+            .unwrap_or_default();
+    Ok(extensions
+        .iter()
+        .any(|e| e.extension_name_as_c_str() == Ok(ext::validation_features::NAME)))
+}
+
+fn messenger(
+    entry: &ash::Entry,
+    instance: &ash::Instance,
+    messages: *mut Messages,
+) -> Result<Messenger, Unavailable> {
+    let functions = ext::debug_utils::Instance::new(entry, instance);
+    // General messages are the loader's chatter about drivers, not about our calls.
+    let info = vk::DebugUtilsMessengerCreateInfoEXT::default()
+        .message_severity(
+            vk::DebugUtilsMessageSeverityFlagsEXT::WARNING
+                | vk::DebugUtilsMessageSeverityFlagsEXT::ERROR,
+        )
+        .message_type(
+            vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION
+                | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE,
+        )
+        .pfn_user_callback(Some(on_message))
+        .user_data(messages.cast());
+    // SAFETY: `messages` stays valid until the messenger is destroyed.
+    let raw = unsafe { functions.create_debug_utils_messenger(&info, None) };
+    match raw {
+        Ok(raw) => Ok(Messenger {
+            functions,
+            raw,
+            messages,
+        }),
+        Err(code) => {
+            // SAFETY: made by `Box::into_raw`; no messenger knows the pointer.
+            drop(unsafe { Box::from_raw(messages) });
+            Err(Unavailable::new(
+                format!("no validation messages: {}", describe(code)),
+                "apt-get install vulkan-validationlayers",
+            ))
+        }
+    }
+}
+
+/// Messages that speak of what is legal and meant: a depth-only pass has no use for a shader's colour.
+fn is_meant(id: &CStr) -> bool {
+    id.to_bytes()
+        .starts_with(b"Undefined-Value-ShaderOutputNotConsumed")
+}
+
+unsafe extern "system" fn on_message(
+    _severity: vk::DebugUtilsMessageSeverityFlagsEXT,
+    _kind: vk::DebugUtilsMessageTypeFlagsEXT,
+    data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
+    user: *mut c_void,
+) -> vk::Bool32 {
+    // SAFETY: the layer passes valid data or null, and `user` is the pointer that it was given.
+    let (data, messages) = unsafe { (data.as_ref(), user.cast::<Messages>().as_ref()) };
+    if let (Some(data), Some(messages)) = (data, messages) {
+        // SAFETY: the layer's strings are null or zero-terminated, and live during the call.
+        let (id, text) = unsafe { (data.message_id_name_as_c_str(), data.message_as_c_str()) };
+        if !id.is_some_and(is_meant) {
+            let mut messages = messages.lock().unwrap_or_else(PoisonError::into_inner);
+            if messages.len() < MAX_MESSAGES {
+                messages.push(text.unwrap_or_default().to_string_lossy().into_owned());
+            }
+        }
+    }
+    vk::FALSE
+}

@@ -1,0 +1,164 @@
+//! What the device can do, in the suite's words.
+
+use crate::device::Device;
+use crate::format::{self, Native};
+use crate::samples;
+use ash::vk;
+use etalon_frame::{Api, Aspect, Feature, FormatSupport, Limits, ReadPath, TextureFormat};
+use std::collections::BTreeMap;
+
+/// The sample counts that a case may ask for beyond 1.
+const COUNTS: [u32; 4] = [2, 4, 8, 16];
+
+/// The device's limits, for the formats that it has.
+pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>) -> Limits {
+    let raw = &device.limits;
+    let max_size = raw
+        .max_image_dimension2_d
+        .min(raw.max_framebuffer_width)
+        .min(raw.max_framebuffer_height)
+        .min(raw.max_viewport_dimensions[0])
+        .min(raw.max_viewport_dimensions[1]);
+    let mut formats = BTreeMap::new();
+    for (format, native) in natives {
+        let depth = if format.has_depth() {
+            vec![format::depth_encoding(native.raw)]
+        } else {
+            Vec::new()
+        };
+        let support = FormatSupport {
+            samples: sample_counts(device, *format, *native),
+            depth,
+            // Codes come back as they are stored, also from the shader that reads samples.
+            read: ReadPath::Copy,
+        };
+        formats.insert(*format, support);
+    }
+    let mut sample_positions = BTreeMap::new();
+    for count in [1].into_iter().chain(COUNTS) {
+        if formats.values().any(|f| f.samples.contains(&count)) {
+            sample_positions.insert(count, standard_positions(count));
+        }
+    }
+    Limits {
+        api: Api::Vulkan,
+        sub_pixel_bits: u8::try_from(raw.sub_pixel_precision_bits).unwrap_or(u8::MAX),
+        max_size,
+        formats,
+        features: Feature::ALL.into_iter().collect(),
+        sample_positions,
+    }
+}
+
+/// Sample counts that can be drawn, cleared and read back sample by sample. Without the standard
+/// sample locations nothing could be asserted of more than one.
+fn sample_counts(device: &Device, format: TextureFormat, native: Native) -> Vec<u32> {
+    let mut counts = vec![1];
+    let raw = &device.limits;
+    let readable = format.aspects().iter().all(|aspect| {
+        let channels = format::channels(format, native.raw, *aspect);
+        channels.iter().all(|c| samples::can_read(*aspect, *c))
+    });
+    if raw.standard_sample_locations == 0 || !device.compute || !native.attachment || !readable {
+        return counts;
+    }
+    let usage =
+        vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST | attachment_usage(format);
+    // SAFETY: the physical device is of this living instance.
+    let properties = unsafe {
+        device
+            .instance
+            .raw()
+            .get_physical_device_image_format_properties(
+                device.physical,
+                native.raw,
+                vk::ImageType::TYPE_2D,
+                vk::ImageTiling::OPTIMAL,
+                usage,
+                vk::ImageCreateFlags::empty(),
+            )
+    };
+    let Ok(properties) = properties else {
+        return counts;
+    };
+    let mut flags = properties.sample_counts;
+    for aspect in format.aspects() {
+        flags &= match aspect {
+            Aspect::Color => {
+                raw.framebuffer_color_sample_counts & raw.sampled_image_color_sample_counts
+            }
+            Aspect::Depth => {
+                raw.framebuffer_depth_sample_counts & raw.sampled_image_depth_sample_counts
+            }
+            Aspect::Stencil => {
+                raw.framebuffer_stencil_sample_counts & raw.sampled_image_stencil_sample_counts
+            }
+        };
+    }
+    counts.extend(COUNTS.iter().filter(|c| flags.as_raw() & **c != 0));
+    counts
+}
+
+/// How an attachment of this format is drawn to.
+pub(crate) fn attachment_usage(format: TextureFormat) -> vk::ImageUsageFlags {
+    if format.is_color() {
+        vk::ImageUsageFlags::COLOR_ATTACHMENT
+    } else {
+        vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT
+    }
+}
+
+/// The standard sample locations (Vulkan, Multisampling) in 1/256 texel.
+fn standard_positions(count: u32) -> Vec<[u16; 2]> {
+    // The text gives them in 1/16 texel.
+    let sixteenths: &[[u16; 2]] = match count {
+        2 => &[[12, 12], [4, 4]],
+        4 => &[[6, 2], [14, 6], [2, 10], [10, 14]],
+        8 => &[
+            [9, 5],
+            [7, 11],
+            [13, 9],
+            [5, 3],
+            [3, 13],
+            [1, 7],
+            [11, 15],
+            [15, 1],
+        ],
+        16 => &[
+            [9, 9],
+            [7, 5],
+            [5, 10],
+            [12, 7],
+            [3, 6],
+            [10, 13],
+            [13, 11],
+            [11, 3],
+            [6, 14],
+            [8, 1],
+            [4, 2],
+            [2, 12],
+            [0, 8],
+            [15, 4],
+            [14, 15],
+            [1, 0],
+        ],
+        _ => &[[8, 8]],
+    };
+    sixteenths.iter().map(|p| p.map(|c| c * 16)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_are_as_many_as_samples_and_differ() {
+        for count in [1, 2, 4, 8, 16] {
+            let mut positions = standard_positions(count);
+            positions.sort_unstable();
+            positions.dedup();
+            assert_eq!(positions.len(), count as usize);
+        }
+        assert_eq!(standard_positions(1), [[128, 128]]);
+    }
+}

@@ -1,0 +1,344 @@
+//! Buffers and images, and the bounded pools that scenes draw them from.
+
+use crate::device::Device;
+use crate::error::Check;
+use crate::format;
+use crate::state;
+use ash::vk;
+use etalon_backend::BackendError;
+
+/// The most objects and bytes that a pool keeps for later.
+const KEPT_OBJECTS: usize = 64;
+const KEPT_BYTES: u64 = 256 << 20;
+/// Buffers come in powers of two from here on, so that they fit later scenes.
+const SMALLEST_BUFFER: u64 = 64 << 10;
+
+/// What a buffer is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum BufferUse {
+    /// Written by the processor: vertices, parameters, uploads.
+    Input,
+    /// Read by the processor: what comes back.
+    Output,
+}
+
+/// A buffer, mapped as long as it lives, in coherent memory.
+#[derive(Debug)]
+pub(crate) struct Buffer {
+    pub(crate) raw: vk::Buffer,
+    memory: vk::DeviceMemory,
+    pointer: *mut u8,
+    size: u64,
+    usage: BufferUse,
+}
+
+/// What makes two images interchangeable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct ImageKey {
+    pub(crate) format: vk::Format,
+    pub(crate) size: [u32; 2],
+    pub(crate) samples: u32,
+    pub(crate) usage: vk::ImageUsageFlags,
+}
+
+/// An image in memory of its own.
+#[derive(Debug)]
+pub(crate) struct Image {
+    pub(crate) key: ImageKey,
+    pub(crate) raw: vk::Image,
+    memory: vk::DeviceMemory,
+    bytes: u64,
+    /// One view of all aspects, and one of each aspect where there are two and shaders read them.
+    views: Vec<(vk::ImageAspectFlags, vk::ImageView)>,
+}
+
+/// Objects that no scene uses at present, oldest first.
+#[derive(Debug, Default)]
+pub(crate) struct Pool {
+    buffers: Vec<Buffer>,
+    images: Vec<Image>,
+}
+
+impl Buffer {
+    /// Gives a null buffer's parts to `create` one by one, so that a failure leaks nothing.
+    fn new(device: &Device, usage: BufferUse, size: u64) -> Result<Self, BackendError> {
+        let size = size.max(SMALLEST_BUFFER).checked_next_power_of_two();
+        let mut buffer = Self {
+            raw: vk::Buffer::null(),
+            memory: vk::DeviceMemory::null(),
+            pointer: std::ptr::null_mut(),
+            size: size.unwrap_or(u64::MAX),
+            usage,
+        };
+        let created = buffer.create(device);
+        if let Err(error) = created {
+            buffer.destroy(device);
+            return Err(error);
+        }
+        Ok(buffer)
+    }
+
+    fn create(&mut self, device: &Device) -> Result<(), BackendError> {
+        let coherent =
+            vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
+        let (flags, preferred) = match self.usage {
+            BufferUse::Input => (
+                vk::BufferUsageFlags::VERTEX_BUFFER
+                    | vk::BufferUsageFlags::UNIFORM_BUFFER
+                    | vk::BufferUsageFlags::TRANSFER_SRC,
+                vk::MemoryPropertyFlags::DEVICE_LOCAL,
+            ),
+            BufferUse::Output => (
+                vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
+                vk::MemoryPropertyFlags::HOST_CACHED,
+            ),
+        };
+        let info = vk::BufferCreateInfo::default().size(self.size).usage(flags);
+        // SAFETY: the device lives, and `info` is complete.
+        self.raw = unsafe { device.raw.create_buffer(&info, None) }.check("a buffer")?;
+        // SAFETY: the buffer was just made.
+        let needs = unsafe { device.raw.get_buffer_memory_requirements(self.raw) };
+        self.memory = device.allocate(needs, &[coherent | preferred, coherent], "buffer memory")?;
+        // SAFETY: buffer and memory are new, the memory type allows the buffer, and it is mapped
+        // once, whole.
+        unsafe {
+            device
+                .raw
+                .bind_buffer_memory(self.raw, self.memory, 0)
+                .check("buffer memory")?;
+            let range = vk::WHOLE_SIZE;
+            let mapped = device
+                .raw
+                .map_memory(self.memory, 0, range, vk::MemoryMapFlags::empty());
+            self.pointer = mapped.check("mapped memory")?.cast();
+        }
+        Ok(())
+    }
+
+    /// Writes bytes at an offset; what would not fit is an internal error.
+    pub(crate) fn write(&mut self, offset: u64, bytes: &[u8]) -> Result<(), BackendError> {
+        let at = self.range(offset, bytes.len())?;
+        // SAFETY: `range` checked that the mapping holds all of it, the device does not use the
+        // buffer while its scene is being prepared, and `bytes` cannot overlap mapped memory.
+        unsafe { std::ptr::copy_nonoverlapping(bytes.as_ptr(), self.pointer.add(at), bytes.len()) };
+        Ok(())
+    }
+
+    /// Copies bytes out, after the device is done with the buffer.
+    pub(crate) fn read(&self, offset: u64, length: usize) -> Result<Vec<u8>, BackendError> {
+        let at = self.range(offset, length)?;
+        let mut bytes = vec![0; length];
+        // SAFETY: as in `write`; a fence told that the device is done.
+        unsafe {
+            std::ptr::copy_nonoverlapping(self.pointer.add(at), bytes.as_mut_ptr(), length);
+        }
+        Ok(bytes)
+    }
+
+    fn range(&self, offset: u64, length: usize) -> Result<usize, BackendError> {
+        let end = offset.checked_add(length as u64);
+        if end.is_some_and(|end| end <= self.size)
+            && let Ok(at) = usize::try_from(offset)
+        {
+            return Ok(at);
+        }
+        Err(BackendError::Internal(format!(
+            "{length} bytes at {offset} leave a buffer of {}",
+            self.size
+        )))
+    }
+
+    fn destroy(&self, device: &Device) {
+        // SAFETY: the device is done with the buffer; null handles are ignored, and freeing memory
+        // unmaps it.
+        unsafe {
+            device.raw.destroy_buffer(self.raw, None);
+            device.raw.free_memory(self.memory, None);
+        }
+    }
+}
+
+impl Image {
+    fn new(device: &Device, key: ImageKey) -> Result<Self, BackendError> {
+        let mut image = Self {
+            key,
+            raw: vk::Image::null(),
+            memory: vk::DeviceMemory::null(),
+            bytes: 0,
+            views: Vec::new(),
+        };
+        let created = image.create(device);
+        if let Err(error) = created {
+            image.destroy(device);
+            return Err(error);
+        }
+        Ok(image)
+    }
+
+    fn create(&mut self, device: &Device) -> Result<(), BackendError> {
+        let key = self.key;
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(key.format)
+            .extent(vk::Extent3D {
+                width: key.size[0],
+                height: key.size[1],
+                depth: 1,
+            })
+            .mip_levels(1)
+            .array_layers(1)
+            .samples(state::samples(key.samples))
+            .tiling(vk::ImageTiling::OPTIMAL)
+            .usage(key.usage);
+        // SAFETY: the device lives, and the format's support was asked for.
+        self.raw = unsafe { device.raw.create_image(&info, None) }.check("an image")?;
+        // SAFETY: the image was just made.
+        let needs = unsafe { device.raw.get_image_memory_requirements(self.raw) };
+        self.bytes = needs.size;
+        let wanted = [
+            vk::MemoryPropertyFlags::DEVICE_LOCAL,
+            vk::MemoryPropertyFlags::empty(),
+        ];
+        self.memory = device.allocate(needs, &wanted, "image memory")?;
+        // SAFETY: image and memory are new, and the memory type allows the image.
+        unsafe { device.raw.bind_image_memory(self.raw, self.memory, 0) }.check("image memory")?;
+
+        let viewed = vk::ImageUsageFlags::COLOR_ATTACHMENT
+            | vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT
+            | vk::ImageUsageFlags::SAMPLED;
+        if !key.usage.intersects(viewed) {
+            return Ok(());
+        }
+        let all = format::aspect_mask(key.format);
+        let mut masks = vec![all];
+        let both = vk::ImageAspectFlags::DEPTH | vk::ImageAspectFlags::STENCIL;
+        if all == both && key.usage.contains(vk::ImageUsageFlags::SAMPLED) {
+            masks.extend([vk::ImageAspectFlags::DEPTH, vk::ImageAspectFlags::STENCIL]);
+        }
+        for mask in masks {
+            let info = vk::ImageViewCreateInfo::default()
+                .image(self.raw)
+                .view_type(vk::ImageViewType::TYPE_2D)
+                .format(key.format)
+                .subresource_range(range(mask));
+            // SAFETY: the image is bound and lives as long as its views.
+            let view =
+                unsafe { device.raw.create_image_view(&info, None) }.check("an image view")?;
+            self.views.push((mask, view));
+        }
+        Ok(())
+    }
+
+    /// The view of exactly these aspects.
+    pub(crate) fn view(&self, mask: vk::ImageAspectFlags) -> Result<vk::ImageView, BackendError> {
+        let found = self.views.iter().find(|(aspects, _)| *aspects == mask);
+        found
+            .map(|(_, view)| *view)
+            .ok_or_else(|| BackendError::Internal(format!("no view of the aspects {mask:?}")))
+    }
+
+    /// The view of all aspects.
+    pub(crate) fn whole(&self) -> Result<vk::ImageView, BackendError> {
+        self.view(self.aspects())
+    }
+
+    /// All aspects of the image.
+    pub(crate) fn aspects(&self) -> vk::ImageAspectFlags {
+        format::aspect_mask(self.key.format)
+    }
+
+    fn destroy(&self, device: &Device) {
+        // SAFETY: the device is done with the image; null handles are ignored.
+        unsafe {
+            for (_, view) in &self.views {
+                device.raw.destroy_image_view(*view, None);
+            }
+            device.raw.destroy_image(self.raw, None);
+            device.raw.free_memory(self.memory, None);
+        }
+    }
+}
+
+/// The one layer and level that our images have.
+pub(crate) fn range(mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
+    vk::ImageSubresourceRange {
+        aspect_mask: mask,
+        base_mip_level: 0,
+        level_count: 1,
+        base_array_layer: 0,
+        layer_count: 1,
+    }
+}
+
+impl Pool {
+    /// A buffer of at least so many bytes.
+    pub(crate) fn buffer(
+        &mut self,
+        device: &Device,
+        usage: BufferUse,
+        size: u64,
+    ) -> Result<Buffer, BackendError> {
+        let fits = |b: &Buffer| b.usage == usage && b.size >= size;
+        match self.buffers.iter().rposition(fits) {
+            Some(index) => Ok(self.buffers.remove(index)),
+            None => Buffer::new(device, usage, size),
+        }
+    }
+
+    /// An image; its contents are whatever they are.
+    pub(crate) fn image(&mut self, device: &Device, key: ImageKey) -> Result<Image, BackendError> {
+        match self.images.iter().rposition(|i| i.key == key) {
+            Some(index) => Ok(self.images.remove(index)),
+            None => Image::new(device, key),
+        }
+    }
+
+    /// Takes back what the device is done with.
+    pub(crate) fn give_back(
+        &mut self,
+        device: &Device,
+        buffers: impl IntoIterator<Item = Buffer>,
+        images: impl IntoIterator<Item = Image>,
+    ) {
+        self.buffers.extend(buffers);
+        self.images.extend(images);
+        let excess = excess(self.buffers.iter().map(|b| b.size));
+        self.buffers.drain(..excess).for_each(|b| b.destroy(device));
+        let excess = self::excess(self.images.iter().map(|i| i.bytes));
+        self.images.drain(..excess).for_each(|i| i.destroy(device));
+    }
+
+    /// Destroys everything; called once, before the device goes.
+    pub(crate) fn destroy(&mut self, device: &Device) {
+        self.buffers.drain(..).for_each(|b| b.destroy(device));
+        self.images.drain(..).for_each(|i| i.destroy(device));
+    }
+}
+
+/// How many of the oldest objects must go so that the rest keeps within the bounds.
+fn excess(sizes: impl DoubleEndedIterator<Item = u64> + ExactSizeIterator) -> usize {
+    let count = sizes.len();
+    let mut bytes = 0_u64;
+    let kept = sizes
+        .rev()
+        .take(KEPT_OBJECTS)
+        .take_while(|size| {
+            bytes = bytes.saturating_add(*size);
+            bytes <= KEPT_BYTES
+        })
+        .count();
+    count - kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pools_keep_the_newest_within_their_bounds() {
+        assert_eq!(excess([1_u64; 10].into_iter()), 0);
+        assert_eq!(excess([1_u64; KEPT_OBJECTS + 3].into_iter()), 3);
+        assert_eq!(excess([KEPT_BYTES, 1, 1].into_iter()), 1);
+        assert_eq!(excess([KEPT_BYTES + 1].into_iter()), 1);
+    }
+}

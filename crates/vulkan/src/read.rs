@@ -1,0 +1,145 @@
+//! From the output buffer to the frame's images.
+
+use crate::backend::VulkanBackend;
+use crate::device::Device;
+use crate::format;
+use crate::memory::{Buffer, Image};
+use crate::prepared::Placer;
+use crate::samples::{SampleReader, SampleReaders};
+use crate::slot::Slot;
+use ash::vk;
+use etalon_backend::BackendError;
+use etalon_case::Scene;
+use etalon_frame::{Aspect, ChannelEncoding, ReadPath, Requirement};
+
+/// One aspect of one attachment on its way back.
+pub(crate) struct ReadPlan {
+    pub(crate) attachment: usize,
+    pub(crate) aspect: Aspect,
+    /// Where its bytes lie in the output buffer.
+    pub(crate) offset: u64,
+    /// For multisampled attachments, the shader that reads them, and its descriptors.
+    pub(crate) reader: Option<(SampleReader, vk::DescriptorSet)>,
+    name: String,
+    size: [u32; 2],
+    samples: u32,
+    channels: Vec<ChannelEncoding>,
+    bytes: u64,
+}
+
+impl ReadPlan {
+    /// Everything that a scene reads, and the size of the buffer that takes it.
+    pub(crate) fn all(
+        backend: &VulkanBackend,
+        scene: &Scene,
+    ) -> Result<(Vec<Self>, u64), BackendError> {
+        let limits = &backend.device.limits;
+        // Offsets of depth and stencil copies are multiples of 4, of others of the texel's size.
+        let alignment = limits.min_storage_buffer_offset_alignment.max(16);
+        let mut placer = Placer::default();
+        let mut reads = Vec::new();
+        for index in &scene.read {
+            let Some(attachment) = scene.attachments.get(*index) else {
+                let message = "a read names no attachment".to_owned();
+                return Err(BackendError::Internal(message));
+            };
+            let format = attachment.format;
+            let native = backend
+                .natives
+                .get(&format)
+                .ok_or(BackendError::NotSupported(Requirement::Format(format)))?;
+            for aspect in format.aspects() {
+                let channels = format::channels(format, native.raw, *aspect);
+                let texels = u64::from(attachment.size[0]) * u64::from(attachment.size[1]);
+                let channel = match channels.first() {
+                    // The shader that reads samples stores a word per channel.
+                    Some(_) if attachment.samples > 1 => 4,
+                    Some(encoding) => format::channel_bytes(*encoding),
+                    None => 0,
+                };
+                let per_texel = u64::from(attachment.samples) * (channels.len() * channel) as u64;
+                let bytes = texels * per_texel;
+                reads.push(Self {
+                    attachment: *index,
+                    aspect: *aspect,
+                    offset: placer.place(bytes, alignment),
+                    reader: None,
+                    name: attachment.name.clone(),
+                    size: attachment.size,
+                    samples: attachment.samples,
+                    channels,
+                    bytes,
+                });
+            }
+        }
+        let bytes = placer.place(0, 1);
+        Ok((reads, bytes))
+    }
+
+    /// Gives the read of a multisampled image its shader.
+    pub(crate) fn connect(
+        &mut self,
+        device: &Device,
+        readers: &mut SampleReaders,
+        slot: &Slot,
+        image: &Image,
+        output: &Buffer,
+    ) -> Result<(), BackendError> {
+        let (true, Some(encoding)) = (self.samples > 1, self.channels.first()) else {
+            return Ok(());
+        };
+        if self.bytes > u64::from(device.limits.max_storage_buffer_range) {
+            return Err(BackendError::Resource {
+                what: format!("{} bytes of samples to read back", self.bytes),
+                message: "maxStorageBufferRange is smaller".to_owned(),
+            });
+        }
+        let reader = readers.get(device, self.aspect, *encoding)?;
+        let set = slot.descriptor_set(device, reader.layout.set)?;
+        let images = [vk::DescriptorImageInfo {
+            sampler: vk::Sampler::null(),
+            image_view: image.view(format::aspect_flag(self.aspect))?,
+            image_layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+        }];
+        let buffers = [vk::DescriptorBufferInfo {
+            buffer: output.raw,
+            offset: self.offset,
+            range: self.bytes,
+        }];
+        let write = |binding, kind| {
+            vk::WriteDescriptorSet::default()
+                .dst_set(set)
+                .dst_binding(binding)
+                .descriptor_type(kind)
+        };
+        let writes = [
+            write(0, vk::DescriptorType::SAMPLED_IMAGE).image_info(&images),
+            write(1, vk::DescriptorType::STORAGE_BUFFER).buffer_info(&buffers),
+        ];
+        // SAFETY: the set is new, and view and buffer live as long as the scene.
+        unsafe { device.raw.update_descriptor_sets(&writes, &[]) };
+        self.reader = Some((reader, set));
+        Ok(())
+    }
+
+    /// The image, after the device wrote the output buffer.
+    pub(crate) fn image(&self, output: &Buffer) -> Result<etalon_frame::Image, BackendError> {
+        let length = usize::try_from(self.bytes)
+            .map_err(|_| BackendError::Internal("an image too large to read".to_owned()))?;
+        let bytes = output.read(self.offset, length)?;
+        let codes = if self.reader.is_some() {
+            format::decode(&bytes, &[ChannelEncoding::Float32])
+        } else {
+            format::decode(&bytes, &self.channels)
+        };
+        Ok(etalon_frame::Image {
+            attachment: self.name.clone(),
+            aspect: self.aspect,
+            size: self.size,
+            samples: self.samples,
+            channels: self.channels.clone(),
+            read: ReadPath::Copy,
+            codes,
+        })
+    }
+}

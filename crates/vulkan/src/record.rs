@@ -1,0 +1,369 @@
+//! Commands: how attachments start, the passes, and the copies that are read back.
+
+use crate::device::Device;
+use crate::memory::range;
+use crate::pipeline::Pipeline;
+use crate::prepared::{AttachmentPlan, DrawPlan, PassPlan, Plan, Role, Start};
+use crate::samples::TILE;
+use ash::vk;
+
+/// A place in the pipeline and what happens to memory there.
+#[derive(Clone, Copy)]
+struct Place {
+    layout: vk::ImageLayout,
+    stages: vk::PipelineStageFlags2,
+    access: vk::AccessFlags2,
+}
+
+const TRANSFER_DST: Place = Place {
+    layout: vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+    stages: vk::PipelineStageFlags2::ALL_TRANSFER,
+    access: vk::AccessFlags2::TRANSFER_WRITE,
+};
+
+const TRANSFER_SRC: Place = Place {
+    layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+    stages: vk::PipelineStageFlags2::ALL_TRANSFER,
+    access: vk::AccessFlags2::TRANSFER_READ,
+};
+
+const COMPUTE: Place = Place {
+    layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+    stages: vk::PipelineStageFlags2::COMPUTE_SHADER,
+    access: vk::AccessFlags2::SHADER_SAMPLED_READ,
+};
+
+/// Whatever happened before; contents need not survive.
+const ANYTHING: Place = Place {
+    layout: vk::ImageLayout::UNDEFINED,
+    stages: vk::PipelineStageFlags2::ALL_COMMANDS,
+    access: vk::AccessFlags2::MEMORY_WRITE,
+};
+
+impl AttachmentPlan {
+    /// Where the attachment lies during the passes.
+    fn home(&self) -> Place {
+        match self.role {
+            Role::Color => Place {
+                layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
+                stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
+                access: vk::AccessFlags2::COLOR_ATTACHMENT_READ
+                    | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
+            },
+            Role::DepthStencil => Place {
+                layout: vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+                stages: vk::PipelineStageFlags2::EARLY_FRAGMENT_TESTS
+                    | vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS,
+                access: vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_READ
+                    | vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE,
+            },
+            Role::Fetched => Place {
+                layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+                stages: vk::PipelineStageFlags2::VERTEX_SHADER
+                    | vk::PipelineStageFlags2::FRAGMENT_SHADER,
+                access: vk::AccessFlags2::SHADER_SAMPLED_READ,
+            },
+            Role::Idle => TRANSFER_DST,
+        }
+    }
+
+    /// Where the attachment lies while it is read back.
+    fn reading(&self) -> Place {
+        if self.samples > 1 {
+            COMPUTE
+        } else {
+            TRANSFER_SRC
+        }
+    }
+
+    fn barrier(&self, from: Place, to: Place) -> vk::ImageMemoryBarrier2<'static> {
+        vk::ImageMemoryBarrier2::default()
+            .src_stage_mask(from.stages)
+            .src_access_mask(from.access)
+            .dst_stage_mask(to.stages)
+            .dst_access_mask(to.access)
+            .old_layout(from.layout)
+            .new_layout(to.layout)
+            .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+            .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+            .image(self.image)
+            .subresource_range(range(self.aspects))
+    }
+}
+
+/// Gives every attachment its first contents and brings it to its place for the passes.
+pub(crate) fn start(device: &Device, commands: vk::CommandBuffer, plan: &Plan, input: vk::Buffer) {
+    let into: Vec<_> = plan
+        .attachments
+        .iter()
+        .map(|a| a.barrier(ANYTHING, TRANSFER_DST))
+        .collect();
+    barriers(device, commands, &into);
+    let layout = TRANSFER_DST.layout;
+    for attachment in &plan.attachments {
+        let ranges = [range(attachment.aspects)];
+        match &attachment.start {
+            Start::Color(color) => {
+                let value = vk::ClearColorValue { float32: *color };
+                // SAFETY: recording; the image is in this layout.
+                unsafe {
+                    device.raw.cmd_clear_color_image(
+                        commands,
+                        attachment.image,
+                        layout,
+                        &value,
+                        &ranges,
+                    );
+                }
+            }
+            Start::DepthStencil { depth, stencil } => {
+                let value = vk::ClearDepthStencilValue {
+                    depth: *depth,
+                    stencil: u32::from(*stencil),
+                };
+                // SAFETY: as above.
+                unsafe {
+                    device.raw.cmd_clear_depth_stencil_image(
+                        commands,
+                        attachment.image,
+                        layout,
+                        &value,
+                        &ranges,
+                    );
+                }
+            }
+            Start::Upload(offset) => {
+                let regions = [region(attachment, attachment.aspects, *offset)];
+                // SAFETY: as above; the input buffer holds all texels from the offset on.
+                unsafe {
+                    device.raw.cmd_copy_buffer_to_image(
+                        commands,
+                        input,
+                        attachment.image,
+                        layout,
+                        &regions,
+                    );
+                }
+            }
+        }
+    }
+    let home: Vec<_> = plan
+        .attachments
+        .iter()
+        .filter(|a| a.role != Role::Idle)
+        .map(|a| a.barrier(TRANSFER_DST, a.home()))
+        .collect();
+    barriers(device, commands, &home);
+}
+
+/// Records all passes.
+pub(crate) fn passes(device: &Device, commands: vk::CommandBuffer, plan: &Plan, input: vk::Buffer) {
+    for (index, pass) in plan.passes.iter().enumerate() {
+        if index > 0 {
+            between_passes(device, commands);
+        }
+        self::pass(device, commands, pass, input);
+    }
+}
+
+/// Makes what a pass wrote visible to the next.
+fn between_passes(device: &Device, commands: vk::CommandBuffer) {
+    let stages = vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT
+        | vk::PipelineStageFlags2::EARLY_FRAGMENT_TESTS
+        | vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS;
+    let written =
+        vk::AccessFlags2::COLOR_ATTACHMENT_WRITE | vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE;
+    let read =
+        vk::AccessFlags2::COLOR_ATTACHMENT_READ | vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_READ;
+    let barriers = [vk::MemoryBarrier2::default()
+        .src_stage_mask(stages)
+        .src_access_mask(written)
+        .dst_stage_mask(stages)
+        .dst_access_mask(read | written)];
+    let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+    // SAFETY: recording, outside of a render pass.
+    unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
+}
+
+fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk::Buffer) {
+    let api = &device.raw;
+    let attachment = |view: vk::ImageView, layout: vk::ImageLayout| {
+        vk::RenderingAttachmentInfo::default()
+            .image_view(view)
+            .image_layout(layout)
+            .load_op(vk::AttachmentLoadOp::LOAD)
+            .store_op(vk::AttachmentStoreOp::STORE)
+    };
+    let color: Vec<_> = pass
+        .color
+        .iter()
+        .map(|view| attachment(*view, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL))
+        .collect();
+    let tested = vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+    let depth = pass.depth.map(|view| attachment(view, tested));
+    let stencil = pass.stencil.map(|view| attachment(view, tested));
+    let [width, height] = pass.size;
+    let area = vk::Rect2D {
+        offset: vk::Offset2D::default(),
+        extent: vk::Extent2D { width, height },
+    };
+    let mut info = vk::RenderingInfo::default()
+        .render_area(area)
+        .layer_count(1)
+        .color_attachments(&color);
+    if let Some(depth) = &depth {
+        info = info.depth_attachment(depth);
+    }
+    if let Some(stencil) = &stencil {
+        info = info.stencil_attachment(stencil);
+    }
+    // The negative height turns clip space's y axis up.
+    let viewport = vk::Viewport {
+        x: 0.0,
+        y: height as f32,
+        width: width as f32,
+        height: -(height as f32),
+        min_depth: 0.0,
+        max_depth: 1.0,
+    };
+    // SAFETY: recording; the attachments are in the layouts named, and live as long as the scene.
+    unsafe {
+        api.cmd_begin_rendering(commands, &info);
+        api.cmd_set_viewport(commands, 0, &[viewport]);
+        api.cmd_set_scissor(commands, 0, &[area]);
+        let mut bound: Option<&Pipeline> = None;
+        for draw in &pass.draws {
+            let pipeline = &*draw.pipeline;
+            if bound.is_none_or(|b| b.raw != pipeline.raw) {
+                let point = vk::PipelineBindPoint::GRAPHICS;
+                api.cmd_bind_pipeline(commands, point, pipeline.raw);
+                bound = Some(pipeline);
+            }
+            self::draw(device, commands, draw, input);
+        }
+        api.cmd_end_rendering(commands);
+    }
+}
+
+/// # Safety
+/// Within a render pass of `commands`, with the draw's pipeline bound.
+unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, input: vk::Buffer) {
+    let api = &device.raw;
+    // SAFETY: set, buffers and pipeline live as long as the scene, and the offsets lie inside the
+    // input buffer, which was written before.
+    unsafe {
+        api.cmd_bind_descriptor_sets(
+            commands,
+            vk::PipelineBindPoint::GRAPHICS,
+            draw.pipeline.layout,
+            0,
+            &[draw.set],
+            &[draw.params],
+        );
+        api.cmd_set_blend_constants(commands, &draw.blend_constant);
+        if let Some(stencil) = &draw.stencil {
+            for (face, side) in [
+                (vk::StencilFaceFlags::FRONT, &stencil.front),
+                (vk::StencilFaceFlags::BACK, &stencil.back),
+            ] {
+                api.cmd_set_stencil_compare_mask(commands, face, side.read_mask.into());
+                api.cmd_set_stencil_write_mask(commands, face, side.write_mask.into());
+                api.cmd_set_stencil_reference(commands, face, side.reference.into());
+            }
+        }
+        api.cmd_bind_vertex_buffers(commands, 0, &[input], &[draw.vertices]);
+        api.cmd_draw(commands, draw.count, 1, 0, 0);
+    }
+}
+
+/// Records everything that is read back, into the output buffer.
+pub(crate) fn reads(device: &Device, commands: vk::CommandBuffer, plan: &Plan, output: vk::Buffer) {
+    let into: Vec<_> = plan
+        .attachments
+        .iter()
+        .filter(|a| a.read)
+        .map(|a| a.barrier(a.home(), a.reading()))
+        .collect();
+    barriers(device, commands, &into);
+    for read in &plan.reads {
+        let Some(attachment) = plan.attachments.get(read.attachment) else {
+            continue;
+        };
+        if let Some((reader, set)) = read.reader {
+            let point = vk::PipelineBindPoint::COMPUTE;
+            let [x, y] = attachment.size.map(|side| side.div_ceil(TILE));
+            // SAFETY: recording; the set names the image's view and this read's part of the output.
+            unsafe {
+                let layout = reader.layout.pipeline;
+                device
+                    .raw
+                    .cmd_bind_pipeline(commands, point, reader.pipeline);
+                device
+                    .raw
+                    .cmd_bind_descriptor_sets(commands, point, layout, 0, &[set], &[]);
+                device.raw.cmd_dispatch(commands, x, y, 1);
+            }
+        } else {
+            let aspect = crate::format::aspect_flag(read.aspect);
+            let regions = [region(attachment, aspect, read.offset)];
+            // SAFETY: recording; the output buffer holds all texels from the offset on.
+            unsafe {
+                device.raw.cmd_copy_image_to_buffer(
+                    commands,
+                    attachment.image,
+                    TRANSFER_SRC.layout,
+                    output,
+                    &regions,
+                );
+            }
+        }
+    }
+    let barriers = [vk::MemoryBarrier2::default()
+        .src_stage_mask(
+            vk::PipelineStageFlags2::ALL_TRANSFER | vk::PipelineStageFlags2::COMPUTE_SHADER,
+        )
+        .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE | vk::AccessFlags2::SHADER_STORAGE_WRITE)
+        .dst_stage_mask(vk::PipelineStageFlags2::HOST)
+        .dst_access_mask(vk::AccessFlags2::HOST_READ)];
+    let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+    // SAFETY: recording, outside of a render pass.
+    unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
+}
+
+fn barriers(
+    device: &Device,
+    commands: vk::CommandBuffer,
+    barriers: &[vk::ImageMemoryBarrier2<'_>],
+) {
+    if barriers.is_empty() {
+        return;
+    }
+    let info = vk::DependencyInfo::default().image_memory_barriers(barriers);
+    // SAFETY: recording, outside of a render pass.
+    unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
+}
+
+/// The whole of one aspect, tightly packed at an offset of a buffer.
+fn region(
+    attachment: &AttachmentPlan,
+    aspect: vk::ImageAspectFlags,
+    offset: u64,
+) -> vk::BufferImageCopy {
+    vk::BufferImageCopy {
+        buffer_offset: offset,
+        buffer_row_length: 0,
+        buffer_image_height: 0,
+        image_subresource: vk::ImageSubresourceLayers {
+            aspect_mask: aspect,
+            mip_level: 0,
+            base_array_layer: 0,
+            layer_count: 1,
+        },
+        image_offset: vk::Offset3D::default(),
+        image_extent: vk::Extent3D {
+            width: attachment.size[0],
+            height: attachment.size[1],
+            depth: 1,
+        },
+    }
+}

@@ -1,0 +1,109 @@
+//! WGSL to SPIR-V through naga, and the modules made of it.
+
+use crate::device::Device;
+use crate::error::Check;
+use ash::vk;
+use etalon_backend::BackendError;
+use etalon_case::state::Shader;
+use naga::back::spv;
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use std::collections::HashMap;
+
+/// SPIR-V with what a pipeline must know of it.
+#[derive(Debug)]
+pub(crate) struct Translated {
+    pub(crate) words: Vec<u32>,
+    /// Locations of the vertex attributes that the vertex entry point reads.
+    pub(crate) attributes: Vec<u32>,
+}
+
+/// A shader module that holds all entry points of its file.
+#[derive(Clone, Debug)]
+pub(crate) struct Module {
+    pub(crate) raw: vk::ShaderModule,
+    pub(crate) attributes: Vec<u32>,
+}
+
+/// One module per shader of the suite; the set is closed, so nothing needs to go early.
+#[derive(Debug, Default)]
+pub(crate) struct Modules {
+    modules: HashMap<Shader, Module>,
+}
+
+/// Translates a WGSL file.
+pub(crate) fn translate(name: &str, source: &str) -> Result<Translated, BackendError> {
+    let fail = |message: String| BackendError::Shader {
+        shader: name.to_owned(),
+        message,
+    };
+    let module =
+        naga::front::wgsl::parse_str(source).map_err(|e| fail(e.emit_to_string(source)))?;
+    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+        .validate(&module)
+        .map_err(|e| fail(e.emit_to_string(source)))?;
+    // No flags: the viewport turns y up, not the shader, and a written depth stays as it is.
+    let options = spv::Options {
+        lang_version: (1, 3),
+        flags: spv::WriterFlags::empty(),
+        ..spv::Options::default()
+    };
+    let words = spv::write_vec(&module, &info, &options, None).map_err(|e| fail(e.to_string()))?;
+    let mut attributes = Vec::new();
+    let vertex = |e: &&naga::EntryPoint| e.stage == naga::ShaderStage::Vertex;
+    for entry in module.entry_points.iter().filter(vertex) {
+        for argument in &entry.function.arguments {
+            if let Some(naga::Binding::Location { location, .. }) = argument.binding {
+                attributes.push(location);
+            }
+        }
+    }
+    Ok(Translated { words, attributes })
+}
+
+/// Makes a module of SPIR-V.
+pub(crate) fn create_module(
+    device: &Device,
+    name: &str,
+    words: &[u32],
+) -> Result<vk::ShaderModule, BackendError> {
+    let info = vk::ShaderModuleCreateInfo::default().code(words);
+    // SAFETY: naga writes valid SPIR-V of Vulkan 1.1 from a validated module.
+    unsafe { device.raw.create_shader_module(&info, None) }.check(&format!("shader {name}"))
+}
+
+impl Modules {
+    /// The module of a shader, made at its first use.
+    pub(crate) fn get(&mut self, device: &Device, shader: Shader) -> Result<Module, BackendError> {
+        if let Some(module) = self.modules.get(&shader) {
+            return Ok(module.clone());
+        }
+        let translated = translate(shader.name(), shader.wgsl())?;
+        let module = Module {
+            raw: create_module(device, shader.name(), &translated.words)?,
+            attributes: translated.attributes,
+        };
+        self.modules.insert(shader, module.clone());
+        Ok(module)
+    }
+
+    /// Destroys everything; called once, before the device goes.
+    pub(crate) fn destroy(&mut self, device: &Device) {
+        for (_, module) in self.modules.drain() {
+            // SAFETY: modules are needed only while pipelines are created.
+            unsafe { device.raw.destroy_shader_module(module.raw, None) };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_shader_translates_and_reads_the_position() {
+        for shader in Shader::ALL {
+            let translated = translate(shader.name(), shader.wgsl()).expect("our own shader");
+            assert!(translated.attributes.contains(&0), "{}", shader.name());
+        }
+    }
+}

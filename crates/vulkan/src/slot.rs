@@ -1,0 +1,254 @@
+//! What one scene in flight needs: commands, a fence, timestamps, descriptors. Slots are reused.
+
+use crate::device::Device;
+use crate::error::Check;
+use ash::vk;
+use etalon_backend::BackendError;
+use std::time::{Duration, Instant};
+
+/// The most slots kept for later.
+const KEPT_SLOTS: usize = 16;
+const FEWEST_SETS: u32 = 8;
+
+/// One scene's commands and bookkeeping on the device.
+#[derive(Debug, Default)]
+pub(crate) struct Slot {
+    pool: vk::CommandPool,
+    commands: vk::CommandBuffer,
+    fence: vk::Fence,
+    /// Null where the queue has no timestamps.
+    queries: vk::QueryPool,
+    descriptors: vk::DescriptorPool,
+    /// How many sets the descriptor pool has room for.
+    sets: u32,
+    /// How many images each set may hold on average.
+    images: u32,
+    /// Whether the device may still be at work on the commands.
+    pub(crate) in_flight: bool,
+}
+
+/// Slots that no scene uses at present.
+#[derive(Debug, Default)]
+pub(crate) struct Slots {
+    free: Vec<Slot>,
+}
+
+impl Slots {
+    /// A slot with room for so many descriptor sets of so many images at most.
+    pub(crate) fn take(
+        &mut self,
+        device: &Device,
+        sets: u32,
+        images: u32,
+    ) -> Result<Slot, BackendError> {
+        let mut slot = self.free.pop().unwrap_or_default();
+        let ready = slot.create(device, sets.max(1), images.max(1));
+        if let Err(error) = ready {
+            slot.destroy(device);
+            return Err(error);
+        }
+        Ok(slot)
+    }
+
+    /// Takes a slot back. One that the device has not left is waited for, and then not trusted.
+    pub(crate) fn give_back(&mut self, device: &Device, slot: Slot) {
+        if slot.in_flight {
+            // SAFETY: waiting needs nothing; on a lost device it fails, and nothing runs there.
+            let _ = unsafe { device.raw.device_wait_idle() };
+        }
+        if slot.in_flight || self.free.len() >= KEPT_SLOTS {
+            slot.destroy(device);
+        } else {
+            self.free.push(slot);
+        }
+    }
+
+    /// Destroys everything; called once, before the device goes.
+    pub(crate) fn destroy(&mut self, device: &Device) {
+        self.free.drain(..).for_each(|s| s.destroy(device));
+    }
+}
+
+impl Slot {
+    /// Makes what is missing, and gives all descriptor sets back.
+    fn create(&mut self, device: &Device, sets: u32, images: u32) -> Result<(), BackendError> {
+        let api = &device.raw;
+        if self.pool == vk::CommandPool::null() {
+            let info = vk::CommandPoolCreateInfo::default()
+                .flags(vk::CommandPoolCreateFlags::TRANSIENT)
+                .queue_family_index(device.queue_family);
+            // SAFETY: the family is the one the device was made with.
+            self.pool = unsafe { api.create_command_pool(&info, None) }.check("a command pool")?;
+            let info = vk::CommandBufferAllocateInfo::default()
+                .command_pool(self.pool)
+                .command_buffer_count(1);
+            // SAFETY: the pool was just made.
+            let made = unsafe { api.allocate_command_buffers(&info) }.check("a command buffer")?;
+            self.commands = made.first().copied().unwrap_or_default();
+            let info = vk::FenceCreateInfo::default();
+            // SAFETY: the device lives.
+            self.fence = unsafe { api.create_fence(&info, None) }.check("a fence")?;
+            if device.timestamp_bits > 0 {
+                let info = vk::QueryPoolCreateInfo::default()
+                    .query_type(vk::QueryType::TIMESTAMP)
+                    .query_count(2);
+                // SAFETY: the queue has timestamps.
+                self.queries =
+                    unsafe { api.create_query_pool(&info, None) }.check("a query pool")?;
+            }
+        }
+        if self.sets < sets || self.images < images {
+            self.sets = sets.next_power_of_two().max(FEWEST_SETS);
+            self.images = images.max(self.images);
+            // SAFETY: no set of this pool is in use; a null pool is ignored.
+            unsafe { api.destroy_descriptor_pool(self.descriptors, None) };
+            self.descriptors = vk::DescriptorPool::null();
+            let size = |ty, descriptor_count| vk::DescriptorPoolSize {
+                ty,
+                descriptor_count,
+            };
+            let sizes = [
+                size(vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC, self.sets),
+                size(
+                    vk::DescriptorType::SAMPLED_IMAGE,
+                    self.sets.saturating_mul(self.images),
+                ),
+                size(vk::DescriptorType::STORAGE_BUFFER, self.sets),
+            ];
+            let info = vk::DescriptorPoolCreateInfo::default()
+                .max_sets(self.sets)
+                .pool_sizes(&sizes);
+            // SAFETY: `info` is complete.
+            self.descriptors =
+                unsafe { api.create_descriptor_pool(&info, None) }.check("a descriptor pool")?;
+        } else {
+            let flags = vk::DescriptorPoolResetFlags::empty();
+            // SAFETY: no set of this pool is in use.
+            unsafe { api.reset_descriptor_pool(self.descriptors, flags) }
+                .check("a descriptor pool")?;
+        }
+        Ok(())
+    }
+
+    /// A descriptor set of a layout; it lives as long as the scene holds the slot.
+    pub(crate) fn descriptor_set(
+        &self,
+        device: &Device,
+        layout: vk::DescriptorSetLayout,
+    ) -> Result<vk::DescriptorSet, BackendError> {
+        let layouts = [layout];
+        let info = vk::DescriptorSetAllocateInfo::default()
+            .descriptor_pool(self.descriptors)
+            .set_layouts(&layouts);
+        // SAFETY: pool and layout live.
+        let sets = unsafe { device.raw.allocate_descriptor_sets(&info) };
+        let sets = sets.check("a descriptor set")?;
+        sets.first()
+            .copied()
+            .ok_or_else(|| BackendError::Internal("no descriptor set came back".to_owned()))
+    }
+
+    /// Starts recording.
+    pub(crate) fn begin(&self, device: &Device) -> Result<vk::CommandBuffer, BackendError> {
+        let info = vk::CommandBufferBeginInfo::default()
+            .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        // SAFETY: the device is done with the commands: `submit` waits.
+        unsafe {
+            device
+                .raw
+                .reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty())
+                .check("command memory")?;
+            device
+                .raw
+                .begin_command_buffer(self.commands, &info)
+                .check("command memory")?;
+        }
+        Ok(self.commands)
+    }
+
+    /// Records that the timestamps are not taken yet.
+    pub(crate) fn reset_timestamps(&self, device: &Device) {
+        if self.queries != vk::QueryPool::null() {
+            // SAFETY: recording, outside of a render pass.
+            unsafe {
+                device
+                    .raw
+                    .cmd_reset_query_pool(self.commands, self.queries, 0, 2);
+            }
+        }
+    }
+
+    /// Records a timestamp, 0 before and 1 after what is timed.
+    pub(crate) fn timestamp(&self, device: &Device, index: u32) {
+        if self.queries != vk::QueryPool::null() {
+            let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
+            // SAFETY: recording; the pool has two queries.
+            unsafe {
+                device
+                    .raw
+                    .cmd_write_timestamp2(self.commands, stage, self.queries, index);
+            }
+        }
+    }
+
+    /// Ends recording, submits, and waits. Returns the time from `start` to the submission's return
+    /// and to the device's being done.
+    pub(crate) fn submit(
+        &mut self,
+        device: &Device,
+        start: Instant,
+    ) -> Result<(Duration, Duration), BackendError> {
+        let fences = [self.fence];
+        let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(self.commands)];
+        let info = [vk::SubmitInfo2::default().command_buffer_infos(&commands)];
+        let api = &device.raw;
+        // SAFETY: the commands are complete, everything they use lives in the scene, and one thread
+        // uses the queue.
+        unsafe {
+            api.end_command_buffer(self.commands)
+                .check("command memory")?;
+            api.reset_fences(&fences).check("a fence")?;
+            // Set first: after an error the device may or may not have begun.
+            self.in_flight = true;
+            api.queue_submit2(device.queue, &info, self.fence)
+                .check("submitted work")?;
+        }
+        let submitted = start.elapsed();
+        // SAFETY: the fence was submitted.
+        unsafe { api.wait_for_fences(&fences, true, u64::MAX) }.check("submitted work")?;
+        let done = start.elapsed();
+        self.in_flight = false;
+        Ok((submitted, done))
+    }
+
+    /// The time between the two timestamps of finished work.
+    pub(crate) fn gpu_time(&self, device: &Device) -> Result<Option<Duration>, BackendError> {
+        if self.queries == vk::QueryPool::null() {
+            return Ok(None);
+        }
+        let mut ticks = [0_u64; 2];
+        let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
+        // SAFETY: both timestamps were written by finished work.
+        unsafe {
+            device
+                .raw
+                .get_query_pool_results(self.queries, 0, &mut ticks, flags)
+        }
+        .check("timestamps")?;
+        let mask = u64::MAX >> (64 - device.timestamp_bits.clamp(1, 64));
+        let difference = ticks[1].wrapping_sub(ticks[0]) & mask;
+        let nanoseconds = difference as f64 * f64::from(device.limits.timestamp_period);
+        Ok(Some(Duration::from_nanos(nanoseconds as u64)))
+    }
+
+    fn destroy(&self, device: &Device) {
+        // SAFETY: the device is done with the slot; null handles are ignored, and the pool takes its
+        // command buffer along.
+        unsafe {
+            device.raw.destroy_descriptor_pool(self.descriptors, None);
+            device.raw.destroy_query_pool(self.queries, None);
+            device.raw.destroy_fence(self.fence, None);
+            device.raw.destroy_command_pool(self.pool, None);
+        }
+    }
+}

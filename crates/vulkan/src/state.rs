@@ -1,0 +1,98 @@
+//! From our state to Vulkan's.
+
+use ash::vk;
+use etalon_case::state::{
+    BlendFactor, BlendOperation, CompareFunction, CullMode, FrontFace, PrimitiveTopology,
+    StencilOperation,
+};
+
+pub(crate) fn compare(function: CompareFunction) -> vk::CompareOp {
+    match function {
+        CompareFunction::Never => vk::CompareOp::NEVER,
+        CompareFunction::Less => vk::CompareOp::LESS,
+        CompareFunction::Equal => vk::CompareOp::EQUAL,
+        CompareFunction::LessEqual => vk::CompareOp::LESS_OR_EQUAL,
+        CompareFunction::Greater => vk::CompareOp::GREATER,
+        CompareFunction::NotEqual => vk::CompareOp::NOT_EQUAL,
+        CompareFunction::GreaterEqual => vk::CompareOp::GREATER_OR_EQUAL,
+        CompareFunction::Always => vk::CompareOp::ALWAYS,
+    }
+}
+
+pub(crate) fn stencil(operation: StencilOperation) -> vk::StencilOp {
+    match operation {
+        StencilOperation::Keep => vk::StencilOp::KEEP,
+        StencilOperation::Zero => vk::StencilOp::ZERO,
+        StencilOperation::Replace => vk::StencilOp::REPLACE,
+        StencilOperation::Invert => vk::StencilOp::INVERT,
+        StencilOperation::IncrementClamp => vk::StencilOp::INCREMENT_AND_CLAMP,
+        StencilOperation::DecrementClamp => vk::StencilOp::DECREMENT_AND_CLAMP,
+        StencilOperation::IncrementWrap => vk::StencilOp::INCREMENT_AND_WRAP,
+        StencilOperation::DecrementWrap => vk::StencilOp::DECREMENT_AND_WRAP,
+    }
+}
+
+pub(crate) fn blend_operation(operation: BlendOperation) -> vk::BlendOp {
+    match operation {
+        BlendOperation::Add => vk::BlendOp::ADD,
+        BlendOperation::Subtract => vk::BlendOp::SUBTRACT,
+        BlendOperation::ReverseSubtract => vk::BlendOp::REVERSE_SUBTRACT,
+        BlendOperation::Min => vk::BlendOp::MIN,
+        BlendOperation::Max => vk::BlendOp::MAX,
+    }
+}
+
+/// Vulkan's colour factors take the alpha of their operand in the alpha equation (Blend Factors),
+/// as WebGPU's do, so one table serves both equations.
+pub(crate) fn blend_factor(factor: BlendFactor) -> vk::BlendFactor {
+    match factor {
+        BlendFactor::Zero => vk::BlendFactor::ZERO,
+        BlendFactor::One => vk::BlendFactor::ONE,
+        BlendFactor::Src => vk::BlendFactor::SRC_COLOR,
+        BlendFactor::OneMinusSrc => vk::BlendFactor::ONE_MINUS_SRC_COLOR,
+        BlendFactor::SrcAlpha => vk::BlendFactor::SRC_ALPHA,
+        BlendFactor::OneMinusSrcAlpha => vk::BlendFactor::ONE_MINUS_SRC_ALPHA,
+        BlendFactor::Dst => vk::BlendFactor::DST_COLOR,
+        BlendFactor::OneMinusDst => vk::BlendFactor::ONE_MINUS_DST_COLOR,
+        BlendFactor::DstAlpha => vk::BlendFactor::DST_ALPHA,
+        BlendFactor::OneMinusDstAlpha => vk::BlendFactor::ONE_MINUS_DST_ALPHA,
+        BlendFactor::SrcAlphaSaturated => vk::BlendFactor::SRC_ALPHA_SATURATE,
+        BlendFactor::Constant => vk::BlendFactor::CONSTANT_COLOR,
+        BlendFactor::OneMinusConstant => vk::BlendFactor::ONE_MINUS_CONSTANT_COLOR,
+        BlendFactor::ConstantAlpha => vk::BlendFactor::CONSTANT_ALPHA,
+        BlendFactor::OneMinusConstantAlpha => vk::BlendFactor::ONE_MINUS_CONSTANT_ALPHA,
+    }
+}
+
+pub(crate) fn cull(mode: CullMode) -> vk::CullModeFlags {
+    match mode {
+        CullMode::None => vk::CullModeFlags::NONE,
+        CullMode::Front => vk::CullModeFlags::FRONT,
+        CullMode::Back => vk::CullModeFlags::BACK,
+        CullMode::FrontAndBack => vk::CullModeFlags::FRONT_AND_BACK,
+    }
+}
+
+pub(crate) fn front_face(face: FrontFace) -> vk::FrontFace {
+    match face {
+        FrontFace::Ccw => vk::FrontFace::COUNTER_CLOCKWISE,
+        FrontFace::Cw => vk::FrontFace::CLOCKWISE,
+    }
+}
+
+pub(crate) fn topology(topology: PrimitiveTopology) -> vk::PrimitiveTopology {
+    match topology {
+        PrimitiveTopology::TriangleList => vk::PrimitiveTopology::TRIANGLE_LIST,
+        PrimitiveTopology::TriangleStrip => vk::PrimitiveTopology::TRIANGLE_STRIP,
+    }
+}
+
+/// Our write mask has red in bit 0, as Vulkan's.
+pub(crate) fn write_mask(mask: u8) -> vk::ColorComponentFlags {
+    vk::ColorComponentFlags::from_raw(u32::from(mask & 0xf))
+}
+
+/// The sample count flag of a power of two up to 64 is the number itself.
+pub(crate) fn samples(count: u32) -> vk::SampleCountFlags {
+    vk::SampleCountFlags::from_raw(count)
+}

@@ -1,0 +1,171 @@
+//! Scenes side by side and again, limits, adapters, the validation layer, and every built-in case.
+
+use crate::common::{backend, check_shape, draw, scene};
+use etalon_backend::{Backend, BackendError};
+use etalon_case::Library;
+use etalon_frame::{Api, ReadPath, Requirement, TextureFormat};
+use etalon_vulkan::{Options, VulkanBackend, enumerate, open};
+
+/// Two passes, blending onto what is there, an upload, depth and stencil that change.
+const BUSY: &str = r#"{
+    "attachments": {
+        "color": { "format": "rgba8unorm", "clear": [0.5, 0, 0, 0.5] },
+        "ds": { "format": "depth32float-stencil8", "clear": { "depth": 1, "stencil": 1 } },
+        "source": { "format": "rgba8unorm", "texels": { "kind": "columns", "values": [
+            [1,2,3,4],[1,2,3,4],[1,2,3,4],[1,2,3,4],[1,2,3,4],[1,2,3,4],[1,2,3,4],[1,2,3,4],
+            [9,2,3,4],[9,2,3,4],[9,2,3,4],[9,2,3,4],[9,2,3,4],[9,2,3,4],[9,2,3,4],[9,2,3,4]] } } },
+    "passes": [
+        { "color": ["color"], "depth_stencil": "ds", "draws": [
+            { "mesh": { "kind": "columns", "values": [0, 0.5, 1] }, "shader": "flat_color_depth",
+              "params": { "color": [0, 1, 0, 0.5] }, "depth": { "compare": "less", "write": true },
+              "blend": { "color": { "operation": "add", "src_factor": "one", "dst_factor": "one" },
+                         "alpha": { "operation": "max", "src_factor": "one", "dst_factor": "one" } },
+              "stencil": { "front": { "compare": "always", "pass_op": "increment-clamp" } } } ] },
+        { "color": ["color"], "draws": [
+            { "mesh": { "kind": "rect", "texels": [2, 3, 7, 9] }, "shader": "texel_color", "textures": ["source"],
+              "blend": { "color": { "operation": "add", "src_factor": "one", "dst_factor": "one" },
+                         "alpha": { "operation": "add", "src_factor": "one", "dst_factor": "one" } } } ] },
+        { "depth_stencil": "ds", "draws": [
+            { "mesh": { "kind": "full" }, "shader": "uniform_color",
+              "stencil": { "front": { "compare": "equal", "pass_op": "increment-clamp", "reference": 2 } } } ] } ],
+    "read": ["color", "ds", "source"] }"#;
+
+#[test]
+fn a_second_submit_gives_the_same_frame() {
+    let backend = backend(true);
+    let scene = scene(BUSY);
+    let mut prepared = backend.prepare(&scene).unwrap();
+    prepared.submit().unwrap();
+    let first = prepared.read_back().unwrap();
+    assert_eq!(prepared.read_back().unwrap(), first);
+    for _ in 0..3 {
+        let time = prepared.submit().unwrap();
+        assert!(time.cpu <= time.wall);
+        if let Some(gpu) = time.gpu {
+            // Two clocks; this holds the unit.
+            assert!(gpu <= 2 * time.wall, "{time:?}");
+        }
+    }
+    assert_eq!(prepared.read_back().unwrap(), first);
+    drop(prepared);
+    // From reused images and buffers too.
+    assert_eq!(draw(&backend, &scene), first);
+    assert_eq!(backend.messages(), Vec::<String>::new());
+}
+
+#[test]
+fn prepared_scenes_do_not_disturb_each_other() {
+    let backend = backend(true);
+    let one = scene(BUSY);
+    let other = scene(&BUSY.replace("[0.5, 0, 0, 0.5]", "[0, 0, 1, 1]"));
+    let (due_one, due_other) = (draw(&backend, &one), draw(&backend, &other));
+    assert_ne!(due_one, due_other);
+    let mut a = backend.prepare(&one).unwrap();
+    let mut b = backend.prepare(&other).unwrap();
+    a.submit().unwrap();
+    b.submit().unwrap();
+    a.submit().unwrap();
+    assert_eq!(b.read_back().unwrap(), due_other);
+    assert_eq!(a.read_back().unwrap(), due_one);
+    drop(a);
+    b.submit().unwrap();
+    assert_eq!(b.read_back().unwrap(), due_other);
+    drop(b);
+    assert_eq!(backend.messages(), Vec::<String>::new());
+}
+
+#[test]
+fn reading_before_drawing_is_an_error() {
+    let backend = backend(false);
+    let scene = scene(BUSY);
+    let mut prepared = backend.prepare(&scene).unwrap();
+    let error = prepared.read_back().unwrap_err();
+    assert!(matches!(error, BackendError::Internal(_)), "{error}");
+}
+
+#[test]
+fn what_the_limits_deny_is_not_supported() {
+    let backend = backend(false);
+    let mut scene = scene(BUSY);
+    let size = backend.limits().max_size + 1;
+    scene.attachments[0].size = [size, 1];
+    let error = backend.prepare(&scene).map(|_| ()).unwrap_err();
+    let due = BackendError::NotSupported(Requirement::Size(size));
+    assert_eq!(error, due);
+}
+
+#[test]
+fn limits_tell_what_the_device_has() {
+    let backend = backend(false);
+    let limits = backend.limits();
+    assert_eq!(limits.api, Api::Vulkan);
+    // Vulkan, Required Limits.
+    assert!(limits.sub_pixel_bits >= 4);
+    assert!(limits.max_size >= 4096);
+    assert_eq!(limits.sample_positions[&1], [[128, 128]]);
+    for format in TextureFormat::ALL {
+        let support = &limits.formats[&format];
+        assert_eq!(support.samples[0], 1);
+        assert_eq!(support.read, ReadPath::Copy);
+        assert_eq!(support.depth.len(), usize::from(format.has_depth()));
+        assert!(
+            support
+                .depth
+                .iter()
+                .all(|d| format.depth_encodings().contains(d))
+        );
+    }
+}
+
+#[test]
+fn adapters_have_names_of_their_own() {
+    let adapters = enumerate().expect("these tests need a Vulkan driver");
+    for (i, adapter) in adapters.iter().enumerate() {
+        assert!(adapter.name.starts_with("vulkan:"));
+        assert_eq!(adapter.backend, "vulkan");
+        assert!(adapters[..i].iter().all(|a| a.name != adapter.name));
+    }
+}
+
+#[test]
+fn a_device_that_is_not_there_is_unavailable() {
+    let options = Options {
+        device: 1000,
+        validate: false,
+    };
+    let error = open("vulkan:none", &options).map(|_| ()).unwrap_err();
+    assert!(error.reason.contains("1000"), "{error}");
+}
+
+#[test]
+fn every_built_in_case_is_drawn() {
+    draw_built_in(&backend(false), 1);
+}
+
+/// The layer is slow, so it sees a part of the cases; no axis has so many values as the step.
+#[test]
+fn the_validation_layer_keeps_quiet_about_built_in_cases() {
+    draw_built_in(&backend(true), 17);
+}
+
+/// The whole way for the cases that are compiled in.
+fn draw_built_in(backend: &VulkanBackend, step: usize) {
+    let library = Library::built_in().unwrap();
+    let mut drawn = 0;
+    for case in library.cases().step_by(step) {
+        let case = case.build().unwrap();
+        let requirements = case.scene.requirements();
+        if backend.limits().missing(&requirements).is_some() {
+            continue;
+        }
+        let result = backend.prepare(&case.scene).and_then(|mut prepared| {
+            prepared.submit()?;
+            prepared.read_back()
+        });
+        let frame = result.unwrap_or_else(|e| panic!("{}: {e}", case.id));
+        check_shape(&case.scene, &frame);
+        assert_eq!(backend.messages(), Vec::<String>::new(), "{}", case.id);
+        drawn += 1;
+    }
+    assert!(drawn > 0, "no built-in case can be drawn");
+}

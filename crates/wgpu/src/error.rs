@@ -1,0 +1,182 @@
+//! What wgpu raises, turned into this suite's errors.
+
+use etalon_backend::BackendError;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Errors that a device raised and nobody has taken yet.
+///
+/// A handler for uncaught errors serves better than error scopes: it costs nothing per call, and
+/// nothing escapes it between scopes, where wgpu would panic.
+#[derive(Clone, Default)]
+pub(crate) struct Errors {
+    raised: Arc<Mutex<Vec<wgpu::Error>>>,
+    lost: Arc<Mutex<Option<String>>>,
+}
+
+impl Errors {
+    /// Listens to a device from now on.
+    pub(crate) fn of(device: &wgpu::Device) -> Self {
+        let errors = Self::default();
+        let raised = Arc::clone(&errors.raised);
+        device.on_uncaptured_error(Arc::new(move |error| locked(&raised).push(error)));
+        let lost = Arc::clone(&errors.lost);
+        device.set_device_lost_callback(move |reason, message| {
+            // The other reason is our own dropping of the device.
+            if matches!(reason, wgpu::DeviceLostReason::Unknown) {
+                *locked(&lost) = Some(message);
+            }
+        });
+        errors
+    }
+
+    /// The first error raised since the last call, `what` being what was done meanwhile.
+    pub(crate) fn check(&self, what: &str) -> Result<(), BackendError> {
+        match self.first()? {
+            None => Ok(()),
+            Some(error) => Err(backend_error(what, error)),
+        }
+    }
+
+    /// As [`Errors::check`] after translating a shader, where all that is raised is about it.
+    pub(crate) fn check_shader(&self, shader: &str) -> Result<(), BackendError> {
+        match self.first()? {
+            None => Ok(()),
+            Some(error @ wgpu::Error::OutOfMemory { .. }) => Err(backend_error(shader, error)),
+            Some(error) => Err(shader_error(shader, &error)),
+        }
+    }
+
+    /// As [`Errors::check`] after making a pipeline: what is not about its state is about its
+    /// shader, which only now meets the driver's compiler.
+    pub(crate) fn check_pipeline(&self, shader: &str) -> Result<(), BackendError> {
+        match self.first()? {
+            None => Ok(()),
+            Some(error @ wgpu::Error::Internal { .. }) => Err(shader_error(shader, &error)),
+            Some(error) => Err(backend_error(&format!("a pipeline of {shader}"), error)),
+        }
+    }
+
+    /// The first error, which the others follow from; a lost device comes before all.
+    fn first(&self) -> Result<Option<wgpu::Error>, BackendError> {
+        if let Some(message) = &*locked(&self.lost) {
+            return Err(BackendError::DeviceLost(message.clone()));
+        }
+        let mut raised = locked(&self.raised);
+        let first = (!raised.is_empty()).then(|| raised.swap_remove(0));
+        raised.clear();
+        Ok(first)
+    }
+
+    /// Forgets what was raised and not taken.
+    pub(crate) fn forget(&self) {
+        locked(&self.raised).clear();
+    }
+
+    /// Runs `action`; everything raised in it, and every panic of wgpu, is its error. wgpu panics
+    /// where a driver refuses what cannot fail in WebGPU, such as waiting.
+    pub(crate) fn guard<T>(
+        &self,
+        what: &str,
+        action: impl FnOnce() -> Result<T, BackendError>,
+    ) -> Result<T, BackendError> {
+        let result = catch_unwind(AssertUnwindSafe(action))
+            .unwrap_or_else(|panic| Err(BackendError::Internal(message_of(&*panic))));
+        // What wgpu raised comes first: the rest follows from it. A shader's error has taken what
+        // was raised with it already.
+        self.check(what)?;
+        result
+    }
+}
+
+fn backend_error(what: &str, error: wgpu::Error) -> BackendError {
+    match error {
+        wgpu::Error::OutOfMemory { source } => BackendError::Resource {
+            what: what.to_owned(),
+            message: chain(&*source),
+        },
+        other => BackendError::Internal(format!("{what}: {other}")),
+    }
+}
+
+fn shader_error(shader: &str, error: &wgpu::Error) -> BackendError {
+    BackendError::Shader {
+        shader: shader.to_owned(),
+        message: error.to_string(),
+    }
+}
+
+pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn message_of(panic: &(dyn Any + Send)) -> String {
+    let text = panic
+        .downcast_ref::<String>()
+        .map(String::as_str)
+        .or_else(|| panic.downcast_ref::<&str>().copied());
+    format!("wgpu panicked: {}", text.unwrap_or("without a message"))
+}
+
+fn chain(error: &(dyn std::error::Error + 'static)) -> String {
+    let mut text = error.to_string();
+    let mut source = error.source();
+    while let Some(error) = source {
+        text.push_str(": ");
+        text.push_str(&error.to_string());
+        source = error.source();
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn raise(errors: &Errors, error: wgpu::Error) {
+        locked(&errors.raised).push(error);
+    }
+
+    fn internal() -> wgpu::Error {
+        wgpu::Error::Internal {
+            source: "no".into(),
+            description: "the compiler says no".to_owned(),
+        }
+    }
+
+    #[test]
+    fn the_first_error_tells_and_the_rest_is_forgotten() {
+        let errors = Errors::default();
+        raise(
+            &errors,
+            wgpu::Error::OutOfMemory {
+                source: "full".into(),
+            },
+        );
+        raise(&errors, internal());
+        let due = BackendError::Resource {
+            what: "drawing".to_owned(),
+            message: "full".to_owned(),
+        };
+        assert_eq!(errors.check("drawing"), Err(due));
+        assert_eq!(errors.check("drawing"), Ok(()));
+        raise(&errors, internal());
+        let shader = errors.check_pipeline("flat_color");
+        assert!(matches!(shader, Err(BackendError::Shader { .. })));
+    }
+
+    #[test]
+    fn a_panic_is_an_error_and_a_lost_device_comes_first() {
+        let errors = Errors::default();
+        let result: Result<(), _> = errors.guard("waiting", || panic!("no fence"));
+        let message = "wgpu panicked: no fence".to_owned();
+        assert_eq!(result, Err(BackendError::Internal(message)));
+        let result = errors.guard("waiting", || {
+            *locked(&errors.lost) = Some("gone".to_owned());
+            raise(&errors, internal());
+            Ok(())
+        });
+        assert_eq!(result, Err(BackendError::DeviceLost("gone".to_owned())));
+    }
+}

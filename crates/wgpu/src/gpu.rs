@@ -1,0 +1,245 @@
+//! A device and everything that is kept on it from scene to scene.
+
+use crate::error::Errors;
+use crate::format;
+use crate::limits::{Abilities, usages};
+use crate::pipeline::Pipelines;
+use crate::pool::{Lease, Pool};
+use etalon_backend::BackendError;
+use etalon_frame::{Limits, TextureFormat};
+use std::cell::OnceCell;
+use std::rc::Rc;
+use wgpu::{BufferUsages, TextureUsages};
+
+/// The most bytes of idle textures, and of idle buffers.
+const IDLE_BYTES: u64 = 64 << 20;
+/// Above this size buffers are not rounded up to a power of two.
+const LARGE: u64 = 1 << 20;
+
+/// An open device.
+pub(crate) struct Gpu {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    pub(crate) errors: Errors,
+    pub(crate) limits: Limits,
+    pub(crate) abilities: Abilities,
+    pub(crate) clock: Option<Clock>,
+    pub(crate) pipelines: Pipelines,
+    textures: Pool<TextureKey, Rc<Target>>,
+    buffers: Pool<BufferKey, wgpu::Buffer>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct TextureKey {
+    format: wgpu::TextureFormat,
+    size: [u32; 2],
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct BufferKey {
+    usage: BufferUsages,
+    size: u64,
+}
+
+pub(crate) type TextureLease<'a> = Lease<'a, TextureKey, Rc<Target>>;
+pub(crate) type BufferLease<'a> = Lease<'a, BufferKey, wgpu::Buffer>;
+
+/// A texture with its views.
+pub(crate) struct Target {
+    pub(crate) texture: wgpu::Texture,
+    /// All aspects, to draw to.
+    pub(crate) view: wgpu::TextureView,
+    /// The texture, or its depth aspect, to fetch from.
+    fetch: OnceCell<wgpu::BindGroup>,
+}
+
+/// Two timestamps around a submit.
+pub(crate) struct Clock {
+    pub(crate) queries: wgpu::QuerySet,
+    pub(crate) resolved: wgpu::Buffer,
+    pub(crate) mapped: wgpu::Buffer,
+    /// Nanoseconds per tick.
+    pub(crate) period: f32,
+}
+
+impl Clock {
+    /// Two timestamps of eight bytes.
+    pub(crate) const BYTES: u64 = 16;
+
+    fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        let buffer = |usage| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: None,
+                size: Self::BYTES,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        Self {
+            queries: device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: None,
+                ty: wgpu::QueryType::Timestamp,
+                count: 2,
+            }),
+            resolved: buffer(BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC),
+            mapped: buffer(BufferUsages::MAP_READ | BufferUsages::COPY_DST),
+            period: queue.get_timestamp_period(),
+        }
+    }
+}
+
+impl Gpu {
+    pub(crate) fn new(
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+        limits: Limits,
+        abilities: Abilities,
+    ) -> Result<Self, BackendError> {
+        let errors = Errors::of(&device);
+        let (clock, pipelines) = errors.guard("opening the device", || {
+            let timed = device.features().contains(wgpu::Features::TIMESTAMP_QUERY);
+            let clock = timed.then(|| Clock::new(&device, &queue));
+            Ok((clock, Pipelines::new(&device)))
+        })?;
+        Ok(Self {
+            device,
+            queue,
+            errors,
+            limits,
+            abilities,
+            clock,
+            pipelines,
+            textures: Pool::new(IDLE_BYTES),
+            buffers: Pool::new(IDLE_BYTES),
+        })
+    }
+
+    /// Runs `action` with all of wgpu's errors as its own, and forgets what was kept after one.
+    pub(crate) fn guard<T>(
+        &self,
+        what: &str,
+        action: impl FnOnce() -> Result<T, BackendError>,
+    ) -> Result<T, BackendError> {
+        let result = self.errors.guard(what, action);
+        if result.is_err() {
+            self.textures.clear();
+            self.buffers.clear();
+            self.pipelines.clear();
+            if let Some(clock) = &self.clock {
+                // It may be mapped; that it may not be is no error of the next scene's.
+                clock.mapped.unmap();
+                self.errors.forget();
+            }
+        }
+        result
+    }
+
+    /// A texture for an attachment; its contents are unknown.
+    pub(crate) fn attachment(&self, format: TextureFormat, size: [u32; 2]) -> TextureLease<'_> {
+        let usage = usages(format, self.abilities.draws_floats);
+        self.texture(format::texture(format), size, usage)
+    }
+
+    /// A texture that a shader writes to on its way to a buffer; its contents are unknown.
+    pub(crate) fn scratch(&self, format: wgpu::TextureFormat, size: [u32; 2]) -> TextureLease<'_> {
+        let usage = usages(TextureFormat::Rgba8Unorm, false);
+        self.texture(format, size, usage)
+    }
+
+    /// A format has the same usages wherever it is used, so they are no part of the key.
+    fn texture(
+        &self,
+        format: wgpu::TextureFormat,
+        size: [u32; 2],
+        usage: TextureUsages,
+    ) -> TextureLease<'_> {
+        let texels = u64::from(size[0]) * u64::from(size[1]);
+        // An estimate: what a device allocates in addition is its secret.
+        let bytes = texels * u64::from(format.block_copy_size(None).unwrap_or(8));
+        self.textures.take(TextureKey { format, size }, bytes, || {
+            let texture = self.device.create_texture(&wgpu::TextureDescriptor {
+                label: None,
+                size: extent(size),
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage,
+                view_formats: &[],
+            });
+            let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+            Rc::new(Target {
+                texture,
+                view,
+                fetch: OnceCell::new(),
+            })
+        })
+    }
+
+    /// What binds a texture, or its depth, to a shader that fetches from it.
+    pub(crate) fn fetch<'a>(&self, target: &'a Target) -> &'a wgpu::BindGroup {
+        target.fetch.get_or_init(|| {
+            let depth = target.texture.format().has_depth_aspect();
+            let view = target.texture.create_view(&wgpu::TextureViewDescriptor {
+                aspect: if depth {
+                    wgpu::TextureAspect::DepthOnly
+                } else {
+                    wgpu::TextureAspect::All
+                },
+                ..wgpu::TextureViewDescriptor::default()
+            });
+            self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &self.pipelines.layouts.texture.bindings,
+                entries: &[wgpu::BindGroupEntry {
+                    binding: 1,
+                    resource: wgpu::BindingResource::TextureView(&view),
+                }],
+            })
+        })
+    }
+
+    /// A buffer of at least this size; its contents are unknown.
+    pub(crate) fn buffer(&self, usage: BufferUsages, size: u64) -> BufferLease<'_> {
+        let size = if size < LARGE {
+            size.max(256).next_power_of_two()
+        } else {
+            size.next_multiple_of(LARGE)
+        };
+        self.buffers.take(BufferKey { usage, size }, size, || {
+            self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: None,
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        })
+    }
+
+    /// A buffer that holds `data`, whose length is a multiple of four.
+    pub(crate) fn filled(&self, usage: BufferUsages, data: &[u8]) -> BufferLease<'_> {
+        let buffer = self.buffer(usage | BufferUsages::COPY_DST, data.len() as u64);
+        self.queue.write_buffer(&buffer, 0, data);
+        buffer
+    }
+
+    /// Returns when the device is done with a submission.
+    pub(crate) fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), BackendError> {
+        let poll = wgpu::PollType::Wait {
+            submission_index: Some(index),
+            timeout: None,
+        };
+        match self.device.poll(poll) {
+            Ok(_) => Ok(()),
+            Err(error) => Err(BackendError::Internal(format!("waiting: {error}"))),
+        }
+    }
+}
+
+pub(crate) fn extent(size: [u32; 2]) -> wgpu::Extent3d {
+    wgpu::Extent3d {
+        width: size[0],
+        height: size[1],
+        depth_or_array_layers: 1,
+    }
+}

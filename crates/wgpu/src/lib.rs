@@ -1,0 +1,22 @@
+//! The WebGPU backend, through wgpu.
+//!
+//! The suite's conventions are WebGPU's, so scenes go to wgpu as they are; wgpu's own translator
+//! turns the shaders' WGSL into what the driver below takes. What WebGPU has no word for (both
+//! faces culled, masks per face, `constant-alpha` for colour, factors of `min` and `max`) is
+//! missing from [`etalon_frame::Limits::features`].
+//!
+//! wgpu raises its errors in a handler, or panics; both become
+//! [`etalon_backend::BackendError`]s here, so that a driver's failure costs one case.
+
+mod error;
+mod format;
+mod gpu;
+mod limits;
+mod messages;
+mod open;
+mod pipeline;
+mod pool;
+mod prepared;
+mod read;
+
+pub use open::{Options, Via, WgpuBackend, enumerate, open};

@@ -1,0 +1,251 @@
+//! Finding adapters and opening one.
+
+use crate::gpu::Gpu;
+use crate::limits::{Abilities, limits, wanted_features};
+use crate::messages;
+use crate::prepared::Ready;
+use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
+use etalon_case::Scene;
+use etalon_frame::Limits;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use wgpu::{Backends, InstanceFlags};
+
+/// The API under wgpu.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Via {
+    /// Vulkan.
+    Vulkan,
+    /// OpenGL, or OpenGL ES where there is no OpenGL, through EGL.
+    Gl,
+}
+
+/// How to open an adapter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Options {
+    /// The API under wgpu.
+    pub via: Via,
+    /// Which of [`enumerate`]'s adapters.
+    pub device: usize,
+    /// Whether to turn the Vulkan validation layer or OpenGL's debug output on.
+    /// [`Backend::messages`] returns what they say, unless the program has set a logger of its own:
+    /// then that gets it.
+    pub validate: bool,
+}
+
+/// An open WebGPU device.
+pub struct WgpuBackend {
+    info: AdapterInfo,
+    validate: bool,
+    gpu: Gpu,
+}
+
+/// The adapters that wgpu finds over one API in this process's environment.
+///
+/// # Errors
+/// When there is none.
+pub fn enumerate(via: Via) -> Result<Vec<AdapterInfo>, Unavailable> {
+    let adapters = adapters(via, InstanceFlags::empty())?;
+    let infos = adapters.iter().map(|a| info(via, &a.get_info()));
+    Ok(infos.collect())
+}
+
+/// Opens an adapter under a name of the caller's choice.
+///
+/// # Errors
+/// When there is no such adapter, or it gives no device, or validation is asked for and cannot be
+/// had.
+pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
+    let mut flags = InstanceFlags::empty();
+    if options.validate {
+        flags = validation(options.via);
+        messages::collect();
+        if messages::misses_layer(|| drop(instance(options.via, flags))) {
+            return Err(Unavailable::new(
+                "the Vulkan validation layer is not installed",
+                "apt-get install vulkan-validationlayers",
+            ));
+        }
+    }
+    let adapters = adapters(options.via, flags)?;
+    let count = adapters.len();
+    let Some(adapter) = adapters.into_iter().nth(options.device) else {
+        return Err(Unavailable::new(
+            format!("there is no adapter {}, there are {count}", options.device),
+            "choose one from `etalon adapters`",
+        ));
+    };
+    let mut info = info(options.via, &adapter.get_info());
+    name.clone_into(&mut info.name);
+    let gpu = device(&adapter).map_err(|reason| {
+        Unavailable::new(
+            format!("{} gives no device: {reason}", info.device),
+            remedy(options.via),
+        )
+    })?;
+    Ok(WgpuBackend {
+        info,
+        validate: options.validate,
+        gpu,
+    })
+}
+
+impl Backend for WgpuBackend {
+    fn adapter(&self) -> &AdapterInfo {
+        &self.info
+    }
+
+    fn limits(&self) -> &Limits {
+        &self.gpu.limits
+    }
+
+    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
+        Ok(Box::new(Ready::new(&self.gpu, scene)?))
+    }
+
+    fn messages(&self) -> Vec<String> {
+        if self.validate {
+            messages::take()
+        } else {
+            Vec::new()
+        }
+    }
+}
+
+/// `DEBUG` brings OpenGL's debug context. On Vulkan it would only add names to objects and source
+/// to shaders, tagged with a language that layers before 1.3.240 take for an error.
+fn validation(via: Via) -> InstanceFlags {
+    match via {
+        Via::Vulkan => InstanceFlags::VALIDATION,
+        Via::Gl => InstanceFlags::VALIDATION | InstanceFlags::DEBUG,
+    }
+}
+
+fn instance(via: Via, flags: InstanceFlags) -> wgpu::Instance {
+    wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends: backends(via),
+        flags,
+        ..wgpu::InstanceDescriptor::new_without_display_handle()
+    })
+}
+
+fn adapters(via: Via, flags: InstanceFlags) -> Result<Vec<wgpu::Adapter>, Unavailable> {
+    // wgpu panics where an EGL context cannot be made current.
+    let find = || {
+        let instance = instance(via, flags);
+        pollster::block_on(instance.enumerate_adapters(backends(via)))
+    };
+    let found = catch_unwind(AssertUnwindSafe(find)).unwrap_or_default();
+    if found.is_empty() {
+        return Err(Unavailable::new(
+            format!("wgpu finds no adapter over {}", api(via)),
+            remedy(via),
+        ));
+    }
+    Ok(found)
+}
+
+fn device(adapter: &wgpu::Adapter) -> Result<Gpu, String> {
+    let features = adapter.features() & wanted_features();
+    let descriptor = wgpu::DeviceDescriptor {
+        label: None,
+        required_features: features,
+        required_limits: adapter.limits(),
+        experimental_features: wgpu::ExperimentalFeatures::disabled(),
+        // Scenes are small and many processes run at once.
+        memory_hints: wgpu::MemoryHints::MemoryUsage,
+        trace: wgpu::Trace::Off,
+    };
+    let request = || pollster::block_on(adapter.request_device(&descriptor));
+    let (device, queue) = catch_unwind(AssertUnwindSafe(request))
+        .map_err(|_| "wgpu panicked".to_owned())?
+        .map_err(|error| error.to_string())?;
+    let abilities = Abilities::of(adapter);
+    let limits = limits(adapter, features, abilities.copies);
+    Gpu::new(device, queue, limits, abilities).map_err(|error| error.to_string())
+}
+
+fn backends(via: Via) -> Backends {
+    match via {
+        Via::Vulkan => Backends::VULKAN,
+        Via::Gl => Backends::GL,
+    }
+}
+
+fn api(via: Via) -> &'static str {
+    match via {
+        Via::Vulkan => "Vulkan",
+        Via::Gl => "OpenGL",
+    }
+}
+
+fn remedy(via: Via) -> &'static str {
+    match via {
+        Via::Vulkan => {
+            "apt-get install libvulkan1 mesa-vulkan-drivers, and see that VK_DRIVER_FILES and \
+             VK_ICD_FILENAMES, where they are set, name a driver"
+        }
+        Via::Gl => "apt-get install libegl1 libgl1-mesa-dri",
+    }
+}
+
+fn info(via: Via, found: &wgpu::AdapterInfo) -> AdapterInfo {
+    let words = format!("{} {}", found.name, found.driver).to_lowercase();
+    let emulates = ["llvmpipe", "softpipe", "swiftshader"];
+    let software = found.device_type == wgpu::DeviceType::Cpu
+        || emulates.iter().any(|driver| words.contains(driver));
+    let driver = driver(via, &words);
+    let prefix = match via {
+        Via::Vulkan => "vulkan",
+        Via::Gl => "gl",
+    };
+    let named = if found.driver.is_empty() {
+        driver.clone()
+    } else {
+        found.driver.clone()
+    };
+    AdapterInfo {
+        name: format!("wgpu:{prefix}:{driver}"),
+        backend: "wgpu".to_owned(),
+        device: found.name.clone(),
+        driver: named,
+        driver_version: found.driver_info.clone(),
+        api_version: format!("WebGPU (wgpu 30 over {})", api(via)),
+        software,
+    }
+}
+
+/// The driver's name in adapter names, from the device's and the driver's words: the well-known
+/// name, or the first word.
+fn driver(via: Via, words: &str) -> String {
+    let known = ["zink", "angle", "softpipe", "swiftshader", "lavapipe"];
+    if let Some(name) = known.into_iter().find(|name| words.contains(name)) {
+        return name.to_owned();
+    }
+    // Mesa's Vulkan driver calls itself by the rasterizer it has in common with the OpenGL one.
+    if words.contains("llvmpipe") {
+        return match via {
+            Via::Vulkan => "lavapipe".to_owned(),
+            Via::Gl => "llvmpipe".to_owned(),
+        };
+    }
+    let is_letter = |c: char| c.is_ascii_alphanumeric();
+    let mut parts = words
+        .split(|c| !is_letter(c))
+        .filter(|word| !word.is_empty());
+    parts.next().unwrap_or("unknown").to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn drivers_get_the_names_users_know() {
+        let llvmpipe = "llvmpipe (llvm 15.0.6, 256 bits) llvmpipe";
+        assert_eq!(driver(Via::Vulkan, llvmpipe), "lavapipe");
+        assert_eq!(driver(Via::Gl, llvmpipe), "llvmpipe");
+        assert_eq!(driver(Via::Gl, "zink (llvmpipe (llvm 15.0.6)) "), "zink");
+        assert_eq!(driver(Via::Vulkan, "nvidia h200 nvidia"), "nvidia");
+        assert_eq!(driver(Via::Gl, ""), "unknown");
+    }
+}
