@@ -1,13 +1,15 @@
 //! EGL, loaded at run time: displays, devices and contexts without a surface.
 //!
-//! The entry points are loaded here and not through `khronos-egl`, whose wrappers panic on error
+//! `khronos-egl` loads the entry points. They are called without its wrappers, which panic on error
 //! codes that they do not know.
 
 use etalon_backend::Unavailable;
+use khronos_egl::api::{EGL1_0 as _, EGL1_2 as _, EGL1_4 as _};
+use khronos_egl::{Dynamic, EGL1_4};
 use libloading::Library;
 use std::collections::HashSet;
 use std::ffi::{CStr, c_char, c_void};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 type Display = *mut c_void;
 type Config = *mut c_void;
@@ -65,38 +67,7 @@ pub struct EglDevice {
     pub renderer: Option<String>,
 }
 
-macro_rules! entry_points {
-    ($($field:ident = $name:literal : fn($($arg:ty),*) -> $ret:ty;)*) => {
-        struct Functions { $($field: unsafe extern "system" fn($($arg),*) -> $ret,)* }
-
-        impl Functions {
-            fn load(library: &Library) -> Result<Self, libloading::Error> {
-                Ok(Self {
-                    $($field: {
-                        // SAFETY: the types are those of the EGL headers, and the library is
-                        // never unloaded.
-                        *unsafe { library.get::<unsafe extern "system" fn($($arg),*) -> $ret>($name) }?
-                    },)*
-                })
-            }
-        }
-    };
-}
-
-entry_points! {
-    get_proc_address = c"eglGetProcAddress": fn(*const c_char) -> *const c_void;
-    get_error = c"eglGetError": fn() -> i32;
-    query_string = c"eglQueryString": fn(Display, i32) -> *const c_char;
-    get_display = c"eglGetDisplay": fn(*mut c_void) -> Display;
-    initialize = c"eglInitialize": fn(Display, *mut i32, *mut i32) -> u32;
-    bind_api = c"eglBindAPI": fn(u32) -> u32;
-    choose_config = c"eglChooseConfig": fn(Display, *const i32, *mut Config, i32, *mut i32) -> u32;
-    create_context = c"eglCreateContext": fn(Display, Config, ContextHandle, *const i32) -> ContextHandle;
-    destroy_context = c"eglDestroyContext": fn(Display, ContextHandle) -> u32;
-    make_current = c"eglMakeCurrent": fn(Display, *mut c_void, *mut c_void, ContextHandle) -> u32;
-    get_current_context = c"eglGetCurrentContext": fn() -> ContextHandle;
-}
-
+type GetProcAddress = unsafe extern "system" fn(*const c_char) -> *const c_void;
 type GetPlatformDisplay = unsafe extern "system" fn(u32, *mut c_void, *const i32) -> Display;
 type QueryDevices = unsafe extern "system" fn(i32, *mut Device, *mut i32) -> u32;
 type QueryDeviceString = unsafe extern "system" fn(Device, i32) -> *const c_char;
@@ -104,9 +75,10 @@ type QueryDisplayAttrib = unsafe extern "system" fn(Display, i32, *mut isize) ->
 
 /// The loaded library. It stays for the life of the process: drivers do not survive unloading.
 pub(crate) struct Egl {
-    functions: Functions,
+    functions: Dynamic<Arc<Library>, EGL1_4>,
+    /// `khronos-egl` has this return a function, which null is not.
+    get_proc_address: GetProcAddress,
     extensions: HashSet<String>,
-    _library: Library,
 }
 
 /// The entry points, loaded at the first call.
@@ -127,13 +99,19 @@ impl Egl {
         // SAFETY: libEGL's initialisers have no preconditions.
         let library = unsafe { Library::new("libEGL.so.1") }
             .map_err(|_| Unavailable::new("libEGL.so.1 not found", INSTALL_EGL))?;
-        let functions = Functions::load(&library).map_err(|e| {
-            Unavailable::new(format!("libEGL.so.1 is not usable: {e}"), INSTALL_EGL)
-        })?;
+        let library = Arc::new(library);
+        let unusable =
+            |e: String| Unavailable::new(format!("libEGL.so.1 is not usable: {e}"), INSTALL_EGL);
+        // SAFETY: a library of this name has the types of the EGL headers.
+        let functions = unsafe { Dynamic::<_, EGL1_4>::load_required(Arc::clone(&library)) }
+            .map_err(|e| unusable(e.to_string()))?;
+        // SAFETY: the type is that of the EGL header, and `functions` keeps the library.
+        let get_proc_address = *unsafe { library.get::<GetProcAddress>(b"eglGetProcAddress\0") }
+            .map_err(|e| unusable(e.to_string()))?;
         let mut egl = Self {
             functions,
+            get_proc_address,
             extensions: HashSet::new(),
-            _library: library,
         };
         egl.extensions = egl.display_extensions(std::ptr::null_mut());
         Ok(egl)
@@ -143,12 +121,12 @@ impl Egl {
     /// dispatch libraries make stubs for names they have never heard.
     pub(crate) fn proc_address(&self, name: &CStr) -> *const c_void {
         // SAFETY: the name is terminated.
-        unsafe { (self.functions.get_proc_address)(name.as_ptr()) }
+        unsafe { (self.get_proc_address)(name.as_ptr()) }
     }
 
     fn display_extensions(&self, display: Display) -> HashSet<String> {
         // SAFETY: EGL takes any display handle it made, and none for client extensions.
-        let text = unsafe { text((self.functions.query_string)(display, EXTENSIONS)) };
+        let text = unsafe { text(self.functions.eglQueryString(display, EXTENSIONS)) };
         // Without client extensions the query fails; that error must not be taken for a later one.
         if text.is_none() {
             self.error();
@@ -158,7 +136,7 @@ impl Egl {
 
     fn error(&self) -> String {
         // SAFETY: no preconditions.
-        error_name(unsafe { (self.functions.get_error)() })
+        error_name(unsafe { self.functions.eglGetError() })
     }
 
     fn devices(&self) -> Result<Vec<Device>, Unavailable> {
@@ -212,7 +190,7 @@ impl Egl {
         let (platform, native) = match platform {
             Platform::Surfaceless if !self.extensions.contains("EGL_MESA_platform_surfaceless") => {
                 // SAFETY: the default display has no preconditions.
-                let display = unsafe { (self.functions.get_display)(std::ptr::null_mut()) };
+                let display = unsafe { self.functions.eglGetDisplay(std::ptr::null_mut()) };
                 return self.some_display(display, "there is no default EGL display");
             }
             Platform::Surfaceless => (PLATFORM_SURFACELESS_MESA, std::ptr::null_mut()),
@@ -278,7 +256,11 @@ impl Egl {
         let display = self.display(platform)?;
         let (mut major, mut minor) = (0, 0);
         // SAFETY: the display came from EGL and the results have room.
-        if unsafe { (self.functions.initialize)(display, &mut major, &mut minor) } == 0 {
+        if unsafe {
+            self.functions
+                .eglInitialize(display, &mut major, &mut minor)
+        } == 0
+        {
             let reason = format!("eglInitialize failed: {}", self.error());
             return Err(Unavailable::new(
                 reason,
@@ -302,7 +284,7 @@ impl Egl {
         }
         let api = if wanted.es { OPENGL_ES_API } else { OPENGL_API };
         // SAFETY: no preconditions.
-        if unsafe { (self.functions.bind_api)(api) } == 0 {
+        if unsafe { self.functions.eglBindAPI(api) } == 0 {
             let reason = format!("eglBindAPI failed: {}", self.error());
             return Err(Unavailable::new(reason, "use a driver that has this API"));
         }
@@ -338,7 +320,7 @@ impl Egl {
                 // SAFETY: the display is initialised, the config is its own or none, and the list
                 // is terminated.
                 let context = unsafe {
-                    (self.functions.create_context)(
+                    self.functions.eglCreateContext(
                         display,
                         config,
                         std::ptr::null_mut(),
@@ -381,7 +363,8 @@ impl Egl {
         let (mut config, mut count) = (std::ptr::null_mut(), 0);
         // SAFETY: the display is initialised, the list is terminated and the result has room.
         let done = unsafe {
-            (self.functions.choose_config)(display, list.as_ptr(), &mut config, 1, &mut count)
+            self.functions
+                .eglChooseConfig(display, list.as_ptr(), &mut config, 1, &mut count)
         };
         if done == 0 || count < 1 {
             return Err(Unavailable::new(
@@ -434,12 +417,12 @@ impl EglContext {
         // SAFETY: display and context live; no surface is needed (EGL_KHR_surfaceless_context).
         unsafe {
             // Asking costs less than a cache that other users of EGL in this process could defeat.
-            if (functions.get_current_context)() == self.context
-                || (functions.make_current)(self.display, none, none, self.context) != 0
+            if functions.eglGetCurrentContext() == self.context
+                || functions.eglMakeCurrent(self.display, none, none, self.context) != 0
             {
                 return Ok(());
             }
-            let error = (functions.get_error)();
+            let error = functions.eglGetError();
             Err((error == CONTEXT_LOST, error_name(error)))
         }
     }
@@ -462,10 +445,10 @@ impl Drop for EglContext {
         // SAFETY: display and context live. The display is shared by all contexts of the process,
         // so it is never terminated.
         unsafe {
-            if (functions.get_current_context)() == self.context {
-                (functions.make_current)(self.display, none, none, none);
+            if functions.eglGetCurrentContext() == self.context {
+                functions.eglMakeCurrent(self.display, none, none, none);
             }
-            (functions.destroy_context)(self.display, self.context);
+            functions.eglDestroyContext(self.display, self.context);
         }
     }
 }

@@ -418,7 +418,12 @@ impl Prepared for GlPrepared<'_> {
             ));
         }
         let result = self.try_read_back();
-        self.sound &= result.is_ok();
+        if result.is_err() {
+            self.sound = false;
+            // What was made for reading may be what failed.
+            let backend = self.backend;
+            backend.pool.borrow_mut().delete_surfaces(&backend.context);
+        }
         result
     }
 }

@@ -267,7 +267,7 @@ impl Pool {
 
     /// Frees all free surfaces, and the targets with them: whatever a scene needs next is made
     /// anew, and targets never name what is gone.
-    fn delete_surfaces(&mut self, context: &Context) {
+    pub(crate) fn delete_surfaces(&mut self, context: &Context) {
         self.delete_targets(context);
         for surface in self.surfaces.drain().flat_map(|(_, list)| list) {
             surface.delete(context);

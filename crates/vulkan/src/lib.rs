@@ -13,6 +13,7 @@ mod backend;
 mod device;
 mod error;
 mod format;
+mod inputs;
 mod instance;
 mod limits;
 mod memory;

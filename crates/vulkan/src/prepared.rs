@@ -2,7 +2,7 @@
 
 use crate::backend::{Pools, VulkanBackend};
 use crate::device::Device;
-use crate::format;
+use crate::inputs::{Inputs, PARAMS_BYTES};
 use crate::limits::attachment_usage;
 use crate::memory::{Buffer, BufferUse, Image, ImageKey};
 use crate::pipeline::{Pipeline, Targets};
@@ -11,16 +11,12 @@ use crate::record;
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
+use etalon_case::Scene;
 use etalon_case::scene::{Attachment, Contents, Draw, Pass, StencilState};
-use etalon_case::{Scene, Vertex};
 use etalon_frame::{Frame, Requirement};
 use std::collections::HashMap;
-use std::mem::size_of;
 use std::rc::Rc;
 use std::time::Instant;
-
-/// Bytes of the parameter block.
-const PARAMS_BYTES: u64 = size_of::<etalon_case::scene::Params>() as u64;
 
 /// A scene with everything that drawing it takes.
 pub(crate) struct PreparedScene<'a> {
@@ -105,30 +101,6 @@ enum Drawn {
     Read,
 }
 
-/// Places things in a buffer one behind the other.
-#[derive(Default)]
-pub(crate) struct Placer {
-    end: u64,
-}
-
-impl Placer {
-    /// The offset of so many bytes at an alignment, a power of two.
-    pub(crate) fn place(&mut self, bytes: u64, alignment: u64) -> u64 {
-        let offset = self.end.next_multiple_of(alignment.max(1));
-        self.end = offset + bytes;
-        offset
-    }
-}
-
-/// Where a scene's inputs lie in its buffer.
-struct Inputs {
-    /// Vertices and parameters of each draw of each pass.
-    draws: Vec<Vec<(u64, u64)>>,
-    /// Texels of each attachment that is uploaded.
-    texels: Vec<Option<(u64, Vec<u8>)>>,
-    bytes: u64,
-}
-
 fn internal(message: &str) -> BackendError {
     BackendError::Internal(message.to_owned())
 }
@@ -157,14 +129,20 @@ impl<'a> PreparedScene<'a> {
         let mut pools = self.backend.pools.borrow_mut();
         let pools = &mut *pools;
 
-        let inputs = place_inputs(device, scene);
+        let inputs = Inputs::place(device, scene);
         let memory = &mut pools.memory;
         let input = memory.buffer(device, BufferUse::Input, inputs.bytes)?;
         let input = self.input.insert(input);
-        write_inputs(input, scene, &inputs)?;
+        inputs.write(input, scene)?;
         let input = input.raw;
 
         for (index, attachment) in scene.attachments.iter().enumerate() {
+            if let Contents::Texels(codes) = &attachment.contents {
+                let texels = attachment.size[0] as usize * attachment.size[1] as usize;
+                if codes.len() != texels * attachment.format.color_channels().len() {
+                    return Err(internal("an upload does not fill its attachment"));
+                }
+            }
             let role = role(scene, index);
             let key = self.image_key(attachment, role, scene.read.contains(&index))?;
             let image = pools.memory.image(device, key)?;
@@ -173,7 +151,7 @@ impl<'a> PreparedScene<'a> {
                 aspects: image.aspects(),
                 size: attachment.size,
                 samples: attachment.samples,
-                start: start(&attachment.contents, inputs.texels.get(index)),
+                start: start(&attachment.contents, inputs.texels(index)),
                 role,
                 read: scene.read.contains(&index),
             });
@@ -338,57 +316,16 @@ fn role(scene: &Scene, index: usize) -> Role {
     role
 }
 
-fn start(contents: &Contents, texels: Option<&Option<(u64, Vec<u8>)>>) -> Start {
+/// What an attachment starts from, its texels lying at an offset of the input buffer.
+fn start(contents: &Contents, texels: u64) -> Start {
     match contents {
         Contents::Color(color) => Start::Color(*color),
         Contents::DepthStencil { depth, stencil } => Start::DepthStencil {
             depth: *depth,
             stencil: *stencil,
         },
-        Contents::Texels(_) => Start::Upload(texels.and_then(Option::as_ref).map_or(0, |t| t.0)),
+        Contents::Texels(_) => Start::Upload(texels),
     }
-}
-
-fn place_inputs(device: &Device, scene: &Scene) -> Inputs {
-    let mut placer = Placer::default();
-    let uniform = device.limits.min_uniform_buffer_offset_alignment;
-    let mut draws = Vec::with_capacity(scene.passes.len());
-    for pass in &scene.passes {
-        let place = |draw: &Draw| {
-            let params = placer.place(PARAMS_BYTES, uniform);
-            let vertices = placer.place(draw.mesh.bytes().len() as u64, size_of::<Vertex>() as u64);
-            (vertices, params)
-        };
-        draws.push(pass.draws.iter().map(place).collect());
-    }
-    let mut texels = Vec::with_capacity(scene.attachments.len());
-    for attachment in &scene.attachments {
-        let Contents::Texels(codes) = &attachment.contents else {
-            texels.push(None);
-            continue;
-        };
-        let bytes = format::encode(codes, attachment.format);
-        // A multiple of every texel's size.
-        texels.push(Some((placer.place(bytes.len() as u64, 16), bytes)));
-    }
-    Inputs {
-        draws,
-        texels,
-        bytes: placer.end.max(PARAMS_BYTES),
-    }
-}
-
-fn write_inputs(buffer: &mut Buffer, scene: &Scene, inputs: &Inputs) -> Result<(), BackendError> {
-    for (pass, offsets) in scene.passes.iter().zip(&inputs.draws) {
-        for (draw, (vertices, params)) in pass.draws.iter().zip(offsets) {
-            buffer.write(*vertices, draw.mesh.bytes())?;
-            buffer.write(*params, &draw.params.to_bytes())?;
-        }
-    }
-    for (offset, bytes) in inputs.texels.iter().flatten() {
-        buffer.write(*offset, bytes)?;
-    }
-    Ok(())
 }
 
 fn pass_plan(scene: &Scene, pass: &Pass, images: &[Image]) -> Result<PassPlan, BackendError> {

@@ -3,8 +3,8 @@
 use crate::backend::VulkanBackend;
 use crate::device::Device;
 use crate::format;
+use crate::inputs::Placer;
 use crate::memory::{Buffer, Image};
-use crate::prepared::Placer;
 use crate::samples::{SampleReader, SampleReaders};
 use crate::slot::Slot;
 use ash::vk;
