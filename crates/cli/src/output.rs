@@ -26,11 +26,11 @@ pub(crate) fn color() -> bool {
     !refused && io::stdout().is_terminal()
 }
 
-/// The terminal's width in columns; 100 where there is none.
+/// The terminal's width in columns; 120 where there is none.
 pub(crate) fn width() -> usize {
     let known = rustix::termios::tcgetwinsize(io::stdout())
         .ok()
         .map(|size| usize::from(size.ws_col))
         .filter(|columns| *columns >= 40);
-    known.unwrap_or(100)
+    known.unwrap_or(120)
 }
