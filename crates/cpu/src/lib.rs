@@ -4,6 +4,7 @@
 //! nearest snapping at 8 sub-pixel bits, and is judged like any driver, by Vulkan's rules.
 
 mod raster;
+mod samples;
 mod span;
 mod surface;
 
@@ -19,6 +20,9 @@ use surface::Surface;
 /// Bits of sub-pixel precision.
 const SUB_PIXEL_BITS: u8 = 8;
 
+/// Sample counts.
+const SAMPLES: [u32; 5] = [1, 2, 4, 8, 16];
+
 /// The rasterizer.
 #[derive(Debug)]
 pub struct CpuBackend {
@@ -33,7 +37,8 @@ impl CpuBackend {
             .into_iter()
             .map(|format| {
                 let support = FormatSupport {
-                    samples: vec![1],
+                    samples: SAMPLES.to_vec(),
+                    blendable: format.is_color(),
                     depth: depth_encoding(format).into_iter().collect(),
                     read: ReadPath::Copy,
                 };
@@ -54,9 +59,13 @@ impl CpuBackend {
                 api: Api::Vulkan,
                 sub_pixel_bits: SUB_PIXEL_BITS,
                 max_size: 4096,
+                max_color_attachments: 8,
                 formats,
                 features: Feature::ALL.into_iter().collect(),
-                sample_positions: [(1, vec![[128, 128]])].into_iter().collect(),
+                sample_positions: SAMPLES
+                    .into_iter()
+                    .map(|n| (n, samples::positions(n)))
+                    .collect(),
             },
         }
     }
@@ -100,6 +109,12 @@ impl Prepared for PreparedScene {
         for pass in &self.scene.passes {
             for draw in &pass.draws {
                 raster::draw(&self.scene, pass, draw, &mut self.surfaces);
+            }
+            for (source, target) in pass.color.iter().zip(&pass.resolve) {
+                if let Some(target) = target {
+                    let source = self.surfaces[*source].clone();
+                    self.surfaces[*target].resolve_from(&source);
+                }
             }
         }
         let elapsed = start.elapsed();

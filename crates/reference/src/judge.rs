@@ -1,8 +1,9 @@
 //! The walk over samples and worlds.
 
+use crate::interval::Interval;
 use crate::judging::{Judging, Range};
-use crate::rules::{Rules, SharedEdge};
-use crate::setup::{self, DrawSetup, Primitive, Side, units_per_texel};
+use crate::rules::{Resolve, Rules, SharedEdge};
+use crate::setup::{self, DrawSetup, Primitive, Shape, Side, Triangle, units_per_texel};
 use crate::world::{Cell, Decision, World, merge};
 use etalon_case::Scene;
 use etalon_case::scene::{Contents, Draw};
@@ -10,7 +11,7 @@ use etalon_frame::{
     Aspect, ChannelEncoding, CodeInterval, LegalSet, LegalSetBuilder, Limits, ReadPath, Story,
     StoryLine, TexelSet, WorldBox,
 };
-use etalon_pipeline::{Arithmetic, Point, is_top_left};
+use etalon_pipeline::{Arithmetic, Point, front_facing, is_top_left};
 use smallvec::SmallVec;
 use std::borrow::Cow;
 
@@ -107,6 +108,14 @@ pub fn explain(scene: &Scene, limits: &Limits, rules: &Rules, at: Sample) -> Sto
     story
 }
 
+type Worlds = SmallVec<[World; 2]>;
+
+/// Whether a draw's scissor rectangle lets a texel through.
+fn in_scissor(draw: &Draw, at: Sample) -> bool {
+    draw.scissor
+        .is_none_or(|[x, y, w, h]| at.x >= x && at.y >= y && at.x - x < w && at.y - y < h)
+}
+
 pub(crate) struct Walk<'a> {
     pub(crate) scene: &'a Scene,
     limits: &'a Limits,
@@ -120,6 +129,8 @@ pub(crate) struct Walk<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct Place<'a> {
     pub(crate) at: Sample,
+    /// The sample's position in sub-texel units.
+    pub(crate) point: Point,
     pub(crate) pass: usize,
     draw_index: usize,
     pub(crate) draw: &'a Draw,
@@ -173,12 +184,17 @@ impl<'a> Walk<'a> {
             .passes
             .iter()
             .map(|pass| {
-                let target = pass.color.first().copied().or(pass.depth_stencil);
-                let size = target.map_or([1, 1], |i| scene.attachments[i].size);
-                pass.draws
-                    .iter()
-                    .map(|draw| setup::draw(rules, limits, draw, size))
-                    .collect()
+                let context = setup::Context {
+                    rules,
+                    limits,
+                    size: scene.pass_size(pass),
+                    depth: pass
+                        .depth_stencil
+                        .filter(|i| scene.attachments[*i].format.has_depth())
+                        .map(|i| depth_encoding(scene, limits, i)),
+                };
+                let draws = pass.draws.iter();
+                draws.map(|draw| setup::draw(&context, draw)).collect()
             })
             .collect();
         Self {
@@ -192,14 +208,7 @@ impl<'a> Walk<'a> {
 
     /// The encoding in which an attachment stores its depth.
     pub(crate) fn depth_encoding(&self, attachment: usize) -> ChannelEncoding {
-        let format = self.scene.attachments[attachment].format;
-        let of = |encodings: &[ChannelEncoding]| encodings.first().copied();
-        self.limits
-            .formats
-            .get(&format)
-            .and_then(|support| of(&support.depth))
-            .or_else(|| of(format.depth_encodings()))
-            .unwrap_or(ChannelEncoding::Float32)
+        depth_encoding(self.scene, self.limits, attachment)
     }
 
     /// The encodings in which an aspect arrives, and how it is read.
@@ -227,18 +236,27 @@ impl<'a> Walk<'a> {
 
     fn sample(&self, at: Sample, story: Option<&mut Story>) -> TexelSet {
         let mut notes = Notes(story);
-        let mut worlds: SmallVec<[World; 2]> = SmallVec::new();
-        worlds.push(self.initial(at, &mut notes));
+        match self.worlds(at, self.scene.passes.len(), &mut notes) {
+            Some(worlds) => self.finish(&worlds, at, &mut notes),
+            None => TexelSet::default(),
+        }
+    }
+
+    /// The worlds of a sample after the first passes; `None` when it is open.
+    fn worlds(&self, at: Sample, passes: usize, notes: &mut Notes<'_>) -> Option<Worlds> {
+        let mut worlds: Worlds = SmallVec::new();
+        worlds.push(self.initial(at, notes));
         let mut draw_id = 0;
-        for (p, pass) in self.scene.passes.iter().enumerate() {
-            let target = pass.color.first().copied().or(pass.depth_stencil);
-            let shape = target.map(|i| {
-                let a = &self.scene.attachments[i];
-                (a.size, a.samples)
-            });
+        for (p, pass) in self.scene.passes[..passes].iter().enumerate() {
+            let shape = (self.scene.pass_size(pass), self.scene.pass_samples(pass));
             for (d, draw) in pass.draws.iter().enumerate() {
                 draw_id += 1;
-                if shape != Some((at.size, at.samples)) {
+                if shape != (at.size, at.samples) || !in_scissor(draw, at) {
+                    continue;
+                }
+                let point = self.sample_point(at);
+                let (can, must) = self.in_viewport(draw, point);
+                if !can {
                     continue;
                 }
                 let setup = &self.setups[p][d];
@@ -250,6 +268,7 @@ impl<'a> Walk<'a> {
                     }
                     let place = Place {
                         at,
+                        point,
                         pass: p,
                         draw_index: d,
                         draw,
@@ -258,7 +277,15 @@ impl<'a> Walk<'a> {
                         draw_id,
                         world: 0,
                     };
-                    worlds = self.primitive(place, worlds, &mut notes);
+                    let (inside_can, inside_must) = primitive.inside_depth(point);
+                    if !draw.depth_clamp && !inside_can {
+                        continue;
+                    }
+                    let certain = must && (draw.depth_clamp || inside_must);
+                    let before = (!certain).then(|| worlds.clone());
+                    worlds = self.primitive(place, worlds, notes);
+                    // A sample that may be clipped away also keeps what it was.
+                    worlds.extend(before.into_iter().flatten());
                     if !merge(&mut worlds) {
                         notes.add(
                             || place.name(),
@@ -266,15 +293,105 @@ impl<'a> Walk<'a> {
                             || format!("{} worlds: the sample is open", worlds.len()),
                             None,
                         );
-                        return TexelSet::default();
+                        return None;
                     }
                 }
                 // No later draw refers to this one's choices.
                 worlds.iter_mut().for_each(|w| w.decisions.clear());
                 merge(&mut worlds);
             }
+            for (source, target) in pass.color.iter().zip(&pass.resolve) {
+                let Some(target) = *target else { continue };
+                let attachment = &self.scene.attachments[target];
+                if (attachment.size, attachment.samples) == (at.size, at.samples) {
+                    let channels = self.resolve(*source, at, p + 1, notes)?;
+                    worlds
+                        .iter_mut()
+                        .for_each(|w| w.cells[target].channels = channels);
+                    merge(&mut worlds);
+                }
+            }
         }
-        self.finish(&worlds, at, &mut notes)
+        Some(worlds)
+    }
+
+    /// What the samples of a texel are averaged to after the first passes; `None` when a sample is
+    /// open. The hull over samples and worlds, never their product.
+    fn resolve(
+        &self,
+        source: usize,
+        at: Sample,
+        passes: usize,
+        notes: &mut Notes<'_>,
+    ) -> Option<[CodeInterval; 4]> {
+        let attachment = &self.scene.attachments[source];
+        let encodings = attachment.format.color_channels();
+        let mut sum = [Interval::exact(0.0); 4];
+        let mut hull: [Option<CodeInterval>; 4] = [None; 4];
+        for sample in 0..attachment.samples {
+            let at = Sample {
+                samples: attachment.samples,
+                sample,
+                ..at
+            };
+            let worlds = self.worlds(at, passes, &mut Notes(None))?;
+            for (c, encoding) in encodings.iter().enumerate() {
+                let all = worlds.iter().map(|w| w.cells[source].channels[c]);
+                let Some(one) = all.reduce(CodeInterval::hull) else {
+                    continue;
+                };
+                hull[c] = Some(hull[c].map_or(one, |h| h.hull(one)));
+                let value = Judging::new(self.rules).decode(*encoding, one).float;
+                sum[c] = sum[c].corners(value, |a, b| a + b);
+            }
+        }
+        let mut judging = Judging::new(self.rules);
+        let mut result = [CodeInterval::exact(0); 4];
+        for (c, encoding) in encodings.iter().enumerate() {
+            let between = hull[c].unwrap_or(CodeInterval::exact(0));
+            result[c] = match self.rules.resolve.value {
+                Resolve::Between => between,
+                Resolve::Average if between.is_exact() => between,
+                Resolve::Average => {
+                    let count = f64::from(attachment.samples);
+                    let average = sum[c].map_increasing(|v| v / count);
+                    judging.encode(*encoding, Range::same(average.widen_relative(1e-6)))
+                }
+            };
+        }
+        notes.add(
+            || format!("after pass {}", passes - 1),
+            "resolve",
+            || {
+                let text = encodings
+                    .iter()
+                    .zip(&result)
+                    .map(|(e, codes)| codes_text(*e, *codes))
+                    .collect::<Vec<_>>();
+                format!("{} gives {}", attachment.name, text.join(", "))
+            },
+            Some(self.rules.resolve.citation),
+        );
+        Some(result)
+    }
+
+    /// Whether a sample can and whether it must lie inside a draw's viewport, whose edges are
+    /// clip planes and may be snapped.
+    fn in_viewport(&self, draw: &Draw, point: Point) -> (bool, bool) {
+        let [x, y, w, h] = draw.viewport.rect.map(f64::from);
+        let units = self.units as f64;
+        let slack = units / f64::from(1_u32 << self.limits.sub_pixel_bits)
+            + units * self.rules.float_error.value * 16.0;
+        let axis = |start: f64, length: f64, at: i64| {
+            let (low, high) = (start * units, (start + length) * units);
+            let at = at as f64;
+            (
+                at > low - slack && at < high + slack,
+                at > low + slack && at < high - slack,
+            )
+        };
+        let (x, y) = (axis(x, w, point.x), axis(y, h, point.y));
+        (x.0 && y.0, x.1 && y.1)
     }
 
     fn initial(&self, at: Sample, notes: &mut Notes<'_>) -> World {
@@ -351,32 +468,86 @@ impl<'a> Walk<'a> {
     }
 
     /// Carries worlds through one primitive.
-    fn primitive(
-        &self,
-        place: Place<'_>,
-        worlds: SmallVec<[World; 2]>,
-        notes: &mut Notes<'_>,
-    ) -> SmallVec<[World; 2]> {
-        let (least, most) = place.primitive.area;
-        let point = self.sample_point(place.at);
+    fn primitive(&self, place: Place<'_>, worlds: Worlds, notes: &mut Notes<'_>) -> Worlds {
         let mut result = SmallVec::new();
         let several = worlds.len() > 1;
         for (w, world) in worlds.into_iter().enumerate() {
             let mut place = place;
             place.world = if several { w + 1 } else { 0 };
-            for positive in [true, false] {
-                let possible = if positive { most > 0 } else { least < 0 };
-                if !possible {
-                    continue;
+            match &place.primitive.shape {
+                Shape::Triangle(triangle) => {
+                    self.triangle(place, triangle, world, &mut result, notes);
                 }
-                self.covered(place, world.clone(), positive, point, &mut result, notes);
-            }
-            // A triangle that legal snapping can flatten may also cover nothing.
-            if least <= 0 && most >= 0 {
-                result.push(world);
+                Shape::Outline(triangle) => {
+                    let (least, most) = triangle.area;
+                    for (possible, positive) in [(most > 0, true), (least < 0, false)] {
+                        if possible {
+                            self.repeat(place, world.clone(), positive, &mut result, notes);
+                        }
+                    }
+                }
+                Shape::Line(_) | Shape::Point(_) => {
+                    let front = self.draw_front(place.draw);
+                    self.repeat(place, world.clone(), front, &mut result, notes);
+                    if !self.rules.points_face_front.value {
+                        self.repeat(place, world, !front, &mut result, notes);
+                    }
+                }
             }
         }
         result
+    }
+
+    /// The sign of area that faces front.
+    fn draw_front(&self, draw: &Draw) -> bool {
+        front_facing(1, draw.front_face)
+    }
+
+    /// A point's, line's or outline's fragments at the sample: as often as it may be covered.
+    fn repeat(
+        &self,
+        place: Place<'_>,
+        world: World,
+        positive_area: bool,
+        result: &mut Worlds,
+        notes: &mut Notes<'_>,
+    ) {
+        let (least, most) = place.primitive.times(place.point, self.units);
+        let mut worlds: Worlds = SmallVec::new();
+        worlds.push(world);
+        for time in 0..=most {
+            if time >= least {
+                result.extend(worlds.iter().cloned());
+            }
+            if time == most {
+                break;
+            }
+            let mut next = SmallVec::new();
+            for world in worlds {
+                self.fragment(place, world, positive_area, &mut next, notes);
+            }
+            worlds = next;
+        }
+    }
+
+    fn triangle(
+        &self,
+        place: Place<'_>,
+        triangle: &Triangle,
+        world: World,
+        result: &mut Worlds,
+        notes: &mut Notes<'_>,
+    ) {
+        let (least, most) = triangle.area;
+        for (possible, positive) in [(most > 0, true), (least < 0, false)] {
+            if possible {
+                self.covered(place, triangle, world.clone(), positive, result, notes);
+            }
+        }
+        // A triangle that legal snapping can flatten may also cover nothing.
+        if least <= 0 && most >= 0 {
+            result.push(world);
+        }
     }
 
     fn sample_point(&self, at: Sample) -> Point {
@@ -400,14 +571,14 @@ impl<'a> Walk<'a> {
     fn covered(
         &self,
         place: Place<'_>,
+        primitive: &Triangle,
         world: World,
         positive_area: bool,
-        point: Point,
-        result: &mut SmallVec<[World; 2]>,
+        result: &mut Worlds,
         notes: &mut Notes<'_>,
     ) {
-        let primitive = place.primitive;
-        let mut pending: SmallVec<[World; 2]> = SmallVec::new();
+        let point = place.point;
+        let mut pending: Worlds = SmallVec::new();
         pending.push(world);
         // With y down, a triangle of positive area (y up) has its inside where edges are negative.
         let inside = if positive_area {
@@ -533,6 +704,17 @@ impl<'a> Walk<'a> {
         let value = judging.decode(encoding, stored);
         judging.encode(read[0], Range::same(value.float))
     }
+}
+
+fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {
+    let format = scene.attachments[attachment].format;
+    let of = |encodings: &[ChannelEncoding]| encodings.first().copied();
+    limits
+        .formats
+        .get(&format)
+        .and_then(|support| of(&support.depth))
+        .or_else(|| of(format.depth_encodings()))
+        .unwrap_or(ChannelEncoding::Float32)
 }
 
 pub(crate) fn codes_text(encoding: ChannelEncoding, codes: CodeInterval) -> String {

@@ -16,7 +16,7 @@ const SMALLEST_BUFFER: u64 = 64 << 10;
 /// What a buffer is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BufferUse {
-    /// Written by the processor: vertices, parameters, uploads.
+    /// Written by the processor: vertices, indices, parameters, uploads.
     Input,
     /// Read by the processor: what comes back.
     Output,
@@ -84,6 +84,7 @@ impl Buffer {
         let (flags, preferred) = match self.usage {
             BufferUse::Input => (
                 vk::BufferUsageFlags::VERTEX_BUFFER
+                    | vk::BufferUsageFlags::INDEX_BUFFER
                     | vk::BufferUsageFlags::UNIFORM_BUFFER
                     | vk::BufferUsageFlags::TRANSFER_SRC,
                 vk::MemoryPropertyFlags::DEVICE_LOCAL,

@@ -9,6 +9,7 @@ pub(crate) fn limits(api: Api) -> Limits {
         .map(|format| {
             let support = FormatSupport {
                 samples: vec![1],
+                blendable: true,
                 depth: format.depth_encodings().iter().copied().take(1).collect(),
                 read: ReadPath::Copy,
             };
@@ -19,6 +20,7 @@ pub(crate) fn limits(api: Api) -> Limits {
         api,
         sub_pixel_bits: 8,
         max_size: 4096,
+        max_color_attachments: 8,
         formats,
         features: Feature::ALL.into_iter().collect(),
         sample_positions: [(1, vec![[128, 128]])].into_iter().collect(),
