@@ -70,6 +70,17 @@ impl Primitive {
     /// The side of the edge from vertex `i` to the next one on which a point lies.
     pub(crate) fn side(&self, i: usize, at: Point) -> Side {
         let (p, q) = (self.vertices[i], self.vertices[(i + 1) % 3]);
+        // One corner settles most samples: the others are no farther from it than the boxes let them
+        // be.
+        let size = |b: SnapBox| (b.high.x - b.low.x).max(b.high.y - b.low.y);
+        let moved = size(p).max(size(q));
+        let reach = |v: Point| (v.x - at.x).abs() + (v.y - at.y).abs();
+        let bound = moved * (reach(p.low) + reach(q.low)) + 2 * moved * moved;
+        match edge_value(p.low, q.low, at) {
+            value if value > bound => return Side::Positive,
+            value if value < -bound => return Side::Negative,
+            _ => {}
+        }
         // The edge function is linear in each coordinate alone, so its extremes stand at corners.
         let (mut least, mut most) = (i64::MAX, i64::MIN);
         for p in p.corners() {
