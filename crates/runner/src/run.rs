@@ -293,6 +293,10 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
             judge: start.elapsed().as_secs_f64(),
         };
         let kept = file.filter(|_| self.keeps_frame(&record));
+        if record.due_fail && record.verdict == Verdict::Fail {
+            // The frame file shows the rest of what had to go wrong.
+            record.wrong.truncate(4);
+        }
         if record.verdict == Verdict::Imprecise {
             // Legal deviations come by the hundred; one texel each tells what kind they are.
             record.wrong.truncate(if kept.is_some() { 16 } else { 1 });
