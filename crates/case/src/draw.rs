@@ -1,9 +1,10 @@
 //! Draws: defaults, names to indices, impossible states refused.
 
 use crate::error::{At, Step};
+use crate::mesh::Mesh;
 use crate::resolve::{MAX_SIZE, find};
 use crate::scene::{Attachment, ColorTarget, Contents, Draw, Params, StencilFace, StencilState};
-use crate::state::{StencilOperation, Viewport};
+use crate::state::{Multisample, Shader, StencilOperation, Viewport};
 use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
 use etalon_frame::TextureFormat;
 
@@ -13,17 +14,20 @@ const MAX_VERTICES: usize = 4 << 20;
 pub(crate) fn draw(
     wire: &DrawWire,
     size: [u32; 2],
+    samples: u32,
     targets: usize,
     depth_stencil: Option<TextureFormat>,
     attachments: &[Attachment],
 ) -> Result<Draw, At> {
+    let viewport = viewport(wire, size)?;
     let mesh = wire
         .mesh
-        .expand(size)
+        .expand(viewport_texels(&viewport))
         .map_err(|message| At::new(message).key("mesh"))?;
     if mesh.vertices.is_empty() || mesh.vertices.len() > MAX_VERTICES {
         return Err(At::new(format!("a mesh has 1 to {MAX_VERTICES} vertices")).key("mesh"));
     }
+    check_vertices(&mesh, wire.shader).map_err(|e| e.key("mesh"))?;
     if wire.depth.is_some() && !depth_stencil.is_some_and(TextureFormat::has_depth) {
         return Err(At::new("a depth test needs a depth attachment").key("depth"));
     }
@@ -56,6 +60,10 @@ pub(crate) fn draw(
         ))
         .key("textures"));
     }
+    if samples == 1 && wire.multisample != Multisample::default() {
+        let message = "with one sample, OpenGL ignores what Vulkan obeys; give the pass several";
+        return Err(At::new(message).key("multisample"));
+    }
     let color_targets = color_targets(wire, targets)?;
     check_shader(wire, &color_targets)?;
     if let Some([low, high]) = wire.depth_bounds
@@ -85,7 +93,7 @@ pub(crate) fn draw(
         front_face: wire.front_face,
         polygon_mode: wire.polygon_mode,
         rasterizer_discard: wire.rasterizer_discard,
-        viewport: viewport(wire, size)?,
+        viewport,
         scissor: wire.scissor,
         depth_bias: wire.depth_bias,
         depth_clamp: wire.depth_clamp,
@@ -97,6 +105,26 @@ pub(crate) fn draw(
         multisample: wire.multisample,
         blend_constant: wire.blend_constant.0,
     })
+}
+
+/// The farthest that a vertex may lie from the middle of clip space.
+const FARTHEST: f32 = 64.0;
+
+/// Refuses what no specification pins: vertices far out, and written depths out of range.
+fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
+    for vertex in &mesh.vertices {
+        let far = |v: &f32| v.abs() > FARTHEST;
+        if vertex.position[..3].iter().any(far) {
+            return Err(At::new(format!(
+                "a vertex lies within {FARTHEST} of the middle of clip space"
+            )));
+        }
+        let written = shader == Shader::FlatColorDepth;
+        if written && !(0.0..=1.0).contains(&vertex.color[0]) {
+            return Err(At::new("a written depth lies between 0 and 1"));
+        }
+    }
+    Ok(())
 }
 
 /// Whether a draw can change depth or stencil.
@@ -175,6 +203,12 @@ fn check_shader(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
         return Err(At::new("a logic operation stands instead of blending").key("logic"));
     }
     Ok(())
+}
+
+/// The viewport's width and height: what meshes that are given in texels measure themselves by.
+fn viewport_texels(viewport: &Viewport) -> [u32; 2] {
+    let [_, _, width, height] = viewport.rect;
+    [width, height].map(|v| v.round().max(1.0) as u32)
 }
 
 /// The viewport, or the whole attachments.

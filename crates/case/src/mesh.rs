@@ -95,7 +95,7 @@ pub enum Primitive {
 
 /// A mesh as a case file describes it.
 ///
-/// Rectangles are given in texels of the pass's attachments and cover the samples at texel centres
+/// Rectangles are given in texels of the draw's viewport and cover the samples at texel centres
 /// of a single-sample attachment, no others: every edge keeps at least 0.17 texels away from every
 /// centre, so that no legal snapping of vertices changes what is covered. Attributes are constant
 /// over each triangle.
@@ -113,6 +113,15 @@ pub enum MeshSource {
         /// The winding.
         #[serde(default = "ccw")]
         winding: FrontFace,
+    },
+    /// Everything, every sample of every texel: one triangle that reaches far beyond the viewport.
+    Cover {
+        /// Vertex depth.
+        #[serde(default)]
+        z: f32,
+        /// The vertex colour.
+        #[serde(default)]
+        value: Splat,
     },
     /// A rectangle.
     Rect {
@@ -239,7 +248,7 @@ impl JsonSchema for Splat {
 }
 
 impl MeshSource {
-    /// The mesh for attachments of a size in texels, or what is wrong with the description.
+    /// The mesh for a viewport of a size in texels, or what is wrong with the description.
     ///
     /// # Errors
     /// A sentence when a list is empty, a rectangle is empty or reaches outside, or a part would
@@ -250,6 +259,15 @@ impl MeshSource {
         match self {
             Self::Full { z, value, winding } => {
                 builder.rect([0, 0, size[0], size[1]], *z, value.0, *winding)?;
+            }
+            Self::Cover { z, value } => {
+                for [x, y] in [[-1.0, -1.0], [5.0, -1.0], [-1.0, 5.0]] {
+                    builder.vertices.push(Vertex {
+                        position: [x, y, *z, 1.0],
+                        color: value.0,
+                        uv: [0.0; 2],
+                    });
+                }
             }
             Self::Rect {
                 texels,

@@ -277,8 +277,15 @@ fn pass(wire: &PassWire, attachments: &[Attachment]) -> Result<Pass, At> {
     let format = depth_stencil.map(|i| attachments[i].format);
     let mut draws = Vec::new();
     for (i, d) in wire.draws.iter().enumerate() {
-        let draw = draw(d, first.size, color.len(), format, attachments)
-            .map_err(|e| e.index(i).key("draws"))?;
+        let draw = draw(
+            d,
+            first.size,
+            first.samples,
+            color.len(),
+            format,
+            attachments,
+        )
+        .map_err(|e| e.index(i).key("draws"))?;
         if wire.depth_stencil_read_only && writes_depth_stencil(&draw) {
             return Err(
                 At::new("the pass promises to write neither depth nor stencil")

@@ -131,6 +131,8 @@ pub(crate) struct Place<'a> {
     pub(crate) at: Sample,
     /// The sample's position in sub-texel units.
     pub(crate) point: Point,
+    /// Where it lies relative to a triangle's edges.
+    sides: [Side; 3],
     pub(crate) pass: usize,
     draw_index: usize,
     pub(crate) draw: &'a Draw,
@@ -266,9 +268,20 @@ impl<'a> Walk<'a> {
                     if x < primitive.bounds[0] || x >= primitive.bounds[2] {
                         continue;
                     }
+                    let sides = match &primitive.shape {
+                        Shape::Triangle(triangle) => {
+                            let sides = [0, 1, 2].map(|i| triangle.side(i, point));
+                            if misses(triangle, sides) {
+                                continue;
+                            }
+                            sides
+                        }
+                        _ => [Side::Unknown; 3],
+                    };
                     let place = Place {
                         at,
                         point,
+                        sides,
                         pass: p,
                         draw_index: d,
                         draw,
@@ -577,23 +590,14 @@ impl<'a> Walk<'a> {
         result: &mut Worlds,
         notes: &mut Notes<'_>,
     ) {
-        let point = place.point;
         let mut pending: Worlds = SmallVec::new();
         pending.push(world);
-        // With y down, a triangle of positive area (y up) has its inside where edges are negative.
-        let inside = if positive_area {
-            Side::Negative
-        } else {
-            Side::Positive
-        };
-        let sides = [0, 1, 2].map(|i| primitive.side(i, point));
-        let outside = |s: Side| {
-            matches!(
-                (s, inside),
-                (Side::Positive, Side::Negative) | (Side::Negative, Side::Positive)
-            )
-        };
-        if sides.into_iter().any(outside) {
+        let inside = inside_of(positive_area);
+        let sides = place.sides;
+        if sides
+            .into_iter()
+            .any(|side| is_outside(side, positive_area))
+        {
             result.append(&mut pending);
             return;
         }
@@ -704,6 +708,28 @@ impl<'a> Walk<'a> {
         let value = judging.decode(encoding, stored);
         judging.encode(read[0], Range::same(value.float))
     }
+}
+
+/// The side of a triangle's edges on which its inside lies. With y down, a triangle of positive area
+/// (y up) has it where edge functions are negative.
+fn inside_of(positive_area: bool) -> Side {
+    if positive_area {
+        Side::Negative
+    } else {
+        Side::Positive
+    }
+}
+
+/// Whether a sample is outside a triangle whichever way it turns: nothing happens in any world.
+fn misses(triangle: &Triangle, sides: [Side; 3]) -> bool {
+    let (least, most) = triangle.area;
+    let outside = |positive: bool| sides.into_iter().any(|side| is_outside(side, positive));
+    least != 0 && most != 0 && (most < 0 || outside(true)) && (least > 0 || outside(false))
+}
+
+/// Whether a side of one edge is certainly outside a triangle.
+fn is_outside(side: Side, positive_area: bool) -> bool {
+    matches!(side, Side::Positive | Side::Negative) && side != inside_of(positive_area)
 }
 
 fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {

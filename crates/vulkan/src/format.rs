@@ -130,6 +130,15 @@ pub(crate) fn layout(raw: vk::Format) -> &'static [(u32, u32)] {
     }
 }
 
+/// The format through which a shader sees the stored codes of another that it would see converted.
+pub(crate) fn unconverted(raw: vk::Format) -> Option<vk::Format> {
+    match raw {
+        vk::Format::R8G8B8A8_SRGB => Some(vk::Format::R8G8B8A8_UNORM),
+        vk::Format::B8G8R8A8_SRGB => Some(vk::Format::B8G8R8A8_UNORM),
+        _ => None,
+    }
+}
+
 /// All aspects of a Vulkan format, also those that ours does not name.
 pub(crate) fn aspect_mask(raw: vk::Format) -> vk::ImageAspectFlags {
     let (depth, stencil) = (vk::ImageAspectFlags::DEPTH, vk::ImageAspectFlags::STENCIL);

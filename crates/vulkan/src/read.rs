@@ -98,7 +98,7 @@ impl ReadPlan {
         let set = slot.descriptor_set(device, reader.layout.set)?;
         let images = [vk::DescriptorImageInfo {
             sampler: vk::Sampler::null(),
-            image_view: image.view(format::aspect_flag(self.aspect))?,
+            image_view: image.sample_view(format::aspect_flag(self.aspect))?,
             image_layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
         }];
         let buffers = [vk::DescriptorBufferInfo {

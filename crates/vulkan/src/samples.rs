@@ -3,9 +3,9 @@
 //! The shader stores what it saw, 32-bit floats or integers, and [`code`] finds the codes that stand
 //! for it. It may, because the encodings it is used for survive that way: normalized values of up to
 //! 16 bits lie so far apart that rounding finds the code back whatever the last bits of the
-//! conversion (Vulkan, Conversion From Normalized Fixed-Point; so do the linear values of sRGB
-//! codes), and floats and integers arrive as they are. Of the two codes of a signed -1 the nearer to
-//! 0 is found. 24-bit depth does not survive, and is never multisampled here.
+//! conversion (Vulkan, Conversion From Normalized Fixed-Point), floats and integers arrive as they
+//! are, and sRGB codes are seen unconverted. Of the two codes of a signed -1 the nearer to 0 is
+//! found. 24-bit depth does not survive, and is never multisampled here.
 
 use crate::device::Device;
 use crate::error::Check;
@@ -52,7 +52,8 @@ pub(crate) fn code(encoding: ChannelEncoding, seen: u32) -> u32 {
         ChannelEncoding::Float32 | ChannelEncoding::Uint(_) => seen,
         ChannelEncoding::Float16 => shortened(seen, 10) | seen >> 31 << 15,
         ChannelEncoding::Ufloat(mantissa) => shortened(seen, mantissa.into()),
-        ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) | ChannelEncoding::Srgb8 => {
+        ChannelEncoding::Srgb8 => code(ChannelEncoding::Unorm(8), seen),
+        ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => {
             encoding.nearest_code(f32::from_bits(seen).into())
         }
     }
@@ -204,7 +205,6 @@ mod tests {
             ChannelEncoding::Unorm(10),
             ChannelEncoding::Unorm(16),
             ChannelEncoding::Snorm(8),
-            ChannelEncoding::Srgb8,
             ChannelEncoding::Float16,
             ChannelEncoding::Ufloat(6),
             ChannelEncoding::Ufloat(5),

@@ -102,14 +102,22 @@ fn uploads_come_back_and_are_fetched() {
             }
             for (seen, due) in seen.sample(x, y, 0).iter().zip(due) {
                 let seen = f64::from(f32::from_bits(*seen));
-                let near = (seen - due).abs() <= 1e-5 * due.abs().max(1e-3);
+                // A texture unit may convert sRGB with an error of half a code (Direct3D 11.3,
+                // 3.2.3.7), which llvmpipe makes use of.
+                let slack = if format == TextureFormat::Rgba8UnormSrgb {
+                    5e-3
+                } else {
+                    1e-5
+                };
+                let near = (seen - due).abs() <= slack * due.abs().max(1e-3);
                 assert!(near, "{format} ({x}, {y}): {seen}, and {due} is stored");
             }
         }
     }
 }
 
-/// Each channel by itself, so that none may be taken for another.
+/// Each channel by itself, so that none may be taken for another. Columns are four texels wide, and
+/// all samples of their inner texels are covered.
 #[test]
 fn draws_store_0_and_1() {
     let backend = backend(true);
@@ -117,7 +125,7 @@ fn draws_store_0_and_1() {
         for samples in counts(&backend, format) {
             let scene = scene_of(
                 &format!(
-                    r#""color": {{ "format": "{format}", "samples": {samples}, "clear": [1, 0, 1, 0] }}"#
+                    r#""color": {{ "format": "{format}", "size": [32, 8], "samples": {samples}, "clear": [1, 0, 1, 0] }}"#
                 ),
                 &format!(
                     r#"{{ "color": ["color"], "draws": [ {{ "mesh": {COLUMNS}, "shader": "flat_color" }} ] }}"#
@@ -125,9 +133,20 @@ fn draws_store_0_and_1() {
                 &["color"],
             );
             let frame = draw(&backend, &scene);
-            check(image(&frame, "color", Aspect::Color), |x, _| {
-                codes(format, VALUES[x as usize / 2])
-            });
+            let color = image(&frame, "color", Aspect::Color);
+            for (x, y) in (1..31).flat_map(|x| (1..7).map(move |y| (x, y))) {
+                if samples > 1 && matches!(x % 4, 0 | 3) {
+                    continue;
+                }
+                let due = codes(format, VALUES[x as usize / 4]);
+                for sample in 0..samples {
+                    assert_eq!(
+                        color.sample(x, y, sample),
+                        due,
+                        "{format} ({x}, {y}) {sample}"
+                    );
+                }
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Samples: masks, alpha to coverage and to one, shaders that run per sample, averages.
 
-use crate::common::{BLACK, RED, backend, draw, draw_if_there, image, one_draw, scene_of};
+use crate::common::{BLACK, RED, backend, draw_if_there, image, scene_of};
 use etalon_case::Scene;
 use etalon_frame::{Aspect, Frame};
 
@@ -39,19 +39,6 @@ fn a_mask_lets_its_samples_through() {
             return;
         };
         check_samples(&frame, |s| if mask >> s & 1 == 1 { RED } else { BLACK });
-    }
-}
-
-#[test]
-fn a_mask_counts_for_one_sample_too() {
-    let backend = backend(true);
-    for mask in [0b1110, 1] {
-        let scene = one_draw(&format!(
-            r#""mesh": {{ "kind": "full" }}, "shader": "uniform_color", "params": {{ "color": [1, 0, 0, 1] }},
-               "multisample": {{ "mask": {mask} }}"#
-        ));
-        let frame = draw(&backend, &scene);
-        check_samples(&frame, |_| if mask == 1 { RED } else { BLACK });
     }
 }
 
