@@ -67,9 +67,9 @@ pub(crate) fn draw(
     let color_targets = color_targets(wire, targets)?;
     check_shader(wire, &color_targets)?;
     if let Some([low, high]) = wire.depth_bounds
-        && (low.is_nan() || high.is_nan() || low > high)
+        && !(0.0 <= low && low <= high && high <= 1.0)
     {
-        return Err(At::new("the first bound is not above the second").key("depth_bounds"));
+        return Err(At::new("bounds lie between 0 and 1, the lower first").key("depth_bounds"));
     }
     let numbers = [
         wire.params.color,
