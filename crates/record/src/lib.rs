@@ -24,9 +24,7 @@ pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations};
 pub use frame_file::{FrameFile, FrameImage};
 pub use header::{AbsentAdapter, AdapterRecord, FORMAT, Header, Machine};
-pub use hunt::{
-    AreaTally, Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, Sighting,
-};
+pub use hunt::{AreaTally, Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, Sighting};
 pub use record::{Assertion, Expected, MAX_WRONG_TEXELS, Record, Seconds};
 pub use run::Run;
 pub use verdict::Verdict;

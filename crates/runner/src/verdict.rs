@@ -111,9 +111,7 @@ impl Judge {
         let (comparison, _) = best(&judgements, frame)?;
         let verdict = match comparison.texels {
             TexelCounts { wrong: 1.., .. } => Verdict::Fail,
-            TexelCounts {
-                imprecise: 1.., ..
-            } => Verdict::Imprecise,
+            TexelCounts { imprecise: 1.., .. } => Verdict::Imprecise,
             _ => Verdict::Pass,
         };
         Ok((verdict, comparison.wrong.into_iter().next()))
