@@ -179,3 +179,50 @@ impl Hunt {
         Ok(path)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(outcome: Catch, legal: bool) -> MutantRecord {
+        let tally = AreaTally {
+            area: "blend".to_owned(),
+            pass: 1,
+            imprecise: u64::from(outcome == Catch::Noticed),
+            fail: u64::from(outcome == Catch::Caught),
+            broken: 0,
+        };
+        MutantRecord {
+            mutant: MutantInfo {
+                name: "blend/x".to_owned(),
+                about: "It.".to_owned(),
+                source: "a test".to_owned(),
+                area: "blend".to_owned(),
+                legal: legal.then(|| "Vulkan: a clause".to_owned()),
+            },
+            outcome,
+            areas: vec![tally],
+            first: None,
+        }
+    }
+
+    #[test]
+    fn what_must_be_caught_is_caught_and_what_is_legal_is_not() {
+        for (outcome, legal, fine) in [
+            (Catch::Caught, false, true),
+            (Catch::Noticed, false, false),
+            (Catch::Survived, false, false),
+            (Catch::Caught, true, false),
+            (Catch::Noticed, true, true),
+            (Catch::Survived, true, true),
+            (Catch::Broken, false, false),
+            (Catch::Broken, true, false),
+        ] {
+            let record = record(outcome, legal);
+            let complaint = record.complaint();
+            assert_eq!(complaint.is_none(), fine, "{outcome:?} {legal}");
+            let seen = matches!(outcome, Catch::Caught | Catch::Noticed);
+            assert_eq!(record.by_own_area(), seen);
+        }
+    }
+}

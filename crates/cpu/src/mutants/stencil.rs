@@ -36,13 +36,7 @@ pub(super) fn add(list: &mut List) {
         for (right, wrong) in tables::stencil_neighbours() {
             list.add(
                 &format!("{path}-{}-as-{}", right.name(), wrong.name()),
-                match (right, wrong) {
-                    (StencilOperation::IncrementWrap, StencilOperation::IncrementClamp)
-                    | (StencilOperation::DecrementWrap, StencilOperation::DecrementClamp) => {
-                        "zink: wrap mapped to clamp"
-                    }
-                    _ => CONFUSION,
-                },
+                CONFUSION,
                 format!(
                     "The {path} operation {} is done as {}.",
                     right.name(),
