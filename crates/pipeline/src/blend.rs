@@ -32,10 +32,10 @@ pub fn blend<A: Arithmetic>(
 ) -> [A::Real; 4] {
     // Operands are taken at blending precision once, so that all uses agree.
     let mut operands = *input;
-    for c in 0..4 {
-        operands.src[c] = a.blend_operand(encodings[c], input.src[c]);
-        operands.dst[c] = a.blend_operand(encodings[c], input.dst[c]);
-        operands.constant[c] = a.blend_operand(encodings[c], input.constant[c]);
+    for (c, encoding) in encodings.into_iter().enumerate() {
+        operands.src[c] = a.blend_operand(encoding, input.src[c]);
+        operands.dst[c] = a.blend_operand(encoding, input.dst[c]);
+        operands.constant[c] = a.blend_operand(encoding, input.constant[c]);
     }
     std::array::from_fn(|c| {
         let component = if c == 3 { &state.alpha } else { &state.color };

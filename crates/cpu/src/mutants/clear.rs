@@ -225,7 +225,8 @@ fn depth(list: &mut List) {
 }
 
 fn stencil(list: &mut List) {
-    let bugs: [(&str, &str, fn(u8) -> u8); 6] = [
+    type Bug = (&'static str, &'static str, fn(u8) -> u8);
+    let bugs: [Bug; 6] = [
         ("stencil-ignored", "Stencil starts from 0.", |_| 0),
         (
             "stencil-in-7-bits",

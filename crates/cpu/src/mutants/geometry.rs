@@ -4,6 +4,7 @@ use super::hooks::{covered, fetch};
 use super::plant::{Plant, draws, in_bits, scene};
 use super::{CONFUSION, List, SMALL};
 use etalon_case::scene::Contents;
+use etalon_case::state::FrontFace;
 use etalon_frame::TextureFormat;
 
 pub(super) fn add(list: &mut List) {
@@ -154,11 +155,10 @@ fn positions(list: &mut List) {
             for vertex in &mut draw.mesh.vertices {
                 vertex.position[1] = -vertex.position[1];
             }
-            let exchanged = |cull| match cull {
-                etalon_case::state::FrontFace::Ccw => etalon_case::state::FrontFace::Cw,
-                etalon_case::state::FrontFace::Cw => etalon_case::state::FrontFace::Ccw,
+            draw.front_face = match draw.front_face {
+                FrontFace::Ccw => FrontFace::Cw,
+                FrontFace::Cw => FrontFace::Ccw,
             };
-            draw.front_face = exchanged(draw.front_face);
         }),
     );
     list.add(

@@ -12,15 +12,18 @@ use etalon_pipeline::{Arithmetic, BlendInput, Plain, blend};
 type Hook<F> = Option<Box<F>>;
 type BlendBug =
     dyn Fn(&BlendState, [ChannelEncoding; 4], &BlendInput<[f32; 1]>) -> [f32; 4] + Send + Sync;
+type FetchBug = dyn Fn([u32; 2], [u32; 2]) -> [u32; 2] + Send + Sync;
+type PassBug = dyn Fn(&StencilFace, u8) -> bool + Send + Sync;
+type WriteBug = dyn Fn(&StencilFace, Path, u8) -> u8 + Send + Sync;
 type CodeBug = dyn Fn(ChannelEncoding, f32) -> u32 + Send + Sync;
 
 /// Replacements of single steps, one texel at a time: planted bugs need not be fast.
 #[derive(Default)]
 pub(super) struct Hooks {
     covered: Hook<dyn Fn([u32; 2], [u32; 2]) -> bool + Send + Sync>,
-    fetch: Hook<dyn Fn([u32; 2], [u32; 2]) -> [u32; 2] + Send + Sync>,
-    stencil_passes: Hook<dyn Fn(&StencilFace, u8) -> bool + Send + Sync>,
-    stencil_write: Hook<dyn Fn(&StencilFace, Path, u8) -> u8 + Send + Sync>,
+    fetch: Hook<FetchBug>,
+    stencil_passes: Hook<PassBug>,
+    stencil_write: Hook<WriteBug>,
     depth_code: Hook<CodeBug>,
     depth_passes: Hook<dyn Fn(CompareFunction, u32, u32) -> bool + Send + Sync>,
     written: Hook<dyn Fn([bool; 3]) -> [bool; 2] + Send + Sync>,

@@ -27,7 +27,8 @@ pub(super) fn add(list: &mut List) {
             }),
         );
     }
-    let paths: [(&str, fn(&mut StencilFace) -> &mut StencilOperation); 3] = [
+    type Operation = fn(&mut StencilFace) -> &mut StencilOperation;
+    let paths: [(&str, Operation); 3] = [
         ("fail", |face| &mut face.fail_op),
         ("depth-fail", |face| &mut face.depth_fail_op),
         ("pass", |face| &mut face.pass_op),

@@ -79,7 +79,8 @@ const LEFTOVERS: [(&str, &str, Leftover); 14] = [
 ];
 
 pub(super) fn add(list: &mut List) {
-    let kinds: [(&str, fn(Leftover) -> Plant); 2] = [
+    type Sticks = fn(Leftover) -> Plant;
+    let kinds: [(&str, Sticks); 2] = [
         ("case", |take| from_case(take)),
         ("draw", |take| from_draw(take)),
     ];
