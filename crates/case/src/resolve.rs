@@ -1,9 +1,11 @@
 //! From the parsed scene to the domain's: defaults, names to indices, impossible states refused.
 
 use crate::error::{At, Step};
+use crate::mesh::Mesh;
 use crate::scene::{
     Attachment, ColorTarget, Contents, Draw, Params, Pass, Scene, StencilFace, StencilState,
 };
+use crate::state::Shader;
 use crate::wire::{
     AttachmentWire, ClearWire, DrawWire, PassWire, SceneWire, StencilFaceWire, StencilWire,
     TexelsWire,
@@ -296,6 +298,7 @@ fn draw(
     if mesh.vertices.is_empty() || mesh.vertices.len() > MAX_VERTICES {
         return Err(At::new(format!("a mesh has 1 to {MAX_VERTICES} vertices")).key("mesh"));
     }
+    check_vertices(&mesh, wire.shader).map_err(|e| e.key("mesh"))?;
     if wire.depth.is_some() && !depth_stencil.is_some_and(TextureFormat::has_depth) {
         return Err(At::new("a depth test needs a depth attachment").key("depth"));
     }
@@ -369,6 +372,28 @@ fn draw(
         targets: vec![target; targets],
         blend_constant: wire.blend_constant.0,
     })
+}
+
+/// The farthest that a vertex may lie from the middle of clip space.
+const FARTHEST: f32 = 64.0;
+
+/// Refuses what no specification pins: depths that clip or that a shader writes out of range.
+fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
+    for vertex in &mesh.vertices {
+        let [x, y, z, _] = vertex.position;
+        if x.abs() > FARTHEST || y.abs() > FARTHEST {
+            return Err(At::new(format!(
+                "a vertex lies within {FARTHEST} of the middle of clip space"
+            )));
+        }
+        if !(0.0..=1.0).contains(&z) {
+            return Err(At::new("a vertex's depth lies between 0 and 1"));
+        }
+        if shader.writes_depth() && !(0.0..=1.0).contains(&vertex.color[0]) {
+            return Err(At::new("a written depth lies between 0 and 1"));
+        }
+    }
+    Ok(())
 }
 
 fn stencil(wire: &StencilWire) -> StencilState {

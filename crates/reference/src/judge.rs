@@ -120,6 +120,8 @@ pub(crate) struct Walk<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct Place<'a> {
     pub(crate) at: Sample,
+    /// Where the sample lies relative to the primitive's edges.
+    sides: [Side; 3],
     pub(crate) pass: usize,
     draw_index: usize,
     pub(crate) draw: &'a Draw,
@@ -230,6 +232,7 @@ impl<'a> Walk<'a> {
         let mut worlds: SmallVec<[World; 2]> = SmallVec::new();
         worlds.push(self.initial(at, &mut notes));
         let mut draw_id = 0;
+        let point = self.sample_point(at);
         for (p, pass) in self.scene.passes.iter().enumerate() {
             let target = pass.color.first().copied().or(pass.depth_stencil);
             let shape = target.map(|i| {
@@ -248,8 +251,13 @@ impl<'a> Walk<'a> {
                     if x < primitive.bounds[0] || x >= primitive.bounds[2] {
                         continue;
                     }
+                    let sides = [0, 1, 2].map(|i| primitive.side(i, point));
+                    if misses(primitive, sides) {
+                        continue;
+                    }
                     let place = Place {
                         at,
+                        sides,
                         pass: p,
                         draw_index: d,
                         draw,
@@ -358,7 +366,6 @@ impl<'a> Walk<'a> {
         notes: &mut Notes<'_>,
     ) -> SmallVec<[World; 2]> {
         let (least, most) = place.primitive.area;
-        let point = self.sample_point(place.at);
         let mut result = SmallVec::new();
         let several = worlds.len() > 1;
         for (w, world) in worlds.into_iter().enumerate() {
@@ -369,7 +376,7 @@ impl<'a> Walk<'a> {
                 if !possible {
                     continue;
                 }
-                self.covered(place, world.clone(), positive, point, &mut result, notes);
+                self.covered(place, world.clone(), positive, &mut result, notes);
             }
             // A triangle that legal snapping can flatten may also cover nothing.
             if least <= 0 && most >= 0 {
@@ -402,27 +409,18 @@ impl<'a> Walk<'a> {
         place: Place<'_>,
         world: World,
         positive_area: bool,
-        point: Point,
         result: &mut SmallVec<[World; 2]>,
         notes: &mut Notes<'_>,
     ) {
         let primitive = place.primitive;
         let mut pending: SmallVec<[World; 2]> = SmallVec::new();
         pending.push(world);
-        // With y down, a triangle of positive area (y up) has its inside where edges are negative.
-        let inside = if positive_area {
-            Side::Negative
-        } else {
-            Side::Positive
-        };
-        let sides = [0, 1, 2].map(|i| primitive.side(i, point));
-        let outside = |s: Side| {
-            matches!(
-                (s, inside),
-                (Side::Positive, Side::Negative) | (Side::Negative, Side::Positive)
-            )
-        };
-        if sides.into_iter().any(outside) {
+        let inside = inside_of(positive_area);
+        let sides = place.sides;
+        if sides
+            .into_iter()
+            .any(|side| is_outside(side, positive_area))
+        {
             result.append(&mut pending);
             return;
         }
@@ -533,6 +531,28 @@ impl<'a> Walk<'a> {
         let value = judging.decode(encoding, stored);
         judging.encode(read[0], Range::same(value.float))
     }
+}
+
+/// The side of a triangle's edges on which its inside lies. With y down, a triangle of positive area
+/// (y up) has it where edge functions are negative.
+fn inside_of(positive_area: bool) -> Side {
+    if positive_area {
+        Side::Negative
+    } else {
+        Side::Positive
+    }
+}
+
+/// Whether a sample is outside a triangle whichever way it turns: nothing happens in any world.
+fn misses(primitive: &Primitive, sides: [Side; 3]) -> bool {
+    let (least, most) = primitive.area;
+    let outside = |positive: bool| sides.into_iter().any(|side| is_outside(side, positive));
+    least != 0 && most != 0 && (most < 0 || outside(true)) && (least > 0 || outside(false))
+}
+
+/// Whether a side of one edge is certainly outside a triangle.
+fn is_outside(side: Side, positive_area: bool) -> bool {
+    matches!(side, Side::Positive | Side::Negative) && side != inside_of(positive_area)
 }
 
 pub(crate) fn codes_text(encoding: ChannelEncoding, codes: CodeInterval) -> String {

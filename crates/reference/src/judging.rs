@@ -165,7 +165,9 @@ impl Arithmetic for Judging<'_> {
     /// The terms of the transform are as large as the axis, and so is what their error is relative
     /// to.
     fn window_coordinate(&mut self, value: Range, length: f32) -> Range {
-        Range::same(value.float.widen(f64::from(length) * self.error()))
+        let largest = value.float.low.abs().max(value.float.high.abs());
+        let scale = largest.max(f64::from(length));
+        Range::same(value.float.widen(scale * self.error()))
     }
 
     fn window_depth(&mut self, value: Range) -> Range {

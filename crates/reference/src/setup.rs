@@ -41,8 +41,8 @@ pub(crate) fn units_per_texel(limits: &Limits) -> i64 {
 pub(crate) struct Primitive {
     /// Vertices in their own order.
     pub(crate) vertices: [SnapBox; 3],
-    /// Which positions of the draw coincide: equal numbers, equal clip-space positions.
-    pub(crate) ids: [u32; 3],
+    /// Which positions coincide: equal numbers, equal places in clip space.
+    pub(crate) ids: [u64; 3],
     /// Least and greatest signed area, y up.
     pub(crate) area: (i64, i64),
     /// Window depth over the whole primitive.
@@ -70,6 +70,17 @@ impl Primitive {
     /// The side of the edge from vertex `i` to the next one on which a point lies.
     pub(crate) fn side(&self, i: usize, at: Point) -> Side {
         let (p, q) = (self.vertices[i], self.vertices[(i + 1) % 3]);
+        // One corner settles most samples: the others are no farther from it than the boxes let them
+        // be.
+        let size = |b: SnapBox| (b.high.x - b.low.x).max(b.high.y - b.low.y);
+        let moved = size(p).max(size(q));
+        let reach = |v: Point| (v.x - at.x).abs() + (v.y - at.y).abs();
+        let bound = moved * (reach(p.low) + reach(q.low)) + 2 * moved * moved;
+        match edge_value(p.low, q.low, at) {
+            value if value > bound => return Side::Positive,
+            value if value < -bound => return Side::Negative,
+            _ => {}
+        }
         // The edge function is linear in each coordinate alone, so its extremes stand at corners.
         let (mut least, mut most) = (i64::MAX, i64::MIN);
         for p in p.corners() {
@@ -110,16 +121,10 @@ pub(crate) fn draw(rules: &Rules, limits: &Limits, draw: &Draw, size: [u32; 2]) 
         .iter()
         .map(|v| vertex(rules, limits, v.position, size))
         .collect();
-    let mut known = std::collections::HashMap::new();
-    let ids: Vec<u32> = draw
-        .mesh
-        .vertices
-        .iter()
-        .map(|v| {
-            let next = known.len() as u32;
-            *known.entry(v.position.map(f32::to_bits)).or_insert(next)
-        })
-        .collect();
+    let id = |i: usize| {
+        let [x, y, ..] = draw.mesh.vertices[i].position.map(f32::to_bits);
+        u64::from(x) << 32 | u64::from(y)
+    };
     let units = units_per_texel(limits);
     let mut rows = vec![Vec::new(); size[1] as usize];
     let mut primitives = Vec::new();
@@ -154,7 +159,7 @@ pub(crate) fn draw(rules: &Rules, limits: &Limits, draw: &Draw, size: [u32; 2]) 
         }
         primitives.push(Primitive {
             vertices: boxes,
-            ids: triangle.map(|i| ids[i]),
+            ids: triangle.map(id),
             area: area(boxes),
             depth,
             color,
@@ -165,6 +170,16 @@ pub(crate) fn draw(rules: &Rules, limits: &Limits, draw: &Draw, size: [u32; 2]) 
 }
 
 fn area(boxes: [SnapBox; 3]) -> (i64, i64) {
+    // One corner settles most triangles; see `side`.
+    let size = |b: SnapBox| (b.high.x - b.low.x).max(b.high.y - b.low.y);
+    let moved = boxes.map(size).into_iter().max().unwrap_or(0);
+    let [a, b, c] = boxes.map(|b| b.low);
+    let span = |p: Point, q: Point| (p.x - q.x).abs() + (p.y - q.y).abs();
+    let bound = 2 * moved * (span(a, b) + span(b, c) + span(c, a)) + 8 * moved * moved;
+    let one = signed_area([a, b, c]);
+    if one.abs() > bound {
+        return (one - bound, one + bound);
+    }
     let (mut least, mut most) = (i64::MAX, i64::MIN);
     for a in boxes[0].corners() {
         for b in boxes[1].corners() {

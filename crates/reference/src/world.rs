@@ -23,7 +23,7 @@ pub(crate) struct Decision {
     /// differs, so neither does a choice.
     pub(crate) draw: u32,
     /// The positions, the lower number first.
-    pub(crate) ends: (u32, u32),
+    pub(crate) ends: (u64, u64),
     /// The primitive, where the rules let each decide for itself.
     pub(crate) owner: Option<u32>,
 }

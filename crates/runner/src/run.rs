@@ -207,7 +207,11 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
                         }
                     };
                     self.finish_without_frame(number, verdict, error.to_string(), drawing);
-                    if verdict == Verdict::DeviceLost {
+                    // After a panic, too, nobody knows in what state the worker is.
+                    if matches!(
+                        error,
+                        BackendError::DeviceLost(_) | BackendError::Internal(_)
+                    ) {
                         self.link = None;
                         self.resend(&waiting);
                     }
@@ -237,19 +241,19 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
         &self.adapter.limits
     }
 
-    /// Starts a worker where there is none.
+    /// Starts a worker where there is none. It is tried again at once: cases that wait for answers
+    /// must all reach the same worker, or their answers would be taken for each other's.
     fn revive(&mut self) {
-        if self.link.is_some() || self.vain_starts >= MAX_VAIN_STARTS {
-            return;
-        }
-        match Worker::start(&self.launch) {
-            Ok(worker) => {
-                self.vain_starts = 0;
-                self.link = Some(worker.link);
-            }
-            Err(error) => {
-                self.vain_starts += 1;
-                self.last_words = format!("the worker could not be started again: {error}");
+        while self.link.is_none() && self.vain_starts < MAX_VAIN_STARTS {
+            match Worker::start(&self.launch) {
+                Ok(worker) => {
+                    self.vain_starts = 0;
+                    self.link = Some(worker.link);
+                }
+                Err(error) => {
+                    self.vain_starts += 1;
+                    self.last_words = format!("the worker could not be started again: {error}");
+                }
             }
         }
     }
@@ -289,6 +293,10 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
             judge: start.elapsed().as_secs_f64(),
         };
         let kept = file.filter(|_| self.keeps_frame(&record));
+        if record.due_fail && record.verdict == Verdict::Fail {
+            // The frame file shows the rest of what had to go wrong.
+            record.wrong.truncate(4);
+        }
         if record.verdict == Verdict::Imprecise {
             // Legal deviations come by the hundred; one texel each tells what kind they are.
             record.wrong.truncate(if kept.is_some() { 16 } else { 1 });

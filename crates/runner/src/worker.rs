@@ -2,8 +2,10 @@
 
 use crate::protocol::{Hello, Payload, Request, Response, receive, send};
 use etalon_backend::{Backend, BackendError, Prepared, Unavailable};
+use std::any::Any;
 use std::collections::HashMap;
 use std::io::{self, Read, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 /// Opens a backend and answers requests until `input` ends.
@@ -27,7 +29,12 @@ pub fn serve(
     let mut slots: HashMap<u32, Box<dyn Prepared + '_>> = HashMap::new();
     while let Some(request) = receive::<Request>(input)? {
         let start = Instant::now();
-        let outcome = answer(backend.as_ref(), &mut slots, request);
+        // A panic is the suite's own bug and no crash of the driver. The parent starts another
+        // worker behind it, so that nothing half done is used again.
+        let outcome = catch_unwind(AssertUnwindSafe(|| {
+            answer(backend.as_ref(), &mut slots, request)
+        }))
+        .unwrap_or_else(|panic| Err(BackendError::Internal(words(panic.as_ref()))));
         let response = Response::Done {
             outcome,
             elapsed: start.elapsed(),
@@ -36,6 +43,16 @@ pub fn serve(
         send(output, &response)?;
     }
     Ok(())
+}
+
+/// What a panic said.
+fn words(panic: &(dyn Any + Send)) -> String {
+    let text = panic
+        .downcast_ref::<&str>()
+        .copied()
+        .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("no message");
+    format!("the backend panicked: {text}")
 }
 
 fn answer<'b>(

@@ -2,7 +2,7 @@
 
 use crate::adapters::{Adapters, discover};
 use crate::args::{Format, RunArguments};
-use crate::commands::library;
+use crate::commands::chosen;
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::output::{color, print, print_json, width};
 use etalon_case::Case;
@@ -16,21 +16,7 @@ use std::time::SystemTime;
 
 /// Draws the chosen cases on the chosen adapters, judges, records and reports.
 pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
-    let library = library(arguments.selection.cases.as_ref())?;
-    let globs = &arguments.selection.globs;
-    let selection = etalon_runner::select(&library, globs).map_err(Failure::usage)?;
-    if selection.cases.is_empty() {
-        return Err(Failure::nothing(format!(
-            "no case matches {}; `etalon list` names them all",
-            globs.join(" ")
-        )));
-    }
-    let cases: Vec<Case> = selection
-        .cases
-        .iter()
-        .map(|case| case.build())
-        .collect::<Result<_, _>>()
-        .map_err(Failure::usage)?;
+    let cases = chosen(&arguments.selection)?;
     let expectations = expectations(arguments.expect.as_deref())?;
     let adapters = discover(&arguments.adapters)?;
     if !arguments.adapters.is_empty()

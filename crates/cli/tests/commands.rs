@@ -1,0 +1,459 @@
+//! What each command tells, and how it refuses.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use assert_cmd::Command;
+use predicates::prelude::*;
+use predicates::str::{contains, is_empty, starts_with};
+use serde_json::Value;
+use std::fs;
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+use std::process::Stdio;
+
+const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
+const CLEARED: &str = "depth/clear/clear=1/format=depth32float";
+
+fn etalon(arguments: &[&str]) -> Command {
+    let mut command = Command::new(BINARY);
+    command.args(arguments);
+    command
+}
+
+fn lines(arguments: &[&str]) -> Vec<String> {
+    let output = etalon(arguments).assert().success().stderr(is_empty());
+    let text = String::from_utf8(output.get_output().stdout.clone()).unwrap();
+    text.lines().map(str::to_owned).collect()
+}
+
+/// Refused as bad usage with one message that holds these words, and nothing on standard output.
+fn refused(arguments: &[&str], words: &[&str]) {
+    let assert = etalon(arguments).assert().code(64).stdout(is_empty());
+    for word in words {
+        let text = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+        assert!(text.contains(word), "{arguments:?}: `{word}` in: {text}");
+        assert!(!text.contains("panicked"), "{text}");
+    }
+}
+
+fn cases_folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases")
+}
+
+#[test]
+fn list_names_every_case_once_and_readably() {
+    let ids = lines(&["list"]);
+    assert!(ids.len() >= 1500, "{}", ids.len());
+    for id in &ids {
+        let fine = |b: u8| b.is_ascii_alphanumeric() || b"/=-_.+".contains(&b);
+        assert!(id.bytes().all(fine), "`{id}`");
+    }
+    let mut unique = ids.clone();
+    unique.sort();
+    unique.dedup();
+    assert_eq!(unique.len(), ids.len());
+    let folder = cases_folder();
+    assert_eq!(lines(&["list", "--cases", folder.to_str().unwrap()]), ids);
+}
+
+#[test]
+fn globs_choose_cases() {
+    let all = lines(&["list"]);
+    let chosen = |keep: &dyn Fn(&str) -> bool| -> Vec<String> {
+        all.iter().filter(|id| keep(id)).cloned().collect()
+    };
+    let depth = chosen(&|id| id.starts_with("depth/"));
+    assert!(!depth.is_empty());
+    assert_eq!(lines(&["list", "depth"]), depth);
+    assert_eq!(lines(&["list", "depth/"]), depth);
+    assert_eq!(lines(&["list", "depth/*"]), depth);
+    let compare = chosen(&|id| id.starts_with("depth/compare/"));
+    assert_eq!(lines(&["list", "depth/compare"]), compare);
+    let deep = chosen(&|id| id.starts_with("depth/") && id.ends_with("write=true"));
+    assert_eq!(lines(&["list", "depth/*write=true"]), deep);
+    let two = chosen(&|id| id.starts_with("depth/") || id.starts_with("cull/"));
+    assert_eq!(lines(&["list", "cull", "depth"]), two);
+    assert_eq!(lines(&["list", CLEARED]), [CLEARED]);
+}
+
+#[test]
+fn nothing_chosen_is_no_success() {
+    for globs in [&["dep"][..], &["nothing/*", "depth/compar"], &["Depth/*"]] {
+        etalon(&["list"])
+            .args(globs)
+            .assert()
+            .code(4)
+            .stdout(is_empty())
+            .stderr(contains("no case matches").and(contains(globs[0])));
+    }
+    let empty = tempfile::tempdir().unwrap();
+    etalon(&["list", "--cases"])
+        .arg(empty.path())
+        .assert()
+        .code(4)
+        .stderr("etalon: there are no cases\n");
+    refused(&["list", "depth/["], &["depth/[", "not a glob"]);
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_error() {
+    for arguments in [&["list"][..], &["schema"]] {
+        let mut child = std::process::Command::new(BINARY)
+            .args(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut first = String::new();
+        BufReader::with_capacity(16, child.stdout.take().unwrap())
+            .read_line(&mut first)
+            .unwrap();
+        assert!(!first.is_empty());
+        let mut said = String::new();
+        let mut stderr = child.stderr.take().unwrap();
+        stderr.read_to_string(&mut said).unwrap();
+        assert_eq!(said, "");
+        assert!(child.wait().unwrap().success());
+    }
+}
+
+/// A whole case file, for breaking.
+const FINE: &str = r#"{
+  "about": "An attachment is filled.",
+  "spec": ["none"],
+  "axes": { "write": [true, false] },
+  "scene": {
+    "attachments": {
+      "color": { "format": "rgba8unorm", "size": [4, 4] },
+      "depth": { "format": "depth32float" }
+    },
+    "passes": [
+      {
+        "color": ["color"],
+        "depth_stencil": "depth",
+        "draws": [
+          {
+            "mesh": { "kind": "full" },
+            "shader": "uniform_color",
+            "params": { "color": [1, 0, 0, 1] },
+            "depth": { "compare": "less", "write": "$write" }
+          }
+        ]
+      }
+    ],
+    "read": ["color", "depth"]
+  }
+}
+"#;
+
+#[test]
+fn broken_case_files_are_named_with_line_and_key() {
+    let draw = "scene.passes[0].draws[0]";
+    let breaks: &[(&str, &str, &str, &str)] = &[
+        ("unknown key", "\"about\"", "\"abuot\"", ":2: abuot: "),
+        ("unknown key below", "\"compare\"", "\"compair\"", ":19: "),
+        ("wrong type", "[\"none\"]", "\"none\"", ":3: spec: "),
+        ("wrong type below", "\"$write\"", "1", "depth.write: "),
+        ("unknown value", "\"less\"", "\"lesser\"", "depth.compare: "),
+        ("empty axis", "[true, false]", "[]", ":4: axes.write: "),
+        (
+            "axis twice",
+            "[true, false]",
+            "[true, true]",
+            ":4: axes.write[1]: ",
+        ),
+        (
+            "axis name",
+            "[true, false]",
+            "[\"a b\"]",
+            ":4: axes.write[0]: ",
+        ),
+        (
+            "axis value",
+            "[true, false]",
+            "[[1]]",
+            ":4: axes.write[0]: ",
+        ),
+        ("no such axis", "\"$write\"", "\"$wrte\"", "depth.write: "),
+        (
+            "impossible size",
+            "[4, 4]",
+            "[4, 0]",
+            ":7: scene.attachments.color.size: ",
+        ),
+        (
+            "impossible depth",
+            "\"depth32float\"",
+            "\"rgba8unorm\"",
+            "scene.passes[0].depth_stencil: ",
+        ),
+        (
+            "no such attachment",
+            "\"read\": [\"color\", \"depth\"]",
+            "\"read\": [\"colour\"]",
+            ":24: scene.read[0]: ",
+        ),
+        (
+            "nothing read",
+            "\"read\": [\"color\", \"depth\"]",
+            "\"read\": []",
+            ":24: scene.read: ",
+        ),
+        ("missing key", "\"kind\": \"full\"", "", "mesh: "),
+        (
+            "not JSON",
+            "\"spec\": [\"none\"],",
+            "\"spec\": [\"none\"]",
+            ":4: ",
+        ),
+        (
+            "cut off",
+            "\"read\": [\"color\", \"depth\"]\n  }\n}\n",
+            "\"read\": [",
+            ":24: ",
+        ),
+    ];
+    for (what, from, to, due) in breaks {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("area")).unwrap();
+        fs::write(folder.path().join("area/fine.json"), FINE).unwrap();
+        let text = FINE.replacen(from, to, 1);
+        assert_ne!(text, FINE, "{what}");
+        fs::write(folder.path().join("area/odd.json"), text).unwrap();
+        let out = folder.path().join("out");
+        for command in [&["list"][..], &["run", "--adapter", "cpu", "--out"]] {
+            let mut etalon = etalon(command);
+            if command.len() > 1 {
+                etalon.arg(&out);
+            }
+            let assert = etalon.arg("--cases").arg(folder.path()).assert();
+            let message = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+            assert.code(64).stdout(is_empty());
+            assert!(
+                message.starts_with("etalon: area/odd.json:"),
+                "{what}: {message}"
+            );
+            assert!(message.contains(due), "{what}: {message}");
+            assert_eq!(message.lines().count(), 1, "{what}: {message}");
+            assert!(!out.exists(), "{what}");
+            if due.contains("depth.") {
+                assert!(message.contains(draw), "{what}: {message}");
+            }
+        }
+    }
+}
+
+#[test]
+fn unreadable_case_files_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let file = folder.path().join("odd.json");
+    fs::write(&file, b"\xff\xfe{}").unwrap();
+    refused(&["list", "--cases", path], &["odd.json", "cannot be read"]);
+    fs::remove_file(&file).unwrap();
+    std::os::unix::fs::symlink("nowhere", &file).unwrap();
+    refused(&["list", "--cases", path], &["odd.json", "cannot be read"]);
+    fs::remove_file(&file).unwrap();
+    fs::write(folder.path().join("a b.json"), FINE).unwrap();
+    refused(&["list", "--cases", path], &["a b.json"]);
+    let nowhere = folder.path().join("nowhere");
+    refused(
+        &["list", "--cases", nowhere.to_str().unwrap()],
+        &["nowhere", "cannot be read"],
+    );
+}
+
+fn case_files(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            case_files(&path, found);
+        } else if path.extension().is_some_and(|e| e == "json") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn the_schema_takes_every_case_file_and_no_broken_one() {
+    let output = etalon(&["schema"]).assert().success();
+    let schema: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    jsonschema::meta::validate(&schema).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let mut files = Vec::new();
+    case_files(&cases_folder(), &mut files);
+    assert!(files.len() > 40, "{}", files.len());
+    for file in files {
+        let value: Value = serde_json::from_str(&fs::read_to_string(&file).unwrap()).unwrap();
+        let errors: Vec<String> = validator
+            .iter_errors(&value)
+            .map(|e| format!("{}: {e}", e.instance_path()))
+            .collect();
+        assert!(errors.is_empty(), "{}: {errors:#?}", file.display());
+    }
+    let broken = |from: &str, to: &str| {
+        let text = FINE.replacen(from, to, 1);
+        assert_ne!(text, FINE);
+        let value: Value = serde_json::from_str(&text).unwrap();
+        !validator.is_valid(&value)
+    };
+    assert!(validator.is_valid(&serde_json::from_str(FINE).unwrap()));
+    assert!(broken("\"about\"", "\"abuot\""));
+    assert!(broken("\"compare\"", "\"compair\""));
+    assert!(broken("\"less\"", "\"lesser\""));
+    assert!(broken("\"$write\"", "1"));
+    assert!(broken("[true, false]", "[null]"));
+    assert!(broken("\"rgba8unorm\"", "\"rgba8\""));
+    assert!(broken("\"kind\": \"full\"", "\"kind\": \"fuller\""));
+}
+
+#[test]
+fn wrong_usage_is_64_and_help_is_not() {
+    for arguments in [
+        &[][..],
+        &["lst"],
+        &["list", "--globs"],
+        &["bench"],
+        &["run", "--frobnicate"],
+        &["run", "--format", "xml"],
+        &["run", "--adapter"],
+        &["adapters", "--format", "yaml"],
+        &["adapters", "more"],
+        &["schema", "more"],
+        &["report"],
+        &["explain"],
+        &["explain", CLEARED],
+        &["worker"],
+        &["worker", "--open", "{}"],
+        &["worker", "--enumerate", "metal"],
+    ] {
+        refused(arguments, &[]);
+    }
+    refused(&["run", "--frobnicate"], &["--frobnicate"]);
+    refused(&["lst"], &["lst"]);
+    for arguments in [
+        &["--help"][..],
+        &["help"],
+        &["run", "--help"],
+        &["-V"],
+        &["--version"],
+    ] {
+        etalon(arguments)
+            .assert()
+            .code(0)
+            .stdout(contains("etalon"))
+            .stderr(is_empty());
+    }
+    etalon(&["--version"])
+        .assert()
+        .stdout(format!("etalon {}\n", env!("CARGO_PKG_VERSION")));
+    etalon(&["--help"])
+        .assert()
+        .stdout(contains("Exit codes").and(contains("worker").not()));
+}
+
+#[test]
+fn unknown_adapters_cases_and_texels_are_refused() {
+    let out = tempfile::tempdir().unwrap();
+    let out = out.path().join("out");
+    let folder = out.to_str().unwrap();
+    refused(
+        &["run", CLEARED, "--adapter", "gl:voodoo", "--out", folder],
+        &["gl:voodoo", "cpu"],
+    );
+    assert!(!out.exists());
+    refused(
+        &[
+            "explain",
+            CLEARED,
+            "--texel",
+            "0,0",
+            "--adapter",
+            "gl:voodoo",
+        ],
+        &["gl:voodoo", "cpu"],
+    );
+    refused(
+        &["explain", "depth/clear", "--texel", "0,0"],
+        &["depth/clear"],
+    );
+    for texel in ["0", "0,", "a,b", "-1,0", "0,0,0", "0;0", "4294967296,0"] {
+        let texel = format!("--texel={texel}");
+        refused(&["explain", CLEARED, &texel], &["two whole numbers"]);
+    }
+    for texel in ["16,0", "0,16", "4294967295,4294967295"] {
+        refused(&["explain", CLEARED, "--texel", texel], &[texel, "outside"]);
+    }
+}
+
+#[test]
+fn explain_tells_the_story_of_a_texel() {
+    let id = "depth/compare/compare=less/format=depth32float/write=true";
+    let told = |arguments: &[&str]| {
+        let mut command = etalon(&["explain", id, "--texel", "3,2"]);
+        command.args(arguments);
+        command.assert().code(0).stderr(is_empty())
+    };
+    told(&[])
+        .stdout(starts_with(id))
+        .stdout(contains("By the rules of vulkan"))
+        .stdout(contains("By the rules of yardstick"))
+        .stdout(contains("depth test: "))
+        .stdout(contains("[Vulkan").and(contains("[Direct3D")))
+        .stdout(contains("came back").not());
+    told(&["--adapter", "cpu"])
+        .stdout(contains("By the rules of vulkan"))
+        .stdout(contains("came back: ").and(contains(": allowed")))
+        .stdout(contains("NOT ALLOWED").not());
+    told(&["--adapter", "gl:softpipe"])
+        .stdout(contains("By the rules of opengl ").and(contains("[OpenGL 4.6:")))
+        .stdout(contains("came back: ").and(contains(": allowed")));
+    told(&["--adapter", "gl:es:softpipe"])
+        .stdout(contains("By the rules of opengl-es ").and(contains("[OpenGL ES 3.2:")));
+    told(&["--adapter", "wgpu:vulkan:lavapipe"])
+        .stdout(contains("By the rules of webgpu ").and(contains("[WebGPU")));
+}
+
+#[test]
+fn explain_shows_what_a_selftest_gets_wrong() {
+    let id = "selftest/params-color";
+    etalon(&[
+        "explain",
+        id,
+        "--texel",
+        "0,0",
+        "--adapter",
+        "vulkan:lavapipe",
+    ])
+    .assert()
+    .code(0)
+    .stdout(contains("NOT ALLOWED"));
+}
+
+#[test]
+fn adapters_tells_programs_who_is_there() {
+    let output = etalon(&["adapters", "--format", "json"]).assert().code(0);
+    let found: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    let found = found.as_array().unwrap();
+    for adapter in found {
+        for field in ["name", "backend", "device", "driver", "api_version"] {
+            let text = adapter[field].as_str().unwrap();
+            assert!(!text.trim().is_empty(), "{field} of {adapter}");
+        }
+        assert!(adapter["driver_version"].is_string(), "{adapter}");
+        assert!(adapter["software"].is_boolean(), "{adapter}");
+        let limits = &adapter["limits"];
+        assert!(limits["sub_pixel_bits"].as_u64().unwrap() >= 4, "{adapter}");
+        let formats = limits["formats"].as_object().unwrap();
+        assert!(formats.contains_key("rgba8unorm"), "{adapter}");
+        assert!(limits["features"].is_array(), "{adapter}");
+    }
+    let names: Vec<&str> = found.iter().map(|a| a["name"].as_str().unwrap()).collect();
+    let text = etalon(&["adapters"]).assert().code(0);
+    let text = String::from_utf8(text.get_output().stdout.clone()).unwrap();
+    let told: Vec<&str> = text
+        .lines()
+        .take_while(|line| !line.is_empty())
+        .map(|line| line.split("  ").next().unwrap())
+        .collect();
+    assert_eq!(names, told);
+}

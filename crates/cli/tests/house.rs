@@ -1,0 +1,303 @@
+//! The house rules that a machine can hold: who uses whom, what is linked, where things lie.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use cargo_metadata::{DependencyKind, Metadata, MetadataCommand, Node, Package, PackageId};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Each crate's folder, which of ours it may use, and which graphics APIs; development dependencies
+/// are free.
+const TABLE: [(&str, &[&str], &[&str]); 13] = [
+    ("frame", &[], &[]),
+    ("case", &["frame"], &[]),
+    ("record", &["frame"], &[]),
+    ("pipeline", &["case", "frame"], &[]),
+    ("reference", &["case", "frame", "pipeline"], &[]),
+    ("backend", &["case", "frame"], &[]),
+    ("cpu", &["backend", "case", "frame", "pipeline"], &[]),
+    ("vulkan", &["backend", "case", "frame"], &["ash", "naga"]),
+    (
+        "gl",
+        &["backend", "case", "frame"],
+        &["glow", "khronos-egl", "naga"],
+    ),
+    ("wgpu", &["backend", "case", "frame"], &["naga", "wgpu"]),
+    (
+        "runner",
+        &["backend", "case", "frame", "record", "reference"],
+        &[],
+    ),
+    ("report", &["frame", "record"], &[]),
+    (
+        "cli",
+        &[
+            "backend",
+            "case",
+            "cpu",
+            "frame",
+            "gl",
+            "pipeline",
+            "record",
+            "reference",
+            "report",
+            "runner",
+            "vulkan",
+            "wgpu",
+        ],
+        &[],
+    ),
+];
+
+/// Crates that speak to a graphics driver or translate shaders for one.
+const GRAPHICS: [&str; 9] = [
+    "ash",
+    "glow",
+    "glutin_wgl_sys",
+    "khronos-egl",
+    "naga",
+    "wgpu",
+    "wgpu-core",
+    "wgpu-hal",
+    "wgpu-types",
+];
+
+fn root() -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    root.canonicalize().unwrap()
+}
+
+fn metadata() -> Metadata {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let version = Command::new(cargo).arg("-vV").output().unwrap();
+    let version = String::from_utf8(version.stdout).unwrap();
+    let host = version
+        .lines()
+        .find_map(|l| l.strip_prefix("host: "))
+        .unwrap();
+    // Other platforms' packages were never fetched, and a test does not go online.
+    MetadataCommand::new()
+        .manifest_path(root().join("Cargo.toml"))
+        .other_options(
+            ["--offline", "--locked", "--filter-platform", host]
+                .map(str::to_owned)
+                .to_vec(),
+        )
+        .exec()
+        .unwrap()
+}
+
+/// The folder of a package of ours.
+fn folder(package: &Package) -> &str {
+    package.manifest_path.parent().unwrap().file_name().unwrap()
+}
+
+fn package_name(folder: &str) -> String {
+    match folder {
+        "cli" => "etalon".to_owned(),
+        folder => format!("etalon-{folder}"),
+    }
+}
+
+/// What a package is made of at run time, itself among it.
+fn closure<'m>(metadata: &'m Metadata, of: &'m PackageId) -> BTreeSet<&'m str> {
+    let nodes: BTreeMap<&PackageId, &Node> = metadata
+        .resolve
+        .as_ref()
+        .unwrap()
+        .nodes
+        .iter()
+        .map(|node| (&node.id, node))
+        .collect();
+    let mut seen = BTreeSet::from([of]);
+    let mut todo = vec![of];
+    while let Some(id) = todo.pop() {
+        for dependency in &nodes[id].deps {
+            let normal = |k: &cargo_metadata::DepKindInfo| k.kind == DependencyKind::Normal;
+            if dependency.dep_kinds.iter().any(normal) && seen.insert(&dependency.pkg) {
+                todo.push(&dependency.pkg);
+            }
+        }
+    }
+    seen.into_iter()
+        .map(|id| metadata[id].name.as_str())
+        .collect()
+}
+
+#[test]
+fn every_crate_uses_what_the_table_allows() {
+    let metadata = metadata();
+    let rows: BTreeMap<&str, _> = TABLE.iter().map(|row| (row.0, row)).collect();
+    let members = metadata.workspace_packages();
+    let folders: BTreeSet<&str> = members.iter().map(|p| folder(p)).collect();
+    assert_eq!(folders, rows.keys().copied().collect(), "crates and rows");
+    for package in members {
+        let (folder, ours, graphics) = rows[folder(package)];
+        assert_eq!(package.name.as_str(), package_name(folder));
+        let ours: BTreeSet<String> = ours.iter().map(|f| package_name(f)).collect();
+        for dependency in &package.dependencies {
+            let name = &dependency.name;
+            if dependency.kind == DependencyKind::Development {
+                continue;
+            }
+            if name == "etalon" || name.starts_with("etalon-") {
+                assert!(ours.contains(name), "{folder} must not use {name}");
+            }
+            if GRAPHICS.contains(&name.as_str()) {
+                let allowed = graphics.contains(&name.as_str());
+                assert!(allowed, "{folder} must not use {name}");
+            }
+        }
+        // Nor through somebody else's crate.
+        let all = closure(&metadata, &package.id);
+        if graphics.is_empty() && folder != &"cli" {
+            let found: Vec<_> = GRAPHICS.iter().filter(|g| all.contains(**g)).collect();
+            assert!(found.is_empty(), "{folder} comes to {found:?}");
+        }
+    }
+}
+
+#[test]
+fn every_package_takes_its_terms_and_versions_from_the_workspace() {
+    let metadata = metadata();
+    for package in metadata.workspace_packages() {
+        let name = &package.name;
+        assert_eq!(package.license.as_deref(), Some("MIT OR Apache-2.0"));
+        let rust = package.rust_version.as_ref().unwrap();
+        assert_eq!((rust.major, rust.minor), (1, 95), "{name}");
+        assert_eq!(package.publish, Some(Vec::new()), "{name}");
+        assert!(package.description.is_some(), "{name}");
+
+        let text = fs::read_to_string(&package.manifest_path).unwrap();
+        let mut section = "";
+        for line in text.lines().map(str::trim) {
+            if line.starts_with('[') {
+                section = line;
+                let table = section.contains("dependencies.");
+                assert!(!table, "{name}: {section}: one line per dependency");
+            } else if section.ends_with("dependencies]") && !line.is_empty() {
+                let inherited = line.contains("workspace = true") || line.starts_with('#');
+                assert!(inherited, "{name}: `{line}` is not from the version table");
+            }
+        }
+        let lints = text.contains("[lints]\nworkspace = true");
+        assert!(lints, "{name} takes the workspace's lints");
+        for field in ["version", "edition", "rust-version", "license", "publish"] {
+            let line = format!("\n{field}.workspace = true\n");
+            assert!(text.contains(&line), "{name}: {field}");
+        }
+    }
+}
+
+#[test]
+fn no_graphics_library_is_linked() {
+    let metadata = metadata();
+    for package in metadata.workspace_packages() {
+        for dependency in &package.dependencies {
+            for (name, feature) in [("ash", "linked"), ("khronos-egl", "static")] {
+                let on =
+                    dependency.name == name && dependency.features.iter().any(|f| f == feature);
+                assert!(!on, "{} takes {name} with {feature}", package.name);
+            }
+        }
+    }
+    let nodes = &metadata.resolve.as_ref().unwrap().nodes;
+    for node in nodes {
+        let links = metadata[&node.id].links.as_deref().unwrap_or_default();
+        let links = links.to_lowercase();
+        for word in ["egl", "gl", "gles", "vulkan", "gbm", "x11", "wayland"] {
+            assert!(!links.contains(word), "{} links {links}", node.id);
+        }
+    }
+    // What the loader itself says of the binary.
+    let output = Command::new(env!("CARGO_BIN_EXE_etalon"))
+        .env("LD_TRACE_LOADED_OBJECTS", "1")
+        .output()
+        .unwrap();
+    let libraries = String::from_utf8(output.stdout).unwrap();
+    assert!(libraries.contains("libc.so"), "{libraries}");
+    for word in [
+        "EGL", "libGL", "vulkan", "gbm", "X11", "wayland", "LLVM", "gallium",
+    ] {
+        assert!(!libraries.contains(word), "{libraries}");
+    }
+}
+
+/// Files that git tracks or would track.
+fn files() -> Vec<String> {
+    let output = Command::new("git")
+        .args([
+            "ls-files",
+            "-z",
+            "--cached",
+            "--others",
+            "--exclude-standard",
+        ])
+        .current_dir(root())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "git ls-files: {output:?}");
+    let text = String::from_utf8(output.stdout).unwrap();
+    let all: Vec<String> = text
+        .split_terminator('\0')
+        .filter(|name| root().join(name).is_file())
+        .map(str::to_owned)
+        .collect();
+    assert!(all.len() > 100, "{all:?}");
+    all
+}
+
+#[test]
+fn the_top_level_holds_what_belongs_there() {
+    let mut found: BTreeSet<String> = files()
+        .iter()
+        .filter_map(|name| name.split('/').next())
+        .filter(|name| !name.starts_with('.'))
+        .map(str::to_owned)
+        .collect();
+    // Git keeps no empty folder, and there need not be a run worth keeping.
+    found.insert("reports".to_owned());
+    let due = [
+        "Cargo.lock",
+        "Cargo.toml",
+        "README.md",
+        "cases",
+        "ci",
+        "crates",
+        "reports",
+        "shaders",
+    ];
+    assert_eq!(found, due.map(str::to_owned).into());
+}
+
+#[test]
+fn every_shader_has_its_twin() {
+    let stems = |folder: &str, extension: &str| -> BTreeSet<String> {
+        fs::read_dir(root().join(folder))
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .filter_map(|name| name.strip_suffix(extension).map(str::to_owned))
+            .collect()
+    };
+    let shaders = stems("shaders", ".wgsl");
+    let mut twins = stems("crates/pipeline/src/shader", ".rs");
+    assert!(twins.remove("mod"));
+    assert!(!shaders.is_empty());
+    assert_eq!(shaders, twins);
+}
+
+#[test]
+fn no_source_file_is_too_long() {
+    const LONGEST: usize = 600;
+    let long: Vec<String> = files()
+        .into_iter()
+        .filter(|name| name.ends_with(".rs") || name.ends_with(".wgsl") || name.starts_with("ci/"))
+        .filter_map(|name| {
+            let text = fs::read_to_string(root().join(&name)).unwrap();
+            let lines = text.lines().count();
+            (lines > LONGEST).then(|| format!("{name}: {lines} lines"))
+        })
+        .collect();
+    assert!(long.is_empty(), "each wants to be two: {long:#?}");
+}

@@ -1,0 +1,513 @@
+//! Whole runs, as a user starts them.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use assert_cmd::Command;
+use etalon_record::{Record, Run, Verdict};
+use predicates::prelude::*;
+use predicates::str::{contains, is_empty};
+use rustix::process::{Pid, Signal, kill_process};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
+
+/// The software drivers that Debian has; the test script installs them.
+const DUE: [&str; 7] = [
+    "cpu",
+    "gl:es:softpipe",
+    "gl:llvmpipe",
+    "gl:softpipe",
+    "vulkan:lavapipe",
+    "wgpu:gl:llvmpipe",
+    "wgpu:vulkan:lavapipe",
+];
+
+fn etalon(arguments: &[&str]) -> Command {
+    let mut command = Command::new(BINARY);
+    command.args(arguments).timeout(Duration::from_secs(100));
+    command
+}
+
+fn run(out: &Path, arguments: &[&str]) -> assert_cmd::assert::Assert {
+    etalon(&["run", "--out"]).arg(out).args(arguments).assert()
+}
+
+fn count(globs: &[&str]) -> usize {
+    let output = etalon(&["list"]).args(globs).assert().success();
+    output
+        .get_output()
+        .stdout
+        .iter()
+        .filter(|b| **b == b'\n')
+        .count()
+}
+
+fn pairs(records: &[Record]) -> BTreeSet<(&str, &str)> {
+    records
+        .iter()
+        .map(|r| (r.case.as_str(), r.adapter.as_str()))
+        .collect()
+}
+
+/// The run in a folder, with exactly one record per case and adapter.
+fn whole(folder: &Path) -> Run {
+    let run = Run::read(folder).unwrap();
+    assert!(!run.truncated);
+    assert_eq!(run.missing(), 0);
+    assert_eq!(
+        pairs(&run.records).len(),
+        run.records.len(),
+        "no pair twice"
+    );
+    assert_eq!(run.records.len() as u64, run.header.expected_records());
+    for file in ["index.html", "junit.xml"] {
+        let text = fs::read_to_string(folder.join(file)).unwrap();
+        assert!(text.len() > 100, "{file}: {text}");
+    }
+    run
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+#[test]
+fn every_selftest_fails_for_a_stated_reason() {
+    let out = folder();
+    let adapters = ["cpu", "vulkan:lavapipe", "gl:softpipe"];
+    for adapter in adapters {
+        run(out.path(), &["selftest/*", "--adapter", adapter]).code(0);
+        let run = whole(out.path());
+        assert_eq!(run.records.len(), count(&["selftest"]));
+        for record in &run.records {
+            assert!(record.due_fail, "{record:?}");
+            assert_eq!(record.verdict, Verdict::Fail, "{record:?}");
+            assert!(
+                record.texels.wrong > 0 && !record.wrong.is_empty(),
+                "{record:?}"
+            );
+            let story = record.story.as_ref().unwrap();
+            assert!(!story.lines.is_empty(), "{record:?}");
+            assert!(story.lines.iter().any(|l| l.citation.is_some()), "{story}");
+            let frame = record.frame.as_ref().unwrap();
+            let frame = Run::read_frame(out.path(), frame).unwrap();
+            assert_eq!(
+                (&frame.case, &frame.adapter),
+                (&record.case, &record.adapter)
+            );
+            assert!(frame.images.iter().all(|i| i.is_whole()), "{frame:?}");
+            assert!(
+                frame.images.iter().any(|i| i.wrong.contains(&2)),
+                "{frame:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn one_record_per_case_and_adapter() {
+    let out = folder();
+    let out = out.path().join("new/deep/folder");
+    let adapters = ["cpu", "gl:softpipe", "vulkan:lavapipe"];
+    let mut arguments = vec!["depth/*"];
+    // A name given twice is one adapter.
+    for adapter in adapters.iter().chain(&["cpu"]) {
+        arguments.extend(["--adapter", adapter]);
+    }
+    let assert = run(&out, &arguments).code(0);
+    assert.stdout(contains("vulkan:lavapipe").and(contains("index.html")));
+    let text = fs::read_to_string(out.join("run.jsonl")).unwrap();
+    let first: Value = serde_json::from_str(text.lines().next().unwrap()).unwrap();
+    assert_eq!(first["format"], 1);
+    assert_eq!(first["command"][0], "etalon");
+    let run = whole(&out);
+    let found: BTreeSet<&str> = run
+        .header
+        .adapters
+        .iter()
+        .map(|a| a.name.as_str())
+        .collect();
+    assert_eq!(found, adapters.into());
+    assert_eq!(run.records.len(), 3 * count(&["depth"]));
+    for record in &run.records {
+        assert!(!record.verdict.is_bad(), "{record:?}");
+        if record.verdict == Verdict::Pass {
+            let asserted: u64 = record.assertions.iter().map(|a| a.asserted).sum();
+            assert!(asserted > 0, "{record:?}");
+        }
+    }
+}
+
+#[test]
+fn every_adapter_that_is_found_draws_a_bit_of_everything() {
+    let output = etalon(&["adapters", "--format", "json"]).assert().code(0);
+    let found: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    let found: BTreeSet<String> = found
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|a| a["name"].as_str().unwrap().to_owned())
+        .collect();
+    for due in DUE {
+        assert!(found.contains(due), "{due} is not here, only {found:?}");
+    }
+    let globs = [
+        "depth/clear*",
+        "depth/compare/*format=depth2*",
+        "stencil/clear*",
+        "stencil/faces/*compare=equal*",
+        "stencil/masks-zero",
+        "cull",
+        "blend/textbook",
+        "blend/write-mask",
+        "selftest/*",
+    ];
+    let out = folder();
+    let json = [&globs[..], &["--format", "json"]].concat();
+    let assert = run(out.path(), &json).code(0);
+    let told: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
+    let run = whole(out.path());
+    assert_eq!(told["records"], run.records.len());
+    assert_eq!(told["unexpected"], 0);
+    assert_eq!(told["improvements"], 0);
+    assert_eq!(told["folder"], out.path().to_str().unwrap());
+    assert!(Path::new(told["report"].as_str().unwrap()).is_file());
+    let ran: BTreeSet<String> = told["adapters"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|a| a.as_str().unwrap().to_owned())
+        .collect();
+    assert_eq!(ran, found);
+    assert_eq!(run.records.len(), count(&globs) * found.len());
+    for record in &run.records {
+        assert!(!record.unexpected(), "{record:?}");
+    }
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_refused_and_loses_nothing() {
+    let folder = folder();
+    let file = folder.path().join("notes");
+    fs::write(&file, "precious").unwrap();
+    for out in [file.clone(), file.join("below")] {
+        let assert = run(&out, &["depth/clear", "--adapter", "cpu"]).code(64);
+        assert
+            .stdout(is_empty())
+            .stderr(contains(file.to_str().unwrap()));
+        assert_eq!(fs::read_to_string(&file).unwrap(), "precious");
+    }
+}
+
+#[test]
+fn an_old_run_is_replaced_and_other_files_stay() {
+    let out = folder();
+    run(out.path(), &["selftest/*", "--adapter", "cpu"]).code(0);
+    assert!(out.path().join("frames").is_dir());
+    fs::write(out.path().join("notes"), "precious").unwrap();
+    // What is refused or empty leaves the old run alone.
+    run(out.path(), &["nothing/*"]).code(4);
+    run(out.path(), &["depth", "--adapter", "nobody"]).code(64);
+    assert_eq!(whole(out.path()).records.len(), count(&["selftest"]));
+    run(out.path(), &["depth/clear", "--adapter", "cpu"]).code(0);
+    assert_eq!(whole(out.path()).records.len(), count(&["depth/clear"]));
+    assert!(!out.path().join("frames").exists());
+    assert_eq!(
+        fs::read_to_string(out.path().join("notes")).unwrap(),
+        "precious"
+    );
+}
+
+#[test]
+fn nothing_selected_is_4_and_makes_no_folder() {
+    let out = folder();
+    let out = out.path().join("out");
+    run(&out, &["dpeth/*"])
+        .code(4)
+        .stdout(is_empty())
+        .stderr(contains("dpeth/*"));
+    assert!(!out.exists());
+}
+
+fn expectation(verdict: &str, case: &str) -> Value {
+    json!({ "adapter": "cp*", "driver": "*", "case": case, "verdict": verdict,
+            "reason": "a test", "evidence": "none" })
+}
+
+#[test]
+fn expectations_are_held_against_verdicts() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let expect = folder.path().join("expect.json");
+    let with = |entries: Value| {
+        fs::write(&expect, json!({ "entries": entries }).to_string()).unwrap();
+        let file = expect.to_str().unwrap();
+        run(
+            &out,
+            &[
+                "depth/clear",
+                "--adapter",
+                "cpu",
+                "--expect",
+                file,
+                "--format",
+                "json",
+            ],
+        )
+    };
+    // Better than expected.
+    let assert = with(json!([expectation("fail", "*format=depth16unorm*")])).code(2);
+    let told: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
+    let better: Vec<Record> = whole(&out)
+        .records
+        .into_iter()
+        .filter(|r| r.improves == Some(Verdict::Fail))
+        .collect();
+    assert!(!better.is_empty() && better.iter().all(|r| r.case.contains("depth16unorm")));
+    assert_eq!(told["improvements"], better.len());
+    assert_eq!(told["unexpected"], 0);
+    // As expected, and about others.
+    with(json!([expectation("pass", "*")])).code(0);
+    assert!(whole(&out).records.iter().all(|r| r.expected.is_some()));
+    with(json!([expectation("fail", "stencil/*")])).code(0);
+    with(json!([])).code(0);
+}
+
+#[test]
+fn damaged_expectations_name_file_and_line() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let expect = folder.path().join("expect.json");
+    let file = expect.to_str().unwrap();
+    let fine =
+        serde_json::to_string_pretty(&json!({ "entries": [expectation("fail", "*")] })).unwrap();
+    for (from, to, line) in [
+        ("\"fail\"", "\"failure\"", 9),
+        ("\"case\": \"*\"", "\"case\": \"[\"", 5),
+        ("\"reason\"", "\"raeson\"", 8),
+        ("\"a test\"", "\"\"", 5),
+        ("\"fail\"", "fail", 9),
+    ] {
+        let text = fine.replacen(from, to, 1);
+        assert_ne!(text, fine);
+        fs::write(&expect, &text).unwrap();
+        let assert = run(&out, &["depth/clear", "--adapter", "cpu", "--expect", file]).code(64);
+        let said = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+        assert!(
+            said.contains(&format!("expect.json:{line}: ")),
+            "{to}: {said}\n{text}"
+        );
+        assert!(!out.exists());
+    }
+    fs::remove_file(&expect).unwrap();
+    run(&out, &["depth/clear", "--adapter", "cpu", "--expect", file])
+        .code(64)
+        .stderr(contains("expect.json"));
+}
+
+#[test]
+fn a_full_disk_leaves_an_incomplete_run_that_can_be_read() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    // Files may not grow past this many blocks; where the signal is ignored, writing fails.
+    let script = r#"trap '' XFSZ; ulimit -f 40; exec "$0" "$@""#;
+    Command::new("/bin/sh")
+        .args([
+            "-c",
+            script,
+            BINARY,
+            "run",
+            "stencil/*",
+            "--adapter",
+            "cpu",
+            "--out",
+        ])
+        .arg(&out)
+        .assert()
+        .code(3)
+        .stderr(contains("incomplete").and(contains("run.jsonl")));
+    let run = Run::read(&out).unwrap();
+    assert!(!run.records.is_empty());
+    assert!(run.missing() > 0);
+    etalon(&["report"])
+        .arg(&out)
+        .assert()
+        .stdout(contains("index.html"));
+}
+
+/// Starts a run on one adapter and waits until it has written some records.
+fn started(out: &Path, adapter: &str) -> Child {
+    let mut child = std::process::Command::new(BINARY)
+        .args(["run", "stencil/*", "--adapter", adapter, "--out"])
+        .arg(out)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let file = out.join("run.jsonl");
+    let start = Instant::now();
+    loop {
+        let text = fs::read_to_string(&file).unwrap_or_default();
+        if text.lines().count() > 5 {
+            return child;
+        }
+        assert!(child.try_wait().unwrap().is_none(), "it ended too early");
+        assert!(start.elapsed() < Duration::from_secs(60), "no records come");
+        sleep(Duration::from_millis(2));
+    }
+}
+
+/// The processes whose parent is this one.
+fn children(parent: u32) -> Vec<Pid> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir("/proc").unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        let Ok(pid) = name.parse::<i32>() else {
+            continue;
+        };
+        let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
+        // The name in parentheses may hold anything; state and parent come after it.
+        let Some((_, rest)) = stat.rsplit_once(')') else {
+            continue;
+        };
+        let mut fields = rest.split_whitespace();
+        let alive = fields.next().is_some_and(|state| state != "Z");
+        if alive && fields.next() == Some(&parent.to_string()) {
+            found.extend(Pid::from_raw(pid));
+        }
+    }
+    found
+}
+
+#[test]
+fn a_worker_that_is_killed_costs_one_case() {
+    let out = folder();
+    let mut child = started(out.path(), "vulkan:lavapipe");
+    let workers = children(child.id());
+    assert_eq!(workers.len(), 1, "{workers:?}");
+    kill_process(workers[0], Signal::KILL).unwrap();
+    let status = child.wait().unwrap();
+    assert_eq!(status.code(), Some(1));
+    let run = whole(out.path());
+    assert_eq!(run.records.len(), count(&["stencil"]));
+    let (crashes, others): (Vec<&Record>, Vec<&Record>) = run
+        .records
+        .iter()
+        .partition(|r| r.verdict == Verdict::Crash);
+    assert_eq!(crashes.len(), 1);
+    assert!(
+        crashes[0].message.contains("signal 9 (killed)"),
+        "{crashes:?}"
+    );
+    assert!(crashes[0].unexpected());
+    for record in others {
+        assert!(!record.unexpected(), "{record:?}");
+    }
+}
+
+#[test]
+fn a_run_that_is_killed_can_be_read_and_its_workers_end() {
+    let out = folder();
+    let mut child = started(out.path(), "gl:softpipe");
+    let workers = children(child.id());
+    assert_eq!(workers.len(), 1, "{workers:?}");
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let run = Run::read(out.path()).unwrap();
+    assert!(run.records.len() >= 5 && run.missing() > 0);
+    let start = Instant::now();
+    while Path::new(&format!("/proc/{}", workers[0].as_raw_nonzero())).exists() {
+        assert!(
+            start.elapsed() < Duration::from_secs(20),
+            "the worker stays"
+        );
+        sleep(Duration::from_millis(20));
+    }
+    etalon(&["report"])
+        .arg(out.path())
+        .assert()
+        .code(0)
+        .stdout(contains("gl:softpipe"));
+}
+
+#[test]
+fn reports_need_a_run() {
+    let folder = folder();
+    let path = folder.path().to_str().unwrap();
+    etalon(&["report", path])
+        .assert()
+        .code(64)
+        .stderr(contains(path));
+    fs::write(folder.path().join("run.jsonl"), "{}\n").unwrap();
+    etalon(&["report", path])
+        .assert()
+        .code(64)
+        .stderr(contains("run.jsonl:1"));
+}
+
+#[test]
+fn a_machine_without_drivers_still_has_the_cpu() {
+    // Files that are no libraries stand before the real ones.
+    let libraries = folder();
+    for name in [
+        "libvulkan.so.1",
+        "libvulkan.so",
+        "libEGL.so.1",
+        "libEGL.so",
+        "libGL.so.1",
+        "libGL.so",
+        "libGLESv2.so.2",
+        "libGLESv2.so",
+    ] {
+        fs::write(libraries.path().join(name), "").unwrap();
+    }
+    let bare = |arguments: &[&str]| {
+        let mut command = etalon(arguments);
+        command.env("LD_LIBRARY_PATH", libraries.path());
+        command
+    };
+    let output = bare(&["adapters", "--format", "json"]).assert().code(0);
+    let found: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    let names: Vec<&Value> = found
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|a| &a["name"])
+        .collect();
+    assert_eq!(names, ["cpu"]);
+    bare(&["adapters"])
+        .assert()
+        .code(0)
+        .stdout(contains("Not here:"))
+        .stdout(contains("vulkan:lavapipe: libvulkan.so.1"))
+        .stdout(contains("gl:softpipe: libEGL.so.1"))
+        .stdout(contains("apt-get install mesa-vulkan-drivers"));
+
+    let out = folder();
+    let out = out.path();
+    bare(&["run", "depth/clear", "--out"])
+        .arg(out)
+        .assert()
+        .code(0)
+        .stderr(contains("not here: gl:softpipe: ").and(contains("apt-get install")));
+    let run = whole(out);
+    assert_eq!(run.records.len(), count(&["depth/clear"]));
+    for due in DUE.iter().filter(|name| **name != "cpu") {
+        let absent = run.header.absent.iter().find(|a| a.name == *due).unwrap();
+        assert!(
+            !absent.reason.is_empty() && !absent.remedy.is_empty(),
+            "{absent:?}"
+        );
+    }
+    bare(&["run", "depth/clear", "--adapter", "gl:softpipe", "--out"])
+        .arg(out)
+        .assert()
+        .code(64)
+        .stderr(contains("gl:softpipe").and(contains("apt-get install")));
+}

@@ -1,0 +1,258 @@
+//! Plain results lie inside judging ones, and wider rules give wider intervals.
+
+use crate::common::{all_rules, config};
+use etalon_case::state::{BlendComponent, BlendFactor, BlendOperation, BlendState};
+use etalon_frame::{ChannelEncoding, CodeInterval};
+use etalon_pipeline::{Arithmetic, BlendInput, Plain, blend, nearest_order, window_position};
+use etalon_reference::rules::{BlendPrecision, Rounding};
+use etalon_reference::{Judging, Rules};
+use proptest::prelude::*;
+use proptest::sample::select;
+
+fn component() -> impl Strategy<Value = BlendComponent> {
+    (
+        select(BlendOperation::ALL),
+        select(BlendFactor::ALL),
+        select(BlendFactor::ALL),
+    )
+        .prop_map(|(operation, src_factor, dst_factor)| BlendComponent {
+            operation,
+            src_factor,
+            dst_factor,
+        })
+}
+
+fn state() -> impl Strategy<Value = BlendState> {
+    (component(), component()).prop_map(|(color, alpha)| BlendState { color, alpha })
+}
+
+/// Values inside and outside of 0..=1, those with a code of their own among them.
+fn value() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        select(vec![
+            0.0_f32,
+            -0.0,
+            1.0,
+            0.5,
+            2.0,
+            -1.0,
+            1e-30,
+            -1e-30,
+            0.999_999_94,
+            1.000_000_1,
+            0.25
+        ]),
+        0.0_f32..=1.0,
+        -2.0_f32..3.0,
+        (0_u8..=255).prop_map(|code| f32::from(code) / 255.0),
+        (0_u8..=254).prop_map(|code| (f32::from(code) + 0.5) / 255.0),
+    ]
+}
+
+fn code() -> impl Strategy<Value = u32> {
+    prop_oneof![select(vec![0_u32, 1, 127, 128, 254, 255]), 0_u32..=255]
+}
+
+/// One blend: state, source, destination codes, constant.
+type Blend = (BlendState, [f32; 4], [u32; 4], [f32; 4]);
+
+fn blends() -> impl Strategy<Value = Blend> {
+    (
+        state(),
+        [value(), value(), value(), value()],
+        [code(), code(), code(), code()],
+        [value(), value(), value(), value()],
+    )
+}
+
+fn plain(encoding: ChannelEncoding, (state, src, dst, constant): &Blend) -> [i64; 4] {
+    let mut a = Plain::<1>;
+    let input = BlendInput {
+        src: src.map(|v| [v]),
+        dst: dst.map(|c| a.decode(encoding, [c])),
+        constant: constant.map(|v| [v]),
+    };
+    blend(&mut a, state, [encoding; 4], &input)
+        .map(|v| encoding.order_of_code(a.encode(encoding, v)[0]))
+}
+
+fn judged(
+    rules: &Rules,
+    encoding: ChannelEncoding,
+    (state, src, dst, constant): &Blend,
+) -> [CodeInterval; 4] {
+    let mut a = Judging::new(rules);
+    let input = BlendInput {
+        src: src.map(|v| a.constant(v)),
+        dst: dst.map(|c| a.decode(encoding, CodeInterval::exact(encoding.order_of_code(c)))),
+        constant: constant.map(|v| a.constant(v)),
+    };
+    blend(&mut a, state, [encoding; 4], &input).map(|v| a.encode(encoding, v))
+}
+
+/// Pairs of rules of which the second permits all that the first does.
+pub(crate) fn wider() -> Vec<(Rules, Rules)> {
+    use etalon_reference::rules::{DepthOrder, SharedEdge, Snap};
+    let yardstick = || all_rules().pop().expect("the yardstick comes last");
+    let mut pairs = Vec::new();
+    for rules in all_rules() {
+        pairs.push((yardstick(), rules.clone()));
+        for factor in [1.5, 10.0, 1000.0] {
+            let mut wide = rules.clone();
+            wide.float_error.value *= factor;
+            pairs.push((rules.clone(), wide.clone()));
+            wide.decode_error.value *= factor;
+            pairs.push((rules.clone(), wide));
+        }
+    }
+    let changes: [fn(&mut Rules); 6] = [
+        |r| r.store.value = Rounding::EitherNeighbour,
+        |r| r.blend.value = BlendPrecision::DestinationCodes,
+        |r| r.snap.value = Snap::EitherSide,
+        |r| r.shared_edge.value = SharedEdge::ExactlyOne,
+        |r| r.shared_edge.value = SharedEdge::Independent,
+        |r| r.depth_order.value = DepthOrder::Either,
+    ];
+    for change in changes {
+        let mut wide = yardstick();
+        change(&mut wide);
+        pairs.push((yardstick(), wide));
+        let mut wide = Rules::of(etalon_frame::Api::Vulkan);
+        let tight = wide.clone();
+        change(&mut wide);
+        pairs.push((tight, wide));
+    }
+    pairs
+}
+
+fn check_window_position([x, y, z]: [f32; 3], size: [u32; 2]) -> Result<(), TestCaseError> {
+    let plain = window_position(&mut Plain::<1>, [x, y, z, 1.0], size);
+    for rules in all_rules() {
+        let judged = window_position(&mut Judging::new(&rules), [x, y, z, 1.0], size);
+        for axis in 0..3 {
+            prop_assert!(
+                judged[axis].float.contains(f64::from(plain[axis][0])),
+                "{}, axis {axis}: {} is not in {}",
+                rules.name,
+                plain[axis][0],
+                judged[axis].float
+            );
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(config(4000))]
+
+    #[test]
+    fn a_plain_blend_into_8_bits_lies_inside_every_judged_one(blend in blends()) {
+        let encoding = ChannelEncoding::Unorm(8);
+        let codes = plain(encoding, &blend);
+        for rules in all_rules() {
+            let intervals = judged(&rules, encoding, &blend);
+            for c in 0..4 {
+                prop_assert!(
+                    intervals[c].contains(codes[c]),
+                    "{}, channel {c}: {} is not in {:?}", rules.name, codes[c], intervals[c]
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_plain_blend_into_floats_lies_inside_every_judged_one(
+        (state, src, constant, dst) in
+            (state(), [value(), value(), value(), value()], [value(), value(), value(), value()],
+             [value(), value(), value(), value()])
+    ) {
+        let encoding = ChannelEncoding::Float32;
+        let blend = (state, src, dst.map(f32::to_bits), constant);
+        let codes = plain(encoding, &blend);
+        for rules in all_rules() {
+            let intervals = judged(&rules, encoding, &blend);
+            for c in 0..4 {
+                prop_assert!(
+                    intervals[c].contains(codes[c]),
+                    "{}, channel {c}: {} is not in {:?}", rules.name, codes[c], intervals[c]
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn wider_rules_give_wider_blends(blend in blends()) {
+        let encoding = ChannelEncoding::Unorm(8);
+        for (tight, wide) in wider() {
+            let (inner, outer) =
+                (judged(&tight, encoding, &blend), judged(&wide, encoding, &blend));
+            for c in 0..4 {
+                prop_assert!(
+                    outer[c].low <= inner[c].low && inner[c].high <= outer[c].high,
+                    "channel {c}: {:?} is not in {:?} of {wide:?}", inner[c], outer[c]
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn plain_stores_lie_inside_every_judged_one(
+        depth in prop_oneof![0.0_f32..=1.0, value(), (0_u32..=0x3f80_0000).prop_map(f32::from_bits)]
+    ) {
+        for encoding in [
+            ChannelEncoding::Unorm(8),
+            ChannelEncoding::Unorm(16),
+            ChannelEncoding::Unorm(24),
+            ChannelEncoding::Float32,
+        ] {
+            let code = Plain::<1>.encode(encoding, [depth])[0];
+            let order = encoding.order_of_code(code);
+            for rules in all_rules() {
+                let mut a = Judging::new(&rules);
+                let v = a.constant(depth);
+                let allowed = a.encode(encoding, v);
+                prop_assert!(allowed.contains(order), "{} {encoding}: {order} not in {allowed:?}", rules.name);
+                prop_assert!(allowed.contains(nearest_order(encoding, depth)), "{} {encoding}", rules.name);
+                prop_assert!(allowed.count() <= 2, "{} {encoding}: {allowed:?}", rules.name);
+            }
+        }
+    }
+
+    #[test]
+    fn plain_decoding_and_storing_again_lies_inside_every_judged_one(code in 0_u32..1 << 24) {
+        for bits in [8, 16, 24] {
+            let encoding = ChannelEncoding::Unorm(bits);
+            let code = code & ((1 << bits) - 1);
+            let value = Plain::<1>.decode(encoding, [code]);
+            let back = Plain::<1>.encode(encoding, value)[0];
+            let seen = i64::from(value[0].to_bits());
+            for rules in all_rules() {
+                let mut a = Judging::new(&rules);
+                let range = a.decode(encoding, CodeInterval::exact(i64::from(code)));
+                prop_assert!(range.float.contains(f64::from(value[0])), "{} {bits} bits", rules.name);
+                let again = a.encode(encoding, range);
+                prop_assert!(again.contains(i64::from(back)), "{} {bits} bits", rules.name);
+                prop_assert!(again.contains(i64::from(code)), "{} {bits} bits", rules.name);
+                // What a shader that reads the attachment may see.
+                let read = a.encode(ChannelEncoding::Float32, range);
+                prop_assert!(read.contains(seen), "{} {bits} bits", rules.name);
+            }
+        }
+    }
+
+    #[test]
+    fn a_plain_window_position_in_the_viewport_lies_inside_every_judged_one(
+        position in [-1.0_f32..=1.0, -1.0_f32..=1.0, 0.0_f32..=1.0],
+        size in [1_u32..=4096, 1_u32..=4096],
+    ) {
+        check_window_position(position, size)?;
+    }
+
+    #[test]
+    fn a_plain_window_position_anywhere_lies_inside_every_judged_one(
+        position in [-64.0_f32..=64.0, -64.0_f32..=64.0, 0.0_f32..=1.0],
+        size in [1_u32..=4096, 1_u32..=4096],
+    ) {
+        check_window_position(position, size)?;
+    }
+}

@@ -1,0 +1,9 @@
+//! What holds of the judge whatever the input: plain arithmetic lies inside judging arithmetic, the
+//! rasterizer's frames are legal, and wider rules never forbid what tighter ones allow.
+
+mod arithmetic;
+mod common;
+mod frames;
+mod golden;
+mod scenes;
+mod worlds;
