@@ -173,7 +173,7 @@ impl Hunt {
     pub fn write(&self, folder: &Path) -> Result<PathBuf, RecordError> {
         fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
         let path = folder.join("mutants.json");
-        let mut text = serde_json::to_vec_pretty(self).map_err(RecordError::serialize("a hunt"))?;
+        let mut text = serde_json::to_vec(self).map_err(RecordError::serialize("a hunt"))?;
         text.push(b'\n');
         fs::write(&path, text).map_err(RecordError::io("write", &path))?;
         Ok(path)
