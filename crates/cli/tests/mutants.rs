@@ -104,7 +104,7 @@ fn a_few_hundred_cases_catch_what_must_be_caught() {
 }
 
 #[test]
-fn a_bug_that_panics_or_is_unknown_is_broken_and_ends_nothing() {
+fn an_unknown_bug_is_broken_and_ends_nothing() {
     let cases = cases(&["depth/clear"]);
     let few = ["depth/write-ignored", "clear/depth-zero"].map(info);
     let plan = HuntPlan {

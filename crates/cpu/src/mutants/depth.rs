@@ -46,7 +46,7 @@ pub(super) fn add(list: &mut List) {
         }),
     );
     list.add(
-        "compare-high-16-bits",
+        "compare-high-20-bits",
         SMALL,
         "Float depths are compared by their upper 20 bits.",
         depth_passes(|function, incoming, stored| compare(function, incoming >> 12, stored >> 12)),
