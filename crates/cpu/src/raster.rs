@@ -2,6 +2,7 @@
 
 use crate::SUB_PIXEL_BITS;
 use crate::span::{LANES, Span, SpanState};
+use crate::steps::Steps;
 use crate::surface::Surface;
 use etalon_case::Scene;
 use etalon_case::scene::{Draw, Pass};
@@ -13,7 +14,13 @@ use etalon_pipeline::{
 const UNITS: i64 = 1 << SUB_PIXEL_BITS;
 
 /// Draws one draw into the pass's attachments.
-pub(crate) fn draw(scene: &Scene, pass: &Pass, draw: &Draw, surfaces: &mut [Surface]) {
+pub(crate) fn draw<S: Steps>(
+    scene: &Scene,
+    pass: &Pass,
+    draw: &Draw,
+    surfaces: &mut [Surface],
+    steps: &S,
+) {
     let Some(target) = pass.color.first().copied().or(pass.depth_stencil) else {
         return;
     };
@@ -32,7 +39,7 @@ pub(crate) fn draw(scene: &Scene, pass: &Pass, draw: &Draw, surfaces: &mut [Surf
             (point, z)
         })
         .collect();
-    let mut state = SpanState::new(scene, pass, draw, surfaces);
+    let mut state = SpanState::new(scene, pass, draw, surfaces, steps);
     for triangle in draw.mesh.triangles(draw.topology) {
         let points = triangle.map(|i| vertices[i].0);
         let front = front_facing(signed_area(points), draw.front_face);
@@ -48,7 +55,7 @@ pub(crate) fn draw(scene: &Scene, pass: &Pass, draw: &Draw, surfaces: &mut [Surf
             state.run(&Span {
                 x,
                 y,
-                mask,
+                mask: steps.covered(x, y, size, mask),
                 front,
                 color,
                 depth: depth.at(x, y),

@@ -1,20 +1,16 @@
 //! One span of texels through the fragment pipeline, all lanes at once.
 
 use crate::depth_encoding;
+use crate::steps::{Codes, Mask, Path, Real, Steps, Tests};
 use crate::surface::Surface;
 use etalon_case::Scene;
 use etalon_case::scene::{Draw, Pass, StencilFace};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::shader::{FragmentInput, fragment};
-use etalon_pipeline::{
-    Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
-};
+use etalon_pipeline::{Arithmetic, BlendInput, Plain};
 
 /// Texels of a span.
 pub(crate) const LANES: usize = 16;
-
-type Real = [f32; LANES];
-type Mask = [bool; LANES];
 
 /// Covered texels of one primitive in one row. `x` is a multiple of [`LANES`].
 pub(crate) struct Span {
@@ -27,13 +23,14 @@ pub(crate) struct Span {
 }
 
 /// A draw's state and the attachments it works on.
-pub(crate) struct SpanState<'a> {
+pub(crate) struct SpanState<'a, S> {
     draw: &'a Draw,
     pass: &'a Pass,
     depth: Option<ChannelEncoding>,
     encodings: Vec<[ChannelEncoding; 4]>,
     texture: [ChannelEncoding; 4],
     surfaces: &'a mut [Surface],
+    steps: &'a S,
 }
 
 fn and(a: Mask, b: Mask) -> Mask {
@@ -44,22 +41,23 @@ fn and_not(a: Mask, b: Mask) -> Mask {
     std::array::from_fn(|i| a[i] & !b[i])
 }
 
-fn load(plane: &[u32], at: usize) -> [u32; LANES] {
+fn load(plane: &[u32], at: usize) -> Codes {
     std::array::from_fn(|i| plane[at + i])
 }
 
-fn store(plane: &mut [u32], at: usize, codes: [u32; LANES], mask: Mask) {
+fn store(plane: &mut [u32], at: usize, codes: Codes, mask: Mask) {
     for (i, slot) in plane[at..at + LANES].iter_mut().enumerate() {
         *slot = if mask[i] { codes[i] } else { *slot };
     }
 }
 
-impl<'a> SpanState<'a> {
+impl<'a, S: Steps> SpanState<'a, S> {
     pub(crate) fn new(
         scene: &Scene,
         pass: &'a Pass,
         draw: &'a Draw,
         surfaces: &'a mut [Surface],
+        steps: &'a S,
     ) -> Self {
         let format = |index: usize| scene.attachments[index].format;
         let four = |index: usize| -> [ChannelEncoding; 4] {
@@ -76,6 +74,7 @@ impl<'a> SpanState<'a> {
                 .first()
                 .map_or([ChannelEncoding::Float32; 4], |index| four(*index)),
             surfaces,
+            steps,
         }
     }
 
@@ -91,78 +90,79 @@ impl<'a> SpanState<'a> {
         };
         let output = fragment(&mut plain, self.draw.shader, &input);
         let depth = output.depth.unwrap_or(span.depth);
-        let mut mask = span.mask;
+        let mut tests = Tests {
+            covered: span.mask,
+            stencil: [true; LANES],
+            depth: [true; LANES],
+        };
         let face = self
             .draw
             .stencil
             .map(|s| if span.front { s.front } else { s.back });
-        if let Some(face) = face {
-            mask = self.stencil_test(span, &face, mask);
+        if let Some(face) = &face {
+            tests.stencil = self.stencil_test(span, face);
         }
-        let passed = self.depth_test(span, depth, mask);
-        if let Some(face) = face {
-            self.stencil_update(span, &face, face.depth_fail_op, and_not(mask, passed));
-            self.stencil_update(span, &face, face.pass_op, passed);
+        let codes = self.depth_test(span, depth, &mut tests.depth);
+        let written = self.steps.written(&tests);
+        if let Some(codes) = codes {
+            self.depth_write(span, codes, written.depth);
         }
-        self.write_colors(span, &output.color, passed);
+        if let Some(face) = &face {
+            let passed = and(tests.covered, tests.stencil);
+            let failed = and_not(tests.covered, tests.stencil);
+            self.stencil_update(span, face, Path::Fail, failed);
+            self.stencil_update(span, face, Path::DepthFail, and_not(passed, tests.depth));
+            self.stencil_update(span, face, Path::Pass, and(passed, tests.depth));
+        }
+        self.write_colors(span, &output.color, written.color);
     }
 
     fn texel(&self, span: &Span) -> [Real; 4] {
         let Some(index) = self.draw.textures.first() else {
             return [[0.0; LANES]; 4];
         };
-        let surface = &self.surfaces[*index];
-        let at = span.y * surface.stride + span.x;
-        let mut plain = Plain::<LANES>;
-        std::array::from_fn(|c| plain.decode(self.texture[c], load(&surface.planes[c], at)))
+        self.steps
+            .fetch(&self.surfaces[*index], self.texture, span.x, span.y)
     }
 
-    fn stencil_test(&mut self, span: &Span, face: &StencilFace, mask: Mask) -> Mask {
+    fn stencil_test(&self, span: &Span, face: &StencilFace) -> Mask {
         let Some(index) = self.pass.depth_stencil else {
-            return mask;
+            return [true; LANES];
         };
         let surface = &self.surfaces[index];
         let at = span.y * surface.stride + span.x;
-        let passes: Mask = std::array::from_fn(|i| stencil_passes(face, surface.stencil[at + i]));
-        self.stencil_update(span, face, face.fail_op, and_not(mask, passes));
-        and(mask, passes)
+        std::array::from_fn(|i| self.steps.stencil_passes(face, surface.stencil[at + i]))
     }
 
-    fn stencil_update(
-        &mut self,
-        span: &Span,
-        face: &StencilFace,
-        operation: etalon_case::state::StencilOperation,
-        mask: Mask,
-    ) {
+    fn stencil_update(&mut self, span: &Span, face: &StencilFace, path: Path, mask: Mask) {
         let Some(index) = self.pass.depth_stencil else {
             return;
         };
         let surface = &mut self.surfaces[index];
         let at = span.y * surface.stride + span.x;
         for (i, slot) in surface.stencil[at..at + LANES].iter_mut().enumerate() {
-            let new = stencil_write(face, operation, *slot);
+            let new = self.steps.stencil_write(face, path, *slot);
             *slot = if mask[i] { new } else { *slot };
         }
     }
 
-    fn depth_test(&mut self, span: &Span, depth: Real, mask: Mask) -> Mask {
-        let (Some(state), Some(index), Some(encoding)) =
-            (self.draw.depth, self.pass.depth_stencil, self.depth)
-        else {
-            return mask;
-        };
-        let surface = &mut self.surfaces[index];
-        let at = span.y * surface.stride + span.x;
-        // Codes of depths in 0..=1 are ordered as the depths are, floats among them.
-        let codes = Plain::<LANES>.encode(encoding, depth.map(|v| v.clamp(0.0, 1.0)));
-        let stored = load(&surface.planes[0], at);
-        let passes = std::array::from_fn(|i| compare(state.compare, codes[i], stored[i]));
-        let passed = and(mask, passes);
-        if state.write {
-            store(&mut surface.planes[0], at, codes, passed);
+    /// The codes to store, where the draw stores any.
+    fn depth_test(&self, span: &Span, depth: Real, passes: &mut Mask) -> Option<Codes> {
+        let (state, index, encoding) = (self.draw.depth?, self.pass.depth_stencil?, self.depth?);
+        let surface = &self.surfaces[index];
+        let codes = self.steps.depth_codes(encoding, depth);
+        let stored = load(&surface.planes[0], span.y * surface.stride + span.x);
+        *passes =
+            std::array::from_fn(|i| self.steps.depth_passes(state.compare, codes[i], stored[i]));
+        state.write.then_some(codes)
+    }
+
+    fn depth_write(&mut self, span: &Span, codes: Codes, mask: Mask) {
+        if let Some(index) = self.pass.depth_stencil {
+            let surface = &mut self.surfaces[index];
+            let at = span.y * surface.stride + span.x;
+            store(&mut surface.planes[0], at, codes, mask);
         }
-        passed
     }
 
     fn write_colors(&mut self, span: &Span, color: &[Real; 4], mask: Mask) {
@@ -184,12 +184,13 @@ impl<'a> SpanState<'a> {
                         dst,
                         constant: self.draw.blend_constant.map(|v| [v; LANES]),
                     };
-                    blend(&mut plain, state, encodings, &input)
+                    self.steps.blend(state, encodings, &input)
                 }
             };
             for (c, plane) in surface.planes.iter_mut().enumerate() {
                 if target.write_mask & (1 << c) != 0 {
-                    store(plane, at, plain.encode(encodings[c], value[c]), mask);
+                    let codes = self.steps.color_codes(encodings[c], value[c]);
+                    store(plane, at, codes, mask);
                 }
             }
         }

@@ -2,9 +2,9 @@
 
 use crate::depth_encoding;
 use crate::span::LANES;
+use crate::steps::Steps;
 use etalon_case::scene::{Attachment, Contents};
 use etalon_frame::Aspect;
-use etalon_pipeline::{Arithmetic, Plain};
 
 /// One attachment.
 #[derive(Clone, Debug)]
@@ -21,7 +21,7 @@ pub(crate) struct Surface {
 
 impl Surface {
     /// The attachment as it is before the first pass.
-    pub(crate) fn new(attachment: &Attachment) -> Self {
+    pub(crate) fn new(attachment: &Attachment, steps: &impl Steps) -> Self {
         let [width, height] = attachment.size.map(|s| s as usize);
         let stride = width.next_multiple_of(LANES);
         let format = attachment.format;
@@ -36,13 +36,13 @@ impl Surface {
         match &attachment.contents {
             Contents::Color(color) => {
                 for (encoding, value) in format.color_channels().iter().zip(color) {
-                    let [code] = Plain::<1>.encode(*encoding, [*value]);
+                    let code = steps.clear_code(*encoding, *value);
                     surface.planes.push(vec![code; texels]);
                 }
             }
             Contents::DepthStencil { depth, stencil } => {
                 if let Some(encoding) = depth_encoding(format) {
-                    let [code] = Plain::<1>.encode(encoding, [*depth]);
+                    let code = steps.clear_code(encoding, *depth);
                     surface.planes.push(vec![code; texels]);
                 }
                 if format.has_stencil() {
