@@ -31,6 +31,8 @@ pub(crate) enum Command {
     Report(ReportArguments),
     /// Tell the story of one texel, operation by operation, with rule and citation
     Explain(ExplainArguments),
+    /// Plant bugs in the cpu rasterizer and tell which of them the cases see
+    Mutants(MutantsArguments),
     /// Draw what a parent process asks for (used by etalon itself)
     #[command(hide = true)]
     Worker(WorkerArguments),
@@ -108,6 +110,31 @@ pub(crate) struct ExplainArguments {
     /// Read case files from this folder instead of those built in
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MutantsArguments {
+    /// Which planted bugs: globs over their names, as `blend/*`; none for all
+    #[arg(value_name = "GLOB")]
+    pub(crate) globs: Vec<String>,
+    /// Print the names and what each does, and hunt nothing
+    #[arg(long)]
+    pub(crate) list: bool,
+    /// Hunt with these cases alone: a glob over ids (repeat for several)
+    #[arg(long = "case", value_name = "GLOB")]
+    pub(crate) case_globs: Vec<String>,
+    /// Read case files from this folder instead of those built in
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
+    /// Draw every case with every bug, instead of ending an area at a bug's first Fail there
+    #[arg(long)]
+    pub(crate) full: bool,
+    /// Where mutants.json and mutants.html go
+    #[arg(long, value_name = "DIR", default_value = "reports/mutants-latest")]
+    pub(crate) out: PathBuf,
+    /// For people or for programs
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
 }
 
 #[derive(Debug, Args)]

@@ -29,6 +29,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
+        Command::Mutants(arguments) => commands::mutants::run(&arguments),
         Command::Worker(arguments) => worker::run(&arguments),
     };
     match outcome {

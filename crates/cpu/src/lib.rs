@@ -3,10 +3,14 @@
 //! It draws what every scene of the suite can ask for, follows Direct3D's top-left rule and
 //! nearest snapping at 8 sub-pixel bits, and is judged like any driver, by Vulkan's rules.
 
+mod mutants;
 mod raster;
 mod samples;
 mod span;
+mod steps;
 mod surface;
+
+pub use mutants::{Mutant, MutantBackend, mutants};
 
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_case::Scene;
@@ -15,6 +19,7 @@ use etalon_frame::{
     TextureFormat,
 };
 use std::time::Instant;
+use steps::{Faithful, Steps};
 use surface::Surface;
 
 /// Bits of sub-pixel precision.
@@ -89,26 +94,39 @@ impl Backend for CpuBackend {
         if let Some(missing) = self.limits.missing(&scene.requirements()) {
             return Err(BackendError::NotSupported(missing));
         }
-        Ok(Box::new(PreparedScene {
-            scene: scene.clone(),
-            surfaces: Vec::new(),
-        }))
+        Ok(Box::new(PreparedScene::new(scene.clone(), Faithful)))
     }
 }
 
 #[derive(Debug)]
-struct PreparedScene {
+struct PreparedScene<S> {
     scene: Scene,
     surfaces: Vec<Surface>,
+    steps: S,
 }
 
-impl Prepared for PreparedScene {
+impl<S> PreparedScene<S> {
+    fn new(scene: Scene, steps: S) -> Self {
+        Self {
+            scene,
+            surfaces: Vec::new(),
+            steps,
+        }
+    }
+}
+
+impl<S: Steps> Prepared for PreparedScene<S> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         let start = Instant::now();
-        self.surfaces = self.scene.attachments.iter().map(Surface::new).collect();
+        self.surfaces = self
+            .scene
+            .attachments
+            .iter()
+            .map(|a| Surface::new(a, &self.steps))
+            .collect();
         for pass in &self.scene.passes {
             for draw in &pass.draws {
-                raster::draw(&self.scene, pass, draw, &mut self.surfaces);
+                raster::draw(&self.scene, pass, draw, &mut self.surfaces, &self.steps);
             }
             for (source, target) in pass.color.iter().zip(&pass.resolve) {
                 if let Some(target) = target {

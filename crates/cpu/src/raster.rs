@@ -2,7 +2,8 @@
 
 use crate::SUB_PIXEL_BITS;
 use crate::samples::positions;
-use crate::span::{LANES, Mask, Span, SpanState};
+use crate::span::{LANES, Span, SpanState};
+use crate::steps::{Mask, Steps};
 use crate::surface::Surface;
 use etalon_case::scene::{Draw, Pass};
 use etalon_case::state::PolygonMode;
@@ -86,7 +87,13 @@ fn position(x: usize, y: usize, sample: Point) -> Point {
 type Bounds = [usize; 4];
 
 /// Draws one draw into the pass's attachments.
-pub(crate) fn draw(scene: &Scene, pass: &Pass, draw: &Draw, surfaces: &mut [Surface]) {
+pub(crate) fn draw<S: Steps>(
+    scene: &Scene,
+    pass: &Pass,
+    draw: &Draw,
+    surfaces: &mut [Surface],
+    steps: &S,
+) {
     if draw.rasterizer_discard {
         return;
     }
@@ -117,7 +124,7 @@ pub(crate) fn draw(scene: &Scene, pass: &Pass, draw: &Draw, surfaces: &mut [Surf
             }
         })
         .collect();
-    let mut state = SpanState::new(scene, pass, draw, surfaces);
+    let mut state = SpanState::new(scene, pass, draw, surfaces, steps);
     let encoding = state.depth_encoding();
     for primitive in draw.mesh.primitives(draw.topology) {
         match primitive {
@@ -212,14 +219,14 @@ fn depth_bias(
 }
 
 /// Runs the spans of a triangle's inside.
-fn fill(
+fn fill<S: Steps>(
     triangle: &SnappedTriangle,
     front: bool,
     color: [f32; 4],
     depths: &Depths,
     samples: &[Point],
     bounds: Bounds,
-    state: &mut SpanState<'_>,
+    state: &mut SpanState<'_, S>,
 ) {
     let vertices = triangle.vertices();
     let bound = |f: fn(&Point) -> i64, low: usize, high: usize| {
@@ -260,12 +267,12 @@ fn fill(
 }
 
 /// Runs the one texel, or the samples of up to four, that a point covers.
-fn point(
+fn point<S: Steps>(
     vertex: Vertex,
     depths: &Depths,
     samples: &[Point],
     bounds: Bounds,
-    state: &mut SpanState<'_>,
+    state: &mut SpanState<'_, S>,
 ) {
     let half = UNITS / 2;
     let first = |v: i64| (v - half).div_euclid(UNITS);
@@ -287,13 +294,13 @@ fn point(
 
 /// Runs the texels of a line: one per column or row, whichever it has more of, all samples of each;
 /// the last one is the next line's (the diamond-exit rule where it does not run through corners).
-fn line(
+fn line<S: Steps>(
     ends: [Vertex; 2],
     front: bool,
     depths: &Depths,
     samples: usize,
     bounds: Bounds,
-    state: &mut SpanState<'_>,
+    state: &mut SpanState<'_, S>,
 ) {
     let [a, b] = ends;
     let (dx, dy) = (b.at.x - a.at.x, b.at.y - a.at.y);
@@ -322,14 +329,14 @@ fn line(
     }
 }
 
-fn texel(
+fn texel<S: Steps>(
     (x, y): (i64, i64),
     samples: &[bool],
     front: bool,
     color: [f32; 4],
     depths: &Depths,
     bounds: Bounds,
-    state: &mut SpanState<'_>,
+    state: &mut SpanState<'_, S>,
 ) {
     let inside = |v: i64, low: usize, high: usize| v >= low as i64 && v < high as i64;
     if !inside(x, bounds[0], bounds[2]) || !inside(y, bounds[1], bounds[3]) {

@@ -1,22 +1,16 @@
 //! One span of texels through the fragment pipeline, all lanes at once.
 
 use crate::depth_encoding;
+use crate::steps::{Codes, Mask, Path, Real, Steps, Tests};
 use crate::surface::Surface;
 use etalon_case::Scene;
 use etalon_case::scene::{Draw, Pass, StencilFace};
-use etalon_case::state::StencilOperation;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
-use etalon_pipeline::{
-    Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
-};
+use etalon_pipeline::{Arithmetic, BlendInput, Plain};
 
 /// Texels of a span.
 pub(crate) const LANES: usize = 16;
-
-type Real = [f32; LANES];
-/// One flag per texel of a span.
-pub(crate) type Mask = [bool; LANES];
 
 /// Covered texels of one primitive in one row. `x` is a multiple of [`LANES`].
 pub(crate) struct Span<'a> {
@@ -31,12 +25,14 @@ pub(crate) struct Span<'a> {
 }
 
 /// A draw's state and the attachments it works on.
-pub(crate) struct SpanState<'a> {
+pub(crate) struct SpanState<'a, S> {
     draw: &'a Draw,
     pass: &'a Pass,
     depth: Option<ChannelEncoding>,
     encodings: Vec<[ChannelEncoding; 4]>,
+    size: [u32; 2],
     surfaces: &'a mut [Surface],
+    steps: &'a S,
 }
 
 fn and(a: Mask, b: Mask) -> Mask {
@@ -47,11 +43,11 @@ fn and_not(a: Mask, b: Mask) -> Mask {
     std::array::from_fn(|i| a[i] & !b[i])
 }
 
-fn load(plane: &[u32], at: usize) -> [u32; LANES] {
+fn load(plane: &[u32], at: usize) -> Codes {
     std::array::from_fn(|i| plane[at + i])
 }
 
-fn store(plane: &mut [u32], at: usize, codes: [u32; LANES], mask: Mask) {
+fn store(plane: &mut [u32], at: usize, codes: Codes, mask: Mask) {
     for (i, slot) in plane[at..at + LANES].iter_mut().enumerate() {
         *slot = if mask[i] { codes[i] } else { *slot };
     }
@@ -67,12 +63,13 @@ fn four(channels: &[ChannelEncoding]) -> [ChannelEncoding; 4] {
     })
 }
 
-impl<'a> SpanState<'a> {
+impl<'a, S: Steps> SpanState<'a, S> {
     pub(crate) fn new(
         scene: &Scene,
         pass: &'a Pass,
         draw: &'a Draw,
         surfaces: &'a mut [Surface],
+        steps: &'a S,
     ) -> Self {
         let format = |index: usize| scene.attachments[index].format;
         Self {
@@ -84,7 +81,9 @@ impl<'a> SpanState<'a> {
                 .iter()
                 .map(|index| four(format(*index).color_channels()))
                 .collect(),
+            size: scene.pass_size(pass),
             surfaces,
+            steps,
         }
     }
 
@@ -99,7 +98,9 @@ impl<'a> SpanState<'a> {
         let per_sample = self.draw.shader.runs_per_sample();
         let mut shaded: Option<FragmentOutput<Real>> = None;
         for sample in 0..span.masks.len() {
-            let mut mask = span.masks[sample];
+            let mut mask = self
+                .steps
+                .covered(span.x, span.y, self.size, span.masks[sample]);
             if self.draw.multisample.mask & (1 << sample) == 0 || !mask.contains(&true) {
                 continue;
             }
@@ -125,7 +126,7 @@ impl<'a> SpanState<'a> {
                 mask = and(mask, covers(output.color[3], sample, span.masks.len()));
             }
             let depth = output.depth.unwrap_or(own_depth);
-            let mask = self.tests(span, sample, depth, mask);
+            let mask = self.test_and_store(span, sample, depth, mask);
             self.write_colors(span, sample, &output, mask);
         }
     }
@@ -138,32 +139,37 @@ impl<'a> SpanState<'a> {
         let Some(index) = self.draw.textures.get(t) else {
             return [[0.0; LANES]; 4];
         };
-        let surface = &self.surfaces[*index];
-        let at = self.at(*index, span);
-        let mut plain = Plain::<LANES>;
-        std::array::from_fn(|c| match surface.encodings.get(c) {
-            Some(encoding) => plain.decode(*encoding, load(surface.plane(c, 0), at)),
-            None => [if c == 3 { 1.0 } else { 0.0 }; LANES],
-        })
+        self.steps.fetch(&self.surfaces[*index], span.x, span.y)
     }
 
-    /// Depth bounds, stencil and depth; the texels that pass all of them.
-    fn tests(&mut self, span: &Span<'_>, sample: usize, depth: Real, mask: Mask) -> Mask {
-        let mut mask = self.depth_bounds(span, sample, mask);
+    /// Runs depth bounds, stencil and depth test and stores both; where colour is written.
+    fn test_and_store(&mut self, span: &Span<'_>, sample: usize, depth: Real, mask: Mask) -> Mask {
+        let mut tests = Tests {
+            covered: self.depth_bounds(span, sample, mask),
+            stencil: [true; LANES],
+            depth: [true; LANES],
+        };
         let face = self
             .draw
             .stencil
             .map(|s| if span.front { s.front } else { s.back });
-        if let Some(face) = face {
-            mask = self.stencil_test(span, sample, &face, mask);
+        if let Some(face) = &face {
+            tests.stencil = self.stencil_test(span, sample, face);
         }
-        let passed = self.depth_test(span, sample, depth, mask);
-        if let Some(face) = face {
-            let failed = and_not(mask, passed);
-            self.stencil_update(span, sample, &face, face.depth_fail_op, failed);
-            self.stencil_update(span, sample, &face, face.pass_op, passed);
+        let codes = self.depth_test(span, sample, depth, &mut tests.depth);
+        let written = self.steps.written(&tests);
+        if let Some(codes) = codes {
+            self.depth_write(span, sample, codes, written.depth);
         }
-        passed
+        if let Some(face) = &face {
+            let passed = and(tests.covered, tests.stencil);
+            let failed = and_not(tests.covered, tests.stencil);
+            let depth_failed = and_not(passed, tests.depth);
+            self.stencil_update(span, sample, face, Path::Fail, failed);
+            self.stencil_update(span, sample, face, Path::DepthFail, depth_failed);
+            self.stencil_update(span, sample, face, Path::Pass, and(passed, tests.depth));
+        }
+        written.color
     }
 
     fn depth_bounds(&self, span: &Span<'_>, sample: usize, mask: Mask) -> Mask {
@@ -178,21 +184,13 @@ impl<'a> SpanState<'a> {
         and(mask, stored.map(|v| low <= v && v <= high))
     }
 
-    fn stencil_test(
-        &mut self,
-        span: &Span<'_>,
-        sample: usize,
-        face: &StencilFace,
-        mask: Mask,
-    ) -> Mask {
+    fn stencil_test(&self, span: &Span<'_>, sample: usize, face: &StencilFace) -> Mask {
         let Some(index) = self.pass.depth_stencil else {
-            return mask;
+            return [true; LANES];
         };
         let at = self.at(index, span);
         let stored = &self.surfaces[index].stencil[sample];
-        let passes: Mask = std::array::from_fn(|i| stencil_passes(face, stored[at + i]));
-        self.stencil_update(span, sample, face, face.fail_op, and_not(mask, passes));
-        and(mask, passes)
+        std::array::from_fn(|i| self.steps.stencil_passes(face, stored[at + i]))
     }
 
     fn stencil_update(
@@ -200,7 +198,7 @@ impl<'a> SpanState<'a> {
         span: &Span<'_>,
         sample: usize,
         face: &StencilFace,
-        operation: StencilOperation,
+        path: Path,
         mask: Mask,
     ) {
         let Some(index) = self.pass.depth_stencil else {
@@ -209,29 +207,32 @@ impl<'a> SpanState<'a> {
         let at = self.at(index, span);
         let stored = &mut self.surfaces[index].stencil[sample][at..at + LANES];
         for (i, slot) in stored.iter_mut().enumerate() {
-            let new = stencil_write(face, operation, *slot);
+            let new = self.steps.stencil_write(face, path, *slot);
             *slot = if mask[i] { new } else { *slot };
         }
     }
 
-    fn depth_test(&mut self, span: &Span<'_>, sample: usize, depth: Real, mask: Mask) -> Mask {
-        let (Some(state), Some(index), Some(encoding)) =
-            (self.draw.depth, self.pass.depth_stencil, self.depth)
-        else {
-            return mask;
-        };
-        let at = self.at(index, span);
-        let plane = self.surfaces[index].plane_mut(0, sample);
-        // Codes of depths in 0..=1 are ordered as the depths are, floats among them. Adding 0 takes
-        // the sign off a negative zero.
-        let codes = Plain::<LANES>.encode(encoding, depth.map(|v| v.clamp(0.0, 1.0) + 0.0));
-        let stored = load(plane, at);
-        let passes = std::array::from_fn(|i| compare(state.compare, codes[i], stored[i]));
-        let passed = and(mask, passes);
-        if state.write {
-            store(plane, at, codes, passed);
+    /// The codes to store, where the draw stores any.
+    fn depth_test(
+        &self,
+        span: &Span<'_>,
+        sample: usize,
+        depth: Real,
+        passes: &mut Mask,
+    ) -> Option<Codes> {
+        let (state, index, encoding) = (self.draw.depth?, self.pass.depth_stencil?, self.depth?);
+        let codes = self.steps.depth_codes(encoding, depth);
+        let stored = load(self.surfaces[index].plane(0, sample), self.at(index, span));
+        *passes =
+            std::array::from_fn(|i| self.steps.depth_passes(state.compare, codes[i], stored[i]));
+        state.write.then_some(codes)
+    }
+
+    fn depth_write(&mut self, span: &Span<'_>, sample: usize, codes: Codes, mask: Mask) {
+        if let Some(index) = self.pass.depth_stencil {
+            let at = self.at(index, span);
+            store(self.surfaces[index].plane_mut(0, sample), at, codes, mask);
         }
-        passed
     }
 
     fn write_colors(
@@ -271,7 +272,7 @@ impl<'a> SpanState<'a> {
                         dst,
                         constant: self.draw.blend_constant.map(|v| [v; LANES]),
                     };
-                    blend(&mut plain, state, encodings, &input)
+                    self.steps.blend(state, encodings, &input)
                 }
             };
             for c in 0..channels {
@@ -279,7 +280,7 @@ impl<'a> SpanState<'a> {
                     continue;
                 }
                 let plane = surface.plane_mut(c, sample);
-                let mut codes = plain.encode(encodings[c], value[c]);
+                let mut codes = self.steps.color_codes(encodings[c], value[c]);
                 if let Some(operation) = self.draw.logic {
                     codes = plain.logic(encodings[c], operation, codes, load(plane, at));
                 }

@@ -2,6 +2,7 @@
 
 use crate::depth_encoding;
 use crate::span::LANES;
+use crate::steps::Steps;
 use etalon_case::scene::{Attachment, Contents};
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::{Arithmetic, Plain};
@@ -9,8 +10,8 @@ use etalon_pipeline::{Arithmetic, Plain};
 /// One attachment.
 #[derive(Clone, Debug)]
 pub(crate) struct Surface {
-    width: usize,
-    height: usize,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
     /// Texels from one row to the next: the width rounded up to whole spans.
     pub(crate) stride: usize,
     pub(crate) samples: usize,
@@ -24,7 +25,7 @@ pub(crate) struct Surface {
 
 impl Surface {
     /// The attachment as it is before the first pass.
-    pub(crate) fn new(attachment: &Attachment) -> Self {
+    pub(crate) fn new(attachment: &Attachment, steps: &impl Steps) -> Self {
         let [width, height] = attachment.size.map(|s| s as usize);
         let stride = width.next_multiple_of(LANES);
         let format = attachment.format;
@@ -42,14 +43,14 @@ impl Surface {
         match &attachment.contents {
             Contents::Color(color) => {
                 for (encoding, value) in format.color_channels().iter().zip(color) {
-                    let [code] = Plain::<1>.encode(*encoding, [*value]);
+                    let code = steps.clear_code(*encoding, *value);
                     let planes = (0..samples).map(|_| vec![code; texels]);
                     surface.planes.extend(planes);
                 }
             }
             Contents::DepthStencil { depth, stencil } => {
                 if let Some(encoding) = depth_encoding(format) {
-                    let [code] = Plain::<1>.encode(encoding, [*depth]);
+                    let code = steps.clear_code(encoding, *depth);
                     surface.planes = vec![vec![code; texels]; samples];
                 }
                 if format.has_stencil() {

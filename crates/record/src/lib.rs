@@ -3,7 +3,7 @@
 //! A run folder holds `run.jsonl`, one [`Header`] line and then one [`Record`] line per case and
 //! adapter, and below `frames/` one [`FrameFile`] per frame that is worth looking at. [`RunWriter`]
 //! writes such a folder, [`Run`] reads it; reports are made from it alone. [`Expectations`] name
-//! the verdicts that are known and explained.
+//! the verdicts that are known and explained. A [`Hunt`] tells what became of planted bugs.
 
 #![cfg_attr(
     test,
@@ -14,6 +14,7 @@ mod error;
 mod expectations;
 mod frame_file;
 mod header;
+mod hunt;
 mod record;
 mod run;
 mod verdict;
@@ -23,6 +24,7 @@ pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations};
 pub use frame_file::{FrameFile, FrameImage};
 pub use header::{AbsentAdapter, AdapterRecord, FORMAT, Header, Machine};
+pub use hunt::{AreaTally, Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, Sighting};
 pub use record::{Assertion, Expected, MAX_WRONG_TEXELS, Record, Seconds};
 pub use run::Run;
 pub use verdict::Verdict;

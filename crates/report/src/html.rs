@@ -13,10 +13,10 @@ use etalon_record::{Run, Verdict};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use std::path::Path;
 
-const STYLE: &str = include_str!("html/style.css");
+pub(crate) const STYLE: &str = include_str!("html/style.css");
 const SCRIPT: &str = include_str!("html/script.js");
 /// Nothing may be fetched, whatever a hostile name should manage to smuggle in.
-const POLICY: &str =
+pub(crate) const POLICY: &str =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
 /// The whole page. Frame files are read from the folder as they are needed.

@@ -1,7 +1,7 @@
 //! HTML, JUnit and terminal reports, made from a run folder alone.
 //!
 //! [`write()`] puts `index.html` and `junit.xml` beside a recorded run; [`table()`] is the summary for
-//! a terminal. None of them knows anything that the folder does not tell.
+//! a terminal. [`write_hunt`] and [`hunt_table`] do the same for planted bugs. None of them knows anything that the folder does not tell.
 
 #![cfg_attr(
     test,
@@ -10,11 +10,13 @@
 
 mod grid;
 mod html;
+mod hunt;
 mod junit;
 mod picture;
 mod table;
 mod words;
 
+pub use hunt::{WrittenHunt, hunt_table, write_hunt};
 pub use table::{TableOptions, table};
 
 use etalon_record::{RecordError, Run};

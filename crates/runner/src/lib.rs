@@ -2,9 +2,11 @@
 //!
 //! Workers only draw: [`serve`] answers requests in a process of its own. The parent judges: [`run`]
 //! drives one worker per adapter, holds every frame against its legal set, writes one record per
-//! case and adapter, and tells [`Event`]s as they happen.
+//! case and adapter, and tells [`Event`]s as they happen. [`hunt`] draws cases with bugs planted, and
+//! tells which of them are seen.
 
 mod event;
+mod hunt;
 mod process;
 mod protocol;
 mod run;
@@ -13,9 +15,10 @@ mod verdict;
 mod worker;
 
 pub use event::Event;
+pub use hunt::{HuntPlan, hunt};
 pub use process::{DrawError, Launch, StartError, Worker};
 pub use protocol::Hello;
 pub use run::{Outcome, Plan, RunError, run};
-pub use select::{SelectError, Selection, select};
+pub use select::{Globs, SelectError, Selection, select};
 pub use verdict::{Judge, Judged};
 pub use worker::serve;

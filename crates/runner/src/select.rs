@@ -24,16 +24,35 @@ pub enum SelectError {
     },
 }
 
-/// The cases whose ids match any of the globs; all where there are none. `*` also matches `/`, and
-/// a glob without special characters also names everything below it: `depth` is `depth/*`.
+/// Globs over ids or names in which `*` also matches `/`; one without special characters also names
+/// everything below it: `depth` is `depth/*`. None at all match everything.
+#[derive(Clone, Debug)]
+pub struct Globs(Option<GlobSet>);
+
+impl Globs {
+    /// Reads globs.
+    ///
+    /// # Errors
+    /// When one cannot be read.
+    pub fn new(globs: &[String]) -> Result<Self, SelectError> {
+        let set = glob_set(globs)?;
+        Ok(Self((!globs.is_empty()).then_some(set)))
+    }
+
+    /// Whether any of them matches.
+    pub fn matches(&self, name: &str) -> bool {
+        self.0.as_ref().is_none_or(|set| set.is_match(name))
+    }
+}
+
+/// The cases whose ids match any of the globs; all where there are none. See [`Globs`].
 ///
 /// # Errors
 /// When a glob cannot be read.
 pub fn select<'a>(library: &'a Library, globs: &[String]) -> Result<Selection<'a>, SelectError> {
-    let set = glob_set(globs)?;
-    let chosen = |case: &CaseRef<'_>| globs.is_empty() || set.is_match(case.id());
+    let globs = Globs::new(globs)?;
     Ok(Selection {
-        cases: library.cases().filter(chosen).collect(),
+        cases: library.cases().filter(|c| globs.matches(&c.id())).collect(),
     })
 }
 

@@ -3,7 +3,7 @@
 use etalon_case::Case;
 use etalon_frame::{
     Aspect, AspectStatistics, Band, ChannelMismatch, Comparison, Frame, LegalSet, Limits,
-    SampleGroup, WrongTexel, compare,
+    SampleGroup, TexelCounts, WrongTexel, compare,
 };
 use etalon_record::{Assertion, FrameFile, FrameImage, MAX_WRONG_TEXELS, Record, Verdict};
 use etalon_reference::{Judgement, Rules, Sample, explain, judgements};
@@ -50,42 +50,16 @@ impl Judge {
         let judgements = self.judgements(number, case, limits);
         let mut record = Record::new(&case.id, adapter, Verdict::Pass);
         record.due_fail = case.judged_as.is_some();
-        // A format whose encoding the API hides is one or the other for the whole frame: the
-        // reading under which fewer samples are wrong counts.
-        let mut best: Option<(Comparison, &Judgement)> = None;
-        for judgement in judgements.iter() {
-            let compared = compare(
-                frame,
-                &judgement.legal,
-                &judgement.yardstick,
-                MAX_WRONG_TEXELS,
-            );
-            let comparison = match compared {
-                Ok(comparison) => comparison,
-                Err(error) => {
-                    record.verdict = Verdict::InternalError;
-                    record.message = error.to_string();
-                    return Judged {
-                        record,
-                        frame: None,
-                    };
-                }
-            };
-            let badness = |c: &Comparison| (c.texels.wrong, c.texels.imprecise);
-            if best
-                .as_ref()
-                .is_none_or(|(b, _)| badness(&comparison) < badness(b))
-            {
-                best = Some((comparison, judgement));
+        let (comparison, judgement) = match best(&judgements, frame) {
+            Ok(best) => best,
+            Err(message) => {
+                record.verdict = Verdict::InternalError;
+                record.message = message;
+                return Judged {
+                    record,
+                    frame: None,
+                };
             }
-        }
-        let Some((comparison, judgement)) = best else {
-            record.verdict = Verdict::InternalError;
-            record.message = "the limits leave no encoding to judge by".to_owned();
-            return Judged {
-                record,
-                frame: None,
-            };
         };
         record.texels = comparison.texels;
         record.wrong = comparison.wrong;
@@ -119,6 +93,28 @@ impl Judge {
             record,
             frame: file,
         }
+    }
+
+    /// The verdict alone, with the first texel outside: [`Judge::judge`] without story, figures and
+    /// literal values. A case that asserts nothing passes.
+    ///
+    /// # Errors
+    /// When the frame is not one of the case.
+    pub(crate) fn glance(
+        &self,
+        number: usize,
+        case: &Case,
+        limits: &Limits,
+        frame: &Frame,
+    ) -> Result<(Verdict, Option<WrongTexel>), String> {
+        let judgements = self.judgements(number, case, limits);
+        let (comparison, _) = best(&judgements, frame)?;
+        let verdict = match comparison.texels {
+            TexelCounts { wrong: 1.., .. } => Verdict::Fail,
+            TexelCounts { imprecise: 1.., .. } => Verdict::Imprecise,
+            _ => Verdict::Pass,
+        };
+        Ok((verdict, comparison.wrong.into_iter().next()))
     }
 
     fn judgements(&self, number: usize, case: &Case, limits: &Limits) -> Arc<Vec<Judgement>> {
@@ -160,6 +156,28 @@ impl Judge {
         }
         sets
     }
+}
+
+/// The reading of hidden encodings under which fewer samples are wrong: a format whose encoding the
+/// API hides is one or the other for the whole frame.
+fn best<'a>(
+    judgements: &'a [Judgement],
+    frame: &Frame,
+) -> Result<(Comparison, &'a Judgement), String> {
+    let mut best: Option<(Comparison, &Judgement)> = None;
+    for judgement in judgements {
+        let (legal, yardstick) = (&judgement.legal, &judgement.yardstick);
+        let comparison =
+            compare(frame, legal, yardstick, MAX_WRONG_TEXELS).map_err(|e| e.to_string())?;
+        let badness = |c: &Comparison| (c.texels.wrong, c.texels.imprecise);
+        if best
+            .as_ref()
+            .is_none_or(|(b, _)| badness(&comparison) < badness(b))
+        {
+            best = Some((comparison, judgement));
+        }
+    }
+    best.ok_or_else(|| "the limits leave no encoding to judge by".to_owned())
 }
 
 /// Limits without what no legal set depends on, so that more adapters share one.

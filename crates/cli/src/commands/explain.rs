@@ -63,6 +63,7 @@ fn tell(
     let mut legal = true;
     for rules in [Rules::of(limits.api), Rules::yardstick(limits)] {
         let set = judge(scene, limits, &rules);
+        let yardstick = rules.name == "yardstick";
         let encodings: Vec<String> = set
             .images
             .iter()
@@ -91,8 +92,8 @@ fn tell(
             }
         }
         if let Some(frame) = frame {
-            let fits = fits(text, &set, frame, [x, y]);
-            if rules.name != "yardstick" {
+            let fits = fits(text, &set, frame, [x, y], yardstick);
+            if !yardstick {
                 legal = fits;
             }
         }
@@ -102,7 +103,13 @@ fn tell(
 }
 
 /// Adds what came back at a texel; whether the set allows it.
-fn fits(text: &mut String, set: &LegalSet, frame: &Frame, [x, y]: [u32; 2]) -> bool {
+fn fits(
+    text: &mut String,
+    set: &LegalSet,
+    frame: &Frame,
+    [x, y]: [u32; 2],
+    yardstick: bool,
+) -> bool {
     let mut all = true;
     for (g, group) in set.groups.iter().enumerate() {
         if x >= group.size[0] || y >= group.size[1] {
@@ -142,7 +149,11 @@ fn fits(text: &mut String, set: &LegalSet, frame: &Frame, [x, y]: [u32; 2]) -> b
             }
             let allowed =
                 orders.len() == group.channels.len() && group.sample(x, y, sample).allows(&orders);
-            let word = if allowed { "allowed" } else { "NOT ALLOWED" };
+            let word = match (allowed, yardstick) {
+                (true, _) => "allowed",
+                (false, true) => "outside the yardstick",
+                (false, false) => "NOT ALLOWED",
+            };
             let _ = writeln!(text, "came back: {}: {word}", parts.join("; "));
             all &= allowed;
         }

@@ -130,7 +130,7 @@ fn execute(
     })
 }
 
-fn progress(total: u64) -> ProgressBar {
+pub(crate) fn progress(total: u64) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta} {msg}");
     if let Ok(style) = style {
@@ -140,7 +140,7 @@ fn progress(total: u64) -> ProgressBar {
 }
 
 /// The machine as it names itself, without its owner's names for it.
-fn machine() -> Machine {
+pub(crate) fn machine() -> Machine {
     let field = |path: &str, key: &str, separator: char| {
         let text = std::fs::read_to_string(path).ok()?;
         let value = text.lines().find_map(|line| {

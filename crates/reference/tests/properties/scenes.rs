@@ -16,7 +16,7 @@ pub(crate) enum Inputs {
     Pinned,
 }
 
-fn number(inputs: Inputs, wild: bool) -> BoxedStrategy<String> {
+pub(crate) fn number(inputs: Inputs, wild: bool) -> BoxedStrategy<String> {
     let sharp = select(vec![0.0_f32, 1.0]);
     match inputs {
         Inputs::Pinned => sharp.prop_map(|v| format!("{v:?}")).boxed(),
@@ -35,14 +35,14 @@ fn number(inputs: Inputs, wild: bool) -> BoxedStrategy<String> {
     }
 }
 
-fn four(inputs: Inputs, wild: bool) -> BoxedStrategy<String> {
+pub(crate) fn four(inputs: Inputs, wild: bool) -> BoxedStrategy<String> {
     let n = || number(inputs, wild);
     [n(), n(), n(), n()]
         .prop_map(|v| format!("[{}]", v.join(",")))
         .boxed()
 }
 
-fn list(
+pub(crate) fn list(
     item: BoxedStrategy<String>,
     count: std::ops::RangeInclusive<usize>,
 ) -> BoxedStrategy<String> {
@@ -51,7 +51,7 @@ fn list(
         .boxed()
 }
 
-fn winding() -> impl Strategy<Value = String> {
+pub(crate) fn winding() -> impl Strategy<Value = String> {
     select(FrontFace::ALL).prop_map(|f| format!("\"{}\"", f.name()))
 }
 
@@ -104,7 +104,7 @@ fn mesh(inputs: Inputs, size: [u32; 2]) -> BoxedStrategy<String> {
     prop_oneof![1 => full, 2 => rect, 2 => bands, 2 => loose].boxed()
 }
 
-fn blend(inputs: Inputs) -> BoxedStrategy<String> {
+pub(crate) fn blend(inputs: Inputs) -> BoxedStrategy<String> {
     let operations = match inputs {
         Inputs::Any => BlendOperation::ALL.to_vec(),
         // The error of 1 - 1 is relative to its sides, so no rule pins it to 0.
@@ -114,10 +114,15 @@ fn blend(inputs: Inputs) -> BoxedStrategy<String> {
             BlendOperation::Max,
         ],
     };
+    let factors: Vec<BlendFactor> = BlendFactor::ALL
+        .iter()
+        .copied()
+        .filter(|f| !f.is_second_source())
+        .collect();
     let part = (
         select(operations),
-        select(BlendFactor::ALL),
-        select(BlendFactor::ALL),
+        select(factors.clone()),
+        select(factors),
     )
         .prop_map(|(o, s, d)| {
             format!(
@@ -134,7 +139,7 @@ fn blend(inputs: Inputs) -> BoxedStrategy<String> {
         .boxed()
 }
 
-fn stencil() -> BoxedStrategy<String> {
+pub(crate) fn stencil() -> BoxedStrategy<String> {
     let op = || select(StencilOperation::ALL).prop_map(StencilOperation::name);
     let face = (
         select(CompareFunction::ALL),
@@ -167,7 +172,7 @@ fn stencil() -> BoxedStrategy<String> {
 }
 
 /// Either nothing or what the strategy gives, as a piece of JSON.
-fn maybe(enabled: bool, some: BoxedStrategy<String>) -> BoxedStrategy<String> {
+pub(crate) fn maybe(enabled: bool, some: BoxedStrategy<String>) -> BoxedStrategy<String> {
     if enabled {
         prop_oneof![1 => Just(String::new()), 2 => some].boxed()
     } else {

@@ -1,0 +1,126 @@
+//! `etalon mutants`.
+
+use crate::args::{Format, MutantsArguments};
+use crate::commands::library;
+use crate::commands::run::{machine, progress};
+use crate::failure::{Failure, UNEXPECTED};
+use crate::output::{color, print, print_json, width};
+use etalon_backend::Backend;
+use etalon_case::Case;
+use etalon_cpu::{MutantBackend, mutants};
+use etalon_record::{HUNT_FORMAT, Hunt, MutantInfo};
+use etalon_report::TableOptions;
+use etalon_runner::{Globs, HuntPlan};
+use std::time::{Instant, SystemTime};
+
+/// Hunts the chosen bugs, or lists them.
+pub(crate) fn run(arguments: &MutantsArguments) -> Result<u8, Failure> {
+    let chosen = chosen(&arguments.globs)?;
+    if arguments.list {
+        return list(&chosen, arguments.format);
+    }
+    let library = library(arguments.cases.as_ref())?;
+    let selection =
+        etalon_runner::select(&library, &arguments.case_globs).map_err(Failure::usage)?;
+    let cases: Vec<Case> = selection
+        .cases
+        .iter()
+        .map(|case| case.build())
+        .collect::<Result<_, _>>()
+        .map_err(Failure::usage)?;
+    let cases: Vec<Case> = cases
+        .into_iter()
+        .filter(|c| c.judged_as.is_none())
+        .collect();
+    if cases.is_empty() {
+        return Err(Failure::nothing(format!(
+            "no case to hunt with matches {}; selftests take no part",
+            arguments.case_globs.join(" ")
+        )));
+    }
+    let hunt = hunt(arguments, &cases, &chosen);
+    let written = etalon_report::write_hunt(&arguments.out, &hunt).map_err(Failure::incomplete)?;
+    if arguments.format == Format::Json {
+        print_json(&hunt)?;
+    } else {
+        let options = TableOptions {
+            width: width(),
+            color: color(),
+        };
+        print(&etalon_report::hunt_table(&hunt, options))?;
+        print(&format!("\nReport: {}\n", written.html.display()))?;
+    }
+    Ok(if hunt.complaints().next().is_some() {
+        UNEXPECTED
+    } else {
+        0
+    })
+}
+
+/// The registry's bugs whose names match.
+fn chosen(globs: &[String]) -> Result<Vec<MutantInfo>, Failure> {
+    let set = Globs::new(globs).map_err(Failure::usage)?;
+    let chosen: Vec<MutantInfo> = mutants()
+        .iter()
+        .filter(|m| set.matches(&m.name))
+        .map(|m| MutantInfo {
+            name: m.name.clone(),
+            about: m.about.clone(),
+            source: m.source.to_owned(),
+            area: m.area.to_owned(),
+            legal: m.legal.map(str::to_owned),
+        })
+        .collect();
+    if chosen.is_empty() {
+        return Err(Failure::nothing(format!(
+            "no planted bug matches {}; `etalon mutants --list` names them all",
+            globs.join(" ")
+        )));
+    }
+    Ok(chosen)
+}
+
+fn list(chosen: &[MutantInfo], format: Format) -> Result<u8, Failure> {
+    if format == Format::Json {
+        print_json(&chosen)?;
+        return Ok(0);
+    }
+    let width = chosen.iter().map(|m| m.name.len()).max().unwrap_or(0);
+    let mut text = String::new();
+    for mutant in chosen {
+        text.push_str(&format!("{:width$}  {}\n", mutant.name, mutant.about));
+    }
+    print(&text)?;
+    Ok(0)
+}
+
+fn hunt(arguments: &MutantsArguments, cases: &[Case], chosen: &[MutantInfo]) -> Hunt {
+    let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+    let bar = progress(cases.len() as u64 * jobs.min(chosen.len()) as u64);
+    let started = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
+    let start = Instant::now();
+    let plan = HuntPlan {
+        cases,
+        mutants: chosen,
+        full: arguments.full,
+        jobs,
+    };
+    let open =
+        |name: &str| MutantBackend::new(name).map(|backend| Box::new(backend) as Box<dyn Backend>);
+    let found = etalon_runner::hunt(plan, &open, &|| bar.inc(1));
+    bar.finish_and_clear();
+    Hunt {
+        format: HUNT_FORMAT,
+        etalon: env!("CARGO_PKG_VERSION").to_owned(),
+        commit: option_env!("ETALON_COMMIT").map(str::to_owned),
+        machine: machine(),
+        started,
+        command: std::iter::once("etalon".to_owned())
+            .chain(std::env::args().skip(1))
+            .collect(),
+        seconds: start.elapsed().as_secs_f64(),
+        cases: cases.len() as u64,
+        full: arguments.full,
+        mutants: found,
+    }
+}

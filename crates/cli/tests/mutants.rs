@@ -1,0 +1,169 @@
+//! The suite sees planted bugs: a fast part of what `etalon mutants` does whole.
+
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use assert_cmd::Command;
+use etalon_backend::Backend;
+use etalon_case::{Case, Library};
+use etalon_cpu::{MutantBackend, mutants};
+use etalon_record::{Catch, Hunt, MutantInfo};
+use etalon_runner::{HuntPlan, hunt, select};
+
+/// Some of each class: real drivers' bugs, the smallest errors, and legal ones.
+const FEW: [&str; 30] = [
+    "blend/alpha-factor-src-alpha-as-one-minus-src-alpha",
+    "blend/color-operation-subtract-as-reverse-subtract",
+    "blend/constant-in-5-bits",
+    "blend/constant-in-7-bits",
+    "blend/constant-plus-1-lsb",
+    "blend/in-8-bits-truncated",
+    "blend/min-max-apply-factors",
+    "blend/store-in-7-bits",
+    "clear/color-in-7-bits",
+    "clear/depth-in-16-bits",
+    "clear/stencil-in-7-bits",
+    "cull/front-face-inverted",
+    "cull/odd-strip-triangles-reversed",
+    "depth/compare-less-as-less-equal",
+    "depth/d16-truncated",
+    "depth/d24-in-22-bits",
+    "depth/write-with-test-off",
+    "fetch/one-texel-down",
+    "geometry/last-column-missing",
+    "readback/color-last-texel-off-by-one-lsb",
+    "readback/depth-upside-down",
+    "readback/stencil-one-texel-right",
+    "stencil/back-overwrites-front",
+    "stencil/fail-and-pass-op-both-applied",
+    "stencil/increment-wrap-as-increment-clamp",
+    "stencil/off-with-read-mask-zero",
+    "sticky/blend-from-the-draw-before",
+    "sticky/stencil-when-off-from-the-case-before",
+    "upload/code-plus-1",
+    "write-mask/zero-still-writes",
+];
+
+/// A few hundred cases that hold every kind.
+const CASES: [&str; 15] = [
+    "blend/changed-between-draws",
+    "blend/clear",
+    "blend/constant",
+    "blend/factors/dst=dst-alpha/*",
+    "blend/fetch",
+    "blend/operations",
+    "blend/write-mask",
+    "cull",
+    "depth/clear",
+    "depth/compare/*/format=depth*/write=true",
+    "depth/test-off",
+    "stencil/clear",
+    "stencil/first-draw-off",
+    "stencil/masks-zero",
+    "stencil/{operations/depth_fail=invert/fail=z*,places/*,separate-faces/*}",
+];
+
+fn info(name: &str) -> MutantInfo {
+    let mutant = mutants().iter().find(|m| m.name == name);
+    let mutant = mutant.unwrap_or_else(|| panic!("there is no mutant {name}"));
+    MutantInfo {
+        name: mutant.name.clone(),
+        about: mutant.about.clone(),
+        source: mutant.source.to_owned(),
+        area: mutant.area.to_owned(),
+        legal: mutant.legal.map(str::to_owned),
+    }
+}
+
+fn cases(globs: &[&str]) -> Vec<Case> {
+    let library = Library::built_in().unwrap();
+    let globs: Vec<String> = globs.iter().map(|g| (*g).to_owned()).collect();
+    let chosen = select(&library, &globs).unwrap().cases;
+    chosen.iter().map(|c| c.build().unwrap()).collect()
+}
+
+#[test]
+fn a_few_hundred_cases_catch_what_must_be_caught() {
+    let cases = cases(&CASES);
+    let few = FEW.map(info);
+    let plan = HuntPlan {
+        cases: &cases,
+        mutants: &few,
+        full: false,
+        jobs: 2,
+    };
+    let open = |name: &str| MutantBackend::new(name).map(|b| Box::new(b) as Box<dyn Backend>);
+    let found = hunt(plan, &open, &|| {});
+    assert_eq!(found.len(), FEW.len());
+    for record in found {
+        let name = &record.mutant.name;
+        assert_eq!(record.complaint(), None, "{name}: {:?}", record.areas);
+        assert!(record.by_own_area(), "{name}: {:?}", record.areas);
+        let first = record.first.unwrap();
+        assert!(first.texel.is_some(), "{name}");
+    }
+}
+
+#[test]
+fn an_unknown_bug_is_broken_and_ends_nothing() {
+    let cases = cases(&["depth/clear"]);
+    let few = ["depth/write-ignored", "clear/depth-zero"].map(info);
+    let plan = HuntPlan {
+        cases: &cases,
+        mutants: &few,
+        full: true,
+        jobs: 1,
+    };
+    let open = |name: &str| {
+        let known = name == "clear/depth-zero";
+        let backend = known.then(|| MutantBackend::new(name)).flatten();
+        backend.map(|b| Box::new(b) as Box<dyn Backend>)
+    };
+    let found = hunt(plan, &open, &|| {});
+    assert_eq!(found[0].outcome, Catch::Broken);
+    assert!(found[0].complaint().is_some());
+    assert_eq!(found[1].outcome, Catch::Caught);
+    let tally = &found[1].areas[0];
+    let all = tally.pass + tally.imprecise + tally.fail + tally.broken;
+    assert_eq!(all, cases.len() as u64);
+}
+
+fn etalon(arguments: &[&str]) -> assert_cmd::assert::Assert {
+    let mut command = Command::cargo_bin("etalon").unwrap();
+    command.args(arguments).assert()
+}
+
+#[test]
+fn the_list_names_every_bug_with_a_sentence() {
+    let output = etalon(&["mutants", "--list"]).success();
+    let text = String::from_utf8(output.get_output().stdout.clone()).unwrap();
+    assert_eq!(text.lines().count(), mutants().len());
+    assert!(text.lines().all(|l| l.ends_with('.')), "{text}");
+    let output = etalon(&["mutants", "--list", "stencil/back-*", "--format", "json"]).success();
+    let some: Vec<MutantInfo> = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    assert!(some.iter().all(|m| m.name.starts_with("stencil/back-")));
+}
+
+#[test]
+fn a_survivor_without_proof_is_a_failure_and_the_report_names_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let hunt = ["mutants", "blend/never", "--out", out, "--case"];
+    etalon(&[&hunt[..], &["depth/clear"]].concat())
+        .code(1)
+        .stdout(predicates::str::contains("blend/never: nothing noticed it"));
+    etalon(&[&hunt[..], &["blend/operations"]].concat()).success();
+    let text = std::fs::read(folder.path().join("mutants.json")).unwrap();
+    let written: Hunt = serde_json::from_slice(&text).unwrap();
+    assert_eq!(written.count(Catch::Caught), 1);
+    let page = std::fs::read_to_string(folder.path().join("mutants.html")).unwrap();
+    assert!(page.contains("id=\"blend/never\""));
+    assert!(!page.contains("http://") && !page.contains("https://"));
+}
+
+#[test]
+fn a_glob_without_a_match_is_nothing_selected() {
+    etalon(&["mutants", "no/such/bug"]).code(4);
+    etalon(&["mutants", "--case", "no/such/case"]).code(4);
+    etalon(&["mutants", "--case", "selftest"]).code(4);
+    etalon(&["mutants", "a["]).code(64);
+}

@@ -1,0 +1,228 @@
+//! What became of planted bugs.
+
+use crate::error::RecordError;
+use crate::header::Machine;
+use crate::verdict::Verdict;
+use etalon_frame::WrongTexel;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The format of `mutants.json` that this crate writes.
+pub const HUNT_FORMAT: u32 = 1;
+
+/// A planted bug, as whoever planted it describes it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MutantInfo {
+    /// The stable name, its class first: `depth/write-ignored`.
+    pub name: String,
+    /// What it does, in one sentence.
+    pub about: String,
+    /// The driver that shipped it once, or what kind of confusion it is.
+    pub source: String,
+    /// The area whose cases alone must catch it.
+    pub area: String,
+    /// Why nothing may be said against it, with the clause; `None` where it must be caught.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub legal: Option<String>,
+}
+
+/// What became of a planted bug.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Catch {
+    /// Some case failed.
+    Caught,
+    /// Some case was imprecise, none failed.
+    Noticed,
+    /// Every case passed.
+    Survived,
+    /// It could not be drawn: a bug of the mutant, not a planted one.
+    Broken,
+}
+
+impl Catch {
+    /// The word in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Caught => "caught",
+            Self::Noticed => "noticed",
+            Self::Survived => "survived",
+            Self::Broken => "broken",
+        }
+    }
+}
+
+/// How one area's cases judged a planted bug.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AreaTally {
+    /// The area.
+    pub area: String,
+    /// Cases whose every texel lies in the yardstick, or of which nothing is asserted.
+    pub pass: u64,
+    /// Cases with a legal texel outside the yardstick.
+    pub imprecise: u64,
+    /// Cases with a wrong texel.
+    pub fail: u64,
+    /// Cases that could not be drawn.
+    pub broken: u64,
+}
+
+/// The first case that failed, or that was imprecise where none failed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sighting {
+    /// The case.
+    pub case: String,
+    /// Fail or Imprecise; what broke otherwise.
+    pub verdict: Verdict,
+    /// Its first texel outside.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub texel: Option<WrongTexel>,
+    /// What broke; empty otherwise.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub message: String,
+}
+
+/// What became of one planted bug.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MutantRecord {
+    /// The bug.
+    pub mutant: MutantInfo,
+    /// What became of it.
+    pub outcome: Catch,
+    /// Per area, in the order of the cases.
+    pub areas: Vec<AreaTally>,
+    /// Where it was seen first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first: Option<Sighting>,
+}
+
+impl MutantRecord {
+    /// Whether the bug's own area alone gives the outcome.
+    pub fn by_own_area(&self) -> bool {
+        let own = self.areas.iter().find(|a| a.area == self.mutant.area);
+        own.is_some_and(|area| match self.outcome {
+            Catch::Caught => area.fail > 0,
+            Catch::Noticed => area.imprecise > 0,
+            Catch::Survived | Catch::Broken => false,
+        })
+    }
+
+    /// What is wrong with the outcome: a bug got away without a proof that it may, or one that is
+    /// proven to be legal was called a failure. `None` where nothing is.
+    pub fn complaint(&self) -> Option<&'static str> {
+        match (self.outcome, &self.mutant.legal) {
+            (Catch::Broken, _) => Some("it could not be drawn"),
+            (Catch::Survived, None) => Some("nothing noticed it, and nothing proves it legal"),
+            (Catch::Noticed, None) => Some("no case failed, and nothing proves it legal"),
+            (Catch::Caught, Some(_)) => Some("it failed although it is held to be legal"),
+            (Catch::Caught, None) | (Catch::Noticed | Catch::Survived, Some(_)) => None,
+        }
+    }
+}
+
+/// A whole hunt: `mutants.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Hunt {
+    /// The format: [`HUNT_FORMAT`].
+    pub format: u32,
+    /// The suite's version.
+    pub etalon: String,
+    /// The commit that the suite was built from, where it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub commit: Option<String>,
+    /// The machine.
+    pub machine: Machine,
+    /// When the hunt began, RFC 3339 in UTC.
+    pub started: String,
+    /// The command line, program first.
+    pub command: Vec<String>,
+    /// Wall time in seconds.
+    pub seconds: f64,
+    /// How many cases took part.
+    pub cases: u64,
+    /// Whether every case was drawn with every bug; otherwise a bug's area ends at its first Fail.
+    pub full: bool,
+    /// What became of each bug, in the registry's order.
+    pub mutants: Vec<MutantRecord>,
+}
+
+impl Hunt {
+    /// How many bugs came to this outcome.
+    pub fn count(&self, outcome: Catch) -> usize {
+        self.mutants.iter().filter(|m| m.outcome == outcome).count()
+    }
+
+    /// The bugs that something is wrong with.
+    pub fn complaints(&self) -> impl Iterator<Item = (&MutantRecord, &'static str)> {
+        let each = |m: &'_ MutantRecord| m.complaint();
+        self.mutants
+            .iter()
+            .filter_map(move |m| each(m).map(|why| (m, why)))
+    }
+
+    /// Writes `mutants.json` into a folder, which is made when it does not exist.
+    ///
+    /// # Errors
+    /// When the folder cannot be written to.
+    pub fn write(&self, folder: &Path) -> Result<PathBuf, RecordError> {
+        fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
+        let path = folder.join("mutants.json");
+        let mut text = serde_json::to_vec(self).map_err(RecordError::serialize("a hunt"))?;
+        text.push(b'\n');
+        fs::write(&path, text).map_err(RecordError::io("write", &path))?;
+        Ok(path)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record(outcome: Catch, legal: bool) -> MutantRecord {
+        let tally = AreaTally {
+            area: "blend".to_owned(),
+            pass: 1,
+            imprecise: u64::from(outcome == Catch::Noticed),
+            fail: u64::from(outcome == Catch::Caught),
+            broken: 0,
+        };
+        MutantRecord {
+            mutant: MutantInfo {
+                name: "blend/x".to_owned(),
+                about: "It.".to_owned(),
+                source: "a test".to_owned(),
+                area: "blend".to_owned(),
+                legal: legal.then(|| "Vulkan: a clause".to_owned()),
+            },
+            outcome,
+            areas: vec![tally],
+            first: None,
+        }
+    }
+
+    #[test]
+    fn what_must_be_caught_is_caught_and_what_is_legal_is_not() {
+        for (outcome, legal, fine) in [
+            (Catch::Caught, false, true),
+            (Catch::Noticed, false, false),
+            (Catch::Survived, false, false),
+            (Catch::Caught, true, false),
+            (Catch::Noticed, true, true),
+            (Catch::Survived, true, true),
+            (Catch::Broken, false, false),
+            (Catch::Broken, true, false),
+        ] {
+            let record = record(outcome, legal);
+            let complaint = record.complaint();
+            assert_eq!(complaint.is_none(), fine, "{outcome:?} {legal}");
+            let seen = matches!(outcome, Catch::Caught | Catch::Noticed);
+            assert_eq!(record.by_own_area(), seen);
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! `mutants.html`: one self-contained page that works offline.
+
+use super::{areas, elsewhere};
+use crate::html::{POLICY, STYLE};
+use crate::words::count;
+use etalon_record::{AreaTally, Catch, Hunt, MutantRecord, Sighting};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+/// The whole page.
+pub(super) fn page(hunt: &Hunt) -> String {
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { "etalon mutants " (hunt.started) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                (head(hunt))
+                (by_area(hunt))
+                (noted(hunt))
+                (all(hunt))
+                footer { "Made by etalon from mutants.json in this folder." }
+            }
+        }
+    }
+    .into_string()
+}
+
+fn head(hunt: &Hunt) -> Markup {
+    let complaints: Vec<_> = hunt.complaints().collect();
+    html! {
+        header {
+            h1 { "etalon mutants" }
+            p.lead { "Whether the suite sees bugs that were planted in a rasterizer which passes it." }
+            @if complaints.is_empty() {
+                p.state.good { b { "✓ Every planted bug is caught, or proven to be legal." } }
+            } @else {
+                p.state.bad {
+                    b { "✗ " (count(complaints.len() as u64, "planted bug")) " came out wrong." }
+                }
+                ul { @for (mutant, why) in &complaints {
+                    li { a href={ "#" (mutant.mutant.name) } { (mutant.mutant.name) } ": " (why) }
+                } }
+            }
+            dl.facts {
+                dt { "Started" } dd { (hunt.started) }
+                dt { "Command" } dd { code { (hunt.command.join(" ")) } }
+                dt { "Machine" } dd {
+                    (hunt.machine.cpu) ", " (count(u64::from(hunt.machine.cores), "core")) ", "
+                    (hunt.machine.os)
+                }
+                dt { "Suite" } dd {
+                    "etalon " (hunt.etalon)
+                    @if let Some(commit) = &hunt.commit { ", commit " code { (commit) } }
+                }
+                dt { "Scope" } dd {
+                    (count(hunt.mutants.len() as u64, "planted bug")) ", "
+                    (count(hunt.cases, "case")) ", " (format!("{:.1} s", hunt.seconds))
+                    @if !hunt.full { "; an area ends at a bug's first Fail" }
+                }
+            }
+        }
+        section {
+            h2 { "Totals" }
+            ul.totals {
+                @for (outcome, about) in [
+                    (Catch::Caught, "Some case failed."),
+                    (Catch::Noticed, "Legal: some texels lie outside the yardstick, none is wrong."),
+                    (Catch::Survived, "Every case passed."),
+                    (Catch::Broken, "It could not be drawn: a bug of the mutant."),
+                ] {
+                    @let n = hunt.count(outcome);
+                    @if n > 0 || outcome != Catch::Broken {
+                        li class=(class(outcome)) {
+                            span.big { (n) } " " span.m { (outcome.name()) } small { (about) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The class that colours an outcome: a fixed letter.
+fn class(outcome: Catch) -> &'static str {
+    match outcome {
+        Catch::Caught => "p",
+        Catch::Noticed => "i",
+        Catch::Survived => "o",
+        Catch::Broken => "b",
+    }
+}
+
+fn by_area(hunt: &Hunt) -> Markup {
+    html! {
+        section {
+            h2 { "By area" }
+            p {
+                "Which area's cases see which bugs. A bug has one area that must see it alone; the last "
+                "column tells how many do."
+            }
+            div.wide { table {
+                thead { tr {
+                    th { "Area" } th { "caught" } th { "noticed" } th { "passed" } th { "of its own" }
+                } }
+                tbody { @for row in areas(hunt) { tr {
+                    th scope="row" { (row.area) }
+                    @for n in row.counts { td.num { (n) } }
+                    td.num { (row.own_reached) " of " (row.own) }
+                } } }
+            } }
+        }
+    }
+}
+
+fn noted(hunt: &Hunt) -> Markup {
+    let of = |outcome| hunt.mutants.iter().filter(move |m| m.outcome == outcome);
+    html! {
+        (noted_list("Noticed", of(Catch::Noticed).collect()))
+        (noted_list("Survived", of(Catch::Survived).collect()))
+        (noted_list("Seen by other areas than their own alone", elsewhere(hunt)))
+    }
+}
+
+fn noted_list(title: &str, mutants: Vec<&MutantRecord>) -> Markup {
+    html! {
+        @if !mutants.is_empty() {
+            section {
+                h2 { (title) }
+                ul { @for m in mutants { li {
+                    a href={ "#" (m.mutant.name) } { (m.mutant.name) } ": " (m.mutant.about) " "
+                    @if let Some(why) = &m.mutant.legal { cite { (why) } }
+                    @else if m.complaint().is_some() { b { "No proof." } }
+                } } }
+            }
+        }
+    }
+}
+
+fn all(hunt: &Hunt) -> Markup {
+    html! {
+        section {
+            h2 { "All planted bugs" }
+            div.wide { table.figures {
+                thead { tr {
+                    th { "Name" } th { "What it does" } th { "Source" } th { "Outcome" }
+                    th { "Cases that failed / were imprecise / passed" } th { "First seen" }
+                } }
+                tbody { @for m in &hunt.mutants { (row(m)) } }
+            } }
+        }
+    }
+}
+
+fn row(m: &MutantRecord) -> Markup {
+    html! {
+        tr id=(m.mutant.name) {
+            th scope="row" { (m.mutant.name) }
+            td { (m.mutant.about) }
+            td { (m.mutant.source) }
+            td class=(class(m.outcome)) {
+                span.chip { (m.outcome.name()) }
+                @if m.mutant.legal.is_some() { small { " legal" } }
+            }
+            td { @for area in &m.areas { (tally(area, area.area == m.mutant.area)) } }
+            td { @if let Some(first) = &m.first { (sighting(first)) } }
+        }
+    }
+}
+
+fn tally(area: &AreaTally, own: bool) -> Markup {
+    html! {
+        @if area.fail + area.imprecise + area.broken > 0 || own {
+            div {
+                @if own { b { (area.area) } } @else { (area.area) }
+                " " (area.fail) " / " (area.imprecise) " / " (area.pass)
+                @if area.broken > 0 { ", " (area.broken) " broken" }
+            }
+        }
+    }
+}
+
+fn sighting(first: &Sighting) -> Markup {
+    html! {
+        code { (first.case) }
+        @if let Some(texel) = &first.texel {
+            small {
+                " (" (texel.x) ", " (texel.y) ")"
+                @if let Some(c) = texel.channels.first() {
+                    " " (c.attachment) " " (c.aspect) " channel " (c.channel) ": " (c.actual)
+                    ", due "
+                    @if c.low == c.high { (c.low) } @else { (c.low) " to " (c.high) }
+                }
+            }
+        }
+        @if !first.message.is_empty() { small { " " (first.message) } }
+    }
+}

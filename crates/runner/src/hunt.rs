@@ -1,0 +1,196 @@
+//! The hunt for planted bugs: every case drawn by every mutant, in this process, on all cores.
+
+use crate::verdict::Judge;
+use etalon_backend::Backend;
+use etalon_case::Case;
+use etalon_frame::{Frame, WrongTexel};
+use etalon_record::{AreaTally, Catch, MutantInfo, MutantRecord, Sighting, Verdict};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::channel;
+use std::thread;
+
+/// What is hunted, and with which cases.
+#[derive(Clone, Copy, Debug)]
+pub struct HuntPlan<'a> {
+    /// The cases. Selftests are left out: they fail whatever draws them.
+    pub cases: &'a [Case],
+    /// The planted bugs.
+    pub mutants: &'a [MutantInfo],
+    /// Draw every case with every bug, instead of ending an area at a bug's first Fail there.
+    pub full: bool,
+    /// How many threads.
+    pub jobs: usize,
+}
+
+/// Draws and judges the cases with every bug planted, and tells what became of each, in the order
+/// of the plan. `open` gives the backend with the bug of a name in it; `drawn` is told after each
+/// case by each thread.
+///
+/// Every thread holds its own share of the bugs and goes through the cases in order, so that state
+/// which sticks from one case to the next does so in the same way every time.
+pub fn hunt(
+    plan: HuntPlan<'_>,
+    open: &(dyn Fn(&str) -> Option<Box<dyn Backend>> + Sync),
+    drawn: &(dyn Fn() + Sync),
+) -> Vec<MutantRecord> {
+    let judge = Judge::default();
+    let jobs = plan.jobs.clamp(1, plan.mutants.len().max(1));
+    let (sender, receiver) = channel();
+    thread::scope(|scope| {
+        for job in 0..jobs {
+            let (sender, judge) = (sender.clone(), &judge);
+            scope.spawn(move || {
+                let mut share: Vec<Suspect> = plan
+                    .mutants
+                    .iter()
+                    .enumerate()
+                    .skip(job)
+                    .step_by(jobs)
+                    .map(|(at, info)| Suspect::new(at, info, open(&info.name)))
+                    .collect();
+                for (number, case) in plan.cases.iter().enumerate() {
+                    if case.judged_as.is_none() {
+                        try_case(judge, number, case, &mut share, plan.full);
+                    }
+                    drawn();
+                }
+                for suspect in share {
+                    // The receiver lives until all threads have ended.
+                    let _ = sender.send((suspect.at, suspect.finish()));
+                }
+            });
+        }
+    });
+    drop(sender);
+    let mut found: Vec<(usize, MutantRecord)> = receiver.iter().collect();
+    found.sort_by_key(|(at, _)| *at);
+    found.into_iter().map(|(_, record)| record).collect()
+}
+
+/// Draws one case with each of a thread's bugs. Most of them give the same few frames, which are
+/// judged once.
+fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Suspect], full: bool) {
+    let mut seen: Vec<(Frame, Sighting)> = Vec::new();
+    for suspect in share {
+        let area = suspect.area(case.area());
+        let tally = &suspect.record.areas[area];
+        if !full && tally.fail > 0 {
+            continue;
+        }
+        let Some(backend) = &suspect.backend else {
+            continue;
+        };
+        let sighting = match draw(backend.as_ref(), case) {
+            Err(message) => broken(case, message),
+            Ok(frame) => match seen.iter().find(|(known, _)| *known == frame) {
+                Some((_, sighting)) => sighting.clone(),
+                None => {
+                    let limits = backend.limits();
+                    let sighting = match judge.glance(number, case, limits, &frame) {
+                        Err(message) => broken(case, message),
+                        Ok((verdict, texel)) => sighting(case, verdict, texel),
+                    };
+                    seen.push((frame, sighting.clone()));
+                    sighting
+                }
+            },
+        };
+        suspect.note(area, sighting);
+    }
+}
+
+fn sighting(case: &Case, verdict: Verdict, texel: Option<WrongTexel>) -> Sighting {
+    Sighting {
+        case: case.id.clone(),
+        verdict,
+        texel,
+        message: String::new(),
+    }
+}
+
+fn broken(case: &Case, message: String) -> Sighting {
+    Sighting {
+        message,
+        ..sighting(case, Verdict::InternalError, None)
+    }
+}
+
+/// Draws a case once. A panic is a broken mutant, not the end of the hunt.
+fn draw(backend: &dyn Backend, case: &Case) -> Result<Frame, String> {
+    let attempt = || {
+        let mut prepared = backend.prepare(&case.scene)?;
+        prepared.submit()?;
+        prepared.read_back()
+    };
+    match catch_unwind(AssertUnwindSafe(attempt)) {
+        Ok(outcome) => outcome.map_err(|e| e.to_string()),
+        Err(_) => Err("it panicked".to_owned()),
+    }
+}
+
+/// One planted bug while it is hunted.
+struct Suspect {
+    at: usize,
+    backend: Option<Box<dyn Backend>>,
+    record: MutantRecord,
+}
+
+impl Suspect {
+    fn new(at: usize, info: &MutantInfo, backend: Option<Box<dyn Backend>>) -> Self {
+        Self {
+            at,
+            record: MutantRecord {
+                mutant: info.clone(),
+                outcome: if backend.is_some() {
+                    Catch::Survived
+                } else {
+                    Catch::Broken
+                },
+                areas: Vec::new(),
+                first: None,
+            },
+            backend,
+        }
+    }
+
+    /// The place of an area's tally.
+    fn area(&mut self, name: &str) -> usize {
+        let areas = &mut self.record.areas;
+        if let Some(at) = areas.iter().position(|a| a.area == name) {
+            return at;
+        }
+        areas.push(AreaTally {
+            area: name.to_owned(),
+            pass: 0,
+            imprecise: 0,
+            fail: 0,
+            broken: 0,
+        });
+        areas.len() - 1
+    }
+
+    fn note(&mut self, area: usize, sighting: Sighting) {
+        let tally = &mut self.record.areas[area];
+        let (count, outcome) = match sighting.verdict {
+            Verdict::Pass => (&mut tally.pass, Catch::Survived),
+            Verdict::Imprecise => (&mut tally.imprecise, Catch::Noticed),
+            Verdict::Fail => (&mut tally.fail, Catch::Caught),
+            _ => (&mut tally.broken, Catch::Broken),
+        };
+        *count += 1;
+        let weight = |outcome| match outcome {
+            Catch::Survived => 0,
+            Catch::Noticed => 1,
+            Catch::Caught => 2,
+            Catch::Broken => 3,
+        };
+        if weight(outcome) > weight(self.record.outcome) {
+            self.record.outcome = outcome;
+            self.record.first = Some(sighting);
+        }
+    }
+
+    fn finish(self) -> MutantRecord {
+        self.record
+    }
+}
