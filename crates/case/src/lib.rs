@@ -8,6 +8,7 @@ mod error;
 mod file;
 mod library;
 mod mesh;
+mod pairwise;
 mod resolve;
 pub mod scene;
 mod schema;
@@ -15,7 +16,7 @@ pub mod state;
 mod wire;
 
 pub use error::CaseError;
-pub use file::{Case, CaseFile, CaseRef, Expect};
+pub use file::{Case, CaseFile, CaseRef, Expect, Profile};
 pub use library::Library;
 pub use mesh::{Mesh, MeshSource, Primitive, RESTART, Splat, Units, Vertex};
 pub use scene::Scene;

@@ -261,7 +261,7 @@ impl MeshSource {
                 builder.rect([0, 0, size[0], size[1]], *z, value.0, *winding)?;
             }
             Self::Cover { z, value } => {
-                for [x, y] in [[-1.0, -1.0], [5.0, -1.0], [-1.0, 5.0]] {
+                for [x, y] in [[-2.0, -2.0], [8.0, -2.0], [-2.0, 8.0]] {
                     builder.vertices.push(Vertex {
                         position: [x, y, *z, 1.0],
                         color: value.0,

@@ -20,6 +20,8 @@ pub(crate) struct FileWire {
     pub(crate) about: String,
     /// The clauses of the specifications that bind, each as `API: section`.
     pub(crate) spec: Vec<String>,
+    /// Which cases of the product the quick profile takes; without it, all.
+    pub(crate) quick: Option<QuickWire>,
     /// The axes; the file stands for their whole product.
     #[serde(default)]
     pub(crate) axes: BTreeMap<String, Vec<AxisValue>>,
@@ -37,6 +39,14 @@ pub(crate) struct FileWire {
     #[serde(default)]
     #[schemars(with = "Vec<ExpectWire>")]
     pub(crate) expect: Value,
+}
+
+/// Which cases of a product the quick profile takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum QuickWire {
+    /// So many that every two values of every two axes meet.
+    Pairwise,
 }
 
 /// One value of an axis: a string, number or boolean, or a named value of any kind.

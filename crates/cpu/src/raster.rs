@@ -30,25 +30,42 @@ struct Depths {
     window: DepthPlane,
     clip: DepthPlane,
     range: [f32; 2],
+    clip_range: [f64; 2],
     bias: f64,
     clamp: Option<[f32; 2]>,
     clips: bool,
+    /// Left, top, right and bottom of the viewport in sub-texel units.
+    viewport: [i64; 4],
 }
 
 impl Depths {
-    fn new(draw: &Draw, points: [Point; 3], vertices: [Vertex; 3], bias: f64) -> Self {
+    fn new(draw: &Draw, points: [Point; 3], vertices: [Vertex; 3], bias: f64, wide: bool) -> Self {
         let z = vertices.map(|v| v.z);
         let clip_z = vertices.map(|v| v.clip_z);
         let [near, far] = draw.viewport.depth;
+        let [x, y, w, h] = draw.viewport.rect;
         let out = clip_z.iter().any(|z| !(0.0..=1.0).contains(z));
         Self {
             window: DepthPlane::new(points, z.map(f64::from)),
             clip: DepthPlane::new(points, clip_z.map(f64::from)),
-            range: [z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2])],
+            clip_range: ends(clip_z).map(f64::from),
+            range: ends(z),
             bias,
             clamp: draw.depth_clamp.then_some([near.min(far), near.max(far)]),
             clips: out && !draw.depth_clamp,
+            viewport: [x, y, x + w, y + h].map(|v| (v * UNITS as f32).ceil() as i64),
         }
+        .reaching(points, wide)
+    }
+
+    /// Points and lines are clipped before they get a width: unclipped, they reach beyond the edges.
+    fn reaching(mut self, points: [Point; 3], wide: bool) -> Self {
+        let [left, top, right, bottom] = self.viewport;
+        let inside = |p: &Point| (left..=right).contains(&p.x) && (top..=bottom).contains(&p.y);
+        if wide && points.iter().all(inside) {
+            self.viewport = [left - UNITS, top - UNITS, right + UNITS, bottom + UNITS];
+        }
+        self
     }
 
     /// The depths of a span's texels at one sample position.
@@ -65,15 +82,26 @@ impl Depths {
         })
     }
 
-    /// Takes texels out of a mask that near or far plane clip away.
+    /// Takes texels out of a mask that the viewport's edges, the near or the far plane clip away.
     fn clip(&self, mask: &mut Mask, x: usize, y: usize, sample: Point) {
+        let [left, top, right, bottom] = self.viewport;
+        for (lane, covered) in mask.iter_mut().enumerate() {
+            let at = position(x + lane, y, sample);
+            *covered &= (left..right).contains(&at.x) && (top..bottom).contains(&at.y);
+        }
         if self.clips {
             for (lane, covered) in mask.iter_mut().enumerate() {
                 let z = self.clip.at(position(x + lane, y, sample));
+                let z = z.clamp(self.clip_range[0], self.clip_range[1]);
                 *covered &= (0.0..=1.0).contains(&z);
             }
         }
     }
+}
+
+/// The least and the greatest of three numbers.
+fn ends([a, b, c]: [f32; 3]) -> [f32; 2] {
+    [a.min(b).min(c), a.max(b).max(c)]
 }
 
 fn position(x: usize, y: usize, sample: Point) -> Point {
@@ -130,13 +158,13 @@ pub(crate) fn draw<S: Steps>(
         match primitive {
             Primitive::Point(i) => {
                 let v = vertices[i];
-                let depths = Depths::new(draw, [v.at; 3], [v; 3], 0.0);
+                let depths = Depths::new(draw, [v.at; 3], [v; 3], 0.0, true);
                 point(v, &depths, &samples, bounds, &mut state);
             }
             Primitive::Line(ends) => {
                 let ends = ends.map(|i| vertices[i]);
                 let [a, b] = ends;
-                let depths = Depths::new(draw, [a.at, b.at, a.at], [a, b, a], 0.0);
+                let depths = Depths::new(draw, [a.at, b.at, a.at], [a, b, a], 0.0, true);
                 line(ends, true, &depths, samples.len(), bounds, &mut state);
             }
             Primitive::Triangle(triangle) => {
@@ -150,7 +178,13 @@ pub(crate) fn draw<S: Steps>(
                     continue;
                 };
                 let bias = depth_bias(draw, points, corners.map(|v| v.z), encoding);
-                let depths = Depths::new(draw, points, corners, bias);
+                let depths = Depths::new(
+                    draw,
+                    points,
+                    corners,
+                    bias,
+                    draw.polygon_mode == PolygonMode::Line,
+                );
                 match draw.polygon_mode {
                     PolygonMode::Fill => {
                         let color = corners[0].color;
@@ -170,13 +204,13 @@ pub(crate) fn draw<S: Steps>(
     }
 }
 
-/// Viewport, scissor rectangle and attachments together.
+/// Scissor rectangle, attachments and the viewport with a texel around it, together.
 fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
     let [x, y, w, h] = draw.viewport.rect;
     let [sx, sy, sw, sh] = draw.scissor.unwrap_or([0, 0, size[0], size[1]]);
     let axis = |start: f32, length: f32, s: u32, l: u32, size: u32| {
-        let low = (start.max(0.0).ceil() as u32).max(s);
-        let high = ((start + length).max(0.0).ceil() as u32)
+        let low = ((start - 1.0).max(0.0).floor() as u32).max(s);
+        let high = ((start + length + 1.0).max(0.0).ceil() as u32)
             .min(s.saturating_add(l))
             .min(size);
         (low as usize, high.max(low) as usize)

@@ -7,7 +7,7 @@ use etalon_case::Scene;
 use etalon_case::scene::{Draw, Pass, StencilFace};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
-use etalon_pipeline::{Arithmetic, BlendInput, Plain};
+use etalon_pipeline::{Arithmetic, BlendInput, Plain, takes_logic};
 
 /// Texels of a span.
 pub(crate) const LANES: usize = 16;
@@ -30,6 +30,8 @@ pub(crate) struct SpanState<'a, S> {
     pass: &'a Pass,
     depth: Option<ChannelEncoding>,
     encodings: Vec<[ChannelEncoding; 4]>,
+    /// Whether each target obeys logic operations.
+    logic: Vec<bool>,
     size: [u32; 2],
     surfaces: &'a mut [Surface],
     steps: &'a S,
@@ -80,6 +82,11 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 .color
                 .iter()
                 .map(|index| four(format(*index).color_channels()))
+                .collect(),
+            logic: pass
+                .color
+                .iter()
+                .map(|index| takes_logic(format(*index)))
                 .collect(),
             size: scene.pass_size(pass),
             surfaces,
@@ -221,6 +228,9 @@ impl<'a, S: Steps> SpanState<'a, S> {
         passes: &mut Mask,
     ) -> Option<Codes> {
         let (state, index, encoding) = (self.draw.depth?, self.pass.depth_stencil?, self.depth?);
+        // Depths of shaders and biases too are held to the viewport's range.
+        let [near, far] = self.draw.viewport.depth;
+        let depth = depth.map(|v| v.clamp(near.min(far), near.max(far)));
         let codes = self.steps.depth_codes(encoding, depth);
         let stored = load(self.surfaces[index].plane(0, sample), self.at(index, span));
         *passes =
@@ -281,7 +291,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 }
                 let plane = surface.plane_mut(c, sample);
                 let mut codes = self.steps.color_codes(encodings[c], value[c]);
-                if let Some(operation) = self.draw.logic {
+                if let Some(operation) = self.draw.logic.filter(|_| self.logic[t]) {
                     codes = plain.logic(encodings[c], operation, codes, load(plane, at));
                 }
                 store(plane, at, codes, mask);

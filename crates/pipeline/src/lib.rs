@@ -22,7 +22,7 @@ pub use arithmetic::Arithmetic;
 pub use blend::{BlendInput, blend};
 pub use coverage::{Point, SnappedTriangle, edge_value, is_top_left, signed_area};
 pub use depth::{DepthPlane, slope};
-pub use logic::logic_operation;
+pub use logic::{logic_operation, takes_logic};
 pub use plain::Plain;
 pub use stencil::{compare, stencil_operation, stencil_passes, stencil_write};
 pub use viewport::{front_facing, is_culled, window_position};

@@ -1,7 +1,16 @@
 //! Logic operations: exact integers (Vulkan, Logical Operations; OpenGL 4.6, 17.3.9).
 
 use etalon_case::state::LogicOperation;
-use etalon_frame::ChannelEncoding;
+use etalon_frame::{ChannelEncoding, TextureFormat};
+
+/// Whether attachments of a format obey logic operations; those with floats or in sRGB take the
+/// source as it is, all channels of it.
+pub fn takes_logic(format: TextureFormat) -> bool {
+    format
+        .color_channels()
+        .iter()
+        .all(|e| !e.is_float() && *e != ChannelEncoding::Srgb8)
+}
 
 /// The code that an operation leaves. Float and sRGB encodings take the source as it is.
 #[inline(always)]

@@ -3,7 +3,8 @@
 use crate::interval::Interval;
 use crate::judge::{Notes, Place, Sample, Walk, codes_text};
 use crate::judging::{Judging, Range};
-use crate::rules::DepthOrder;
+use crate::rules::{DepthOrder, DepthRange};
+use crate::setup::Shape;
 use crate::world::World;
 use etalon_case::scene::{Contents, Draw, StencilFace};
 use etalon_case::state::CompareFunction;
@@ -11,6 +12,7 @@ use etalon_frame::{ChannelEncoding, CodeInterval};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
 use etalon_pipeline::{
     Arithmetic, BlendInput, blend, front_facing, is_culled, stencil_passes, stencil_write,
+    takes_logic,
 };
 use smallvec::SmallVec;
 
@@ -26,7 +28,11 @@ impl Walk<'_> {
     ) {
         let draw = place.draw;
         let front = front_facing(if positive_area { 1 } else { -1 }, draw.front_face);
-        if is_culled(draw.cull, front) {
+        let polygon = matches!(
+            place.primitive.shape,
+            Shape::Triangle(_) | Shape::Outline(_)
+        );
+        if polygon && is_culled(draw.cull, front) {
             notes.add(
                 || place.name(),
                 "cull",
@@ -39,13 +45,32 @@ impl Walk<'_> {
             result.push(world);
             return;
         }
+        let outline = matches!(place.primitive.shape, Shape::Outline(_));
+        if outline && !self.rules.outlines_face_as_polygons.value {
+            self.shade(place, world.clone(), !front, result, notes);
+        }
+        self.shade(place, world, front, result, notes);
+    }
+
+    /// The fragment of a primitive that is not culled, facing front or back.
+    fn shade(
+        &self,
+        place: Place<'_>,
+        world: World,
+        front: bool,
+        result: &mut SmallVec<[World; 2]>,
+        notes: &mut Notes<'_>,
+    ) {
+        let draw = place.draw;
         let mut judging = Judging::new(self.rules);
-        let own_depth = self.window_depth(place);
+        let own_depth = place.primitive.depth_at(place.point);
         let texel = |t: usize| self.texel(draw, t, place.at);
         let input = FragmentInput {
             color: place.primitive.color,
             front,
-            depth: own_depth,
+            depth: place
+                .primitive
+                .depth_seen(place.point, self.units, place.at.samples),
             sample: place.at.sample,
             texels: [texel(0), texel(1)],
             params: &draw.params,
@@ -81,7 +106,9 @@ impl Walk<'_> {
         let pass = &self.scene.passes[place.pass];
         let depth_stencil = pass.depth_stencil;
         let mut world = world;
-        if let (Some(bounds), Some(index)) = (draw.depth_bounds, depth_stencil) {
+        // Without a depth attachment the test passes.
+        let bounded = depth_stencil.filter(|i| self.scene.attachments[*i].format.has_depth());
+        if let (Some(bounds), Some(index)) = (draw.depth_bounds, bounded) {
             let (can, must) = self.depth_bounds(place, &world, bounds, index, notes);
             if !must {
                 result.push(world.clone());
@@ -112,8 +139,8 @@ impl Walk<'_> {
                 return;
             }
         }
-        let incoming = output.depth.unwrap_or(own_depth);
-        let incoming = Range::same(incoming.float.clamp(0.0, 1.0));
+        let exported = output.depth.is_some() || place.primitive.is_biased();
+        let incoming = self.in_range(place, output.depth.unwrap_or(own_depth), exported);
         let outcomes = match (draw.depth, depth_stencil) {
             (Some(state), Some(index)) => {
                 let encoding = self.depth_encoding(index);
@@ -145,15 +172,27 @@ impl Walk<'_> {
         }
     }
 
-    /// The fixed-function window depth at the sample, held to the viewport where the draw clamps.
-    fn window_depth(&self, place: Place<'_>) -> Range {
-        let depth = place.primitive.depth_at(place.point);
+    /// The depth that is tested and stored: held to the viewport's range where the draw clamps;
+    /// where it does not, what lies outside of the range is treated as the rules say. The clipped
+    /// fixed-function depth alone lies inside.
+    fn in_range(&self, place: Place<'_>, depth: Range, exported: bool) -> Range {
         let [near, far] = place.draw.viewport.depth.map(f64::from);
-        if place.draw.depth_clamp {
-            Range::same(depth.float.clamp(near.min(far), near.max(far)))
-        } else {
-            depth
-        }
+        let (near, far) = (near.min(far), near.max(far));
+        let held = depth.float.clamp(near, far);
+        let whole = Interval {
+            low: 0.0,
+            high: 1.0,
+        };
+        let unit = depth.float.clamp(0.0, 1.0);
+        let slack = self.rules.float_error.value * 4.0;
+        let outside = depth.float.low < near - slack || depth.float.high > far + slack;
+        Range::same(match self.rules.depth_range.value {
+            _ if place.draw.depth_clamp => held,
+            _ if !(exported && outside) => unit,
+            DepthRange::Undefined => whole,
+            DepthRange::Viewport => held,
+            DepthRange::Either => held.hull(unit),
+        })
     }
 
     /// Whether mask and alpha to coverage can and whether they must let the sample through.
@@ -389,10 +428,10 @@ impl Walk<'_> {
                 if target.write_mask & (1 << c) != 0 {
                     let codes = judging.encode(*encoding, value[c]);
                     cell.channels[c] = match place.draw.logic {
-                        Some(operation) => {
+                        Some(operation) if takes_logic(attachment.format) => {
                             judging.logic(*encoding, operation, codes, cell.channels[c])
                         }
-                        None => codes,
+                        _ => codes,
                     };
                 }
             }

@@ -1,17 +1,18 @@
 //! The walk over samples and worlds.
 
+use crate::coverage::misses;
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
-use crate::rules::{Resolve, Rules, SharedEdge};
-use crate::setup::{self, DrawSetup, Primitive, Shape, Side, Triangle, units_per_texel};
-use crate::world::{Cell, Decision, World, merge};
+use crate::rules::{Resolve, Rules};
+use crate::setup::{self, DrawSetup, Primitive, Shape, Side, units_per_texel};
+use crate::world::{Cell, World, merge};
 use etalon_case::Scene;
 use etalon_case::scene::{Contents, Draw};
 use etalon_frame::{
     Aspect, ChannelEncoding, CodeInterval, LegalSet, LegalSetBuilder, Limits, ReadPath, Story,
     StoryLine, TexelSet, WorldBox,
 };
-use etalon_pipeline::{Arithmetic, Point, front_facing, is_top_left};
+use etalon_pipeline::{Arithmetic, Point};
 use smallvec::SmallVec;
 use std::borrow::Cow;
 
@@ -108,7 +109,7 @@ pub fn explain(scene: &Scene, limits: &Limits, rules: &Rules, at: Sample) -> Sto
     story
 }
 
-type Worlds = SmallVec<[World; 2]>;
+pub(crate) type Worlds = SmallVec<[World; 2]>;
 
 /// Whether a draw's scissor rectangle lets a texel through.
 fn in_scissor(draw: &Draw, at: Sample) -> bool {
@@ -118,11 +119,11 @@ fn in_scissor(draw: &Draw, at: Sample) -> bool {
 
 pub(crate) struct Walk<'a> {
     pub(crate) scene: &'a Scene,
-    limits: &'a Limits,
+    pub(crate) limits: &'a Limits,
     pub(crate) rules: &'a Rules,
     /// Per pass and draw.
     setups: Vec<Vec<DrawSetup>>,
-    units: i64,
+    pub(crate) units: i64,
 }
 
 /// Where in the scene a fragment comes from.
@@ -132,16 +133,16 @@ pub(crate) struct Place<'a> {
     /// The sample's position in sub-texel units.
     pub(crate) point: Point,
     /// Where it lies relative to a triangle's edges.
-    sides: [Side; 3],
+    pub(crate) sides: [Side; 3],
     pub(crate) pass: usize,
-    draw_index: usize,
+    pub(crate) draw_index: usize,
     pub(crate) draw: &'a Draw,
-    primitive_index: usize,
+    pub(crate) primitive_index: usize,
     pub(crate) primitive: &'a Primitive,
     /// Unique over the scene.
-    draw_id: u32,
+    pub(crate) draw_id: u32,
     /// How many worlds there are, for the story.
-    world: usize,
+    pub(crate) world: usize,
 }
 
 /// A note taker: costs nothing while nobody listens.
@@ -257,15 +258,15 @@ impl<'a> Walk<'a> {
                     continue;
                 }
                 let point = self.sample_point(at);
-                let (can, must) = self.in_viewport(draw, point);
-                if !can {
-                    continue;
-                }
                 let setup = &self.setups[p][d];
                 for i in &setup.rows[at.y as usize] {
                     let primitive = &setup.primitives[*i as usize];
                     let x = i64::from(at.x);
                     if x < primitive.bounds[0] || x >= primitive.bounds[2] {
+                        continue;
+                    }
+                    let (can, must) = self.in_viewport(draw, primitive, point);
+                    if !can {
                         continue;
                     }
                     let sides = match &primitive.shape {
@@ -362,14 +363,17 @@ impl<'a> Walk<'a> {
         let mut result = [CodeInterval::exact(0); 4];
         for (c, encoding) in encodings.iter().enumerate() {
             let between = hull[c].unwrap_or(CodeInterval::exact(0));
+            let count = f64::from(attachment.samples);
+            // The error is relative to the samples, of which the sum may be a small difference.
+            let values = [between.low, between.high].map(|o| encoding.value_of_order(o).abs());
+            let error = values[0].max(values[1]) * count * self.rules.float_error.value;
+            let average = sum[c].map_increasing(|v| v / count).widen(error);
+            let average = judging.encode(*encoding, Range::same(average));
             result[c] = match self.rules.resolve.value {
+                _ if between.is_exact() && !encoding.is_float() => between,
+                Resolve::Between if encoding.is_float() => between.hull(average),
                 Resolve::Between => between,
-                Resolve::Average if between.is_exact() => between,
-                Resolve::Average => {
-                    let count = f64::from(attachment.samples);
-                    let average = sum[c].map_increasing(|v| v / count);
-                    judging.encode(*encoding, Range::same(average.widen_relative(1e-6)))
-                }
+                Resolve::Average => average,
             };
         }
         notes.add(
@@ -386,25 +390,6 @@ impl<'a> Walk<'a> {
             Some(self.rules.resolve.citation),
         );
         Some(result)
-    }
-
-    /// Whether a sample can and whether it must lie inside a draw's viewport, whose edges are
-    /// clip planes and may be snapped.
-    fn in_viewport(&self, draw: &Draw, point: Point) -> (bool, bool) {
-        let [x, y, w, h] = draw.viewport.rect.map(f64::from);
-        let units = self.units as f64;
-        let slack = units / f64::from(1_u32 << self.limits.sub_pixel_bits)
-            + units * self.rules.float_error.value * 16.0;
-        let axis = |start: f64, length: f64, at: i64| {
-            let (low, high) = (start * units, (start + length) * units);
-            let at = at as f64;
-            (
-                at > low - slack && at < high + slack,
-                at > low + slack && at < high - slack,
-            )
-        };
-        let (x, y) = (axis(x, w, point.x), axis(y, h, point.y));
-        (x.0 && y.0, x.1 && y.1)
     }
 
     fn initial(&self, at: Sample, notes: &mut Notes<'_>) -> World {
@@ -480,89 +465,6 @@ impl<'a> Walk<'a> {
         parts.join(", ")
     }
 
-    /// Carries worlds through one primitive.
-    fn primitive(&self, place: Place<'_>, worlds: Worlds, notes: &mut Notes<'_>) -> Worlds {
-        let mut result = SmallVec::new();
-        let several = worlds.len() > 1;
-        for (w, world) in worlds.into_iter().enumerate() {
-            let mut place = place;
-            place.world = if several { w + 1 } else { 0 };
-            match &place.primitive.shape {
-                Shape::Triangle(triangle) => {
-                    self.triangle(place, triangle, world, &mut result, notes);
-                }
-                Shape::Outline(triangle) => {
-                    let (least, most) = triangle.area;
-                    for (possible, positive) in [(most > 0, true), (least < 0, false)] {
-                        if possible {
-                            self.repeat(place, world.clone(), positive, &mut result, notes);
-                        }
-                    }
-                }
-                Shape::Line(_) | Shape::Point(_) => {
-                    let front = self.draw_front(place.draw);
-                    self.repeat(place, world.clone(), front, &mut result, notes);
-                    if !self.rules.points_face_front.value {
-                        self.repeat(place, world, !front, &mut result, notes);
-                    }
-                }
-            }
-        }
-        result
-    }
-
-    /// The sign of area that faces front.
-    fn draw_front(&self, draw: &Draw) -> bool {
-        front_facing(1, draw.front_face)
-    }
-
-    /// A point's, line's or outline's fragments at the sample: as often as it may be covered.
-    fn repeat(
-        &self,
-        place: Place<'_>,
-        world: World,
-        positive_area: bool,
-        result: &mut Worlds,
-        notes: &mut Notes<'_>,
-    ) {
-        let (least, most) = place.primitive.times(place.point, self.units);
-        let mut worlds: Worlds = SmallVec::new();
-        worlds.push(world);
-        for time in 0..=most {
-            if time >= least {
-                result.extend(worlds.iter().cloned());
-            }
-            if time == most {
-                break;
-            }
-            let mut next = SmallVec::new();
-            for world in worlds {
-                self.fragment(place, world, positive_area, &mut next, notes);
-            }
-            worlds = next;
-        }
-    }
-
-    fn triangle(
-        &self,
-        place: Place<'_>,
-        triangle: &Triangle,
-        world: World,
-        result: &mut Worlds,
-        notes: &mut Notes<'_>,
-    ) {
-        let (least, most) = triangle.area;
-        for (possible, positive) in [(most > 0, true), (least < 0, false)] {
-            if possible {
-                self.covered(place, triangle, world.clone(), positive, result, notes);
-            }
-        }
-        // A triangle that legal snapping can flatten may also cover nothing.
-        if least <= 0 && most >= 0 {
-            result.push(world);
-        }
-    }
-
     fn sample_point(&self, at: Sample) -> Point {
         let position = self
             .limits
@@ -577,76 +479,6 @@ impl<'a> Walk<'a> {
         Point {
             x: axis(at.x, position[0]),
             y: axis(at.y, position[1]),
-        }
-    }
-
-    /// Splits a world by the edges that may or may not hold the sample.
-    fn covered(
-        &self,
-        place: Place<'_>,
-        primitive: &Triangle,
-        world: World,
-        positive_area: bool,
-        result: &mut Worlds,
-        notes: &mut Notes<'_>,
-    ) {
-        let mut pending: Worlds = SmallVec::new();
-        pending.push(world);
-        let inside = inside_of(positive_area);
-        let sides = place.sides;
-        if sides
-            .into_iter()
-            .any(|side| is_outside(side, positive_area))
-        {
-            result.append(&mut pending);
-            return;
-        }
-        for (i, side) in sides.into_iter().enumerate() {
-            if side == inside {
-                continue;
-            }
-            if side == Side::On && self.rules.shared_edge.value == SharedEdge::TopLeft {
-                let (p, q) = primitive.edge(i);
-                let (p, q) = if positive_area { (q, p) } else { (p, q) };
-                if !is_top_left(p, q) {
-                    result.append(&mut pending);
-                    return;
-                }
-                continue;
-            }
-            let (a, b) = (primitive.ids[i], primitive.ids[(i + 1) % 3]);
-            let decision = Decision {
-                draw: place.draw_id,
-                ends: (a.min(b), a.max(b)),
-                owner: (self.rules.shared_edge.value == SharedEdge::Independent)
-                    .then_some(place.primitive_index as u32),
-            };
-            // The side is named by the edge's canonical direction.
-            let wanted = (inside == Side::Positive) == (a < b);
-            let mut inside_worlds = SmallVec::new();
-            for world in pending {
-                match world.decided(decision) {
-                    Some(outcome) if outcome == wanted => inside_worlds.push(world),
-                    Some(_) => result.push(world),
-                    None => {
-                        result.push(world.with(decision, !wanted));
-                        inside_worlds.push(world.with(decision, wanted));
-                    }
-                }
-            }
-            pending = inside_worlds;
-            notes.add(
-                || place.name(),
-                "coverage",
-                || format!("edge {i} is too near to tell: covered and not covered both stand"),
-                Some(match side {
-                    Side::On => self.rules.shared_edge.citation,
-                    _ => self.rules.snap.citation,
-                }),
-            );
-        }
-        for world in pending {
-            self.fragment(place, world, positive_area, result, notes);
         }
     }
 
@@ -708,28 +540,6 @@ impl<'a> Walk<'a> {
         let value = judging.decode(encoding, stored);
         judging.encode(read[0], Range::same(value.float))
     }
-}
-
-/// The side of a triangle's edges on which its inside lies. With y down, a triangle of positive area
-/// (y up) has it where edge functions are negative.
-fn inside_of(positive_area: bool) -> Side {
-    if positive_area {
-        Side::Negative
-    } else {
-        Side::Positive
-    }
-}
-
-/// Whether a sample is outside a triangle whichever way it turns: nothing happens in any world.
-fn misses(triangle: &Triangle, sides: [Side; 3]) -> bool {
-    let (least, most) = triangle.area;
-    let outside = |positive: bool| sides.into_iter().any(|side| is_outside(side, positive));
-    least != 0 && most != 0 && (most < 0 || outside(true)) && (least > 0 || outside(false))
-}
-
-/// Whether a side of one edge is certainly outside a triangle.
-fn is_outside(side: Side, positive_area: bool) -> bool {
-    matches!(side, Side::Positive | Side::Negative) && side != inside_of(positive_area)
 }
 
 fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {

@@ -145,7 +145,18 @@ impl<'r> Judging<'r> {
         } else {
             low
         };
-        CodeInterval::new(low.min(high), high.max(low))
+        // Values below the normal ones may be flushed to zero (Vulkan, 16-Bit Floating-Point Numbers;
+        // OpenGL 4.6, 2.3.4.2 to 2.3.4.4).
+        let normal = match encoding {
+            ChannelEncoding::Ufloat(mantissa) => 1 << mantissa,
+            _ => 1 << 10,
+        };
+        let (low, high) = (low.min(high), high.max(low));
+        let flush = |order: i64, towards: i64| match order.abs() < normal {
+            true => towards,
+            false => order,
+        };
+        CodeInterval::new(flush(low, low.min(0)), flush(high, high.max(0)))
     }
 }
 
@@ -208,7 +219,7 @@ impl Arithmetic for Judging<'_> {
     fn window_coordinate(&mut self, value: Range, length: f32) -> Range {
         let largest = value.float.low.abs().max(value.float.high.abs());
         let scale = largest.max(f64::from(length));
-        Range::same(value.float.widen(scale * self.error()))
+        Range::same(value.float.widen(scale * self.error() * 2.0))
     }
 
     /// The terms are as large as the viewport's depths; where the near one is 0 there is but one
@@ -218,7 +229,10 @@ impl Arithmetic for Judging<'_> {
         Range::same(if range[0] == 0.0 {
             value.float.widen_relative(error)
         } else {
-            value.float.widen(f64::from(range[0].max(range[1])) * error)
+            // Difference, product and sum, each rounded.
+            value
+                .float
+                .widen(f64::from(range[0].max(range[1])) * error * 2.0)
         })
     }
 

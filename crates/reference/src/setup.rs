@@ -1,5 +1,6 @@
 //! Primitives, once per scene: snapped positions, facing, depth, and which rows they can reach.
 
+use crate::depth::{Depth, depth_bias};
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
 use crate::rules::{Rules, Snap};
@@ -7,9 +8,7 @@ use etalon_case::Primitive as Vertices;
 use etalon_case::scene::Draw;
 use etalon_case::state::PolygonMode;
 use etalon_frame::{ChannelEncoding, Limits};
-use etalon_pipeline::{
-    Arithmetic, DepthPlane, Point, edge_value, signed_area, slope, window_position,
-};
+use etalon_pipeline::{Arithmetic, Point, edge_value, signed_area, window_position};
 
 /// All positions that legal snapping can give one vertex: x and y each from low to high, in units
 /// of [`units_per_texel`].
@@ -20,7 +19,7 @@ pub(crate) struct SnapBox {
 }
 
 impl SnapBox {
-    fn corners(self) -> [Point; 4] {
+    pub(crate) fn corners(self) -> [Point; 4] {
         let point = |x, y| Point { x, y };
         [
             self.low,
@@ -30,11 +29,11 @@ impl SnapBox {
         ]
     }
 
-    fn is_exact(self) -> bool {
+    pub(crate) fn is_exact(self) -> bool {
         self.low == self.high
     }
 
-    fn hull(self, other: Self) -> Self {
+    pub(crate) fn hull(self, other: Self) -> Self {
         Self {
             low: Point {
                 x: self.low.x.min(other.low.x),
@@ -90,6 +89,8 @@ pub(crate) struct Primitive {
     clip_depth: Depth,
     /// What a depth bias adds.
     bias: Interval,
+    /// All snapped vertices.
+    all: SnapBox,
 }
 
 /// Where a sample lies relative to one edge.
@@ -174,6 +175,35 @@ impl Primitive {
         Range::same(depth.corners(self.bias, |a, b| a + b))
     }
 
+    /// The depth that a shader sees at the fragment of a texel: of several samples it may stand for
+    /// any point of the texel, and whether a bias is in it is not told.
+    pub(crate) fn depth_seen(&self, at: Point, units: i64, samples: u32) -> Range {
+        let mut depth = self.window_depth.at(at);
+        if samples > 1 {
+            let corner = |v: i64| v.div_euclid(units) * units;
+            for (x, y) in [(0, 0), (units, 0), (0, units), (units, units)] {
+                let point = Point {
+                    x: corner(at.x) + x,
+                    y: corner(at.y) + y,
+                };
+                depth = depth.hull(self.window_depth.beyond(point));
+            }
+        }
+        let biased = depth.corners(self.bias, |a, b| a + b);
+        Range::same(depth.hull(biased))
+    }
+
+    /// Whether a depth bias may move its fragments.
+    pub(crate) fn is_biased(&self) -> bool {
+        !self.bias.is(0.0)
+    }
+
+    /// Whether all vertices lie inside a rectangle of left, top, width and height.
+    pub(crate) fn inside_rect(&self, [x, y, w, h]: [f64; 4]) -> bool {
+        let (low, high) = (self.all.low, self.all.high);
+        low.x as f64 >= x && low.y as f64 >= y && high.x as f64 <= x + w && high.y as f64 <= y + h
+    }
+
     /// Whether a covered sample lies between near and far plane: whether it can, whether it must.
     pub(crate) fn inside_depth(&self, at: Point) -> (bool, bool) {
         let depth = self.clip_depth.at(at);
@@ -215,6 +245,12 @@ fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
         return (0, 0);
     }
     let along = |low: i64, high: i64, at: i64| at - units > low && at + units < high;
+    // Whether a line between two positions neither runs through the sample's texel nor, one texel
+    // wide, reaches the sample.
+    let misses = |low: i64, high: i64, at: i64| {
+        let far = at < low - units / 2 || at > high + units / 2;
+        far && !touches(low, high, at, units)
+    };
     let across = |line: SnapBox, low: fn(Point) -> i64, at: i64| {
         let (least, most) = (low(line.low), low(line.high));
         let cell = at.div_euclid(units);
@@ -229,9 +265,9 @@ fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     let y = (a.high.y.min(b.high.y), a.low.y.max(b.low.y));
     let must = (horizontal && along(x.0, x.1, at.x) && across(all, |p| p.y, at.y))
         || (vertical && along(y.0, y.1, at.y) && across(all, |p| p.x, at.x));
-    // An axis-aligned line covers no texel beside the ones it runs through.
-    let beside = (horizontal && !touches(all.low.y, all.high.y, at.y, units))
-        || (vertical && !touches(all.low.x, all.high.x, at.x, units));
+    // An axis-aligned line covers nothing farther beside it.
+    let beside = (horizontal && misses(all.low.y, all.high.y, at.y))
+        || (vertical && misses(all.low.x, all.high.x, at.x));
     (u32::from(must), u32::from(!beside))
 }
 
@@ -239,59 +275,6 @@ fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
 fn touches(low: i64, high: i64, at: i64, units: i64) -> bool {
     let cell = at.div_euclid(units);
     low.div_euclid(units) <= cell && cell <= high.div_euclid(units)
-}
-
-/// A depth over a primitive.
-#[derive(Clone, Copy, Debug)]
-struct Depth {
-    plane: Option<DepthPlane>,
-    /// How far legal snapping can move the plane at a sample inside.
-    error: f64,
-    /// Between the vertices' depths nothing leaves.
-    hull: Interval,
-}
-
-impl Depth {
-    fn flat(z: &[Interval]) -> Self {
-        let hull = z.iter().copied().reduce(Interval::hull);
-        Self {
-            plane: None,
-            error: 0.0,
-            hull: hull.unwrap_or(Interval::exact(0.0)),
-        }
-    }
-
-    fn over(vertices: [SnapBox; 3], z: [Interval; 3], grid: i64, float_error: f64) -> Self {
-        let mut depth = Self::flat(&z);
-        if z[0] == z[1] && z[1] == z[2] {
-            return depth;
-        }
-        let middle = z.map(|z| (z.low + z.high) / 2.0);
-        let plane = DepthPlane::new(vertices.map(|v| v.low), middle);
-        // A vertex that moves by d tilts the plane by no more than the slope times d inside the
-        // triangle; positions may be interpolated before or after snapping.
-        let moved = vertices
-            .iter()
-            .map(|v| (v.high.x - v.low.x).max(v.high.y - v.low.y))
-            .max()
-            .unwrap_or(0)
-            + grid;
-        let own = z.iter().map(|z| z.high - z.low).fold(0.0, f64::max);
-        let largest = z.iter().map(|z| z.high.abs()).fold(0.0, f64::max);
-        depth.error =
-            (plane.dx.abs() + plane.dy.abs()) * moved as f64 + own + largest * float_error;
-        depth.plane = Some(plane);
-        depth
-    }
-
-    fn at(&self, point: Point) -> Interval {
-        match &self.plane {
-            None => self.hull,
-            Some(plane) => Interval::exact(plane.at(point))
-                .widen(self.error)
-                .clamp(self.hull.low, self.hull.high),
-        }
-    }
 }
 
 /// A draw's primitives and, per row of texels, those that may touch it, in drawing order.
@@ -383,8 +366,8 @@ fn primitive(
             let v = line.map(|i| vertices[i]);
             (
                 Shape::Line(v.map(|v| v.snapped)),
-                Depth::flat(&v.map(|v| v.window_z)),
-                Depth::flat(&v.map(|v| v.clip_z)),
+                Depth::along(v.map(|v| v.snapped), v.map(|v| v.window_z), units),
+                Depth::along(v.map(|v| v.snapped), v.map(|v| v.clip_z), units),
             )
         }
         Vertices::Triangle(triangle) => {
@@ -401,11 +384,17 @@ fn primitive(
                 PolygonMode::Fill => Shape::Triangle(triangle),
                 PolygonMode::Line => Shape::Outline(triangle),
             };
-            (
-                shape,
-                window,
-                Depth::over(boxes, v.map(|v| v.clip_z), grid, error),
-            )
+            let mut depths = [window, Depth::over(boxes, v.map(|v| v.clip_z), grid, error)];
+            if draw.polygon_mode == PolygonMode::Line {
+                // An edge reaches beyond the triangle as a line does.
+                for depth in &mut depths {
+                    let steep = depth.steepest();
+                    depth.error += steep * 2.0 * units as f64;
+                    depth.hull = depth.hull.widen(steep * 2.0 * units as f64);
+                }
+            }
+            let [window, clip] = depths;
+            (shape, window, clip)
         }
     };
     let reach = match shape {
@@ -424,80 +413,11 @@ fn primitive(
         window_depth,
         clip_depth,
         bias,
+        all,
     }
 }
 
-/// Everything that the rules let a depth bias add (Vulkan, Depth Bias; OpenGL 4.6, 14.6.5).
-fn depth_bias(
-    context: &Context<'_>,
-    draw: &Draw,
-    boxes: [SnapBox; 3],
-    z: [Interval; 3],
-) -> Interval {
-    let state = draw.depth_bias;
-    let (Some(encoding), true) = (context.depth, state.constant != 0 || state.slope != 0.0) else {
-        return Interval::exact(0.0);
-    };
-    let rules = context.rules.depth_bias_unit.value;
-    let unit = match encoding {
-        ChannelEncoding::Unorm(bits) => {
-            let least = 2_f64.powi(-i32::from(bits));
-            Interval {
-                low: least * rules.unorm.0,
-                high: least * rules.unorm.1,
-            }
-        }
-        _ => {
-            let exponent = |v: f64| v.max(f64::from(f32::MIN_POSITIVE)).log2().floor() as i32;
-            let low = z.iter().map(|z| z.low).fold(0.0, f64::max);
-            let high = z.iter().map(|z| z.high).fold(0.0, f64::max);
-            Interval {
-                low: 2_f64.powi(exponent(low) - 23) * rules.float.0,
-                high: 2_f64.powi(exponent(high) - 23) * rules.float.1,
-            }
-        }
-    };
-    let by_constant = unit.corners(Interval::exact(f64::from(state.constant)), |a, b| a * b);
-    let by_slope =
-        slopes(context, boxes, z).corners(Interval::exact(f64::from(state.slope)), |a, b| a * b);
-    let sum = by_constant
-        .corners(by_slope, |a, b| a + b)
-        .widen_relative(context.rules.float_error.value);
-    let clamp = f64::from(state.clamp);
-    if clamp > 0.0 {
-        sum.map_increasing(|v| v.min(clamp))
-    } else if clamp < 0.0 {
-        sum.map_increasing(|v| v.max(clamp))
-    } else {
-        sum
-    }
-}
-
-/// The least and greatest slope per texel over all snapped positions. Each is a quotient of
-/// functions linear in every coordinate alone, so the extremes stand at corners.
-fn slopes(context: &Context<'_>, boxes: [SnapBox; 3], z: [Interval; 3]) -> Interval {
-    let units = units_per_texel(context.limits) as f64;
-    let middle = z.map(|z| (z.low + z.high) / 2.0);
-    if z[0] == z[1] && z[1] == z[2] {
-        return Interval::exact(0.0);
-    }
-    let mut result: Option<Interval> = None;
-    for a in boxes[0].corners() {
-        for b in boxes[1].corners() {
-            for c in boxes[2].corners() {
-                let plane = DepthPlane::new([a, b, c], middle);
-                let (low, high) = slope(plane.dx * units, plane.dy * units);
-                let one = Interval { low, high };
-                result = Some(result.map_or(one, |r| r.hull(one)));
-            }
-        }
-    }
-    let slopes = result.unwrap_or(Interval::exact(0.0));
-    // Positions may be taken before or after snapping, and depths carry their own error.
-    slopes.widen_relative(0.01 + context.rules.float_error.value * 100.0)
-}
-
-fn area(boxes: [SnapBox; 3]) -> (i64, i64) {
+pub(crate) fn area(boxes: [SnapBox; 3]) -> (i64, i64) {
     // One corner settles most triangles; see `side`.
     let size = |b: SnapBox| (b.high.x - b.low.x).max(b.high.y - b.low.y);
     let moved = boxes.map(size).into_iter().max().unwrap_or(0);

@@ -61,9 +61,13 @@ fn indices(draw: &Draw) -> Vec<[usize; 3]> {
 /// Whether the simulation has everything that a scene uses: one sample, 8-bit colour, flat
 /// triangles over the whole attachment.
 pub(crate) fn knows(scene: &Scene) -> bool {
-    let formats = scene.attachments.iter().all(|a| {
-        let color = [TextureFormat::Rgba8Unorm, TextureFormat::Rgba32Float];
-        a.samples == 1 && (!a.format.is_color() || color.contains(&a.format))
+    let formats = scene.attachments.iter().enumerate().all(|(i, a)| {
+        // A float is only fetched from.
+        let fetched = a.format == TextureFormat::Rgba32Float
+            && matches!(a.contents, Contents::Texels(_))
+            && scene.passes.iter().all(|p| !p.color.contains(&i));
+        let color = a.format == TextureFormat::Rgba8Unorm || fetched;
+        a.samples == 1 && (!a.format.is_color() || color)
     });
     let shaders = [
         Shader::FlatColor,

@@ -4,7 +4,7 @@
 use super::help::{CLEAR, CORNER, GREEN, RED, SIZE, draw, each, scene};
 use crate::GlBackend;
 use etalon_backend::{Backend, BackendError};
-use etalon_case::Library;
+use etalon_case::{Library, Profile};
 use etalon_frame::{Aspect, ChannelEncoding, ReadPath, Requirement, TextureFormat};
 use std::time::Instant;
 
@@ -437,7 +437,7 @@ fn what_is_denied_is_named(backend: &GlBackend) {
 pub(super) fn every_built_in_case_is_drawn(backend: &GlBackend) {
     let library = Library::built_in().unwrap();
     let (start, mut count) = (Instant::now(), 0);
-    for case in library.cases() {
+    for case in library.cases(Profile::Full) {
         let case = case.build().unwrap();
         if let Some(missing) = backend.limits().missing(&case.scene.requirements()) {
             println!("{}: {missing}", case.id);

@@ -3,7 +3,7 @@
 
 use crate::GlBackend;
 use etalon_backend::Backend;
-use etalon_case::{CaseFile, Scene};
+use etalon_case::{CaseFile, Profile, Scene};
 use etalon_frame::{Frame, Image};
 use std::time::Duration;
 
@@ -22,7 +22,12 @@ pub(super) const CORNER: &str = r#"{
 pub(super) fn scene(json: &str) -> Scene {
     let text = format!(r#"{{"about":"a","spec":["b"],"scene":{json}}}"#);
     let file = CaseFile::parse("t.json", &text).unwrap();
-    file.cases().next().unwrap().build().unwrap().scene
+    file.cases(Profile::Full)
+        .next()
+        .unwrap()
+        .build()
+        .unwrap()
+        .scene
 }
 
 /// Draws twice; both frames must be the same.

@@ -93,6 +93,18 @@ pub enum FactorClamp {
     Either,
 }
 
+/// What becomes of a depth outside of the viewport's range that a shader or a bias made, where the
+/// draw does not clamp.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthRange {
+    /// Anything from 0 to 1.
+    Undefined,
+    /// It is held to the viewport's range.
+    Viewport,
+    /// It is held to the viewport's range or to 0 and 1.
+    Either,
+}
+
 /// What a resolve makes of a texel's samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resolve {
@@ -123,12 +135,17 @@ pub struct Rules {
     pub depth_order: Permission<DepthOrder>,
     /// What a depth bias counts in.
     pub depth_bias_unit: Permission<BiasUnit>,
+    /// Depths outside of the viewport's range.
+    pub depth_range: Permission<DepthRange>,
     /// Blend factors beyond a normalized format's range.
     pub factor_clamp: Permission<FactorClamp>,
     /// Averaging samples.
     pub resolve: Permission<Resolve>,
     /// Whether points and lines face front; where not, either is legal.
     pub points_face_front: Permission<bool>,
+    /// Whether the edges of a polygon, drawn as lines, face as the polygon does; where not, either is
+    /// legal. Culling goes by the polygon in any case.
+    pub outlines_face_as_polygons: Permission<bool>,
     /// Alpha to coverage: alpha 0 gives no sample, alpha 1 all, anything between any.
     pub alpha_to_coverage: &'static str,
     /// What is said of zero-area and reversed triangles.
@@ -174,9 +191,11 @@ mod tests {
                 rules.blend.citation,
                 rules.depth_order.citation,
                 rules.depth_bias_unit.citation,
+                rules.depth_range.citation,
                 rules.factor_clamp.citation,
                 rules.resolve.citation,
                 rules.points_face_front.citation,
+                rules.outlines_face_as_polygons.citation,
                 rules.alpha_to_coverage,
                 rules.facing,
                 rules.stencil,

@@ -1,8 +1,8 @@
 //! OpenGL's permissions (4.6 core profile).
 
 use super::{
-    BiasUnit, BlendPrecision, DepthOrder, FactorClamp, Resolve, Rounding, Rules, SharedEdge, Snap,
-    permit,
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
+    SharedEdge, Snap, permit,
 };
 
 pub(super) fn rules() -> Rules {
@@ -43,10 +43,14 @@ pub(super) fn rules() -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm: (0.0, 1e9),
-                float: (0.0, 1e9),
+                unorm: (0.999, 1e9),
+                float: (0.499, 1e9),
             },
-            "OpenGL 4.6: 14.6.5 Depth Offset: r is implementation-dependent",
+            "OpenGL 4.6: 14.6.5 Depth Offset: the least r that is sure to be resolved; how much more is open",
+        ),
+        depth_range: permit(
+            DepthRange::Either,
+            "OpenGL 4.6: 17.3.4 Depth Buffer Test: held to 0 and 1; the drivers under it may hold it to the depth range",
         ),
         factor_clamp: permit(
             FactorClamp::Clamped,
@@ -57,6 +61,10 @@ pub(super) fn rules() -> Rules {
             "OpenGL 4.6: 18.3.1 Blitting Pixel Rectangles: the resolve is implementation-dependent",
         ),
         points_face_front: permit(true, "OpenGL 4.6: 17.3.3: points and lines use front state"),
+        outlines_face_as_polygons: permit(
+            false,
+            "OpenGL 4.6: 14.6.4 Polygon Rasterization Modes: what gl_FrontFacing is on edges is not stated",
+        ),
         alpha_to_coverage: "OpenGL 4.6: 17.3.1 Multisample Fragment Operations: intended; dEQP-GLES3 multisample.alpha_to_coverage demands the ends",
         facing: "OpenGL 4.6: 14.6.1 Basic Polygon Rasterization: front by the sign of the area",
         stencil: "OpenGL 4.6: 17.3.3 Stencil Test: integer operations",

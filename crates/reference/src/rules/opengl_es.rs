@@ -1,8 +1,8 @@
 //! OpenGL ES's permissions (3.2; the sections read the same in 3.1).
 
 use super::{
-    BiasUnit, BlendPrecision, DepthOrder, FactorClamp, Resolve, Rounding, Rules, SharedEdge, Snap,
-    permit,
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
+    SharedEdge, Snap, permit,
 };
 
 pub(super) fn rules() -> Rules {
@@ -43,10 +43,14 @@ pub(super) fn rules() -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm: (0.0, 1e9),
-                float: (0.0, 1e9),
+                unorm: (0.999, 1e9),
+                float: (0.499, 1e9),
             },
-            "OpenGL ES 3.2: 13.7.2 Depth Offset: r is implementation-dependent",
+            "OpenGL ES 3.2: 13.7.2 Depth Offset: the least r that is sure to be resolved; how much more is open",
+        ),
+        depth_range: permit(
+            DepthRange::Either,
+            "OpenGL ES 3.2: 15.1.3 Depth Buffer Test: held to 0 and 1; the drivers under it may hold it to the depth range",
         ),
         factor_clamp: permit(
             FactorClamp::Clamped,
@@ -60,6 +64,7 @@ pub(super) fn rules() -> Rules {
             true,
             "OpenGL ES 3.2: 15.1.2: points and lines use front state",
         ),
+        outlines_face_as_polygons: permit(false, "OpenGL ES 3.2: has no polygon modes"),
         alpha_to_coverage: "OpenGL ES 3.2: 15.1.1: intended; dEQP-GLES3 multisample.alpha_to_coverage demands the ends",
         facing: "OpenGL ES 3.2: 13.7.1 Basic Polygon Rasterization: front by the sign of the area",
         stencil: "OpenGL ES 3.2: 15.1.2 Stencil Test: integer operations",

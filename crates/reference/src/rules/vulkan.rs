@@ -1,8 +1,8 @@
 //! Vulkan's permissions.
 
 use super::{
-    BiasUnit, BlendPrecision, DepthOrder, FactorClamp, Resolve, Rounding, Rules, SharedEdge, Snap,
-    permit,
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
+    SharedEdge, Snap, permit,
 };
 
 pub(super) fn rules() -> Rules {
@@ -47,6 +47,10 @@ pub(super) fn rules() -> Rules {
             },
             "Vulkan: Depth Bias: r at most 2 * 2^-n for fixed point, 2^(e-n) for floats, whose n may count the hidden bit",
         ),
+        depth_range: permit(
+            DepthRange::Undefined,
+            "Vulkan: Depth Clamping and Range Adjustment: outside of the range of minDepth and maxDepth it is undefined",
+        ),
         factor_clamp: permit(
             FactorClamp::Clamped,
             "Vulkan: Blending: factors are clamped for fixed-point attachments",
@@ -56,6 +60,10 @@ pub(super) fn rules() -> Rules {
             "Vulkan: Multisample Resolve: the average's precision is not stated",
         ),
         points_face_front: permit(true, "Vulkan: Points, Line Segments: always front-facing"),
+        outlines_face_as_polygons: permit(
+            false,
+            "Vulkan: Polygon Mode: affects the final rasterization alone, yet lines face front; what a shader sees is not stated",
+        ),
         alpha_to_coverage: "Vulkan: Multisample Coverage: alpha 0 gives no sample and alpha 1 all; dEQP-VK.pipeline.*.alpha_to_coverage demands the ends",
         facing: "Vulkan: Basic Polygon Rasterization: front by the sign of the area; zero area is \
                  not front",

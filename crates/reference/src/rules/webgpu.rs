@@ -1,8 +1,8 @@
 //! WebGPU's permissions. Where the text is silent, what the APIs under it permit.
 
 use super::{
-    BiasUnit, BlendPrecision, DepthOrder, FactorClamp, Resolve, Rounding, Rules, SharedEdge, Snap,
-    permit,
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
+    SharedEdge, Snap, permit,
 };
 
 pub(super) fn rules() -> Rules {
@@ -41,10 +41,14 @@ pub(super) fn rules() -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm: (0.0, 1e9),
-                float: (0.0, 1e9),
+                unorm: (0.999, 1e9),
+                float: (0.499, 1e9),
             },
-            "WebGPU: depth bias as the API under it; OpenGL: r is implementation-dependent",
+            "WebGPU: depth bias as the API under it; OpenGL: the least r that is sure to be resolved; how much more is open",
+        ),
+        depth_range: permit(
+            DepthRange::Undefined,
+            "WebGPU: 23.2.7 Output Merging holds it to the viewport, which implementations over Vulkan cannot promise",
         ),
         factor_clamp: permit(
             FactorClamp::Either,
@@ -58,6 +62,7 @@ pub(super) fn rules() -> Rules {
             false,
             "WebGPU: 23.2.5: facing of points and lines is not asserted",
         ),
+        outlines_face_as_polygons: permit(false, "WebGPU: has no polygon modes"),
         alpha_to_coverage: "WebGPU: 23.2.7 Output Merging: alpha 0 gives no sample and alpha 1 all",
         facing: "WebGPU: 23.2.5.3 Polygon Rasterization: front by the sign of the area; zero area \
                  is back",

@@ -1,8 +1,8 @@
 //! The quality band, in the spirit of the Direct3D 11.3 functional specification.
 
 use super::{
-    BiasUnit, BlendPrecision, DepthOrder, FactorClamp, Resolve, Rounding, Rules, SharedEdge, Snap,
-    permit,
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
+    SharedEdge, Snap, permit,
 };
 use etalon_frame::Api;
 
@@ -44,6 +44,10 @@ pub(super) fn rules(api: Api) -> Rules {
             },
             "Direct3D 11.3: 15.10 Depth Bias: 1/2^n, for floats 2^(e-23)",
         ),
+        depth_range: permit(
+            DepthRange::Either,
+            "Direct3D 11.3: 16.9 Depth Clamp: held to the viewport; OpenGL: to 0 and 1",
+        ),
         factor_clamp: permit(
             match api {
                 Api::WebGpu => FactorClamp::Either,
@@ -56,6 +60,7 @@ pub(super) fn rules(api: Api) -> Rules {
             api != Api::WebGpu,
             "Direct3D 11.3: 15.10: points and lines are front-facing",
         ),
+        outlines_face_as_polygons: permit(true, "Direct3D 11.3: 15.10 Facing: of the triangle"),
         alpha_to_coverage: "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",
         facing: "Direct3D 11.3: 15.10 Facing: after snapping, zero area is back",
         stencil: "Direct3D 11.3: 17.12 Stencil: integer operations",

@@ -119,12 +119,8 @@ pub(crate) fn blend(inputs: Inputs) -> BoxedStrategy<String> {
         .copied()
         .filter(|f| !f.is_second_source())
         .collect();
-    let part = (
-        select(operations),
-        select(factors.clone()),
-        select(factors),
-    )
-        .prop_map(|(o, s, d)| {
+    let part =
+        (select(operations), select(factors.clone()), select(factors)).prop_map(|(o, s, d)| {
             format!(
                 r#"{{"operation":"{}","src_factor":"{}","dst_factor":"{}"}}"#,
                 o.name(),
@@ -185,15 +181,20 @@ fn draw(
     size: [u32; 2],
     has_depth: bool,
     has_stencil: bool,
+    several: bool,
 ) -> BoxedStrategy<String> {
-    let shaders = vec![
-        ("flat_color", ""),
-        ("flat_color_depth", ""),
-        ("flat_color_depth", ""),
-        ("front_facing", ""),
-        ("texel_color", r#","textures":["source"]"#),
-        ("uniform_color", ""),
-    ];
+    let shaders = if several {
+        vec![("texel_color_all", r#","textures":["source"]"#)]
+    } else {
+        vec![
+            ("flat_color", ""),
+            ("flat_color_depth", ""),
+            ("flat_color_depth", ""),
+            ("front_facing", ""),
+            ("texel_color", r#","textures":["source"]"#),
+            ("uniform_color", ""),
+        ]
+    };
     let depth = (select(CompareFunction::ALL), any::<bool>())
         .prop_map(|(c, w)| format!(r#","depth":{{"compare":"{}","write":{w}}}"#, c.name()))
         .boxed();
@@ -264,7 +265,7 @@ pub(crate) fn body(inputs: Inputs) -> BoxedStrategy<String> {
                 }
             });
             let source = list(four(inputs, true), w as usize..=w as usize);
-            let draws = list(draw(inputs, size, has_depth, has_stencil), 1..=4);
+            let draws = list(draw(inputs, size, has_depth, has_stencil, floats), 1..=4);
             (start, depth_clear, source, draws).prop_map(move |(start, clear, source, draws)| {
                 let extra = if floats {
                     r#","floats":{"format":"rgba32float"}"#

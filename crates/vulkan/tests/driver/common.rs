@@ -1,7 +1,7 @@
 //! What the tests share: an adapter, scenes from JSON, frames.
 
 use etalon_backend::Backend;
-use etalon_case::{CaseFile, Scene};
+use etalon_case::{CaseFile, Profile, Scene};
 use etalon_frame::{Aspect, Frame, Image};
 use etalon_vulkan::{Options, VulkanBackend, enumerate, open};
 
@@ -30,7 +30,7 @@ pub(crate) fn backend(validate: bool) -> VulkanBackend {
 pub(crate) fn scene(json: &str) -> Scene {
     let text = format!(r#"{{ "about": "A test.", "spec": [], "scene": {json} }}"#);
     let file = CaseFile::parse("t.json", &text).unwrap();
-    let case = file.cases().next().unwrap();
+    let case = file.cases(Profile::Full).next().unwrap();
     case.build().unwrap().scene
 }
 

@@ -2,7 +2,7 @@
 
 use crate::common::{backend, check_shape, draw, scene};
 use etalon_backend::{Backend, BackendError};
-use etalon_case::Library;
+use etalon_case::{Library, Profile};
 use etalon_frame::{Api, Feature, ReadPath, Requirement, TextureFormat};
 use etalon_vulkan::{Options, VulkanBackend, enumerate, open};
 
@@ -169,7 +169,7 @@ fn the_validation_layer_keeps_quiet_about_built_in_cases() {
 fn draw_built_in(backend: &VulkanBackend, step: usize) {
     let library = Library::built_in().unwrap();
     let mut drawn = 0;
-    for case in library.cases().step_by(step) {
+    for case in library.cases(Profile::Full).step_by(step) {
         let case = case.build().unwrap();
         let requirements = case.scene.requirements();
         if backend.limits().missing(&requirements).is_some() {

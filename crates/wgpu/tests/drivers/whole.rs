@@ -6,13 +6,13 @@ use crate::scenes::{
 };
 use crate::{capabilities, samples};
 use etalon_backend::Backend;
-use etalon_case::Library;
+use etalon_case::{Library, Profile};
 use etalon_wgpu::WgpuBackend;
 
 fn run_all(backend: &WgpuBackend) {
     let library = Library::built_in().expect("the built-in cases parse");
     let mut ran = 0;
-    for case in library.cases() {
+    for case in library.cases(Profile::Full) {
         let case = case.build().expect("a built-in case builds");
         let requirements = case.scene.requirements();
         if backend.limits().missing(&requirements).is_some() {
