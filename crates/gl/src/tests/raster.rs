@@ -43,7 +43,7 @@ const FULL: &str = r#"{"kind":"full"}"#;
 fn viewport_and_scissor(backend: &GlBackend) {
     // A quarter at the bottom right: what clip space's top left becomes.
     let viewport = r#","viewport":{"rect":[8,4,8,12],"depth":[0,1]}"#;
-    let frame = red(backend, r#"{"kind":"rect","texels":[0,0,8,4]}"#, viewport);
+    let frame = red(backend, r#"{"kind":"rect","texels":[0,0,4,3]}"#, viewport);
     red_where(&frame, |x, y| (8..12).contains(&x) && (4..7).contains(&y));
     let outside = r#","viewport":{"rect":[-16,-8,32,16],"depth":[0,1]}"#;
     let frame = red(backend, FULL, outside);
