@@ -1,19 +1,29 @@
 //! What case files cost: parsing the built-in ones, naming every case, and building every scene.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use etalon_case::Library;
+use etalon_case::{Library, Profile};
 
 fn expand(c: &mut Criterion) {
     let library = Library::built_in().expect("built-in cases parse");
-    let count = library.cases().count();
+    let count = library.cases(Profile::Full).count();
     let mut group = c.benchmark_group("library");
     group.sample_size(10);
     group.bench_function("parse", |b| b.iter(Library::built_in));
     group.bench_function(format!("ids of {count} cases"), |b| {
-        b.iter(|| library.cases().map(|case| case.id().len()).sum::<usize>());
+        b.iter(|| {
+            library
+                .cases(Profile::Full)
+                .map(|case| case.id().len())
+                .sum::<usize>()
+        });
     });
     group.bench_function(format!("build {count} cases"), |b| {
-        b.iter(|| library.cases().filter(|case| case.build().is_ok()).count());
+        b.iter(|| {
+            library
+                .cases(Profile::Full)
+                .filter(|case| case.build().is_ok())
+                .count()
+        });
     });
     group.finish();
 }

@@ -1,15 +1,27 @@
 //! One case file: parsing, the product of its axes, and the cases it stands for.
 
 use crate::error::{At, CaseError};
+use crate::pairwise;
 use crate::resolve;
 use crate::scene::Scene;
-use crate::wire::{ExpectWire, FileWire, SceneWire};
+use crate::wire::{ExpectWire, FileWire, QuickWire, SceneWire};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// The most cases that one file may stand for.
 const MAX_CASES: usize = 1 << 20;
+
+/// How much of each file's product of axes is taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Profile {
+    /// Of files that say `"quick": "pairwise"` so many cases that every two values of every two axes
+    /// meet; of all others everything.
+    #[default]
+    Quick,
+    /// Everything.
+    Full,
+}
 
 /// A parsed case file.
 #[derive(Clone, Debug)]
@@ -148,9 +160,26 @@ impl CaseFile {
         &self.name
     }
 
-    /// The cases, the last axis (in alphabetical order) varying fastest.
-    pub fn cases(&self) -> impl Iterator<Item = CaseRef<'_>> {
-        (0..self.count).map(move |index| CaseRef { file: self, index })
+    /// The cases of a profile, the last axis (in alphabetical order) varying fastest.
+    pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
+        let indices: Vec<usize> = match (profile, self.wire.quick) {
+            (Profile::Quick, Some(QuickWire::Pairwise)) => self.pairwise(),
+            _ => (0..self.count).collect(),
+        };
+        let one = move |index| CaseRef { file: self, index };
+        indices.into_iter().map(one)
+    }
+
+    /// Places in the product of a pairwise covering array, ascending.
+    fn pairwise(&self) -> Vec<usize> {
+        let lengths: Vec<usize> = self.wire.axes.values().map(Vec::len).collect();
+        let index = |row: &Vec<usize>| {
+            let axes = row.iter().zip(&lengths);
+            axes.fold(0, |index, (at, length)| index * length + at)
+        };
+        let mut all: Vec<usize> = pairwise::rows(&lengths).iter().map(index).collect();
+        all.sort_unstable();
+        all
     }
 
     fn positions(&self, mut index: usize) -> BTreeMap<&str, usize> {

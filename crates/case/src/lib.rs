@@ -3,10 +3,12 @@
 //! A [`Library`] holds case files, compiled in or from a folder. Each file expands into
 //! [`CaseRef`]s, whose ids cost nothing; [`CaseRef::build`] makes the [`Case`] with its [`Scene`].
 
+mod draw;
 mod error;
 mod file;
 mod library;
 mod mesh;
+mod pairwise;
 mod resolve;
 pub mod scene;
 mod schema;
@@ -14,8 +16,8 @@ pub mod state;
 mod wire;
 
 pub use error::CaseError;
-pub use file::{Case, CaseFile, CaseRef, Expect};
+pub use file::{Case, CaseFile, CaseRef, Expect, Profile};
 pub use library::Library;
-pub use mesh::{Mesh, MeshSource, Splat, Vertex};
+pub use mesh::{Mesh, MeshSource, Primitive, RESTART, Splat, Units, Vertex};
 pub use scene::Scene;
 pub use schema::schema;

@@ -1,7 +1,7 @@
 //! All case files at hand.
 
 use crate::error::CaseError;
-use crate::file::{CaseFile, CaseRef};
+use crate::file::{CaseFile, CaseRef, Profile};
 use std::fs;
 use std::path::Path;
 
@@ -47,9 +47,9 @@ impl Library {
         &self.files
     }
 
-    /// Every case, file by file.
-    pub fn cases(&self) -> impl Iterator<Item = CaseRef<'_>> {
-        self.files.iter().flat_map(CaseFile::cases)
+    /// The cases of a profile, file by file.
+    pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
+        self.files.iter().flat_map(move |file| file.cases(profile))
     }
 }
 
@@ -84,10 +84,38 @@ mod tests {
     use std::collections::HashSet;
 
     #[test]
+    fn the_quick_cases_are_some_of_all_and_have_their_ids() {
+        let axes = r#""axes":{"a":[1,2,3],"b":[1,2,3],"c":[1,2,3]}"#;
+        let file = |quick: &str| {
+            let text = format!(r#"{{"about":"t","spec":["t"],{quick}{axes},"scene":{{}}}}"#);
+            CaseFile::parse("t.json", &text).expect("parses")
+        };
+        let ids = |file: &CaseFile, profile| -> Vec<String> {
+            file.cases(profile).map(|c| c.id()).collect()
+        };
+        let whole = file("");
+        let all = ids(&whole, Profile::Full);
+        assert_eq!(all.len(), 27);
+        assert_eq!(ids(&whole, Profile::Quick), all);
+        let pairwise = file(r#""quick":"pairwise","#);
+        assert_eq!(ids(&pairwise, Profile::Full), all);
+        let some = ids(&pairwise, Profile::Quick);
+        assert_eq!(some, ids(&pairwise, Profile::Quick));
+        assert!((9..20).contains(&some.len()), "{}", some.len());
+        assert!(some.iter().all(|id| all.contains(id)));
+        for (x, y) in [("a", "b"), ("a", "c"), ("b", "c")] {
+            for (i, j) in (1..=3).flat_map(|i| (1..=3).map(move |j| (i, j))) {
+                let (x, y) = (format!("/{x}={i}"), format!("/{y}={j}"));
+                assert!(some.iter().any(|id| id.contains(&x) && id.contains(&y)));
+            }
+        }
+    }
+
+    #[test]
     fn every_built_in_case_builds_and_no_id_repeats() {
         let library = Library::built_in().expect("built-in files parse");
         let mut ids = HashSet::new();
-        for case in library.cases() {
+        for case in library.cases(Profile::Full) {
             let built = case.build().expect("built-in cases build");
             assert_eq!(built.id, case.id());
             assert!(!built.id.contains([' ', ',']), "{}", built.id);

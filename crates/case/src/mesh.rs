@@ -18,11 +18,16 @@ pub struct Vertex {
     pub uv: [f32; 2],
 }
 
-/// Vertices in drawing order.
+/// The index that ends a strip and begins the next one.
+pub const RESTART: u32 = u32::MAX;
+
+/// Vertices and, where they are not drawn in their own order, indices.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
     /// The vertices.
     pub vertices: Vec<Vertex>,
+    /// Which vertices are drawn, in order; [`RESTART`] ends a strip.
+    pub indices: Option<Vec<u32>>,
 }
 
 impl Mesh {
@@ -31,30 +36,66 @@ impl Mesh {
         bytemuck::cast_slice(&self.vertices)
     }
 
-    /// The vertex indices of each primitive in order, each in its own winding: of a strip's odd
-    /// triangles the first two vertices are exchanged (Vulkan, Triangle Strips; OpenGL 4.6, 10.1.8).
-    pub fn triangles(&self, topology: PrimitiveTopology) -> Vec<[usize; 3]> {
-        let n = self.vertices.len();
-        match topology {
-            PrimitiveTopology::TriangleList => {
-                (0..n / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect()
+    /// The vertex indices of each primitive in order: one for points, two for lines, three for
+    /// triangles, which keep their winding (of a strip's odd triangles the first two vertices are
+    /// exchanged: Vulkan, Triangle Strips; OpenGL 4.6, 10.1.8).
+    pub fn primitives(&self, topology: PrimitiveTopology) -> Vec<Primitive> {
+        let order: Vec<u32> = match &self.indices {
+            Some(indices) => indices.clone(),
+            None => (0..self.vertices.len() as u32).collect(),
+        };
+        let mut all = Vec::new();
+        for run in order.split(|i| *i == RESTART) {
+            let run: Vec<usize> = run.iter().map(|i| *i as usize).collect();
+            match topology {
+                PrimitiveTopology::PointList => {
+                    all.extend(run.iter().map(|i| Primitive::Point(*i)));
+                }
+                PrimitiveTopology::LineList => {
+                    all.extend(run.chunks_exact(2).map(|c| Primitive::Line([c[0], c[1]])));
+                }
+                PrimitiveTopology::LineStrip => {
+                    all.extend(run.windows(2).map(|w| Primitive::Line([w[0], w[1]])));
+                }
+                PrimitiveTopology::TriangleList => {
+                    let triangles = run.chunks_exact(3);
+                    all.extend(triangles.map(|c| Primitive::Triangle([c[0], c[1], c[2]])));
+                }
+                PrimitiveTopology::TriangleStrip => {
+                    all.extend(run.windows(3).enumerate().map(|(i, w)| {
+                        Primitive::Triangle(match i % 2 {
+                            0 => [w[0], w[1], w[2]],
+                            _ => [w[1], w[0], w[2]],
+                        })
+                    }));
+                }
+                PrimitiveTopology::TriangleFan => {
+                    let rest = run.get(1..).unwrap_or_default();
+                    all.extend(
+                        rest.windows(2)
+                            .map(|w| Primitive::Triangle([run[0], w[0], w[1]])),
+                    );
+                }
             }
-            PrimitiveTopology::TriangleStrip => (0..n.saturating_sub(2))
-                .map(|i| {
-                    if i % 2 == 0 {
-                        [i, i + 1, i + 2]
-                    } else {
-                        [i + 1, i, i + 2]
-                    }
-                })
-                .collect(),
         }
+        all
     }
+}
+
+/// The vertices of one primitive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Primitive {
+    /// A point.
+    Point(usize),
+    /// A line.
+    Line([usize; 2]),
+    /// A triangle.
+    Triangle([usize; 3]),
 }
 
 /// A mesh as a case file describes it.
 ///
-/// Rectangles are given in texels of the pass's attachments and cover the samples at texel centres
+/// Rectangles are given in texels of the draw's viewport and cover the samples at texel centres
 /// of a single-sample attachment, no others: every edge keeps at least 0.17 texels away from every
 /// centre, so that no legal snapping of vertices changes what is covered. Attributes are constant
 /// over each triangle.
@@ -72,6 +113,15 @@ pub enum MeshSource {
         /// The winding.
         #[serde(default = "ccw")]
         winding: FrontFace,
+    },
+    /// Everything, every sample of every texel: one triangle that reaches far beyond the viewport.
+    Cover {
+        /// Vertex depth.
+        #[serde(default)]
+        z: f32,
+        /// The vertex colour.
+        #[serde(default)]
+        value: Splat,
     },
     /// A rectangle.
     Rect {
@@ -111,12 +161,29 @@ pub enum MeshSource {
     },
     /// Vertices one by one.
     Vertices {
-        /// Clip-space positions x, y, z.
+        /// Positions x, y, z.
         positions: Vec<[f32; 3]>,
+        /// What x and y count: clip space, or texels from the top left corner.
+        #[serde(default)]
+        units: Units,
+        /// Which vertices are drawn, in order; `null` ends a strip. Without it, all in order.
+        #[serde(default)]
+        indices: Option<Vec<Option<u32>>>,
         /// Vertex colours, repeated as needed.
         #[serde(default = "one_splat")]
         values: Vec<Splat>,
     },
+}
+
+/// What the positions of single vertices count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Units {
+    /// Clip space: -1 to 1, y up.
+    #[default]
+    Clip,
+    /// Texels from the top left corner, y down.
+    Texels,
 }
 
 fn ccw() -> FrontFace {
@@ -181,16 +248,26 @@ impl JsonSchema for Splat {
 }
 
 impl MeshSource {
-    /// The mesh for attachments of a size in texels, or what is wrong with the description.
+    /// The mesh for a viewport of a size in texels, or what is wrong with the description.
     ///
     /// # Errors
     /// A sentence when a list is empty, a rectangle is empty or reaches outside, or a part would
     /// be narrower than a texel.
     pub fn expand(&self, size: [u32; 2]) -> Result<Mesh, String> {
         let mut builder = Builder::new(size);
+        let mut indices = None;
         match self {
             Self::Full { z, value, winding } => {
                 builder.rect([0, 0, size[0], size[1]], *z, value.0, *winding)?;
+            }
+            Self::Cover { z, value } => {
+                for [x, y] in [[-2.0, -2.0], [8.0, -2.0], [-2.0, 8.0]] {
+                    builder.vertices.push(Vertex {
+                        position: [x, y, *z, 1.0],
+                        color: value.0,
+                        uv: [0.0; 2],
+                    });
+                }
             }
             Self::Rect {
                 texels,
@@ -208,16 +285,36 @@ impl MeshSource {
                 z,
                 windings,
             } => builder.bands(values, z, windings, false)?,
-            Self::Vertices { positions, values } => {
+            Self::Vertices {
+                positions,
+                units,
+                indices: list,
+                values,
+            } => {
                 if values.is_empty() {
                     return Err("`values` is empty".to_owned());
                 }
                 for (position, value) in positions.iter().zip(values.iter().cycle()) {
+                    let [x, y, z] = *position;
+                    let position = match units {
+                        Units::Clip => [x, y, z, 1.0],
+                        Units::Texels => {
+                            let corner = DVec2::new(f64::from(x), f64::from(y));
+                            builder.clip(corner, z)
+                        }
+                    };
                     builder.vertices.push(Vertex {
-                        position: [position[0], position[1], position[2], 1.0],
+                        position,
                         color: value.0,
                         uv: [0.0; 2],
                     });
+                }
+                if let Some(list) = list {
+                    let count = positions.len() as u32;
+                    if let Some(wrong) = list.iter().flatten().find(|i| **i >= count) {
+                        return Err(format!("index {wrong} names none of {count} vertices"));
+                    }
+                    indices = Some(list.iter().map(|i| i.unwrap_or(RESTART)).collect());
                 }
             }
         }
@@ -227,6 +324,7 @@ impl MeshSource {
         }
         Ok(Mesh {
             vertices: builder.vertices,
+            indices,
         })
     }
 }
@@ -308,6 +406,15 @@ impl Builder {
         Ok(())
     }
 
+    /// The clip-space position of a point in texels.
+    fn clip(&self, texels: DVec2, z: f32) -> [f32; 4] {
+        let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
+        let ndc = (texels / size * 2.0 - 1.0) * DVec2::new(1.0, -1.0);
+        DVec4::new(ndc.x, ndc.y, f64::from(z), 1.0)
+            .as_vec4()
+            .to_array()
+    }
+
     /// Two triangles over the texels from (x, y) on. With y down, the corners stand at (0, -1/4)
     /// bottom left, (0, 0) bottom right, (-1/4, 0) top right and (0, 0) top left from the square's;
     /// so the diagonal lies 0.177 texels beside the nearest centres and nothing leaves the square.
@@ -330,11 +437,9 @@ impl Builder {
             corners.reverse();
         }
         for corner in corners {
-            let size = DVec2::new(f64::from(self.size[0]), f64::from(self.size[1]));
-            let ndc = (corner / size * 2.0 - 1.0) * DVec2::new(1.0, -1.0);
-            let position = DVec4::new(ndc.x, ndc.y, f64::from(z), 1.0).as_vec4();
+            let position = self.clip(corner, z);
             self.vertices.push(Vertex {
-                position: position.to_array(),
+                position,
                 color: value,
                 uv: [0.0; 2],
             });
@@ -356,7 +461,10 @@ mod tests {
         };
         let mut areas = Vec::new();
         let mut least = f64::MAX;
-        for t in mesh.triangles(PrimitiveTopology::TriangleList) {
+        for primitive in mesh.primitives(PrimitiveTopology::TriangleList) {
+            let Primitive::Triangle(t) = primitive else {
+                continue;
+            };
             let p = t.map(|i| to_texels(&mesh.vertices[i]));
             areas.push(-(p[1] - p[0]).perp_dot(p[2] - p[0]));
             for (a, b) in [(p[0], p[1]), (p[1], p[2]), (p[2], p[0])] {

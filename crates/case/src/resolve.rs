@@ -1,21 +1,13 @@
 //! From the parsed scene to the domain's: defaults, names to indices, impossible states refused.
 
-use crate::error::{At, Step};
-use crate::mesh::Mesh;
-use crate::scene::{
-    Attachment, ColorTarget, Contents, Draw, Params, Pass, Scene, StencilFace, StencilState,
-};
-use crate::state::Shader;
-use crate::wire::{
-    AttachmentWire, ClearWire, DrawWire, PassWire, SceneWire, StencilFaceWire, StencilWire,
-    TexelsWire,
-};
+use crate::draw::{draw, writes_depth_stencil};
+use crate::error::At;
+use crate::scene::{Attachment, Contents, Pass, Scene};
+use crate::wire::{AttachmentWire, ClearWire, PassWire, SceneWire, TexelsWire};
 use etalon_frame::{ChannelEncoding, TextureFormat};
 
 /// The largest width or height of an attachment that a case file may ask for.
-const MAX_SIZE: u32 = 4096;
-/// The most vertices of one mesh.
-const MAX_VERTICES: usize = 4 << 20;
+pub(crate) const MAX_SIZE: u32 = 4096;
 
 pub(crate) fn scene(wire: &SceneWire) -> Result<Scene, At> {
     let size = default_size(wire);
@@ -32,6 +24,12 @@ pub(crate) fn scene(wire: &SceneWire) -> Result<Scene, At> {
         passes
             .iter()
             .any(|p: &Pass| p.color.contains(&index) || p.depth_stencil == Some(index))
+    };
+    let drawn = |index: usize| {
+        drawn(index)
+            || passes
+                .iter()
+                .any(|p: &Pass| p.resolve.contains(&Some(index)))
     };
     for (p, pass) in passes.iter().enumerate() {
         for (d, draw) in pass.draws.iter().enumerate() {
@@ -75,7 +73,7 @@ fn default_size(wire: &SceneWire) -> [u32; 2] {
         .unwrap_or([16, 16])
 }
 
-fn find(name: &str, attachments: &[Attachment]) -> Result<usize, At> {
+pub(crate) fn find(name: &str, attachments: &[Attachment]) -> Result<usize, At> {
     attachments
         .iter()
         .position(|a| a.name == name)
@@ -206,23 +204,28 @@ fn texels(
 
 fn encode(encoding: ChannelEncoding, value: f64) -> Result<u32, At> {
     match encoding {
-        ChannelEncoding::Unorm(_) | ChannelEncoding::Uint(_) => {
-            let most = encoding.max_order();
-            if value.fract() == 0.0 && (0.0..=most as f64).contains(&value) {
-                Ok(value as u32)
+        ChannelEncoding::Unorm(_)
+        | ChannelEncoding::Snorm(_)
+        | ChannelEncoding::Srgb8
+        | ChannelEncoding::Uint(_) => {
+            let (least, most) = (encoding.min_order(), encoding.max_order());
+            if value.fract() == 0.0 && (least as f64..=most as f64).contains(&value) {
+                Ok(encoding.code_of_order(value as i64))
             } else {
                 Err(At::new(format!(
-                    "an uploaded code of a {encoding} is an integer from 0 to {most}"
+                    "an uploaded code of a {encoding} is an integer from {least} to {most}"
                 )))
             }
         }
-        ChannelEncoding::Float32 => {
-            let float = value as f32;
-            if float.is_finite() {
-                Ok(float.to_bits())
-            } else {
-                Err(At::new("the number does not fit into a 32-bit float"))
+        ChannelEncoding::Float16 | ChannelEncoding::Float32 | ChannelEncoding::Ufloat(_) => {
+            let code = encoding.nearest_code(value);
+            let found = encoding.value_of_order(encoding.order_of_code(code));
+            let limit = encoding.value_of_order(encoding.max_order());
+            // A 32-bit float is what a decimal number means; a shorter one must be hit exactly.
+            if value.abs() > limit || (encoding != ChannelEncoding::Float32 && found != value) {
+                return Err(At::new(format!("the number is no {encoding}")));
             }
+            Ok(code)
         }
     }
 }
@@ -255,6 +258,7 @@ fn pass(wire: &PassWire, attachments: &[Attachment]) -> Result<Pass, At> {
             Some(index)
         }
     };
+    let resolve = resolve_targets(wire, &color, attachments)?;
     let all: Vec<&Attachment> = color
         .iter()
         .chain(&depth_stencil)
@@ -273,141 +277,60 @@ fn pass(wire: &PassWire, attachments: &[Attachment]) -> Result<Pass, At> {
     let format = depth_stencil.map(|i| attachments[i].format);
     let mut draws = Vec::new();
     for (i, d) in wire.draws.iter().enumerate() {
-        let draw = draw(d, first.size, color.len(), format, attachments)
-            .map_err(|e| e.index(i).key("draws"))?;
+        let draw = draw(
+            d,
+            first.size,
+            first.samples,
+            color.len(),
+            format,
+            attachments,
+        )
+        .map_err(|e| e.index(i).key("draws"))?;
+        if wire.depth_stencil_read_only && writes_depth_stencil(&draw) {
+            return Err(
+                At::new("the pass promises to write neither depth nor stencil")
+                    .index(i)
+                    .key("draws"),
+            );
+        }
         draws.push(draw);
     }
     Ok(Pass {
         color,
+        resolve,
         depth_stencil,
+        depth_stencil_read_only: wire.depth_stencil_read_only,
         draws,
     })
 }
 
-fn draw(
-    wire: &DrawWire,
-    size: [u32; 2],
-    targets: usize,
-    depth_stencil: Option<TextureFormat>,
+fn resolve_targets(
+    wire: &PassWire,
+    color: &[usize],
     attachments: &[Attachment],
-) -> Result<Draw, At> {
-    let mesh = wire
-        .mesh
-        .expand(size)
-        .map_err(|message| At::new(message).key("mesh"))?;
-    if mesh.vertices.is_empty() || mesh.vertices.len() > MAX_VERTICES {
-        return Err(At::new(format!("a mesh has 1 to {MAX_VERTICES} vertices")).key("mesh"));
-    }
-    check_vertices(&mesh, wire.shader).map_err(|e| e.key("mesh"))?;
-    if wire.depth.is_some() && !depth_stencil.is_some_and(TextureFormat::has_depth) {
-        return Err(At::new("a depth test needs a depth attachment").key("depth"));
-    }
-    if wire.stencil.is_some() && !depth_stencil.is_some_and(TextureFormat::has_stencil) {
-        return Err(At::new("a stencil test needs a stencil attachment").key("stencil"));
-    }
-    let mut textures = Vec::new();
-    for (i, name) in wire.textures.iter().enumerate() {
+) -> Result<Vec<Option<usize>>, At> {
+    let mut resolve = vec![None; color.len()];
+    for (i, name) in wire.resolve.iter().enumerate() {
+        let Some(name) = name else { continue };
         let check = || -> Result<usize, At> {
-            let index = find(name, attachments)?;
-            let attachment = &attachments[index];
-            if !matches!(attachment.contents, Contents::Texels(_)) {
-                return Err(At::new(format!("`{name}` is not uploaded from `texels`")));
+            let target = find(name, attachments)?;
+            let Some(source) = color.get(i).map(|c| &attachments[*c]) else {
+                return Err(At::new("there is no colour attachment at this place"));
+            };
+            let target_is = &attachments[target];
+            if source.samples < 2 || target_is.samples != 1 {
+                return Err(At::new("several samples are averaged to one"));
             }
-            if attachment.size != size {
+            if (source.format, source.size) != (target_is.format, target_is.size) {
                 return Err(At::new(format!(
-                    "`{name}` differs in size from the pass's attachments"
+                    "`{name}` differs in format or size from `{}`",
+                    source.name
                 )));
             }
-            Ok(index)
+            Ok(target)
         };
-        textures.push(check().map_err(|e| e.index(i).key("textures"))?);
+        let target = check().map_err(|e| e.index(i).key("resolve"))?;
+        resolve[i] = Some(target);
     }
-    if textures.len() != wire.shader.textures() {
-        return Err(At::new(format!(
-            "shader {} fetches from {} textures, {} are given",
-            wire.shader.name(),
-            wire.shader.textures(),
-            textures.len()
-        ))
-        .key("textures"));
-    }
-    let mut write_mask = 0;
-    for letter in wire.write_mask.chars() {
-        match "rgba".find(letter) {
-            Some(bit) if write_mask & (1 << bit) == 0 => write_mask |= 1 << bit,
-            _ => {
-                return Err(At::new(
-                    "a write mask is made of the letters r, g, b, a, each at most once",
-                )
-                .key("write_mask"));
-            }
-        }
-    }
-    let numbers = [
-        wire.params.color,
-        wire.params.back_color,
-        wire.blend_constant,
-    ];
-    if numbers.iter().any(|s| s.0.iter().any(|v| !v.is_finite())) {
-        return Err(At::new("a parameter does not fit into a 32-bit float")
-            .below(Step::Key("params".to_owned())));
-    }
-    let target = ColorTarget {
-        blend: wire.blend,
-        write_mask,
-    };
-    Ok(Draw {
-        mesh,
-        topology: wire.topology,
-        shader: wire.shader,
-        params: Params {
-            color: wire.params.color.0,
-            back_color: wire.params.back_color.0,
-        },
-        textures,
-        cull: wire.cull,
-        front_face: wire.front_face,
-        depth: wire.depth,
-        stencil: wire.stencil.as_ref().map(stencil),
-        targets: vec![target; targets],
-        blend_constant: wire.blend_constant.0,
-    })
-}
-
-/// The farthest that a vertex may lie from the middle of clip space.
-const FARTHEST: f32 = 64.0;
-
-/// Refuses what no specification pins: depths that clip or that a shader writes out of range.
-fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
-    for vertex in &mesh.vertices {
-        let [x, y, z, _] = vertex.position;
-        if x.abs() > FARTHEST || y.abs() > FARTHEST {
-            return Err(At::new(format!(
-                "a vertex lies within {FARTHEST} of the middle of clip space"
-            )));
-        }
-        if !(0.0..=1.0).contains(&z) {
-            return Err(At::new("a vertex's depth lies between 0 and 1"));
-        }
-        if shader.writes_depth() && !(0.0..=1.0).contains(&vertex.color[0]) {
-            return Err(At::new("a written depth lies between 0 and 1"));
-        }
-    }
-    Ok(())
-}
-
-fn stencil(wire: &StencilWire) -> StencilState {
-    let face = |face: &StencilFaceWire| StencilFace {
-        compare: face.compare,
-        fail_op: face.fail_op,
-        depth_fail_op: face.depth_fail_op,
-        pass_op: face.pass_op,
-        read_mask: face.read_mask.unwrap_or(wire.read_mask),
-        write_mask: face.write_mask.unwrap_or(wire.write_mask),
-        reference: face.reference.unwrap_or(wire.reference),
-    };
-    StencilState {
-        front: face(&wire.front),
-        back: face(wire.back.as_ref().unwrap_or(&wire.front)),
-    }
+    Ok(resolve)
 }

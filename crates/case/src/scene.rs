@@ -4,9 +4,10 @@
 //! agree within a pass, textures are uploads.
 
 use crate::mesh::Mesh;
-use crate::state::{BlendFactor, BlendOperation, CompareFunction};
 use crate::state::{
-    BlendState, CullMode, DepthState, FrontFace, PrimitiveTopology, Shader, StencilOperation,
+    BlendFactor, BlendOperation, BlendState, CompareFunction, CullMode, DepthBias, DepthState,
+    FrontFace, LogicOperation, Multisample, PolygonMode, PrimitiveTopology, Shader,
+    StencilOperation, Viewport,
 };
 use etalon_frame::{Feature, Requirement, TextureFormat};
 use serde::{Deserialize, Serialize};
@@ -60,8 +61,13 @@ pub enum Contents {
 pub struct Pass {
     /// Indices of the colour attachments, in location order.
     pub color: Vec<usize>,
+    /// Where each colour attachment's samples are averaged to at the end of the pass: a
+    /// single-sample attachment of the same format and size. As long as `color`.
+    pub resolve: Vec<Option<usize>>,
     /// Index of the depth-stencil attachment.
     pub depth_stencil: Option<usize>,
+    /// Whether the pass promises to write neither depth nor stencil.
+    pub depth_stencil_read_only: bool,
     /// Draws, in order.
     pub draws: Vec<Draw>,
 }
@@ -83,12 +89,30 @@ pub struct Draw {
     pub cull: CullMode,
     /// The front face's winding.
     pub front_face: FrontFace,
+    /// Inside or edges.
+    pub polygon_mode: PolygonMode,
+    /// Whether nothing is rasterized at all.
+    pub rasterizer_discard: bool,
+    /// Where clip space lies.
+    pub viewport: Viewport,
+    /// Left, top, width and height of the texels that may be written; `None` is all.
+    pub scissor: Option<[u32; 4]>,
+    /// What is added to depths of polygons.
+    pub depth_bias: DepthBias,
+    /// Whether depths beyond the viewport's range are moved to its ends instead of clipped.
+    pub depth_clamp: bool,
+    /// Stored depths outside this range reject fragments; `None` is off.
+    pub depth_bounds: Option<[f32; 2]>,
     /// Depth test; `None` is off.
     pub depth: Option<DepthState>,
     /// Stencil test; `None` is off.
     pub stencil: Option<StencilState>,
     /// One per colour attachment of the pass.
     pub targets: Vec<ColorTarget>,
+    /// The logic operation of all targets, instead of blending; `None` is off.
+    pub logic: Option<LogicOperation>,
+    /// Which samples are drawn.
+    pub multisample: Multisample,
     /// The blend constant in red, green, blue, alpha.
     pub blend_constant: [f32; 4],
 }
@@ -164,10 +188,34 @@ impl Scene {
             let largest = attachment.size[0].max(attachment.size[1]);
             needed.insert(Requirement::Size(largest));
         }
-        for draw in self.passes.iter().flat_map(|p| &p.draws) {
-            needed.extend(draw.features().into_iter().map(Requirement::Feature));
+        for pass in &self.passes {
+            let size = self.pass_size(pass);
+            needed.insert(Requirement::ColorAttachments(pass.color.len() as u32));
+            for draw in &pass.draws {
+                needed.extend(draw.features(size).into_iter().map(Requirement::Feature));
+                for (target, index) in draw.targets.iter().zip(&pass.color) {
+                    if target.blend.is_some() {
+                        needed.insert(Requirement::Blending(self.attachments[*index].format));
+                    }
+                }
+            }
+            for index in pass.color.iter().chain(&pass.depth_stencil) {
+                needed.insert(Requirement::Drawing(self.attachments[*index].format));
+            }
         }
         needed.into_iter().collect()
+    }
+
+    /// The size of a pass's attachments in texels.
+    pub fn pass_size(&self, pass: &Pass) -> [u32; 2] {
+        let first = pass.color.first().copied().or(pass.depth_stencil);
+        first.map_or([1, 1], |index| self.attachments[index].size)
+    }
+
+    /// The samples per texel of a pass's attachments.
+    pub fn pass_samples(&self, pass: &Pass) -> u32 {
+        let first = pass.color.first().copied().or(pass.depth_stencil);
+        first.map_or(1, |index| self.attachments[index].samples)
     }
 
     /// The formats of all attachments.
@@ -178,16 +226,54 @@ impl Scene {
 }
 
 impl Draw {
-    fn features(&self) -> Vec<Feature> {
+    fn features(&self, size: [u32; 2]) -> Vec<Feature> {
         let mut needed = Vec::new();
-        if self.cull == CullMode::FrontAndBack {
-            needed.push(Feature::FrontAndBackCulling);
+        let mut need = |when: bool, feature: Feature| {
+            if when {
+                needed.push(feature);
+            }
+        };
+        need(
+            self.cull == CullMode::FrontAndBack,
+            Feature::FrontAndBackCulling,
+        );
+        need(
+            self.topology == PrimitiveTopology::TriangleFan,
+            Feature::TriangleFans,
+        );
+        need(
+            self.polygon_mode == PolygonMode::Line,
+            Feature::PolygonModeLine,
+        );
+        need(self.rasterizer_discard, Feature::RasterizerDiscard);
+        need(self.logic.is_some(), Feature::LogicOperations);
+        need(self.depth_clamp, Feature::DepthClamp);
+        need(self.depth_bounds.is_some(), Feature::DepthBounds);
+        need(self.depth_bias.clamp != 0.0, Feature::DepthBiasClamp);
+        need(
+            self.viewport.depth[0] > self.viewport.depth[1],
+            Feature::ReversedDepthRange,
+        );
+        let [x, y, w, h] = self.viewport.rect;
+        let outside = x < 0.0 || y < 0.0 || x + w > size[0] as f32 || y + h > size[1] as f32;
+        need(outside, Feature::ViewportOutside);
+        if let Some([x, y, w, h]) = self.scissor {
+            let outside = x.saturating_add(w) > size[0] || y.saturating_add(h) > size[1];
+            need(outside, Feature::ScissorOutside);
         }
+        need(self.multisample.alpha_to_one, Feature::AlphaToOne);
+        need(self.shader.runs_per_sample(), Feature::SampleShading);
+        need(self.shader.has_second_source(), Feature::DualSourceBlending);
+        need(
+            self.targets.windows(2).any(|pair| pair[0] != pair[1]),
+            Feature::IndependentBlend,
+        );
         if let Some(stencil) = &self.stencil {
             let key = |f: &StencilFace| (f.read_mask, f.write_mask, f.reference);
-            if key(&stencil.front) != key(&stencil.back) {
-                needed.push(Feature::SeparateStencilMasks);
-            }
+            need(
+                key(&stencil.front) != key(&stencil.back),
+                Feature::SeparateStencilMasks,
+            );
         }
         for blend in self.targets.iter().filter_map(|t| t.blend) {
             let constant_alpha = [
@@ -200,12 +286,14 @@ impl Draw {
                     component.operation,
                     BlendOperation::Min | BlendOperation::Max
                 );
-                if ignores && factors != [BlendFactor::One; 2] {
-                    needed.push(Feature::MinMaxBlendFactors);
-                }
-                if is_color && factors.iter().any(|f| constant_alpha.contains(f)) {
-                    needed.push(Feature::ConstantAlphaBlendFactor);
-                }
+                need(
+                    ignores && factors != [BlendFactor::One; 2],
+                    Feature::MinMaxBlendFactors,
+                );
+                need(
+                    is_color && factors.iter().any(|f| constant_alpha.contains(f)),
+                    Feature::ConstantAlphaBlendFactor,
+                );
             }
         }
         needed

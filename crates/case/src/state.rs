@@ -98,6 +98,14 @@ state_enum! {
         ConstantAlpha = "constant-alpha",
         /// 1 minus the blend constant's alpha.
         OneMinusConstantAlpha = "one-minus-constant-alpha",
+        /// The second source, channel by channel.
+        Src1 = "src1",
+        /// 1 minus the second source.
+        OneMinusSrc1 = "one-minus-src1",
+        /// The second source's alpha.
+        Src1Alpha = "src1-alpha",
+        /// 1 minus the second source's alpha.
+        OneMinusSrc1Alpha = "one-minus-src1-alpha",
     }
 }
 
@@ -114,6 +122,54 @@ state_enum! {
         Min = "min",
         /// The larger of the two, factors ignored.
         Max = "max",
+    }
+}
+
+state_enum! {
+    /// What a logic operation makes of the bits of source `s` and destination `d`.
+    LogicOperation {
+        /// 0.
+        Clear = "clear",
+        /// `s & d`.
+        And = "and",
+        /// `s & !d`.
+        AndReverse = "and-reverse",
+        /// `s`.
+        Copy = "copy",
+        /// `!s & d`.
+        AndInverted = "and-inverted",
+        /// `d`.
+        Noop = "noop",
+        /// `s ^ d`.
+        Xor = "xor",
+        /// `s | d`.
+        Or = "or",
+        /// `!(s | d)`.
+        Nor = "nor",
+        /// `!(s ^ d)`.
+        Equivalent = "equivalent",
+        /// `!d`.
+        Invert = "invert",
+        /// `s | !d`.
+        OrReverse = "or-reverse",
+        /// `!s`.
+        CopyInverted = "copy-inverted",
+        /// `!s | d`.
+        OrInverted = "or-inverted",
+        /// `!(s & d)`.
+        Nand = "nand",
+        /// All bits.
+        Set = "set",
+    }
+}
+
+state_enum! {
+    /// What becomes of a polygon.
+    PolygonMode {
+        /// Its inside.
+        Fill = "fill",
+        /// Its edges, one texel wide.
+        Line = "line",
     }
 }
 
@@ -144,10 +200,18 @@ state_enum! {
 state_enum! {
     /// How vertices become primitives.
     PrimitiveTopology {
+        /// Each vertex a point of one texel.
+        PointList = "point-list",
+        /// Two vertices a line one texel wide.
+        LineList = "line-list",
+        /// A line from each vertex to the next.
+        LineStrip = "line-strip",
         /// Three vertices a triangle.
         TriangleList = "triangle-list",
         /// Each vertex after the second makes a triangle with the two before it.
         TriangleStrip = "triangle-strip",
+        /// Each vertex after the second makes a triangle with the first and the one before it.
+        TriangleFan = "triangle-fan",
     }
 }
 
@@ -158,10 +222,19 @@ state_enum! {
         FlatColor = "flat_color",
         /// `params.color`; writes the vertex colour's red as depth.
         FlatColorDepth = "flat_color_depth",
+        /// The vertex colour, flat; writes the fragment's own window depth as depth.
+        FragCoordDepth = "frag_coord_depth",
         /// `params.color` on front faces, `params.back_color` on back faces.
         FrontFacing = "front_facing",
+        /// The number of the sample being shaded in binary: red its lowest bit, alpha 1. Runs once
+        /// per sample.
+        SampleIndex = "sample_index",
         /// The texel of texture 0 under the fragment.
         TexelColor = "texel_color",
+        /// The texel of texture 0 under the fragment, to colour locations 0 to 3 alike.
+        TexelColorAll = "texel_color_all",
+        /// The texel of texture 0 under the fragment as source, that of texture 1 as second source.
+        TexelDualSource = "texel_dual_source",
         /// `params.color`.
         UniformColor = "uniform_color",
     }
@@ -175,20 +248,43 @@ impl Shader {
         match self {
             Self::FlatColor => include_str!("../../../shaders/flat_color.wgsl"),
             Self::FlatColorDepth => include_str!("../../../shaders/flat_color_depth.wgsl"),
+            Self::FragCoordDepth => include_str!("../../../shaders/frag_coord_depth.wgsl"),
             Self::FrontFacing => include_str!("../../../shaders/front_facing.wgsl"),
+            Self::SampleIndex => include_str!("../../../shaders/sample_index.wgsl"),
             Self::TexelColor => include_str!("../../../shaders/texel_color.wgsl"),
+            Self::TexelColorAll => include_str!("../../../shaders/texel_color_all.wgsl"),
+            Self::TexelDualSource => include_str!("../../../shaders/texel_dual_source.wgsl"),
             Self::UniformColor => include_str!("../../../shaders/uniform_color.wgsl"),
         }
     }
 
     /// How many textures the shader fetches from.
     pub fn textures(self) -> usize {
-        usize::from(self == Self::TexelColor)
+        match self {
+            Self::TexelColor | Self::TexelColorAll => 1,
+            Self::TexelDualSource => 2,
+            _ => 0,
+        }
     }
 
     /// Whether the fragment shader replaces the fragment's depth.
     pub fn writes_depth(self) -> bool {
-        self == Self::FlatColorDepth
+        matches!(self, Self::FlatColorDepth | Self::FragCoordDepth)
+    }
+
+    /// How many colour locations the shader writes.
+    pub fn outputs(self) -> usize {
+        if self == Self::TexelColorAll { 4 } else { 1 }
+    }
+
+    /// Whether the shader gives a second source for blending.
+    pub fn has_second_source(self) -> bool {
+        self == Self::TexelDualSource
+    }
+
+    /// Whether the shader runs once per sample.
+    pub fn runs_per_sample(self) -> bool {
+        self == Self::SampleIndex
     }
 
     /// Whether the shader reads the parameter block.
@@ -196,6 +292,16 @@ impl Shader {
         matches!(
             self,
             Self::FlatColorDepth | Self::FrontFacing | Self::UniformColor
+        )
+    }
+}
+
+impl BlendFactor {
+    /// Whether the factor comes from the second source.
+    pub fn is_second_source(self) -> bool {
+        matches!(
+            self,
+            Self::Src1 | Self::OneMinusSrc1 | Self::Src1Alpha | Self::OneMinusSrc1Alpha
         )
     }
 }
@@ -230,4 +336,50 @@ pub struct DepthState {
     pub compare: CompareFunction,
     /// Whether passing fragments store their depth.
     pub write: bool,
+}
+
+/// What is added to a polygon's depth: `constant * r + slope * m`, where `r` is the least step of
+/// the attachment's depth and `m` the polygon's steepest slope, then held to `clamp` where that is
+/// not 0. Off when all are 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct DepthBias {
+    /// In least steps; WebGPU wants an integer.
+    pub constant: i32,
+    /// Per unit of slope.
+    pub slope: f32,
+    /// The most that is added, or with a minus sign the least.
+    pub clamp: f32,
+}
+
+/// Where clip space lies in the attachments.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Viewport {
+    /// Left, top, width and height in texels.
+    pub rect: [f32; 4],
+    /// Window depths of clip depths 0 and 1; reversed when the first is larger.
+    pub depth: [f32; 2],
+}
+
+/// Which samples of a fragment are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Multisample {
+    /// Bit `i` lets sample `i` through.
+    pub mask: u32,
+    /// Whether alpha takes samples away.
+    pub alpha_to_coverage: bool,
+    /// Whether alpha then counts as 1.
+    pub alpha_to_one: bool,
+}
+
+impl Default for Multisample {
+    fn default() -> Self {
+        Self {
+            mask: u32::MAX,
+            alpha_to_coverage: false,
+            alpha_to_one: false,
+        }
+    }
 }

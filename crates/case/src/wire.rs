@@ -2,8 +2,8 @@
 
 use crate::mesh::{MeshSource, Splat};
 use crate::state::{
-    BlendState, CompareFunction, CullMode, DepthState, FrontFace, PrimitiveTopology, Shader,
-    StencilOperation,
+    BlendState, CompareFunction, CullMode, DepthBias, DepthState, FrontFace, LogicOperation,
+    Multisample, PolygonMode, PrimitiveTopology, Shader, StencilOperation, Viewport,
 };
 use etalon_frame::TextureFormat;
 use schemars::JsonSchema;
@@ -20,6 +20,8 @@ pub(crate) struct FileWire {
     pub(crate) about: String,
     /// The clauses of the specifications that bind, each as `API: section`.
     pub(crate) spec: Vec<String>,
+    /// Which cases of the product the quick profile takes; without it, all.
+    pub(crate) quick: Option<QuickWire>,
     /// The axes; the file stands for their whole product.
     #[serde(default)]
     pub(crate) axes: BTreeMap<String, Vec<AxisValue>>,
@@ -37,6 +39,14 @@ pub(crate) struct FileWire {
     #[serde(default)]
     #[schemars(with = "Vec<ExpectWire>")]
     pub(crate) expect: Value,
+}
+
+/// Which cases of a product the quick profile takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum QuickWire {
+    /// So many that every two values of every two axes meet.
+    Pairwise,
 }
 
 /// One value of an axis: a string, number or boolean, or a named value of any kind.
@@ -210,8 +220,14 @@ pub(crate) struct PassWire {
     /// Names of the colour attachments.
     #[serde(default)]
     pub(crate) color: Vec<String>,
+    /// Names of the attachments that the colour attachments are averaged to, `null` for none.
+    #[serde(default)]
+    pub(crate) resolve: Vec<Option<String>>,
     /// Name of the depth-stencil attachment.
     pub(crate) depth_stencil: Option<String>,
+    /// Whether the pass promises to write neither depth nor stencil.
+    #[serde(default)]
+    pub(crate) depth_stencil_read_only: bool,
     /// Draws, in order.
     pub(crate) draws: Vec<DrawWire>,
 }
@@ -232,6 +248,20 @@ pub(crate) struct DrawWire {
     pub(crate) cull: CullMode,
     #[serde(default = "ccw")]
     pub(crate) front_face: FrontFace,
+    #[serde(default = "fill")]
+    pub(crate) polygon_mode: PolygonMode,
+    #[serde(default)]
+    pub(crate) rasterizer_discard: bool,
+    /// Without it, the whole attachments and depths 0 to 1.
+    pub(crate) viewport: Option<Viewport>,
+    /// Left, top, width and height in texels; without it, everything.
+    pub(crate) scissor: Option<[u32; 4]>,
+    #[serde(default)]
+    pub(crate) depth_bias: DepthBias,
+    #[serde(default)]
+    pub(crate) depth_clamp: bool,
+    /// Least and greatest stored depth that lets fragments through; without it, off.
+    pub(crate) depth_bounds: Option<[f32; 2]>,
     /// The depth test; without it, off.
     pub(crate) depth: Option<DepthState>,
     /// The stencil test; without it, off.
@@ -241,9 +271,28 @@ pub(crate) struct DrawWire {
     /// Written channels, as letters of `rgba`.
     #[serde(default = "all_channels")]
     pub(crate) write_mask: String,
+    /// Blending and write mask of each colour attachment apart, instead of `blend` and `write_mask`.
+    pub(crate) targets: Option<Vec<TargetWire>>,
+    /// A logic operation instead of blending; without it, off.
+    pub(crate) logic: Option<LogicOperation>,
+    #[serde(default)]
+    pub(crate) multisample: Multisample,
     /// The blend constant.
     #[serde(default)]
     pub(crate) blend_constant: Splat,
+}
+
+/// Blending and write mask of one colour attachment.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TargetWire {
+    pub(crate) blend: Option<BlendState>,
+    #[serde(default = "all_channels")]
+    pub(crate) write_mask: String,
+}
+
+fn fill() -> PolygonMode {
+    PolygonMode::Fill
 }
 
 fn triangle_list() -> PrimitiveTopology {

@@ -54,6 +54,24 @@ pub(crate) struct AdaptersArguments {
     pub(crate) format: Format,
 }
 
+/// How much of each family of cases is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CaseProfile {
+    /// Of large families so many cases that every two values meet; of others all.
+    Quick,
+    /// All.
+    Full,
+}
+
+impl From<CaseProfile> for etalon_case::Profile {
+    fn from(profile: CaseProfile) -> Self {
+        match profile {
+            CaseProfile::Quick => Self::Quick,
+            CaseProfile::Full => Self::Full,
+        }
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct CaseArguments {
     /// Which cases: globs over ids in which `*` also matches `/`; a plain name stands for all below
@@ -63,6 +81,9 @@ pub(crate) struct CaseArguments {
     /// Read case files from this folder instead of those built in
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
+    /// How much of each family of cases
+    #[arg(long, value_enum, default_value = "quick")]
+    pub(crate) profile: CaseProfile,
 }
 
 #[derive(Debug, Args)]

@@ -4,7 +4,7 @@
 
 use assert_cmd::Command;
 use etalon_backend::Backend;
-use etalon_case::{Case, Library};
+use etalon_case::{Case, Library, Profile};
 use etalon_cpu::{MutantBackend, mutants};
 use etalon_record::{Catch, Hunt, MutantInfo};
 use etalon_runner::{HuntPlan, hunt, select};
@@ -77,7 +77,7 @@ fn info(name: &str) -> MutantInfo {
 fn cases(globs: &[&str]) -> Vec<Case> {
     let library = Library::built_in().unwrap();
     let globs: Vec<String> = globs.iter().map(|g| (*g).to_owned()).collect();
-    let chosen = select(&library, &globs).unwrap().cases;
+    let chosen = select(&library, Profile::Full, &globs).unwrap().cases;
     chosen.iter().map(|c| c.build().unwrap()).collect()
 }
 

@@ -87,6 +87,10 @@ fn every_selftest_fails_for_a_stated_reason() {
         assert_eq!(run.records.len(), count(&["selftest"]));
         for record in &run.records {
             assert!(record.due_fail, "{record:?}");
+            if record.verdict == Verdict::NotSupported {
+                assert_ne!(adapter, "cpu", "{record:?}");
+                continue;
+            }
             assert_eq!(record.verdict, Verdict::Fail, "{record:?}");
             assert!(
                 record.texels.wrong > 0 && !record.wrong.is_empty(),
@@ -136,7 +140,7 @@ fn one_record_per_case_and_adapter() {
     assert_eq!(found, adapters.into());
     assert_eq!(run.records.len(), 3 * count(&["depth"]));
     for record in &run.records {
-        assert!(!record.verdict.is_bad(), "{record:?}");
+        assert!(!record.unexpected(), "{record:?}");
         if record.verdict == Verdict::Pass {
             let asserted: u64 = record.assertions.iter().map(|a| a.asserted).sum();
             assert!(asserted > 0, "{record:?}");

@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_backend::Backend;
-use etalon_case::{CaseFile, Library, Scene};
+use etalon_case::{CaseFile, Library, Profile, Scene};
 use etalon_cpu::CpuBackend;
 
 const IDS: [&str; 3] = [
@@ -23,7 +23,7 @@ fn overdraw() -> Scene {
         vec![draw; 16].join(",")
     );
     let file = CaseFile::parse("overdraw.json", &text).expect("the scene parses");
-    let case = file.cases().next().expect("one case").build();
+    let case = file.cases(Profile::Full).next().expect("one case").build();
     case.expect("the scene builds").scene
 }
 
@@ -38,7 +38,7 @@ fn raster(c: &mut Criterion) {
         group.finish();
     };
     for id in IDS {
-        let reference = library.cases().find(|case| case.id() == id);
+        let reference = library.cases(Profile::Full).find(|case| case.id() == id);
         let reference = reference.unwrap_or_else(|| panic!("there is no case {id}"));
         let case = reference.build().expect("a built-in case builds");
         bench(id.split('=').next().unwrap_or(id), &case.scene, 100);

@@ -5,6 +5,7 @@
 
 mod mutants;
 mod raster;
+mod samples;
 mod span;
 mod steps;
 mod surface;
@@ -24,6 +25,9 @@ use surface::Surface;
 /// Bits of sub-pixel precision.
 const SUB_PIXEL_BITS: u8 = 8;
 
+/// Sample counts.
+const SAMPLES: [u32; 5] = [1, 2, 4, 8, 16];
+
 /// The rasterizer.
 #[derive(Debug)]
 pub struct CpuBackend {
@@ -38,7 +42,8 @@ impl CpuBackend {
             .into_iter()
             .map(|format| {
                 let support = FormatSupport {
-                    samples: vec![1],
+                    samples: SAMPLES.to_vec(),
+                    blendable: format.is_color(),
                     depth: depth_encoding(format).into_iter().collect(),
                     read: ReadPath::Copy,
                 };
@@ -59,9 +64,13 @@ impl CpuBackend {
                 api: Api::Vulkan,
                 sub_pixel_bits: SUB_PIXEL_BITS,
                 max_size: 4096,
+                max_color_attachments: 8,
                 formats,
                 features: Feature::ALL.into_iter().collect(),
-                sample_positions: [(1, vec![[128, 128]])].into_iter().collect(),
+                sample_positions: SAMPLES
+                    .into_iter()
+                    .map(|n| (n, samples::positions(n)))
+                    .collect(),
             },
         }
     }
@@ -118,6 +127,12 @@ impl<S: Steps> Prepared for PreparedScene<S> {
         for pass in &self.scene.passes {
             for draw in &pass.draws {
                 raster::draw(&self.scene, pass, draw, &mut self.surfaces, &self.steps);
+            }
+            for (source, target) in pass.color.iter().zip(&pass.resolve) {
+                if let Some(target) = target {
+                    let source = self.surfaces[*source].clone();
+                    self.surfaces[*target].resolve_from(&source);
+                }
             }
         }
         let elapsed = start.elapsed();

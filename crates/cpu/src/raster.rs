@@ -1,17 +1,118 @@
-//! Triangles to spans.
+//! Primitives to spans.
 
 use crate::SUB_PIXEL_BITS;
+use crate::samples::positions;
 use crate::span::{LANES, Span, SpanState};
-use crate::steps::Steps;
+use crate::steps::{Mask, Steps};
 use crate::surface::Surface;
-use etalon_case::Scene;
 use etalon_case::scene::{Draw, Pass};
+use etalon_case::state::PolygonMode;
+use etalon_case::{Primitive, Scene};
+use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{
-    Plain, Point, SnappedTriangle, front_facing, is_culled, signed_area, window_position,
+    DepthPlane, Plain, Point, SnappedTriangle, front_facing, is_culled, signed_area, slope,
+    window_position,
 };
 
 /// Sub-texel units per texel.
 const UNITS: i64 = 1 << SUB_PIXEL_BITS;
+
+#[derive(Clone, Copy)]
+struct Vertex {
+    at: Point,
+    z: f32,
+    clip_z: f32,
+    color: [f32; 4],
+}
+
+/// Window depth of a primitive, and whether near and far plane leave it.
+struct Depths {
+    window: DepthPlane,
+    clip: DepthPlane,
+    range: [f32; 2],
+    clip_range: [f64; 2],
+    bias: f64,
+    clamp: Option<[f32; 2]>,
+    clips: bool,
+    /// Left, top, right and bottom of the viewport in sub-texel units.
+    viewport: [i64; 4],
+}
+
+impl Depths {
+    fn new(draw: &Draw, points: [Point; 3], vertices: [Vertex; 3], bias: f64, wide: bool) -> Self {
+        let z = vertices.map(|v| v.z);
+        let clip_z = vertices.map(|v| v.clip_z);
+        let [near, far] = draw.viewport.depth;
+        let [x, y, w, h] = draw.viewport.rect;
+        let out = clip_z.iter().any(|z| !(0.0..=1.0).contains(z));
+        Self {
+            window: DepthPlane::new(points, z.map(f64::from)),
+            clip: DepthPlane::new(points, clip_z.map(f64::from)),
+            clip_range: ends(clip_z).map(f64::from),
+            range: ends(z),
+            bias,
+            clamp: draw.depth_clamp.then_some([near.min(far), near.max(far)]),
+            clips: out && !draw.depth_clamp,
+            viewport: [x, y, x + w, y + h].map(|v| (v * UNITS as f32).ceil() as i64),
+        }
+        .reaching(points, wide)
+    }
+
+    /// Points and lines are clipped before they get a width: unclipped, they reach beyond the edges.
+    fn reaching(mut self, points: [Point; 3], wide: bool) -> Self {
+        let [left, top, right, bottom] = self.viewport;
+        let inside = |p: &Point| (left..=right).contains(&p.x) && (top..=bottom).contains(&p.y);
+        if wide && points.iter().all(inside) {
+            self.viewport = [left - UNITS, top - UNITS, right + UNITS, bottom + UNITS];
+        }
+        self
+    }
+
+    /// The depths of a span's texels at one sample position.
+    fn at(&self, x: usize, y: usize, sample: Point) -> [f32; LANES] {
+        std::array::from_fn(|lane| {
+            let depth = self.window.at(position(x + lane, y, sample)) as f32;
+            // Between the vertices' depths nothing leaves.
+            let depth = depth.clamp(self.range[0], self.range[1]);
+            let depth = (f64::from(depth) + self.bias) as f32;
+            match self.clamp {
+                Some([low, high]) => depth.clamp(low, high),
+                None => depth,
+            }
+        })
+    }
+
+    /// Takes texels out of a mask that the viewport's edges, the near or the far plane clip away.
+    fn clip(&self, mask: &mut Mask, x: usize, y: usize, sample: Point) {
+        let [left, top, right, bottom] = self.viewport;
+        for (lane, covered) in mask.iter_mut().enumerate() {
+            let at = position(x + lane, y, sample);
+            *covered &= (left..right).contains(&at.x) && (top..bottom).contains(&at.y);
+        }
+        if self.clips {
+            for (lane, covered) in mask.iter_mut().enumerate() {
+                let z = self.clip.at(position(x + lane, y, sample));
+                let z = z.clamp(self.clip_range[0], self.clip_range[1]);
+                *covered &= (0.0..=1.0).contains(&z);
+            }
+        }
+    }
+}
+
+/// The least and the greatest of three numbers.
+fn ends([a, b, c]: [f32; 3]) -> [f32; 2] {
+    [a.min(b).min(c), a.max(b).max(c)]
+}
+
+fn position(x: usize, y: usize, sample: Point) -> Point {
+    Point {
+        x: x as i64 * UNITS + sample.x,
+        y: y as i64 * UNITS + sample.y,
+    }
+}
+
+/// Left, top, right and bottom of what a draw may write, the last two excluded.
+type Bounds = [usize; 4];
 
 /// Draws one draw into the pass's attachments.
 pub(crate) fn draw<S: Steps>(
@@ -21,120 +122,280 @@ pub(crate) fn draw<S: Steps>(
     surfaces: &mut [Surface],
     steps: &S,
 ) {
-    let Some(target) = pass.color.first().copied().or(pass.depth_stencil) else {
+    if draw.rasterizer_discard {
         return;
-    };
-    let size = scene.attachments[target].size;
-    let vertices: Vec<(Point, f32)> = draw
+    }
+    let size = scene.pass_size(pass);
+    let samples: Vec<Point> = positions(scene.pass_samples(pass))
+        .into_iter()
+        .map(|[x, y]| Point {
+            x: i64::from(x) * UNITS / 256,
+            y: i64::from(y) * UNITS / 256,
+        })
+        .collect();
+    let bounds = bounds(draw, size);
+    let vertices: Vec<Vertex> = draw
         .mesh
         .vertices
         .iter()
         .map(|v| {
-            let [[x], [y], [z]] = window_position(&mut Plain::<1>, v.position, size);
+            let [[x], [y], [z]] = window_position(&mut Plain::<1>, v.position, &draw.viewport);
             let snap = |v: f32| (v * UNITS as f32 + 0.5).floor() as i64;
-            let point = Point {
-                x: snap(x),
-                y: snap(y),
-            };
-            (point, z)
+            Vertex {
+                at: Point {
+                    x: snap(x),
+                    y: snap(y),
+                },
+                z,
+                clip_z: v.position[2] / v.position[3],
+                color: v.color,
+            }
         })
         .collect();
     let mut state = SpanState::new(scene, pass, draw, surfaces, steps);
-    for triangle in draw.mesh.triangles(draw.topology) {
-        let points = triangle.map(|i| vertices[i].0);
-        let front = front_facing(signed_area(points), draw.front_face);
-        if is_culled(draw.cull, front) {
-            continue;
+    let encoding = state.depth_encoding();
+    for primitive in draw.mesh.primitives(draw.topology) {
+        match primitive {
+            Primitive::Point(i) => {
+                let v = vertices[i];
+                let depths = Depths::new(draw, [v.at; 3], [v; 3], 0.0, true);
+                point(v, &depths, &samples, bounds, &mut state);
+            }
+            Primitive::Line(ends) => {
+                let ends = ends.map(|i| vertices[i]);
+                let [a, b] = ends;
+                let depths = Depths::new(draw, [a.at, b.at, a.at], [a, b, a], 0.0, true);
+                line(ends, true, &depths, samples.len(), bounds, &mut state);
+            }
+            Primitive::Triangle(triangle) => {
+                let corners = triangle.map(|i| vertices[i]);
+                let points = corners.map(|v| v.at);
+                let front = front_facing(signed_area(points), draw.front_face);
+                if is_culled(draw.cull, front) {
+                    continue;
+                }
+                let Some(snapped) = SnappedTriangle::new(points) else {
+                    continue;
+                };
+                let bias = depth_bias(draw, points, corners.map(|v| v.z), encoding);
+                let depths = Depths::new(
+                    draw,
+                    points,
+                    corners,
+                    bias,
+                    draw.polygon_mode == PolygonMode::Line,
+                );
+                match draw.polygon_mode {
+                    PolygonMode::Fill => {
+                        let color = corners[0].color;
+                        fill(
+                            &snapped, front, color, &depths, &samples, bounds, &mut state,
+                        );
+                    }
+                    PolygonMode::Line => {
+                        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+                            let ends = [corners[i], corners[j]];
+                            line(ends, front, &depths, samples.len(), bounds, &mut state);
+                        }
+                    }
+                }
+            }
         }
-        let Some(snapped) = SnappedTriangle::new(points) else {
-            continue;
-        };
-        let depth = DepthPlane::new(points, triangle.map(|i| vertices[i].1));
-        let color = draw.mesh.vertices[triangle[0]].color;
-        rasterize(&snapped, size, |y, x, mask| {
-            state.run(&Span {
-                x,
-                y,
-                mask: steps.covered(x, y, size, mask),
-                front,
-                color,
-                depth: depth.at(x, y),
-            });
-        });
     }
 }
 
-/// Window depth over a triangle.
-struct DepthPlane {
-    origin: Point,
-    z: f64,
-    dx: f64,
-    dy: f64,
-    range: [f32; 2],
+/// Scissor rectangle, attachments and the viewport with a texel around it, together.
+fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
+    let [x, y, w, h] = draw.viewport.rect;
+    let [sx, sy, sw, sh] = draw.scissor.unwrap_or([0, 0, size[0], size[1]]);
+    let axis = |start: f32, length: f32, s: u32, l: u32, size: u32| {
+        let low = ((start - 1.0).max(0.0).floor() as u32).max(s);
+        let high = ((start + length + 1.0).max(0.0).ceil() as u32)
+            .min(s.saturating_add(l))
+            .min(size);
+        (low as usize, high.max(low) as usize)
+    };
+    let (left, right) = axis(x, w, sx, sw, size[0]);
+    let (top, bottom) = axis(y, h, sy, sh, size[1]);
+    [left, top, right, bottom]
 }
 
-impl DepthPlane {
-    fn new(points: [Point; 3], z: [f32; 3]) -> Self {
-        let [a, b, c] = points;
-        let area = signed_area(points) as f64;
-        let (z0, z1, z2) = (f64::from(z[0]), f64::from(z[1]), f64::from(z[2]));
-        let (bx, by) = ((b.x - a.x) as f64, (b.y - a.y) as f64);
-        let (cx, cy) = ((c.x - a.x) as f64, (c.y - a.y) as f64);
-        let (d1, d2) = (z1 - z0, z2 - z0);
-        Self {
-            origin: a,
-            z: z0,
-            // With y down the determinant is the negated signed area.
-            dx: (d1 * cy - d2 * by) / -area,
-            dy: (d2 * bx - d1 * cx) / -area,
-            range: [z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2])],
+/// `constant * r + slope * m`, held to the clamp (Vulkan, Depth Bias; Direct3D 11.3, 15.10).
+fn depth_bias(
+    draw: &Draw,
+    points: [Point; 3],
+    z: [f32; 3],
+    encoding: Option<ChannelEncoding>,
+) -> f64 {
+    let state = draw.depth_bias;
+    let Some(encoding) = encoding else { return 0.0 };
+    if state.constant == 0 && state.slope == 0.0 {
+        return 0.0;
+    }
+    let unit = match encoding {
+        ChannelEncoding::Unorm(bits) => 2_f64.powi(-i32::from(bits)),
+        _ => {
+            let largest = f64::from(z[0].max(z[1]).max(z[2])).max(f64::from(f32::MIN_POSITIVE));
+            2_f64.powi(largest.log2().floor() as i32 - 23)
         }
-    }
-
-    /// Depths at the centres of a span's texels. They stay between those of the vertices.
-    fn at(&self, x: usize, y: usize) -> [f32; LANES] {
-        let center = |t: usize| t as i64 * UNITS + UNITS / 2;
-        let dy = (center(y) - self.origin.y) as f64 * self.dy;
-        std::array::from_fn(|lane| {
-            let dx = (center(x + lane) - self.origin.x) as f64 * self.dx;
-            ((self.z + dx + dy) as f32).clamp(self.range[0], self.range[1])
-        })
+    };
+    let plane = DepthPlane::new(points, z.map(f64::from));
+    let (steepest, _) = slope(plane.dx * UNITS as f64, plane.dy * UNITS as f64);
+    let sum = f64::from(state.constant) * unit + f64::from(state.slope) * steepest;
+    let clamp = f64::from(state.clamp);
+    if clamp > 0.0 {
+        sum.min(clamp)
+    } else if clamp < 0.0 {
+        sum.max(clamp)
+    } else {
+        sum
     }
 }
 
-/// Calls `emit(y, x, mask)` for every span that holds a covered texel.
-fn rasterize(
+/// Runs the spans of a triangle's inside.
+fn fill<S: Steps>(
     triangle: &SnappedTriangle,
-    size: [u32; 2],
-    mut emit: impl FnMut(usize, usize, [bool; LANES]),
+    front: bool,
+    color: [f32; 4],
+    depths: &Depths,
+    samples: &[Point],
+    bounds: Bounds,
+    state: &mut SpanState<'_, S>,
 ) {
     let vertices = triangle.vertices();
-    let bound = |f: fn(&Point) -> i64, length: u32| {
+    let bound = |f: fn(&Point) -> i64, low: usize, high: usize| {
         let values = vertices.each_ref().map(f);
         let least = values.into_iter().min().unwrap_or(0).div_euclid(UNITS);
         let most = values.into_iter().max().unwrap_or(0).div_euclid(UNITS) + 1;
-        let inside = |v: i64| v.clamp(0, i64::from(length)) as usize;
+        let inside = |v: i64| v.clamp(low as i64, high as i64) as usize;
         (inside(least), inside(most))
     };
-    let (left, right) = bound(|p| p.x, size[0]);
-    let (top, bottom) = bound(|p| p.y, size[1]);
-    let first = left / LANES * LANES;
+    let (left, right) = bound(|p| p.x, bounds[0], bounds[2]);
+    let (top, bottom) = bound(|p| p.y, bounds[1], bounds[3]);
+    let mut masks = vec![[false; LANES]; samples.len()];
     for y in top..bottom {
-        let mut x = first;
-        while x < right {
-            let edges = triangle.edges_at(Point {
-                x: x as i64 * UNITS + UNITS / 2,
-                y: y as i64 * UNITS + UNITS / 2,
-            });
-            let inside = right.min(size[0] as usize) - x;
-            let mask: [bool; LANES] = std::array::from_fn(|lane| {
-                let step = lane as i64 * UNITS;
-                lane < inside && edges.iter().all(|(value, dx)| value + dx * step >= 0)
-            });
-            if mask.contains(&true) {
-                emit(y, x, mask);
+        for x in (left / LANES * LANES..right).step_by(LANES) {
+            let mut any = false;
+            for (mask, sample) in masks.iter_mut().zip(samples) {
+                let edges = triangle.edges_at(position(x, y, *sample));
+                *mask = std::array::from_fn(|lane| {
+                    let step = lane as i64 * UNITS;
+                    let inside = x + lane >= left && x + lane < right;
+                    inside && edges.iter().all(|(value, dx)| value + dx * step >= 0)
+                });
+                depths.clip(mask, x, y, *sample);
+                any |= mask.contains(&true);
             }
-            x += LANES;
+            if any {
+                state.run(&Span {
+                    x,
+                    y,
+                    masks: &masks,
+                    front,
+                    color,
+                    depth: &|sample| depths.at(x, y, samples[sample]),
+                });
+            }
         }
     }
+}
+
+/// Runs the one texel, or the samples of up to four, that a point covers.
+fn point<S: Steps>(
+    vertex: Vertex,
+    depths: &Depths,
+    samples: &[Point],
+    bounds: Bounds,
+    state: &mut SpanState<'_, S>,
+) {
+    let half = UNITS / 2;
+    let first = |v: i64| (v - half).div_euclid(UNITS);
+    for y in first(vertex.at.y)..=first(vertex.at.y) + 1 {
+        for x in first(vertex.at.x)..=first(vertex.at.x) + 1 {
+            let covered = |sample: &Point| {
+                let at = Point {
+                    x: x * UNITS + sample.x,
+                    y: y * UNITS + sample.y,
+                };
+                let inside = |c: i64, s: i64| c - half <= s && s < c + half;
+                inside(vertex.at.x, at.x) && inside(vertex.at.y, at.y)
+            };
+            let masks: Vec<bool> = samples.iter().map(covered).collect();
+            texel((x, y), &masks, true, vertex.color, depths, bounds, state);
+        }
+    }
+}
+
+/// Runs the texels of a line: one per column or row, whichever it has more of, all samples of each;
+/// the last one is the next line's (the diamond-exit rule where it does not run through corners).
+fn line<S: Steps>(
+    ends: [Vertex; 2],
+    front: bool,
+    depths: &Depths,
+    samples: usize,
+    bounds: Bounds,
+    state: &mut SpanState<'_, S>,
+) {
+    let [a, b] = ends;
+    let (dx, dy) = (b.at.x - a.at.x, b.at.y - a.at.y);
+    let steep = dy.abs() > dx.abs();
+    let (from, to, cross_from, cross_to) = if steep {
+        (a.at.y, b.at.y, a.at.x, b.at.x)
+    } else {
+        (a.at.x, b.at.x, a.at.y, b.at.y)
+    };
+    if from == to {
+        return;
+    }
+    let (low, high) = (from.min(to), from.max(to));
+    let center = |cell: i64| cell * UNITS + UNITS / 2;
+    let masks = vec![true; samples];
+    let first = (low - UNITS / 2).div_euclid(UNITS);
+    for cell in first..=high.div_euclid(UNITS) {
+        if center(cell) < low || center(cell) >= high {
+            continue;
+        }
+        let along = center(cell) - from;
+        let cross = cross_from + (cross_to - cross_from) * along / (to - from);
+        let cross = cross.div_euclid(UNITS);
+        let at = if steep { (cross, cell) } else { (cell, cross) };
+        texel(at, &masks, front, a.color, depths, bounds, state);
+    }
+}
+
+fn texel<S: Steps>(
+    (x, y): (i64, i64),
+    samples: &[bool],
+    front: bool,
+    color: [f32; 4],
+    depths: &Depths,
+    bounds: Bounds,
+    state: &mut SpanState<'_, S>,
+) {
+    let inside = |v: i64, low: usize, high: usize| v >= low as i64 && v < high as i64;
+    if !inside(x, bounds[0], bounds[2]) || !inside(y, bounds[1], bounds[3]) {
+        return;
+    }
+    let (x, y) = (x as usize, y as usize);
+    let start = x / LANES * LANES;
+    let center = Point {
+        x: UNITS / 2,
+        y: UNITS / 2,
+    };
+    let masks: Vec<Mask> = samples
+        .iter()
+        .map(|covered| {
+            let mut mask = std::array::from_fn(|lane| *covered && start + lane == x);
+            depths.clip(&mut mask, start, y, center);
+            mask
+        })
+        .collect();
+    state.run(&Span {
+        x: start,
+        y,
+        masks: &masks,
+        front,
+        color,
+        depth: &|_| depths.at(start, y, center),
+    });
 }

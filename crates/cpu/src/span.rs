@@ -6,20 +6,22 @@ use crate::surface::Surface;
 use etalon_case::Scene;
 use etalon_case::scene::{Draw, Pass, StencilFace};
 use etalon_frame::ChannelEncoding;
-use etalon_pipeline::shader::{FragmentInput, fragment};
-use etalon_pipeline::{Arithmetic, BlendInput, Plain};
+use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
+use etalon_pipeline::{Arithmetic, BlendInput, Plain, takes_logic};
 
 /// Texels of a span.
 pub(crate) const LANES: usize = 16;
 
 /// Covered texels of one primitive in one row. `x` is a multiple of [`LANES`].
-pub(crate) struct Span {
+pub(crate) struct Span<'a> {
     pub(crate) x: usize,
     pub(crate) y: usize,
-    pub(crate) mask: Mask,
+    /// Coverage, sample by sample.
+    pub(crate) masks: &'a [Mask],
     pub(crate) front: bool,
     pub(crate) color: [f32; 4],
-    pub(crate) depth: Real,
+    /// Window depths at one sample.
+    pub(crate) depth: &'a dyn Fn(usize) -> Real,
 }
 
 /// A draw's state and the attachments it works on.
@@ -28,7 +30,9 @@ pub(crate) struct SpanState<'a, S> {
     pass: &'a Pass,
     depth: Option<ChannelEncoding>,
     encodings: Vec<[ChannelEncoding; 4]>,
-    texture: [ChannelEncoding; 4],
+    /// Whether each target obeys logic operations.
+    logic: Vec<bool>,
+    size: [u32; 2],
     surfaces: &'a mut [Surface],
     steps: &'a S,
 }
@@ -51,6 +55,16 @@ fn store(plane: &mut [u32], at: usize, codes: Codes, mask: Mask) {
     }
 }
 
+fn four(channels: &[ChannelEncoding]) -> [ChannelEncoding; 4] {
+    std::array::from_fn(|c| {
+        let last = channels.len().saturating_sub(1);
+        channels
+            .get(c.min(last))
+            .copied()
+            .unwrap_or(ChannelEncoding::Float32)
+    })
+}
+
 impl<'a, S: Steps> SpanState<'a, S> {
     pub(crate) fn new(
         scene: &Scene,
@@ -60,38 +74,85 @@ impl<'a, S: Steps> SpanState<'a, S> {
         steps: &'a S,
     ) -> Self {
         let format = |index: usize| scene.attachments[index].format;
-        let four = |index: usize| -> [ChannelEncoding; 4] {
-            let channels = format(index).color_channels();
-            std::array::from_fn(|c| channels[c.min(channels.len() - 1)])
-        };
         Self {
             draw,
             pass,
             depth: pass.depth_stencil.and_then(|i| depth_encoding(format(i))),
-            encodings: pass.color.iter().map(|index| four(*index)).collect(),
-            texture: draw
-                .textures
-                .first()
-                .map_or([ChannelEncoding::Float32; 4], |index| four(*index)),
+            encodings: pass
+                .color
+                .iter()
+                .map(|index| four(format(*index).color_channels()))
+                .collect(),
+            logic: pass
+                .color
+                .iter()
+                .map(|index| takes_logic(format(*index)))
+                .collect(),
+            size: scene.pass_size(pass),
             surfaces,
             steps,
         }
     }
 
+    /// How the pass stores depth, if it does.
+    pub(crate) fn depth_encoding(&self) -> Option<ChannelEncoding> {
+        self.depth
+    }
+
     /// Shades, tests, blends and stores a span.
-    pub(crate) fn run(&mut self, span: &Span) {
-        let mut plain = Plain::<LANES>;
-        let texel = self.texel(span);
-        let input = FragmentInput {
-            color: span.color.map(|v| [v; LANES]),
-            front: span.front,
-            texel,
-            params: &self.draw.params,
+    pub(crate) fn run(&mut self, span: &Span<'_>) {
+        let texels = [self.texel(span, 0), self.texel(span, 1)];
+        let per_sample = self.draw.shader.runs_per_sample();
+        let mut shaded: Option<FragmentOutput<Real>> = None;
+        for sample in 0..span.masks.len() {
+            let mut mask = self
+                .steps
+                .covered(span.x, span.y, self.size, span.masks[sample]);
+            if self.draw.multisample.mask & (1 << sample) == 0 || !mask.contains(&true) {
+                continue;
+            }
+            let own_depth = (span.depth)(sample);
+            // A shader that does not ask for the sample runs once; its depth is a sample's own only
+            // where it writes none.
+            let output = match shaded {
+                Some(output) if !per_sample => output,
+                _ => {
+                    let input = FragmentInput {
+                        color: span.color.map(|v| [v; LANES]),
+                        front: span.front,
+                        depth: own_depth,
+                        sample: sample as u32,
+                        texels,
+                        params: &self.draw.params,
+                    };
+                    fragment(&mut Plain::<LANES>, self.draw.shader, &input)
+                }
+            };
+            shaded = Some(output);
+            if self.draw.multisample.alpha_to_coverage {
+                mask = and(mask, covers(output.color[3], sample, span.masks.len()));
+            }
+            let depth = output.depth.unwrap_or(own_depth);
+            let mask = self.test_and_store(span, sample, depth, mask);
+            self.write_colors(span, sample, &output, mask);
+        }
+    }
+
+    fn at(&self, index: usize, span: &Span<'_>) -> usize {
+        span.y * self.surfaces[index].stride + span.x
+    }
+
+    fn texel(&self, span: &Span<'_>, t: usize) -> [Real; 4] {
+        let Some(index) = self.draw.textures.get(t) else {
+            return [[0.0; LANES]; 4];
         };
-        let output = fragment(&mut plain, self.draw.shader, &input);
-        let depth = output.depth.unwrap_or(span.depth);
+        self.steps.fetch(&self.surfaces[*index], span.x, span.y)
+    }
+
+    /// Runs depth bounds, stencil and depth test and stores both; where colour is written.
+    fn test_and_store(&mut self, span: &Span<'_>, sample: usize, depth: Real, mask: Mask) -> Mask {
         let mut tests = Tests {
-            covered: span.mask,
+            covered: self.depth_bounds(span, sample, mask),
             stencil: [true; LANES],
             depth: [true; LANES],
         };
@@ -100,99 +161,147 @@ impl<'a, S: Steps> SpanState<'a, S> {
             .stencil
             .map(|s| if span.front { s.front } else { s.back });
         if let Some(face) = &face {
-            tests.stencil = self.stencil_test(span, face);
+            tests.stencil = self.stencil_test(span, sample, face);
         }
-        let codes = self.depth_test(span, depth, &mut tests.depth);
+        let codes = self.depth_test(span, sample, depth, &mut tests.depth);
         let written = self.steps.written(&tests);
         if let Some(codes) = codes {
-            self.depth_write(span, codes, written.depth);
+            self.depth_write(span, sample, codes, written.depth);
         }
         if let Some(face) = &face {
             let passed = and(tests.covered, tests.stencil);
             let failed = and_not(tests.covered, tests.stencil);
-            self.stencil_update(span, face, Path::Fail, failed);
-            self.stencil_update(span, face, Path::DepthFail, and_not(passed, tests.depth));
-            self.stencil_update(span, face, Path::Pass, and(passed, tests.depth));
+            let depth_failed = and_not(passed, tests.depth);
+            self.stencil_update(span, sample, face, Path::Fail, failed);
+            self.stencil_update(span, sample, face, Path::DepthFail, depth_failed);
+            self.stencil_update(span, sample, face, Path::Pass, and(passed, tests.depth));
         }
-        self.write_colors(span, &output.color, written.color);
+        written.color
     }
 
-    fn texel(&self, span: &Span) -> [Real; 4] {
-        let Some(index) = self.draw.textures.first() else {
-            return [[0.0; LANES]; 4];
+    fn depth_bounds(&self, span: &Span<'_>, sample: usize, mask: Mask) -> Mask {
+        let (Some([low, high]), Some(index), Some(encoding)) =
+            (self.draw.depth_bounds, self.pass.depth_stencil, self.depth)
+        else {
+            return mask;
         };
-        self.steps
-            .fetch(&self.surfaces[*index], self.texture, span.x, span.y)
+        let at = self.at(index, span);
+        let stored = load(self.surfaces[index].plane(0, sample), at);
+        let stored = Plain::<LANES>.decode(encoding, stored);
+        and(mask, stored.map(|v| low <= v && v <= high))
     }
 
-    fn stencil_test(&self, span: &Span, face: &StencilFace) -> Mask {
+    fn stencil_test(&self, span: &Span<'_>, sample: usize, face: &StencilFace) -> Mask {
         let Some(index) = self.pass.depth_stencil else {
             return [true; LANES];
         };
-        let surface = &self.surfaces[index];
-        let at = span.y * surface.stride + span.x;
-        std::array::from_fn(|i| self.steps.stencil_passes(face, surface.stencil[at + i]))
+        let at = self.at(index, span);
+        let stored = &self.surfaces[index].stencil[sample];
+        std::array::from_fn(|i| self.steps.stencil_passes(face, stored[at + i]))
     }
 
-    fn stencil_update(&mut self, span: &Span, face: &StencilFace, path: Path, mask: Mask) {
+    fn stencil_update(
+        &mut self,
+        span: &Span<'_>,
+        sample: usize,
+        face: &StencilFace,
+        path: Path,
+        mask: Mask,
+    ) {
         let Some(index) = self.pass.depth_stencil else {
             return;
         };
-        let surface = &mut self.surfaces[index];
-        let at = span.y * surface.stride + span.x;
-        for (i, slot) in surface.stencil[at..at + LANES].iter_mut().enumerate() {
+        let at = self.at(index, span);
+        let stored = &mut self.surfaces[index].stencil[sample][at..at + LANES];
+        for (i, slot) in stored.iter_mut().enumerate() {
             let new = self.steps.stencil_write(face, path, *slot);
             *slot = if mask[i] { new } else { *slot };
         }
     }
 
     /// The codes to store, where the draw stores any.
-    fn depth_test(&self, span: &Span, depth: Real, passes: &mut Mask) -> Option<Codes> {
+    fn depth_test(
+        &self,
+        span: &Span<'_>,
+        sample: usize,
+        depth: Real,
+        passes: &mut Mask,
+    ) -> Option<Codes> {
         let (state, index, encoding) = (self.draw.depth?, self.pass.depth_stencil?, self.depth?);
-        let surface = &self.surfaces[index];
+        // Depths of shaders and biases too are held to the viewport's range.
+        let [near, far] = self.draw.viewport.depth;
+        let depth = depth.map(|v| v.clamp(near.min(far), near.max(far)));
         let codes = self.steps.depth_codes(encoding, depth);
-        let stored = load(&surface.planes[0], span.y * surface.stride + span.x);
+        let stored = load(self.surfaces[index].plane(0, sample), self.at(index, span));
         *passes =
             std::array::from_fn(|i| self.steps.depth_passes(state.compare, codes[i], stored[i]));
         state.write.then_some(codes)
     }
 
-    fn depth_write(&mut self, span: &Span, codes: Codes, mask: Mask) {
+    fn depth_write(&mut self, span: &Span<'_>, sample: usize, codes: Codes, mask: Mask) {
         if let Some(index) = self.pass.depth_stencil {
-            let surface = &mut self.surfaces[index];
-            let at = span.y * surface.stride + span.x;
-            store(&mut surface.planes[0], at, codes, mask);
+            let at = self.at(index, span);
+            store(self.surfaces[index].plane_mut(0, sample), at, codes, mask);
         }
     }
 
-    fn write_colors(&mut self, span: &Span, color: &[Real; 4], mask: Mask) {
+    fn write_colors(
+        &mut self,
+        span: &Span<'_>,
+        sample: usize,
+        output: &FragmentOutput<Real>,
+        mask: Mask,
+    ) {
         let mut plain = Plain::<LANES>;
+        let mut color = output.color;
+        let mut second = output.second.unwrap_or([[0.0; LANES]; 4]);
+        if self.draw.multisample.alpha_to_one {
+            color[3] = [1.0; LANES];
+            second[3] = [1.0; LANES];
+        }
         for (t, index) in self.pass.color.iter().enumerate() {
             let target = &self.draw.targets[t];
             let encodings = self.encodings[t];
+            let at = self.at(*index, span);
             let surface = &mut self.surfaces[*index];
-            let at = span.y * surface.stride + span.x;
+            let channels = surface.encodings.len();
             let value = match &target.blend {
-                None => *color,
+                None => color,
                 Some(state) => {
-                    let dst = std::array::from_fn(|c| {
-                        let plane = &surface.planes[c.min(surface.planes.len() - 1)];
-                        plain.decode(encodings[c], load(plane, at))
+                    // A destination's missing colours count as 0, its missing alpha as 1.
+                    let dst = std::array::from_fn(|c| match c {
+                        _ if c < channels => {
+                            plain.decode(encodings[c], load(surface.plane(c, sample), at))
+                        }
+                        3 => [1.0; LANES],
+                        _ => [0.0; LANES],
                     });
                     let input = BlendInput {
-                        src: *color,
+                        src: color,
+                        src1: second,
                         dst,
                         constant: self.draw.blend_constant.map(|v| [v; LANES]),
                     };
                     self.steps.blend(state, encodings, &input)
                 }
             };
-            for (c, plane) in surface.planes.iter_mut().enumerate() {
-                if target.write_mask & (1 << c) != 0 {
-                    let codes = self.steps.color_codes(encodings[c], value[c]);
-                    store(plane, at, codes, mask);
+            for c in 0..channels {
+                if target.write_mask & (1 << c) == 0 {
+                    continue;
                 }
+                let plane = surface.plane_mut(c, sample);
+                let mut codes = self.steps.color_codes(encodings[c], value[c]);
+                if let Some(operation) = self.draw.logic.filter(|_| self.logic[t]) {
+                    codes = plain.logic(encodings[c], operation, codes, load(plane, at));
+                }
+                store(plane, at, codes, mask);
             }
         }
     }
+}
+
+/// Alpha to coverage: the first samples, as many as alpha's share.
+fn covers(alpha: Real, sample: usize, samples: usize) -> Mask {
+    let count = samples as f32;
+    alpha.map(|a| (sample as f32) < (a.clamp(0.0, 1.0) * count).round())
 }

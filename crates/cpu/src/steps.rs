@@ -64,17 +64,15 @@ pub(crate) trait Steps {
 
     /// The texels of a texture under a span.
     #[inline(always)]
-    fn fetch(
-        &self,
-        surface: &Surface,
-        encodings: [ChannelEncoding; 4],
-        x: usize,
-        y: usize,
-    ) -> [Real; 4] {
+    fn fetch(&self, surface: &Surface, x: usize, y: usize) -> [Real; 4] {
         let at = y * surface.stride + x;
-        std::array::from_fn(|c| {
-            let codes = std::array::from_fn(|i| surface.planes[c][at + i]);
-            Plain::<LANES>.decode(encodings[c], codes)
+        std::array::from_fn(|c| match surface.encodings.get(c) {
+            Some(encoding) => {
+                let plane = surface.plane(c, 0);
+                Plain::<LANES>.decode(*encoding, std::array::from_fn(|i| plane[at + i]))
+            }
+            // A format without alpha is fetched with alpha 1.
+            None => [if c == 3 { 1.0 } else { 0.0 }; LANES],
         })
     }
 
@@ -93,8 +91,9 @@ pub(crate) trait Steps {
     /// Depths as they are compared and stored.
     #[inline(always)]
     fn depth_codes(&self, encoding: ChannelEncoding, depth: Real) -> Codes {
-        // Codes of depths in 0..=1 are ordered as the depths are, floats among them.
-        Plain::<LANES>.encode(encoding, depth.map(|v| v.clamp(0.0, 1.0)))
+        // Codes of depths in 0..=1 are ordered as the depths are, floats among them. Adding 0 takes
+        // the sign off a negative zero.
+        Plain::<LANES>.encode(encoding, depth.map(|v| v.clamp(0.0, 1.0) + 0.0))
     }
 
     /// Whether an incoming depth passes; both are codes.

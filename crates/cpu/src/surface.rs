@@ -1,10 +1,11 @@
-//! Attachments in memory: one plane of codes per channel, rows padded to whole spans.
+//! Attachments in memory: one plane of codes per channel and sample, rows padded to whole spans.
 
 use crate::depth_encoding;
 use crate::span::LANES;
 use crate::steps::Steps;
 use etalon_case::scene::{Attachment, Contents};
-use etalon_frame::Aspect;
+use etalon_frame::{Aspect, ChannelEncoding};
+use etalon_pipeline::{Arithmetic, Plain};
 
 /// One attachment.
 #[derive(Clone, Debug)]
@@ -13,10 +14,13 @@ pub(crate) struct Surface {
     pub(crate) height: usize,
     /// Texels from one row to the next: the width rounded up to whole spans.
     pub(crate) stride: usize,
-    /// Colour channels, or the depth alone.
+    pub(crate) samples: usize,
+    /// Colour channels, or the depth alone: channel by channel, in each sample by sample.
     pub(crate) planes: Vec<Vec<u32>>,
-    /// Stencil; empty where the format has none.
-    pub(crate) stencil: Vec<u8>,
+    /// Stencil, sample by sample; empty where the format has none.
+    pub(crate) stencil: Vec<Vec<u8>>,
+    /// Colour encodings.
+    pub(crate) encodings: &'static [ChannelEncoding],
 }
 
 impl Surface {
@@ -26,27 +30,31 @@ impl Surface {
         let stride = width.next_multiple_of(LANES);
         let format = attachment.format;
         let texels = stride * height;
+        let samples = attachment.samples as usize;
         let mut surface = Self {
             width,
             height,
             stride,
+            samples,
             planes: Vec::new(),
             stencil: Vec::new(),
+            encodings: format.color_channels(),
         };
         match &attachment.contents {
             Contents::Color(color) => {
                 for (encoding, value) in format.color_channels().iter().zip(color) {
                     let code = steps.clear_code(*encoding, *value);
-                    surface.planes.push(vec![code; texels]);
+                    let planes = (0..samples).map(|_| vec![code; texels]);
+                    surface.planes.extend(planes);
                 }
             }
             Contents::DepthStencil { depth, stencil } => {
                 if let Some(encoding) = depth_encoding(format) {
                     let code = steps.clear_code(encoding, *depth);
-                    surface.planes.push(vec![code; texels]);
+                    surface.planes = vec![vec![code; texels]; samples];
                 }
                 if format.has_stencil() {
-                    surface.stencil = vec![*stencil; texels];
+                    surface.stencil = vec![vec![*stencil; texels]; samples];
                 }
             }
             Contents::Texels(codes) => {
@@ -63,21 +71,46 @@ impl Surface {
         surface
     }
 
+    /// The plane of one channel and sample.
+    pub(crate) fn plane(&self, channel: usize, sample: usize) -> &[u32] {
+        &self.planes[channel * self.samples + sample]
+    }
+
+    /// The plane of one channel and sample.
+    pub(crate) fn plane_mut(&mut self, channel: usize, sample: usize) -> &mut [u32] {
+        &mut self.planes[channel * self.samples + sample]
+    }
+
+    /// Becomes the average of another surface's samples, rounded to the nearest code.
+    pub(crate) fn resolve_from(&mut self, source: &Self) {
+        let share = 1.0 / source.samples as f32;
+        for (c, encoding) in source.encodings.iter().enumerate() {
+            for at in 0..self.stride * self.height {
+                let sum: f32 = (0..source.samples)
+                    .map(|s| Plain::<1>.decode(*encoding, [source.plane(c, s)[at]])[0])
+                    .sum();
+                self.planes[c][at] = Plain::<1>.encode(*encoding, [sum * share])[0];
+            }
+        }
+    }
+
     /// The codes of one aspect, as an [`etalon_frame::Image`] holds them.
     pub(crate) fn codes(&self, aspect: Aspect) -> Vec<u32> {
-        let channels = if aspect == Aspect::Stencil {
-            1
-        } else {
-            self.planes.len()
+        let channels = match aspect {
+            Aspect::Stencil => 1,
+            Aspect::Depth => 1,
+            Aspect::Color => self.encodings.len(),
         };
-        let mut codes = Vec::with_capacity(self.width * self.height * channels);
+        let count = self.width * self.height * self.samples * channels;
+        let mut codes = Vec::with_capacity(count);
         for y in 0..self.height {
             for x in 0..self.width {
                 let at = y * self.stride + x;
-                if aspect == Aspect::Stencil {
-                    codes.push(u32::from(self.stencil[at]));
-                } else {
-                    codes.extend(self.planes.iter().map(|plane| plane[at]));
+                for s in 0..self.samples {
+                    match aspect {
+                        Aspect::Stencil => codes.push(u32::from(self.stencil[s][at])),
+                        _ => codes.extend((0..channels).map(|c| self.plane(c, s)[at])),
+                    }
                 }
             }
         }

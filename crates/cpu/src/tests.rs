@@ -1,9 +1,9 @@
 use super::*;
-use etalon_case::CaseFile;
+use etalon_case::{CaseFile, Profile};
 
 fn frame(text: &str) -> Frame {
     let file = CaseFile::parse("t.json", text).expect("parses");
-    let case = file.cases().next().expect("a case").build();
+    let case = file.cases(Profile::Full).next().expect("a case").build();
     let backend = CpuBackend::new("cpu");
     let case = case.expect("builds");
     let mut prepared = backend.prepare(&case.scene).expect("prepares");

@@ -13,7 +13,7 @@ mod limits;
 mod story;
 
 pub use compare::{Band, ChannelMismatch, Comparison, TexelCounts, WrongTexel, compare};
-pub use format::{Aspect, ChannelEncoding, TextureFormat};
+pub use format::{Aspect, ChannelEncoding, TextureFormat, linear_to_srgb, srgb_to_linear};
 pub use image::{Frame, FrameError, Image, ReadPath};
 pub use legal::{
     AspectStatistics, CodeInterval, ImageInfo, LegalSet, LegalSetBuilder, SampleGroup, TexelSet,

@@ -42,32 +42,88 @@ impl fmt::Display for Api {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Feature {
-    /// Culling front and back faces together.
-    FrontAndBackCulling,
-    /// The operations `min` and `max` with factors other than `one` (which they ignore).
-    MinMaxBlendFactors,
+    /// Alpha counting as 1 after alpha to coverage.
+    AlphaToOne,
     /// The factors `constant-alpha` and `one-minus-constant-alpha` for colour.
     ConstantAlphaBlendFactor,
+    /// A limit on depth bias.
+    DepthBiasClamp,
+    /// Rejecting fragments by the stored depth.
+    DepthBounds,
+    /// Depths beyond the viewport's range moved to its ends.
+    DepthClamp,
+    /// Blending with two sources.
+    DualSourceBlending,
+    /// Culling front and back faces together.
+    FrontAndBackCulling,
+    /// Blending and write masks that differ between colour attachments.
+    IndependentBlend,
+    /// Logic operations.
+    LogicOperations,
+    /// The operations `min` and `max` with factors other than `one` (which they ignore).
+    MinMaxBlendFactors,
+    /// Drawing the edges of polygons.
+    PolygonModeLine,
+    /// Throwing primitives away before rasterization.
+    RasterizerDiscard,
+    /// A viewport whose near depth is above its far depth.
+    ReversedDepthRange,
+    /// Shaders that run once per sample and know which.
+    SampleShading,
+    /// A scissor rectangle that reaches beyond the attachments.
+    ScissorOutside,
     /// Stencil masks or references that differ between front and back faces.
     SeparateStencilMasks,
+    /// Triangle fans.
+    TriangleFans,
+    /// A viewport that reaches beyond the attachments.
+    ViewportOutside,
 }
 
 impl Feature {
     /// Every feature.
-    pub const ALL: [Self; 4] = [
-        Self::FrontAndBackCulling,
-        Self::MinMaxBlendFactors,
+    pub const ALL: [Self; 18] = [
+        Self::AlphaToOne,
         Self::ConstantAlphaBlendFactor,
+        Self::DepthBiasClamp,
+        Self::DepthBounds,
+        Self::DepthClamp,
+        Self::DualSourceBlending,
+        Self::FrontAndBackCulling,
+        Self::IndependentBlend,
+        Self::LogicOperations,
+        Self::MinMaxBlendFactors,
+        Self::PolygonModeLine,
+        Self::RasterizerDiscard,
+        Self::ReversedDepthRange,
+        Self::SampleShading,
+        Self::ScissorOutside,
         Self::SeparateStencilMasks,
+        Self::TriangleFans,
+        Self::ViewportOutside,
     ];
 
     /// The feature's name in records and reports.
     pub fn name(self) -> &'static str {
         match self {
-            Self::FrontAndBackCulling => "front-and-back-culling",
-            Self::MinMaxBlendFactors => "min-max-blend-factors",
+            Self::AlphaToOne => "alpha-to-one",
             Self::ConstantAlphaBlendFactor => "constant-alpha-blend-factor",
+            Self::DepthBiasClamp => "depth-bias-clamp",
+            Self::DepthBounds => "depth-bounds",
+            Self::DepthClamp => "depth-clamp",
+            Self::DualSourceBlending => "dual-source-blending",
+            Self::FrontAndBackCulling => "front-and-back-culling",
+            Self::IndependentBlend => "independent-blend",
+            Self::LogicOperations => "logic-operations",
+            Self::MinMaxBlendFactors => "min-max-blend-factors",
+            Self::PolygonModeLine => "polygon-mode-line",
+            Self::RasterizerDiscard => "rasterizer-discard",
+            Self::ReversedDepthRange => "reversed-depth-range",
+            Self::SampleShading => "sample-shading",
+            Self::ScissorOutside => "scissor-outside",
             Self::SeparateStencilMasks => "separate-stencil-masks",
+            Self::TriangleFans => "triangle-fans",
+            Self::ViewportOutside => "viewport-outside",
         }
     }
 }
@@ -78,8 +134,14 @@ impl Feature {
 pub enum Requirement {
     /// A capability.
     Feature(Feature),
-    /// An attachment of this format that can be drawn to (or, for an upload, sampled) and read.
+    /// Textures of this format that can be uploaded or cleared, fetched from and read.
     Format(TextureFormat),
+    /// Attachments of this format that can be drawn to.
+    Drawing(TextureFormat),
+    /// Blending into attachments of this format.
+    Blending(TextureFormat),
+    /// So many colour attachments of one pass.
+    ColorAttachments(u32),
     /// So many samples per texel in this format.
     Samples(TextureFormat, u32),
     /// Attachments at least so wide and high.
@@ -91,6 +153,9 @@ impl fmt::Display for Requirement {
         match self {
             Self::Feature(feature) => write!(f, "feature {}", feature.name()),
             Self::Format(format) => write!(f, "format {format}"),
+            Self::Drawing(format) => write!(f, "drawing to {format}"),
+            Self::Blending(format) => write!(f, "blending into {format}"),
+            Self::ColorAttachments(n) => write!(f, "{n} colour attachments"),
             Self::Samples(format, n) => write!(f, "{n} samples of {format}"),
             Self::Size(size) => write!(f, "attachments of {size} texels a side"),
         }
@@ -101,8 +166,11 @@ impl fmt::Display for Requirement {
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FormatSupport {
-    /// Sample counts of attachments that can be drawn and read back; `1` always among them.
+    /// Sample counts of attachments that can be drawn and read back; empty where the format can
+    /// only be uploaded and fetched from.
     pub samples: Vec<u32>,
+    /// Whether attachments of the format can be blended into.
+    pub blendable: bool,
     /// The real encoding of the depth aspect. More than one where the API does not tell: then all
     /// of a frame is one or the other. Empty for formats without depth.
     pub depth: Vec<ChannelEncoding>,
@@ -120,7 +188,9 @@ pub struct Limits {
     pub sub_pixel_bits: u8,
     /// The largest width and height of an attachment.
     pub max_size: u32,
-    /// Formats that can be drawn to and read back (`rgba32float`: uploaded and fetched).
+    /// The most colour attachments of one pass.
+    pub max_color_attachments: u32,
+    /// Formats, and what can be done with them.
     pub formats: BTreeMap<TextureFormat, FormatSupport>,
     /// Features.
     pub features: BTreeSet<Feature>,
@@ -138,6 +208,15 @@ impl Limits {
         match requirement {
             Requirement::Feature(feature) => self.features.contains(&feature),
             Requirement::Format(format) => self.formats.contains_key(&format),
+            Requirement::Drawing(format) => self
+                .formats
+                .get(&format)
+                .is_some_and(|support| !support.samples.is_empty()),
+            Requirement::Blending(format) => self
+                .formats
+                .get(&format)
+                .is_some_and(|support| support.blendable),
+            Requirement::ColorAttachments(n) => n <= self.max_color_attachments,
             Requirement::Samples(format, n) => self
                 .formats
                 .get(&format)

@@ -1,11 +1,11 @@
 //! A current context: glow, what glow lacks, what the context can do, and its errors.
 
+use crate::caps::Caps;
 use crate::egl::EglContext;
+use crate::extra::Extra;
 use crate::{Options, Profile, Tuning};
 use etalon_backend::{BackendError, Unavailable};
 use glow::HasContext;
-use naga::back::glsl;
-use std::collections::HashSet;
 use std::ffi::{CStr, c_char, c_void};
 use std::sync::{Mutex, PoisonError};
 
@@ -20,51 +20,12 @@ const QUERY_COUNTER_BITS: u32 = 0x8864;
 const GPU_DISJOINT_EXT: u32 = 0x8FBB;
 const CONTEXT_LOST: u32 = 0x0507;
 
-/// What the context can do, as far as it matters here.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Caps {
-    pub(crate) es: bool,
-    pub(crate) version: (u32, u32),
-    pub(crate) glsl: glsl::Version,
-    /// `glClipControl` is set to WebGPU's conventions; else the shaders adapt.
-    pub(crate) clip_control: bool,
-    /// Blend functions may differ between colour targets.
-    pub(crate) indexed_blend: bool,
-    /// A shader can fetch the stencil of a depth-stencil texture.
-    pub(crate) stencil_texturing: bool,
-    /// Textures may hold stencil alone.
-    pub(crate) stencil_textures: bool,
-    /// `GL_TIME_ELAPSED` queries count.
-    pub(crate) timer: bool,
-    pub(crate) max_color_targets: usize,
-}
-
-type DebugCallback =
-    unsafe extern "system" fn(u32, u32, u32, u32, i32, *const c_char, *const c_void);
-
-macro_rules! extra {
-    ($($field:ident: fn($($arg:ty),*) $(-> $ret:ty)?;)*) => {
-        /// Entry points that glow lacks, or chooses by address alone; `None` where neither the
-        /// version nor an extension promises them.
-        #[derive(Default)]
-        struct Extra { $($field: Option<unsafe extern "system" fn($($arg),*) $(-> $ret)?>,)* }
-    };
-}
-
-extra! {
-    clip_control: fn(u32, u32);
-    get_query: fn(u32, u32, *mut i32);
-    get_query_result: fn(u32, u32, *mut u64);
-    get_reset_status: fn() -> u32;
-    debug_callback: fn(Option<DebugCallback>, *const c_void);
-}
-
 /// A context with everything that lives as long as it does.
 pub(crate) struct Context {
     pub(crate) gl: glow::Context,
     pub(crate) caps: Caps,
     pub(crate) names: Names,
-    extra: Extra,
+    pub(crate) extra: Extra,
     // The order is that of dropping: the driver may call back until the context is gone.
     egl: EglContext,
     log: Box<Mutex<Vec<String>>>,
@@ -94,40 +55,19 @@ impl Context {
         // current on this thread whenever the functions are called.
         let gl = unsafe { glow::Context::from_loader_function_cstr(|name| egl.proc_address(name)) };
         let known = gl.supported_extensions();
-        let has = |name: &str| known.contains(name);
-        let since =
-            |core: (u32, u32), embedded: (u32, u32)| version >= if es { embedded } else { core };
-        const NEVER: (u32, u32) = (u32::MAX, 0);
-
         let extra = Extra::load(&egl, es, version, known);
-        let indexed_blend = since((4, 0), (3, 2)) || (!es && has("GL_ARB_draw_buffers_blend"));
-        let stencil_texturing = since((4, 3), (3, 1)) || has("GL_ARB_stencil_texturing");
-        let stencil_textures = since((4, 4), (3, 2))
-            || has("GL_ARB_texture_stencil8")
-            || has("GL_OES_texture_stencil8");
-        let timer = since((3, 3), NEVER) || has("GL_EXT_disjoint_timer_query");
-        let debug = options.debug && (since((4, 3), (3, 2)) || has("GL_KHR_debug"));
-        // SAFETY: the context is current and has the limit since version 3.
-        let targets = unsafe { gl.get_parameter_i32(glow::MAX_DRAW_BUFFERS) };
+        let mut caps = Caps::query(&gl, es, version);
+        caps.clip_control = extra.clip_control.is_some() && tuning.clip_control;
+        let debug = options.debug && extra.debug_callback.is_some();
         let mut context = Self {
             gl,
-            caps: Caps {
-                es,
-                version,
-                glsl: glsl_version(es, version),
-                clip_control: extra.clip_control.is_some() && tuning.clip_control,
-                indexed_blend,
-                stencil_texturing,
-                stencil_textures,
-                timer: false,
-                max_color_targets: usize::try_from(targets).unwrap_or(0),
-            },
+            caps,
             names,
             extra,
             egl,
             log: Box::default(),
         };
-        context.caps.timer = timer && context.timer_counts();
+        context.caps.timer &= context.timer_counts();
         if debug {
             context.start_debug_output();
         }
@@ -250,63 +190,6 @@ impl Drop for Context {
     }
 }
 
-impl Extra {
-    fn load(egl: &EglContext, es: bool, version: (u32, u32), known: &HashSet<String>) -> Self {
-        let has = |name: &str| known.contains(name);
-        let mut extra = Self::default();
-        macro_rules! load {
-            ($field:ident, $name:literal) => {
-                // SAFETY: the specification gives this name the field's type, and the version or
-                // extension that promises it has been seen.
-                extra.$field = unsafe { entry_point(egl.proc_address($name)) };
-            };
-        }
-        if es {
-            if has("GL_EXT_clip_control") {
-                load!(clip_control, c"glClipControlEXT");
-            }
-            if has("GL_EXT_disjoint_timer_query") {
-                load!(get_query, c"glGetQueryivEXT");
-                load!(get_query_result, c"glGetQueryObjectui64vEXT");
-            }
-            if version >= (3, 2) {
-                load!(debug_callback, c"glDebugMessageCallback");
-                load!(get_reset_status, c"glGetGraphicsResetStatus");
-            } else {
-                if has("GL_KHR_debug") {
-                    load!(debug_callback, c"glDebugMessageCallbackKHR");
-                }
-                if has("GL_KHR_robustness") {
-                    load!(get_reset_status, c"glGetGraphicsResetStatusKHR");
-                }
-            }
-        } else {
-            if version >= (4, 5) || has("GL_ARB_clip_control") {
-                load!(clip_control, c"glClipControl");
-            }
-            load!(get_query, c"glGetQueryiv");
-            load!(get_query_result, c"glGetQueryObjectui64v");
-            if version >= (4, 3) || has("GL_KHR_debug") {
-                load!(debug_callback, c"glDebugMessageCallback");
-            }
-            if version >= (4, 5) || has("GL_KHR_robustness") {
-                load!(get_reset_status, c"glGetGraphicsResetStatus");
-            }
-        }
-        extra
-    }
-}
-
-/// The function at an address, if it is one.
-///
-/// # Safety
-/// `F` is the type of the function there.
-unsafe fn entry_point<F: Copy>(address: *const c_void) -> Option<F> {
-    const { assert!(size_of::<F>() == size_of::<*const c_void>()) };
-    // SAFETY: function pointers have the size of an address, and the caller vouches for the type.
-    (!address.is_null()).then(|| unsafe { std::mem::transmute_copy(&address) })
-}
-
 impl Names {
     fn query(egl: &EglContext) -> Result<Self, Unavailable> {
         let address = egl.proc_address(c"glGetString");
@@ -416,16 +299,6 @@ fn parse_version(text: &str) -> Option<(u32, u32)> {
     let (major, rest) = text.split_once('.')?;
     let minor = rest.split(|c: char| !c.is_ascii_digit()).next()?;
     Some((major.parse().ok()?, minor.parse().ok()?))
-}
-
-/// The shading language of a context; of a future one, the newest that naga knows.
-fn glsl_version(es: bool, (major, minor): (u32, u32)) -> glsl::Version {
-    let number = (major * 100 + minor * 10) as u16;
-    if es {
-        glsl::Version::new_gles(number.min(320))
-    } else {
-        glsl::Version::Desktop(number.min(460))
-    }
 }
 
 #[cfg(test)]

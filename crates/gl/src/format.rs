@@ -1,13 +1,8 @@
-//! Texel formats: GL's names for them, what the driver really makes of them, and how each is read.
+//! Texel formats in GL's words.
 
-use crate::context::Context;
-use crate::read;
-use crate::surface::{Surface, SurfaceKind};
-use etalon_frame::{ChannelEncoding, FormatSupport, ReadPath, TextureFormat};
-use glow::HasContext;
-use std::collections::BTreeMap;
+use etalon_frame::{FormatSupport, TextureFormat};
 
-const STENCIL_INDEX: u32 = 0x1901;
+pub(crate) const STENCIL_INDEX: u32 = 0x1901;
 
 /// A format in GL's words.
 #[derive(Clone, Copy, Debug)]
@@ -19,30 +14,42 @@ pub(crate) struct GlFormat {
     pub(crate) attachment: u32,
 }
 
-/// GL's words for a format.
-pub(crate) fn gl_format(format: TextureFormat) -> GlFormat {
+/// GL's words for a format; `None` for `bgra8unorm`: GL's `BGRA` names an order in client memory,
+/// and nothing tells in which order a texture keeps its channels.
+pub(crate) fn gl_format(format: TextureFormat) -> Option<GlFormat> {
     use glow::{
-        COLOR_ATTACHMENT0, DEPTH_ATTACHMENT, DEPTH_COMPONENT, DEPTH_STENCIL,
-        DEPTH_STENCIL_ATTACHMENT, STENCIL_ATTACHMENT,
+        BYTE, DEPTH_ATTACHMENT, DEPTH_COMPONENT, DEPTH_STENCIL, DEPTH_STENCIL_ATTACHMENT, FLOAT,
+        HALF_FLOAT, RED, RG, RGB, RGBA, STENCIL_ATTACHMENT, UNSIGNED_BYTE, UNSIGNED_INT,
+        UNSIGNED_INT_2_10_10_10_REV, UNSIGNED_INT_10F_11F_11F_REV, UNSIGNED_SHORT,
+        UNSIGNED_SHORT_4_4_4_4, UNSIGNED_SHORT_5_5_5_1, UNSIGNED_SHORT_5_6_5,
     };
+    let packed_float_stencil = glow::FLOAT_32_UNSIGNED_INT_24_8_REV;
     let (internal, format, kind, attachment) = match format {
-        TextureFormat::Rgba8Unorm => (
-            glow::RGBA8,
-            glow::RGBA,
-            glow::UNSIGNED_BYTE,
-            COLOR_ATTACHMENT0,
-        ),
-        TextureFormat::Rgba32Float => (glow::RGBA32F, glow::RGBA, glow::FLOAT, COLOR_ATTACHMENT0),
+        TextureFormat::R8Unorm => color(glow::R8, RED, UNSIGNED_BYTE),
+        TextureFormat::Rg8Unorm => color(glow::RG8, RG, UNSIGNED_BYTE),
+        TextureFormat::Rgba8Unorm => color(glow::RGBA8, RGBA, UNSIGNED_BYTE),
+        TextureFormat::Rgba8UnormSrgb => color(glow::SRGB8_ALPHA8, RGBA, UNSIGNED_BYTE),
+        TextureFormat::Bgra8Unorm => return None,
+        TextureFormat::Rgba8Snorm => color(glow::RGBA8_SNORM, RGBA, BYTE),
+        TextureFormat::Rgb10a2Unorm => color(glow::RGB10_A2, RGBA, UNSIGNED_INT_2_10_10_10_REV),
+        TextureFormat::B5g6r5Unorm => color(glow::RGB565, RGB, UNSIGNED_SHORT_5_6_5),
+        TextureFormat::Bgr5a1Unorm => color(glow::RGB5_A1, RGBA, UNSIGNED_SHORT_5_5_5_1),
+        TextureFormat::Bgra4Unorm => color(glow::RGBA4, RGBA, UNSIGNED_SHORT_4_4_4_4),
+        TextureFormat::Rg11b10Ufloat => {
+            color(glow::R11F_G11F_B10F, RGB, UNSIGNED_INT_10F_11F_11F_REV)
+        }
+        TextureFormat::Rgba16Float => color(glow::RGBA16F, RGBA, HALF_FLOAT),
+        TextureFormat::Rgba32Float => color(glow::RGBA32F, RGBA, FLOAT),
         TextureFormat::Depth16Unorm => (
             glow::DEPTH_COMPONENT16,
             DEPTH_COMPONENT,
-            glow::UNSIGNED_SHORT,
+            UNSIGNED_SHORT,
             DEPTH_ATTACHMENT,
         ),
         TextureFormat::Depth24Plus => (
             glow::DEPTH_COMPONENT24,
             DEPTH_COMPONENT,
-            glow::UNSIGNED_INT,
+            UNSIGNED_INT,
             DEPTH_ATTACHMENT,
         ),
         TextureFormat::Depth24PlusStencil8 => (
@@ -54,37 +61,45 @@ pub(crate) fn gl_format(format: TextureFormat) -> GlFormat {
         TextureFormat::Depth32Float => (
             glow::DEPTH_COMPONENT32F,
             DEPTH_COMPONENT,
-            glow::FLOAT,
+            FLOAT,
             DEPTH_ATTACHMENT,
         ),
         TextureFormat::Depth32FloatStencil8 => (
             glow::DEPTH32F_STENCIL8,
             DEPTH_STENCIL,
-            glow::FLOAT_32_UNSIGNED_INT_24_8_REV,
+            packed_float_stencil,
             DEPTH_STENCIL_ATTACHMENT,
         ),
         TextureFormat::Stencil8 => (
             glow::STENCIL_INDEX8,
             STENCIL_INDEX,
-            glow::UNSIGNED_BYTE,
+            UNSIGNED_BYTE,
             STENCIL_ATTACHMENT,
         ),
     };
-    GlFormat {
+    Some(GlFormat {
         internal,
         format,
         kind,
         attachment,
-    }
+    })
+}
+
+fn color(internal: u32, format: u32, kind: u32) -> (u32, u32, u32, u32) {
+    (internal, format, kind, glow::COLOR_ATTACHMENT0)
 }
 
 /// How an attachment's codes reach the processor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ReadPlan {
-    /// `glReadPixels` of four bytes a texel.
+    /// `glReadPixels` of colours in the format and type that they are uploaded in.
+    Packed,
+    /// `glReadPixels` of four bytes a texel, to which shorter channels are widened.
     Bytes,
     /// `glReadPixels` of four floats a texel.
     Floats,
+    /// A shader fetches four floats a texel.
+    Fetched,
     /// `glReadPixels` of 16-bit codes.
     Depth16,
     /// `glReadPixels` of 32-bit integers, whose upper 24 bits are the code.
@@ -121,130 +136,6 @@ pub(crate) enum ShaderStencil {
 #[derive(Clone, Debug)]
 pub(crate) struct Support {
     pub(crate) limits: FormatSupport,
+    /// For one sample; several are always fetched by a shader.
     pub(crate) read: ReadPlan,
-}
-
-/// Tries every format.
-pub(crate) fn probe(context: &Context) -> BTreeMap<TextureFormat, Support> {
-    let mut result = BTreeMap::new();
-    for format in TextureFormat::ALL {
-        let support = probe_one(context, format);
-        // A refused format may leave errors behind, which are no news to anybody.
-        let clean = context.check("probing formats").is_ok();
-        if let (Some(support), true) = (support, clean) {
-            result.insert(format, support);
-        }
-    }
-    result
-}
-
-fn probe_one(context: &Context, format: TextureFormat) -> Option<Support> {
-    let size = [64, 64];
-    let surface = Surface::new(context, SurfaceKind::Attachment(format), size).ok()?;
-    let support = examine(context, format, &surface);
-    surface.delete(context);
-    support
-}
-
-fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Option<Support> {
-    let done = |depth, read| {
-        let path = match read {
-            ReadPlan::Shader { depth: true, .. } => ReadPath::Shader,
-            _ => ReadPath::Copy,
-        };
-        Some(Support {
-            limits: FormatSupport {
-                samples: vec![1],
-                depth,
-                read: path,
-            },
-            read,
-        })
-    };
-    if format == TextureFormat::Rgba32Float {
-        // A source of uploaded values: drawing to it may be denied.
-        return done(Vec::new(), ReadPlan::Floats);
-    }
-    if !surface.is_complete() {
-        return None;
-    }
-    if format == TextureFormat::Rgba8Unorm {
-        return done(Vec::new(), ReadPlan::Bytes);
-    }
-    if format == TextureFormat::Stencil8 {
-        // In ES nothing but a shader reads stencil.
-        if !context.caps.es {
-            return done(Vec::new(), ReadPlan::Stencil);
-        }
-        let shader = ReadPlan::Shader {
-            depth: false,
-            stencil: ShaderStencil::Shader,
-        };
-        let can = context.caps.stencil_textures && context.caps.stencil_texturing;
-        return if can { done(Vec::new(), shader) } else { None };
-    }
-    let encoding = depth_encoding(context, surface)?;
-    if !format.depth_encodings().contains(&encoding) {
-        // A driver may store more bits than it was asked for; then the format is not what its
-        // name says, and no rule speaks of it.
-        return None;
-    }
-    let read = if context.caps.es {
-        by_shader(context, format)?
-    } else {
-        let plan = copy_plan(format, encoding);
-        if read::round_trips(context, surface, format, plan) {
-            plan
-        } else {
-            by_shader(context, format)?
-        }
-    };
-    done(vec![encoding], read)
-}
-
-fn by_shader(context: &Context, format: TextureFormat) -> Option<ReadPlan> {
-    let stencil = match (format.has_stencil(), context.caps.es) {
-        (false, _) => ShaderStencil::None,
-        (true, false) => ShaderStencil::Copy,
-        (true, true) if context.caps.stencil_texturing => ShaderStencil::Shader,
-        (true, true) => return None,
-    };
-    Some(ReadPlan::Shader {
-        depth: true,
-        stencil,
-    })
-}
-
-fn copy_plan(format: TextureFormat, encoding: ChannelEncoding) -> ReadPlan {
-    match (encoding, format.has_stencil()) {
-        (ChannelEncoding::Unorm(16), _) => ReadPlan::Depth16,
-        (ChannelEncoding::Float32, false) => ReadPlan::DepthFloat,
-        (ChannelEncoding::Float32, true) => ReadPlan::DepthFloatStencil8,
-        (_, false) => ReadPlan::Depth24,
-        (_, true) => ReadPlan::Depth24Stencil8,
-    }
-}
-
-/// What the driver says it stores.
-fn depth_encoding(context: &Context, surface: &Surface) -> Option<ChannelEncoding> {
-    let gl = &context.gl;
-    let query = |name| {
-        // SAFETY: the framebuffer is bound and has a depth attachment.
-        unsafe {
-            gl.get_framebuffer_attachment_parameter_i32(
-                glow::FRAMEBUFFER,
-                glow::DEPTH_ATTACHMENT,
-                name,
-            )
-        }
-    };
-    // SAFETY: the framebuffer lives.
-    unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer)) };
-    let bits = query(glow::FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
-    let kind = query(glow::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
-    match (u32::try_from(kind).ok()?, bits) {
-        (glow::UNSIGNED_NORMALIZED, bits) => Some(ChannelEncoding::Unorm(u8::try_from(bits).ok()?)),
-        (glow::FLOAT, 32) => Some(ChannelEncoding::Float32),
-        _ => None,
-    }
 }

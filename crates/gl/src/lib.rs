@@ -8,31 +8,40 @@
 //! every image is the top one, depth is what Vulkan computes and windings keep their sense; without
 //! it the vertex shaders mirror y and remap z, and front faces are told apart the other way round.
 //!
-//! Attachments have one sample: multisampling is not offered yet.
+//! Attachments with several samples are textures; a shader reads them back, sample by sample.
 
+mod caps;
+mod codes;
 mod context;
+mod draw;
 mod egl;
+mod extra;
 mod format;
+mod pool;
 mod prepared;
+mod probe;
 mod program;
 mod read;
 mod state;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod words;
 
 pub use egl::{EglDevice, Platform, enumerate};
 
 use crate::context::Context;
 use crate::egl::{Wanted, egl};
 use crate::format::Support;
+use crate::pool::Pool;
 use crate::prepared::GlPrepared;
+use crate::probe::Probed;
 use crate::program::Programs;
-use crate::surface::Pool;
+use crate::read::Reading;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
 use etalon_case::Scene;
 use etalon_case::scene::Params;
-use etalon_frame::{Api, Feature, Limits, TextureFormat};
+use etalon_frame::{Api, Limits, TextureFormat};
 use glow::HasContext;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -112,12 +121,12 @@ pub(crate) fn open_with(
     let egl_context = egl()?.context(options.platform, wanted, versions)?;
     let context = Context::new(egl_context, options, tuning)?;
     state::reset(&context);
-    let formats = format::probe(&context);
     let unusable = |e: BackendError| Unavailable::new(e.to_string(), "use another driver");
     let gl = &context.gl;
     let refused = |message: String| Unavailable::new(message, "use another driver");
     // SAFETY: the context is current and has the limit since version 3.
     let (alignment, vertex_array, no_vertices, timer) = unsafe {
+        let no_vertices = gl.create_vertex_array().map_err(refused)?;
         let vertex_array = gl.create_vertex_array().map_err(refused)?;
         gl.bind_vertex_array(Some(vertex_array));
         for attribute in 0..3 {
@@ -131,17 +140,25 @@ pub(crate) fn open_with(
         (
             gl.get_parameter_i32(glow::UNIFORM_BUFFER_OFFSET_ALIGNMENT),
             vertex_array,
-            gl.create_vertex_array().map_err(refused)?,
+            no_vertices,
             timer,
         )
     };
     let alignment = usize::try_from(alignment).unwrap_or(0).max(1);
+    let (mut pool, mut programs) = (Pool::default(), Programs::default());
+    let probed = probe::probe(&mut Reading {
+        context: &context,
+        pool: &mut pool,
+        programs: &mut programs,
+        no_vertices,
+    });
+    let limits = limits(&context, &probed);
     let backend = GlBackend {
         info: info(name, &context),
-        limits: limits(&context, &formats),
-        formats,
-        pool: RefCell::default(),
-        programs: RefCell::default(),
+        limits,
+        formats: probed.formats,
+        pool: RefCell::new(pool),
+        programs: RefCell::new(programs),
         params_stride: size_of::<Params>().next_multiple_of(alignment),
         vertex_array,
         no_vertices,
@@ -174,22 +191,23 @@ fn info(name: &str, context: &Context) -> AdapterInfo {
     }
 }
 
-fn limits(context: &Context, formats: &BTreeMap<TextureFormat, Support>) -> Limits {
+fn limits(context: &Context, probed: &Probed) -> Limits {
     let gl = &context.gl;
-    let mut viewport = [0; 2];
-    // SAFETY: the context is current, has these limits since version 3, and the pair has room.
+    let [width, height] = context.caps.max_viewport;
+    // SAFETY: the context is current and has these limits since version 3.
     let (bits, sides) = unsafe {
-        gl.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut viewport);
         (
             gl.get_parameter_i32(glow::SUBPIXEL_BITS),
             [
                 gl.get_parameter_i32(glow::MAX_TEXTURE_SIZE),
                 gl.get_parameter_i32(glow::MAX_RENDERBUFFER_SIZE),
-                viewport[0],
-                viewport[1],
+                width,
+                height,
             ],
         )
     };
+    let mut sample_positions = probed.positions.clone();
+    sample_positions.insert(1, vec![[128, 128]]);
     let max_size = sides.into_iter().min().unwrap_or(0);
     Limits {
         api: if context.caps.es {
@@ -200,13 +218,14 @@ fn limits(context: &Context, formats: &BTreeMap<TextureFormat, Support>) -> Limi
         // OpenGL 4.6, table 23.53: at least 4.
         sub_pixel_bits: u8::try_from(bits).unwrap_or(4).max(4),
         max_size: u32::try_from(max_size).unwrap_or(0),
-        formats: formats
+        max_color_attachments: u32::try_from(context.caps.max_color_targets).unwrap_or(0),
+        formats: probed
+            .formats
             .iter()
             .map(|(format, support)| (*format, support.limits.clone()))
             .collect(),
-        // Every version from 3 on has them all.
-        features: Feature::ALL.into_iter().collect(),
-        sample_positions: [(1, vec![[128, 128]])].into_iter().collect(),
+        features: caps::features(context),
+        sample_positions,
     }
 }
 

@@ -1,18 +1,19 @@
 //! A scene with all its objects, ready to be drawn.
 
 use crate::GlBackend;
-use crate::context::{Context, refused};
-use crate::format::gl_format;
-use crate::program::PARAMS_BINDING;
+use crate::codes;
+use crate::context::refused;
+use crate::draw::{self, DrawCall, Inputs, Pass, Start};
+use crate::pool::Pool;
 use crate::read::{Reading, Source};
 use crate::state::{self, DrawState};
-use crate::surface::{Pool, Surface, SurfaceKind, Target};
+use crate::surface::{Surface, SurfaceKind, upload};
+use crate::words::topology;
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_case::scene::{Contents, Draw, Scene};
-use etalon_case::{Vertex, scene};
+use etalon_case::{RESTART, scene};
 use etalon_frame::{Frame, Requirement, TextureFormat};
 use glow::HasContext;
-use std::mem::offset_of;
 use std::time::{Duration, Instant};
 
 /// A scene's objects. On drop they go back to the backend.
@@ -21,45 +22,28 @@ pub(crate) struct GlPrepared<'a> {
     attachments: Vec<Attachment>,
     passes: Vec<Pass>,
     read: Vec<usize>,
-    /// Buffers and their sizes in bytes.
-    vertices: Option<(glow::Buffer, usize)>,
-    params: Option<(glow::Buffer, usize)>,
+    inputs: Inputs,
     submitted: bool,
     /// Nothing has failed, so that the objects may serve another scene.
     sound: bool,
 }
 
-struct Attachment {
+pub(crate) struct Attachment {
     name: String,
-    format: TextureFormat,
-    surface: Surface,
-    start: Start,
+    pub(crate) format: TextureFormat,
+    pub(crate) surface: Surface,
+    pub(crate) start: Start,
 }
 
-/// How an attachment gets its first contents at each submit.
-enum Start {
-    /// Uploaded once: no pass draws to it.
-    Uploaded,
-    Upload(Vec<u8>),
-    Color([f32; 4]),
-    DepthStencil(f32, u8),
-}
-
-struct Pass {
-    target: Target,
-    size: [u32; 2],
-    draws: Vec<DrawCall>,
-}
-
-struct DrawCall {
-    program: glow::Program,
-    state: DrawState,
-    textures: Vec<glow::Texture>,
-    /// Where the parameter block lies, if the shader has one.
-    params: Option<i32>,
-    mode: u32,
-    first: i32,
-    count: i32,
+/// How far the shared buffers are used.
+#[derive(Default)]
+struct Used {
+    /// Vertices.
+    vertices: i32,
+    /// Indices.
+    indices: i32,
+    /// Bytes of parameter blocks.
+    params: i32,
 }
 
 impl<'a> GlPrepared<'a> {
@@ -69,8 +53,7 @@ impl<'a> GlPrepared<'a> {
             attachments: Vec::new(),
             passes: Vec::new(),
             read: scene.read.clone(),
-            vertices: None,
-            params: None,
+            inputs: Inputs::default(),
             submitted: false,
             sound: false,
         };
@@ -85,16 +68,18 @@ impl<'a> GlPrepared<'a> {
         state::reset(context);
         let mut pool = self.backend.pool.borrow_mut();
         for (index, attachment) in scene.attachments.iter().enumerate() {
-            let is_drawn =
-                |p: &scene::Pass| p.color.contains(&index) || p.depth_stencil == Some(index);
+            let is_drawn = |p: &scene::Pass| {
+                p.color.contains(&index)
+                    || p.resolve.contains(&Some(index))
+                    || p.depth_stencil == Some(index)
+            };
             let drawn = scene.passes.iter().any(is_drawn);
-            self.attachment(&mut pool, attachment, drawn, scene.read.contains(&index))?;
+            self.attachment(&mut pool, attachment, drawn)?;
         }
         self.buffers(&mut pool, scene)?;
-        let mut first = 0;
-        let mut params = 0;
+        let mut used = Used::default();
         for pass in &scene.passes {
-            self.pass(&mut pool, pass, &mut first, &mut params)?;
+            self.pass(&mut pool, pass, &mut used)?;
         }
         Ok(())
     }
@@ -104,77 +89,82 @@ impl<'a> GlPrepared<'a> {
         pool: &mut Pool,
         attachment: &scene::Attachment,
         drawn: bool,
-        read: bool,
     ) -> Result<(), BackendError> {
         let context = &self.backend.context;
         let format = attachment.format;
-        let kind = SurfaceKind::Attachment(format);
+        let kind = SurfaceKind::Attachment(format, attachment.samples);
         let surface = pool.surface(context, kind, attachment.size)?;
+        let texels = attachment.size[0] as usize * attachment.size[1] as usize;
+        let complete = surface.is_complete();
         let start = match &attachment.contents {
+            // Only `rgba32float` is offered where nothing can be drawn to it.
+            Contents::Color(color) if !complete => {
+                Start::Upload(codes::pack(format, &color.map(f32::to_bits).repeat(texels)))
+            }
             Contents::Color(color) => Start::Color(*color),
             Contents::DepthStencil { depth, stencil } => Start::DepthStencil(*depth, *stencil),
-            Contents::Texels(codes) => {
-                let bytes = match format {
-                    TextureFormat::Rgba8Unorm => codes.iter().map(|c| *c as u8).collect(),
-                    _ => bytemuck::cast_slice(codes).to_vec(),
-                };
-                let texels = attachment.size[0] as usize * attachment.size[1] as usize;
-                if codes.len() != texels * 4 {
-                    return Err(BackendError::Internal(format!(
-                        "{} codes for {texels} texels of {format}",
-                        codes.len()
-                    )));
-                }
-                if drawn {
-                    Start::Upload(bytes)
-                } else {
-                    upload(context, format, &surface, &bytes);
-                    Start::Uploaded
-                }
+            Contents::Texels(codes) if codes.len() != texels * format.color_channels().len() => {
+                return Err(BackendError::Internal(format!(
+                    "{} codes for {texels} texels of {format}",
+                    codes.len()
+                )));
             }
+            Contents::Texels(codes) => Start::Upload(codes::pack(format, codes)),
         };
-        let needs_framebuffer = read || !matches!(start, Start::Uploaded);
-        let complete = surface.is_complete();
+        let start = match start {
+            Start::Upload(bytes) if !drawn => {
+                upload(context, format, &surface, &bytes);
+                Start::Uploaded
+            }
+            start => start,
+        };
         self.attachments.push(Attachment {
             name: attachment.name.clone(),
             format,
             surface,
             start,
         });
-        if needs_framebuffer && !complete {
+        if !complete && (drawn || format != TextureFormat::Rgba32Float) {
             return Err(BackendError::NotSupported(Requirement::Format(format)));
         }
         Ok(())
     }
 
-    /// All vertices in one buffer, all parameter blocks in another.
+    /// All vertices in one buffer, all indices in another, all parameter blocks in a third.
     fn buffers(&mut self, pool: &mut Pool, scene: &Scene) -> Result<(), BackendError> {
         let context = &self.backend.context;
         let mut vertices = Vec::new();
+        let mut indices = Vec::new();
         let mut params = Vec::new();
+        let mut first = 0;
         for draw in scene.passes.iter().flat_map(|pass| &pass.draws) {
             vertices.extend_from_slice(draw.mesh.bytes());
+            // Not every version adds a base to indices.
+            let shifted = |index: &u32| match *index {
+                RESTART => RESTART,
+                index => index + first,
+            };
+            indices.extend(draw.mesh.indices.iter().flatten().map(shifted));
+            first += draw.mesh.vertices.len() as u32;
             if draw.shader.uses_params() {
                 params.extend_from_slice(&draw.params.to_bytes());
                 params.resize(params.len().next_multiple_of(self.backend.params_stride), 0);
             }
         }
-        // Positions within buffers are 32-bit.
-        let most = i32::MAX as usize;
-        if vertices.len() > most || params.len() > most {
-            return Err(refused(
-                "a buffer",
-                "the scene has too many vertices or draws",
-            ));
-        }
-        if !vertices.is_empty() {
-            let buffer = pool.buffer(context, glow::ARRAY_BUFFER, &vertices)?;
-            self.vertices = Some((buffer, vertices.len()));
-        }
-        if !params.is_empty() {
-            let buffer = pool.buffer(context, glow::UNIFORM_BUFFER, &params)?;
-            self.params = Some((buffer, params.len()));
-        }
+        let mut buffer = |bytes: &[u8]| {
+            // Positions within buffers are 32-bit.
+            if bytes.len() > i32::MAX as usize {
+                let message = "the scene has too many vertices or draws";
+                return Err(refused("a buffer", message));
+            }
+            let made = (!bytes.is_empty()).then(|| pool.buffer(context, bytes));
+            Ok(made.transpose()?.map(|buffer| (buffer, bytes.len())))
+        };
+        self.inputs = Inputs {
+            vertices: buffer(&vertices)?,
+            indices: buffer(bytemuck::cast_slice(&indices))?,
+            params: buffer(&params)?,
+        };
         Ok(())
     }
 
@@ -182,16 +172,9 @@ impl<'a> GlPrepared<'a> {
         &mut self,
         pool: &mut Pool,
         pass: &scene::Pass,
-        first: &mut i32,
-        params: &mut i32,
+        used: &mut Used,
     ) -> Result<(), BackendError> {
         let context = &self.backend.context;
-        if pass.color.len() > context.caps.max_color_targets {
-            return Err(refused(
-                "a framebuffer",
-                format!("{} colour attachments", pass.color.len()),
-            ));
-        }
         let attachment = |index: usize| {
             let missing = || BackendError::Internal(format!("there is no attachment {index}"));
             self.attachments.get(index).ok_or_else(missing)
@@ -207,21 +190,31 @@ impl<'a> GlPrepared<'a> {
                 "a pass has no attachment".to_owned(),
             ));
         };
-        let size = any.surface.size();
         let format = any.format;
+        let mut resolves = Vec::new();
+        for (from, to) in pass.color.iter().zip(&pass.resolve) {
+            if let Some(to) = to {
+                attachment(*to)?;
+                resolves.push((*from, *to));
+            }
+        }
+        let srgb = color
+            .iter()
+            .any(|a| a.format == TextureFormat::Rgba8UnormSrgb);
         let surfaces: Vec<&Surface> = color.iter().map(|a| &a.surface).collect();
         let target = pool
             .target(context, &surfaces, depth.map(|a| &a.surface))?
-            .ok_or(BackendError::NotSupported(Requirement::Format(format)))?;
+            .ok_or(BackendError::NotSupported(Requirement::Drawing(format)))?;
         let mut draws = Vec::new();
         for draw in &pass.draws {
             // On error the target is lost to the pool; it goes with the context.
-            draws.push(self.draw(draw, first, params)?);
+            draws.push(self.draw(draw, pass.depth_stencil_read_only, used)?);
         }
         self.passes.push(Pass {
             target,
-            size,
+            srgb,
             draws,
+            resolves,
         });
         Ok(())
     }
@@ -229,12 +222,13 @@ impl<'a> GlPrepared<'a> {
     fn draw(
         &self,
         draw: &Draw,
-        first: &mut i32,
-        params: &mut i32,
+        read_only: bool,
+        used: &mut Used,
     ) -> Result<DrawCall, BackendError> {
         let context = &self.backend.context;
-        let count = draw.mesh.vertices.len() as i32;
-        let block = draw.shader.uses_params().then_some(*params);
+        let vertices = draw.mesh.vertices.len() as i32;
+        let indices = draw.mesh.indices.as_ref().map(|list| list.len() as i32);
+        let block = draw.shader.uses_params().then_some(used.params);
         let textures = draw
             .textures
             .iter()
@@ -251,95 +245,20 @@ impl<'a> GlPrepared<'a> {
                 .programs
                 .borrow_mut()
                 .shader(context, draw.shader)?,
-            state: DrawState::new(context, draw)?,
+            state: DrawState::new(context, draw, read_only)?,
             textures,
             params: block,
-            mode: state::topology(draw.topology),
-            first: *first,
-            count,
+            mode: topology(draw.topology),
+            indexed: indices.is_some(),
+            first: indices.map_or(used.vertices, |_| used.indices),
+            count: indices.unwrap_or(vertices),
         };
-        *first += count;
+        used.vertices += vertices;
+        used.indices += indices.unwrap_or(0);
         if block.is_some() {
-            *params += self.backend.params_stride as i32;
+            used.params += self.backend.params_stride as i32;
         }
         Ok(call)
-    }
-
-    fn initialise(&self) {
-        let context = &self.backend.context;
-        let gl = &context.gl;
-        for attachment in &self.attachments {
-            let surface = &attachment.surface;
-            // SAFETY: the context is current; masks and scissor are open (`state::reset`).
-            unsafe {
-                match &attachment.start {
-                    Start::Uploaded => {}
-                    Start::Upload(bytes) => upload(context, attachment.format, surface, bytes),
-                    Start::Color(color) => {
-                        gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
-                        gl.clear_buffer_f32_slice(glow::COLOR, 0, color);
-                    }
-                    Start::DepthStencil(depth, stencil) => {
-                        gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
-                        let stencil = i32::from(*stencil);
-                        let format = attachment.format;
-                        match (format.has_depth(), format.has_stencil()) {
-                            (true, true) => {
-                                gl.clear_buffer_depth_stencil(
-                                    glow::DEPTH_STENCIL,
-                                    0,
-                                    *depth,
-                                    stencil,
-                                );
-                            }
-                            (true, false) => gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[*depth]),
-                            _ => gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[stencil]),
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    fn draw_all(&self) {
-        let gl = &self.backend.context.gl;
-        // SAFETY: the context is current and all objects are its own; vertex positions were
-        // counted when the buffer was filled.
-        unsafe {
-            gl.bind_vertex_array(Some(self.backend.vertex_array));
-            gl.bind_buffer(glow::ARRAY_BUFFER, self.vertices.map(|(buffer, _)| buffer));
-            let attributes = [
-                (0, 4, offset_of!(Vertex, position)),
-                (1, 4, offset_of!(Vertex, color)),
-                (2, 2, offset_of!(Vertex, uv)),
-            ];
-            if self.vertices.is_some() {
-                let stride = size_of::<Vertex>() as i32;
-                for (index, size, offset) in attributes {
-                    let kind = glow::FLOAT;
-                    let offset = offset as i32;
-                    gl.vertex_attrib_pointer_f32(index, size, kind, false, stride, offset);
-                }
-            }
-            for pass in &self.passes {
-                gl.bind_framebuffer(glow::FRAMEBUFFER, Some(pass.target.framebuffer));
-                gl.viewport(0, 0, pass.size[0] as i32, pass.size[1] as i32);
-                for draw in &pass.draws {
-                    draw.state.apply(gl);
-                    gl.use_program(Some(draw.program));
-                    if let (Some(offset), Some((buffer, _))) = (draw.params, self.params) {
-                        let (point, size) = (PARAMS_BINDING, size_of::<scene::Params>() as i32);
-                        let buffer = Some(buffer);
-                        gl.bind_buffer_range(glow::UNIFORM_BUFFER, point, buffer, offset, size);
-                    }
-                    for (unit, texture) in (0..).zip(&draw.textures) {
-                        gl.active_texture(glow::TEXTURE0 + unit);
-                        gl.bind_texture(glow::TEXTURE_2D, Some(*texture));
-                    }
-                    gl.draw_arrays(draw.mode, draw.first, draw.count);
-                }
-            }
-        }
     }
 
     fn try_submit(&self) -> Result<FrameTime, BackendError> {
@@ -349,13 +268,19 @@ impl<'a> GlPrepared<'a> {
         context.make_current()?;
         let start = Instant::now();
         state::reset(context);
-        self.initialise();
+        draw::initialise(context, &self.attachments);
         // SAFETY: the context is current; a query exists only where timers count.
         let (cpu, wall) = unsafe {
             if let Some(query) = backend.timer {
                 gl.begin_query(glow::TIME_ELAPSED, query);
             }
-            self.draw_all();
+            draw::draw_all(
+                context,
+                backend.vertex_array,
+                &self.inputs,
+                &self.passes,
+                &self.attachments,
+            );
             if backend.timer.is_some() {
                 gl.end_query(glow::TIME_ELAPSED);
             }
@@ -451,35 +376,8 @@ impl Drop for GlPrepared<'_> {
                 attachment.surface.delete(context);
             }
         }
-        for (buffer, size) in [self.vertices.take(), self.params.take()]
-            .into_iter()
-            .flatten()
-        {
+        for (buffer, size) in std::mem::take(&mut self.inputs).into_buffers() {
             pool.put_buffer(context, buffer, size);
         }
-    }
-}
-
-/// Replaces a colour texture's contents. The bytes cover it.
-fn upload(context: &Context, format: TextureFormat, surface: &Surface, bytes: &[u8]) {
-    let gl = &context.gl;
-    let words = gl_format(format);
-    let size = surface.size();
-    // SAFETY: the context is current, rows are packed tightly (`state::reset`), and the caller has
-    // counted the bytes.
-    unsafe {
-        gl.active_texture(glow::TEXTURE0);
-        gl.bind_texture(glow::TEXTURE_2D, surface.texture());
-        gl.tex_sub_image_2d(
-            glow::TEXTURE_2D,
-            0,
-            0,
-            0,
-            size[0] as i32,
-            size[1] as i32,
-            words.format,
-            words.kind,
-            glow::PixelUnpackData::Slice(Some(bytes)),
-        );
     }
 }

@@ -1,4 +1,4 @@
-//! Programs: the suite's shaders through naga, and the two that read depth and stencil back.
+//! Programs: the suite's shaders through naga, and those that read attachments back.
 
 use crate::context::{Context, refused};
 use etalon_backend::BackendError;
@@ -13,18 +13,22 @@ use std::collections::HashMap;
 /// The uniform block's binding point.
 pub(crate) const PARAMS_BINDING: u32 = 0;
 
+/// What the suite's shaders use beyond WebGPU's core.
+const CAPABILITIES: Capabilities =
+    Capabilities::DUAL_SOURCE_BLENDING.union(Capabilities::MULTISAMPLED_SHADING);
+
 /// Programs of one context, made at first need.
 #[derive(Default)]
 pub(crate) struct Programs {
     shaders: HashMap<Shader, glow::Program>,
-    readers: HashMap<Reader, glow::Program>,
+    readers: HashMap<(Reader, bool), (glow::Program, Option<glow::UniformLocation>)>,
 }
 
 /// What a read-back program fetches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Reader {
-    /// The bits of the depth that a shader sees.
-    Depth,
+    /// The bits of the colour or depth that a shader sees.
+    Floats,
     /// The stencil value.
     Stencil,
 }
@@ -69,14 +73,16 @@ impl Programs {
         Ok(program)
     }
 
-    /// A program that draws what it fetches from texture unit 0, texel by texel.
+    /// A program that draws what it fetches from texture unit 0, texel by texel, and where it takes
+    /// the number of the sample from, if the texture has several.
     pub(crate) fn reader(
         &mut self,
         context: &Context,
         reader: Reader,
-    ) -> Result<glow::Program, BackendError> {
-        if let Some(program) = self.readers.get(&reader) {
-            return Ok(*program);
+        several: bool,
+    ) -> Result<(glow::Program, Option<glow::UniformLocation>), BackendError> {
+        if let Some(known) = self.readers.get(&(reader, several)) {
+            return Ok(*known);
         }
         let header = format!("#version {}\n", context.caps.glsl)
             + "precision highp float;\nprecision highp int;\n";
@@ -84,32 +90,37 @@ impl Programs {
             + "void main() {\n\
                vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));\n\
                gl_Position = vec4(corner * 4.0 - 1.0, 0.5, 1.0);\n}\n";
-        let (sampler, value) = match reader {
-            Reader::Depth => ("sampler2D", "floatBitsToUint(texelFetch(source, at, 0).r)"),
-            Reader::Stencil => ("usampler2D", "texelFetch(source, at, 0).r"),
+        let sampler = match (reader, several) {
+            (Reader::Floats, false) => "sampler2D",
+            (Reader::Floats, true) => "sampler2DMS",
+            (Reader::Stencil, false) => "usampler2D",
+            (Reader::Stencil, true) => "usampler2DMS",
+        };
+        // The last argument is a sample's number, or else the level.
+        let fetched = "texelFetch(source, ivec2(gl_FragCoord.xy), number)";
+        let (name, value) = match reader {
+            Reader::Floats => ("read floats", format!("floatBitsToUint({fetched})")),
+            Reader::Stencil => ("read stencil", fetched.to_owned()),
         };
         let fragment = header
             + &format!(
                 "uniform highp {sampler} source;\n\
-                 layout(location = 0) out highp uint value;\n\
-                 void main() {{\n\
-                 ivec2 at = ivec2(gl_FragCoord.xy);\n\
-                 value = {value};\n}}\n"
+                 uniform highp int number;\n\
+                 layout(location = 0) out highp uvec4 value;\n\
+                 void main() {{\nvalue = {value};\n}}\n"
             );
-        let name = match reader {
-            Reader::Depth => "read depth",
-            Reader::Stencil => "read stencil",
-        };
         let program = link(context, name, &vertex, &fragment)?;
+        let gl = &context.gl;
         // SAFETY: the context is current and the program is linked.
-        unsafe {
-            let gl = &context.gl;
+        let location = unsafe {
             gl.use_program(Some(program));
-            let location = gl.get_uniform_location(program, "source");
-            gl.uniform_1_i32(location.as_ref(), 0);
-        }
-        self.readers.insert(reader, program);
-        Ok(program)
+            let source = gl.get_uniform_location(program, "source");
+            gl.uniform_1_i32(source.as_ref(), 0);
+            gl.get_uniform_location(program, "number")
+        };
+        let made = (program, location);
+        self.readers.insert((reader, several), made);
+        Ok(made)
     }
 }
 
@@ -126,7 +137,7 @@ struct Translated {
 impl Translated {
     fn new(context: &Context, source: &str) -> Result<Self, String> {
         let module = naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?;
-        let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+        let info = Validator::new(ValidationFlags::all(), CAPABILITIES)
             .validate(&module)
             .map_err(|e| e.emit_to_string(source))?;
         let mut translated = Self {
@@ -136,7 +147,9 @@ impl Translated {
             textures: Vec::new(),
         };
         translated.vertex = translated.stage(context, &module, &info, ShaderStage::Vertex)?;
-        translated.fragment = translated.stage(context, &module, &info, ShaderStage::Fragment)?;
+        let fragment = translated.stage(context, &module, &info, ShaderStage::Fragment)?;
+        // naga takes GLSL's signed number for WGSL's unsigned one, which ES does not convert.
+        translated.fragment = fragment.replace("gl_SampleID", "uint(gl_SampleID)");
         Ok(translated)
     }
 
@@ -149,10 +162,11 @@ impl Translated {
     ) -> Result<String, String> {
         let options = glsl::Options {
             version: context.caps.glsl,
+            // Points are one texel wide; ES leaves them undefined unless the shader says so.
             writer_flags: if context.caps.clip_control {
-                glsl::WriterFlags::empty()
+                glsl::WriterFlags::FORCE_POINT_SIZE
             } else {
-                glsl::WriterFlags::ADJUST_COORDINATE_SPACE
+                glsl::WriterFlags::FORCE_POINT_SIZE | glsl::WriterFlags::ADJUST_COORDINATE_SPACE
             },
             // Bindings are set by name, which every version can.
             ..glsl::Options::default()

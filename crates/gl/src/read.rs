@@ -1,15 +1,16 @@
 //! Reading attachments back, as codes.
 
+use crate::codes;
 use crate::context::{Context, refused};
-use crate::format::{ReadPlan, ShaderStencil};
+use crate::format::{ReadPlan, STENCIL_INDEX, ShaderStencil, gl_format};
+use crate::pool::Pool;
 use crate::program::{Programs, Reader};
 use crate::state;
-use crate::surface::{Pool, Surface, SurfaceKind};
+use crate::surface::{Storage, Surface, SurfaceKind};
 use etalon_backend::BackendError;
 use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath, TextureFormat};
 use glow::HasContext;
 
-const STENCIL_INDEX: u32 = 0x1901;
 const DEPTH_STENCIL_TEXTURE_MODE: u32 = 0x90EA;
 
 /// What a read needs besides the surface.
@@ -40,13 +41,13 @@ impl Reading<'_> {
             attachment: source.name.to_owned(),
             aspect,
             size: source.surface.size(),
-            samples: 1,
+            samples: source.surface.samples(),
             channels,
             read,
             codes,
         };
         if source.format.is_color() {
-            let (codes, _) = copy(self.context, source.surface, source.plan);
+            let codes = self.color(source.surface, source.format, source.plan)?;
             let channels = source.format.color_channels().to_vec();
             return Ok(vec![image(Aspect::Color, channels, ReadPath::Copy, codes)]);
         }
@@ -67,38 +68,85 @@ impl Reading<'_> {
         Ok(images)
     }
 
+    /// The codes of a colour surface. Several samples are fetched, whatever the plan for one.
+    pub(crate) fn color(
+        &mut self,
+        surface: &Surface,
+        format: TextureFormat,
+        plan: ReadPlan,
+    ) -> Result<Vec<u32>, BackendError> {
+        let channels = format.color_channels();
+        if surface.samples() == 1 && plan != ReadPlan::Fetched {
+            return Ok(copy(self.context, surface, format, plan).0);
+        }
+        let wide = self.fetch(surface, Reader::Floats)?;
+        Ok(narrowed(&wide, channels))
+    }
+
+    /// The codes of depths that a shader sees.
+    pub(crate) fn fetched_depth(
+        &mut self,
+        surface: &Surface,
+        encoding: ChannelEncoding,
+    ) -> Result<Vec<u32>, BackendError> {
+        let wide = self.fetch(surface, Reader::Floats)?;
+        Ok(narrowed(&wide, &[encoding]))
+    }
+
+    fn fetched_stencil(&mut self, surface: &Surface) -> Result<Vec<u32>, BackendError> {
+        let wide = self.fetch(surface, Reader::Stencil)?;
+        Ok(wide.chunks_exact(4).map(|texel| texel[0]).collect())
+    }
+
     fn depth_stencil(&mut self, source: &Source<'_>) -> Result<DepthStencil, BackendError> {
-        let ReadPlan::Shader { depth, stencil } = source.plan else {
-            let (first, second) = copy(self.context, source.surface, source.plan);
-            return Ok(if source.format.has_depth() {
-                (Some(first), second)
-            } else {
-                (None, Some(first))
-            });
+        let (surface, format) = (source.surface, source.format);
+        let several = surface.samples() > 1;
+        let (depth, stencil) = match source.plan {
+            ReadPlan::Shader { depth, stencil } => (depth, stencil),
+            // A copy would average.
+            _ if several => (format.has_depth(), ShaderStencil::Copy),
+            plan => {
+                let (first, second) = copy(self.context, surface, format, plan);
+                return Ok(if format.has_depth() {
+                    (Some(first), second)
+                } else {
+                    (None, Some(first))
+                });
+            }
+        };
+        let as_float = matches!(source.plan, ReadPlan::Shader { .. });
+        let encoding = match source.depth.first() {
+            Some(encoding) if !as_float => *encoding,
+            _ => ChannelEncoding::Float32,
         };
         let depth = if depth {
-            Some(self.fetch(source.surface, Reader::Depth)?)
+            Some(self.fetched_depth(surface, encoding)?)
         } else {
             None
         };
         let stencil = match stencil {
+            _ if !format.has_stencil() => None,
             ShaderStencil::None => None,
-            ShaderStencil::Copy => Some(copy(self.context, source.surface, ReadPlan::Stencil).0),
-            ShaderStencil::Shader => Some(self.fetch(source.surface, Reader::Stencil)?),
+            ShaderStencil::Copy if !several => {
+                Some(copy(self.context, surface, format, ReadPlan::Stencil).0)
+            }
+            ShaderStencil::Copy | ShaderStencil::Shader => Some(self.fetched_stencil(surface)?),
         };
         Ok((depth, stencil))
     }
 
-    /// Draws what a shader fetches from the surface and reads that.
+    /// Draws what a shader fetches from the surface and reads that: four words per sample, the
+    /// samples of a texel one after the other.
     fn fetch(&mut self, surface: &Surface, reader: Reader) -> Result<Vec<u32>, BackendError> {
         let context = self.context;
         let gl = &context.gl;
-        let Some(texture) = surface.texture() else {
+        let Storage::Texture(texture, binding) = surface.storage else {
             return Err(BackendError::Internal(
                 "a renderbuffer was to be fetched from".to_owned(),
             ));
         };
-        let program = self.programs.reader(context, reader)?;
+        let samples = surface.samples();
+        let (program, location) = self.programs.reader(context, reader, samples > 1)?;
         let size = surface.size();
         let target = self.pool.surface(context, SurfaceKind::Fetched, size)?;
         if !target.is_complete() {
@@ -109,38 +157,63 @@ impl Reading<'_> {
         let set_mode = |mode: u32| {
             if context.caps.stencil_texturing {
                 // SAFETY: the texture is bound and the context knows the parameter.
-                unsafe {
-                    gl.tex_parameter_i32(glow::TEXTURE_2D, DEPTH_STENCIL_TEXTURE_MODE, mode as i32);
-                }
+                unsafe { gl.tex_parameter_i32(binding, DEPTH_STENCIL_TEXTURE_MODE, mode as i32) }
             }
         };
-        // SAFETY: the context is current, all objects are its own, and the draw reads no vertices.
-        unsafe {
-            gl.bind_framebuffer(glow::FRAMEBUFFER, Some(target.framebuffer));
-            gl.viewport(0, 0, size[0] as i32, size[1] as i32);
-            gl.use_program(Some(program));
-            gl.bind_vertex_array(Some(self.no_vertices));
-            gl.active_texture(glow::TEXTURE0);
-            gl.bind_texture(glow::TEXTURE_2D, Some(texture));
-            if reader == Reader::Stencil {
-                set_mode(STENCIL_INDEX);
+        let texels = size[0] as usize * size[1] as usize;
+        let mut all = vec![0_u32; texels * samples as usize * 4];
+        let mut wide = vec![0_u32; texels * 4];
+        for sample in 0..samples as usize {
+            // SAFETY: the context is current, all objects are its own, and the draw reads no
+            // vertices.
+            unsafe {
+                gl.bind_framebuffer(glow::FRAMEBUFFER, Some(target.framebuffer));
+                gl.viewport(0, 0, size[0] as i32, size[1] as i32);
+                gl.use_program(Some(program));
+                gl.uniform_1_i32(location.as_ref(), sample as i32);
+                gl.bind_vertex_array(Some(self.no_vertices));
+                gl.active_texture(glow::TEXTURE0);
+                gl.bind_texture(binding, Some(texture));
+                if reader == Reader::Stencil {
+                    set_mode(STENCIL_INDEX);
+                }
+                gl.draw_arrays(glow::TRIANGLES, 0, 3);
+                if reader == Reader::Stencil {
+                    set_mode(glow::DEPTH_COMPONENT);
+                }
             }
-            gl.draw_arrays(glow::TRIANGLES, 0, 3);
-            if reader == Reader::Stencil {
-                set_mode(glow::DEPTH_COMPONENT);
+            // Every version reads unsigned integers as four channels.
+            read_pixels(gl, size, glow::RGBA_INTEGER, glow::UNSIGNED_INT, &mut wide);
+            for (texel, values) in wide.chunks_exact(4).enumerate() {
+                let at = (texel * samples as usize + sample) * 4;
+                all[at..at + 4].copy_from_slice(values);
             }
         }
-        let texels = size[0] as usize * size[1] as usize;
-        let mut wide = vec![0_u32; texels * 4];
-        // Every version reads unsigned integers as four channels.
-        read_pixels(gl, size, glow::RGBA_INTEGER, glow::UNSIGNED_INT, &mut wide);
         self.pool.put_surface(context, target);
-        Ok(wide.chunks_exact(4).map(|texel| texel[0]).collect())
+        Ok(all)
     }
 }
 
-/// Reads a surface by `glReadPixels`: colour, depth or else stencil, and the stencil beside depth.
-fn copy(context: &Context, surface: &Surface, plan: ReadPlan) -> (Vec<u32>, Option<Vec<u32>>) {
+/// Codes from texels of four floats.
+fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
+    let texels = wide.chunks_exact(4);
+    let narrow = |texel: &[u32]| -> Vec<u32> {
+        let values = channels.iter().zip(texel);
+        values
+            .map(|(e, float)| codes::of_float(*e, *float))
+            .collect()
+    };
+    texels.flat_map(narrow).collect()
+}
+
+/// Reads a single-sample surface by `glReadPixels`: colour, depth or else stencil, and the stencil
+/// beside depth.
+pub(crate) fn copy(
+    context: &Context,
+    surface: &Surface,
+    format: TextureFormat,
+    plan: ReadPlan,
+) -> (Vec<u32>, Option<Vec<u32>>) {
     let gl = &context.gl;
     let size = surface.size();
     let texels = size[0] as usize * size[1] as usize;
@@ -153,12 +226,27 @@ fn copy(context: &Context, surface: &Surface, plan: ReadPlan) -> (Vec<u32>, Opti
     };
     let depth = glow::DEPTH_COMPONENT;
     match plan {
+        ReadPlan::Packed => {
+            let mut bytes = vec![0_u8; texels * codes::texel_bytes(format)];
+            if let Some(client) = gl_format(format) {
+                read_pixels(gl, size, client.format, client.kind, &mut bytes);
+            }
+            (codes::unpack(format, &bytes), None)
+        }
         ReadPlan::Bytes => {
             let mut bytes = vec![0_u8; texels * 4];
             read_pixels(gl, size, glow::RGBA, glow::UNSIGNED_BYTE, &mut bytes);
-            (bytes.into_iter().map(u32::from).collect(), None)
+            let channels = format.color_channels();
+            let narrow = |texel: &[u8]| -> Vec<u32> {
+                let values = channels.iter().zip(texel);
+                values.map(|(e, byte)| shortened(*e, *byte)).collect()
+            };
+            (bytes.chunks_exact(4).flat_map(narrow).collect(), None)
         }
-        ReadPlan::Floats => (words(glow::RGBA, glow::FLOAT, 4), None),
+        ReadPlan::Floats => {
+            let wide = words(glow::RGBA, glow::FLOAT, 4);
+            (narrowed(&wide, format.color_channels()), None)
+        }
         ReadPlan::Depth16 => {
             let mut codes = vec![0_u16; texels];
             read_pixels(gl, size, depth, glow::UNSIGNED_SHORT, &mut codes);
@@ -182,11 +270,22 @@ fn copy(context: &Context, surface: &Surface, plan: ReadPlan) -> (Vec<u32>, Opti
             let stencil = every(1).map(|word| word & 0xff).collect();
             (every(0).copied().collect(), Some(stencil))
         }
-        ReadPlan::Stencil | ReadPlan::Shader { .. } => {
+        ReadPlan::Stencil | ReadPlan::Fetched | ReadPlan::Shader { .. } => {
             let mut values = vec![0_u8; texels];
             read_pixels(gl, size, STENCIL_INDEX, glow::UNSIGNED_BYTE, &mut values);
             (values.into_iter().map(u32::from).collect(), None)
         }
+    }
+}
+
+/// The code of at most 8 bits that was widened to a byte.
+fn shortened(encoding: ChannelEncoding, byte: u8) -> u32 {
+    match codes::bits(encoding) {
+        bits @ 1..8 => {
+            let most = (1 << bits) - 1;
+            (u32::from(byte) * most + 127) / 255
+        }
+        _ => u32::from(byte),
     }
 }
 
@@ -295,6 +394,6 @@ pub(crate) fn round_trips(
             glow::PixelUnpackData::Slice(Some(&bytes)),
         );
     }
-    let (read, stencil) = copy(context, surface, plan);
+    let (read, stencil) = copy(context, surface, format, plan);
     read == codes && stencil.is_none_or(|s| s.into_iter().eq(stencils()))
 }

@@ -1,35 +1,54 @@
 //! Pipeline state in GL's words. All of it is set for every draw; there is no cache to go stale.
 
 use crate::context::Context;
+use crate::words::{compare, equations, logic_operation, mask, operation};
 use etalon_backend::BackendError;
+use etalon_case::RESTART;
 use etalon_case::scene::{ColorTarget, Draw, StencilFace, StencilState};
 use etalon_case::state::{
-    BlendFactor, BlendOperation, BlendState, CompareFunction, CullMode, DepthState, FrontFace,
-    PrimitiveTopology, StencilOperation,
+    CullMode, DepthBias, DepthState, FrontFace, Multisample, PolygonMode, Viewport,
 };
+use etalon_frame::{Feature, Requirement};
 use glow::HasContext;
+
+const DEPTH_BOUNDS_TEST: u32 = 0x8890;
+const CLAMP_READ_COLOR: u32 = 0x891C;
 
 /// A draw's state, ready to be set.
 #[derive(Clone, Debug)]
 pub(crate) struct DrawState {
     cull: Option<u32>,
     front_face: u32,
+    polygon_mode: u32,
+    rasterizer_discard: bool,
+    viewport: Viewport,
+    scissor: Option<[i32; 4]>,
+    depth_bias: Option<DepthBias>,
+    depth_clamp: bool,
+    depth_bounds: Option<[f32; 2]>,
     depth: Option<DepthState>,
     stencil: Option<StencilState>,
+    /// The pass writes neither depth nor stencil.
+    read_only: bool,
     targets: Vec<ColorTarget>,
+    logic: Option<u32>,
+    multisample: Multisample,
     blend_constant: [f32; 4],
 }
 
 impl DrawState {
     /// Takes a draw's state, or says that the context cannot have it.
-    pub(crate) fn new(context: &Context, draw: &Draw) -> Result<Self, BackendError> {
-        let differ = draw.targets.windows(2).any(|pair| pair[0] != pair[1]);
-        if differ && !context.caps.indexed_blend {
-            return Err(BackendError::Resource {
-                what: "blend state for each colour target".to_owned(),
-                message: "the context lacks indexed blend functions".to_owned(),
-            });
+    pub(crate) fn new(
+        context: &Context,
+        draw: &Draw,
+        read_only: bool,
+    ) -> Result<Self, BackendError> {
+        if !viewport_is_exact(context, &draw.viewport) {
+            // Of what a scene can ask for, this comes nearest to a viewport beyond GL's means.
+            let requirement = Requirement::Feature(Feature::ViewportOutside);
+            return Err(BackendError::NotSupported(requirement));
         }
+        let differ = draw.targets.windows(2).any(|pair| pair[0] != pair[1]);
         // Without clip control shaders mirror y, which turns every winding over.
         let ccw = (draw.front_face == FrontFace::Ccw) == context.caps.clip_control;
         Ok(Self {
@@ -40,59 +59,155 @@ impl DrawState {
                 CullMode::FrontAndBack => Some(glow::FRONT_AND_BACK),
             },
             front_face: if ccw { glow::CCW } else { glow::CW },
+            polygon_mode: match draw.polygon_mode {
+                PolygonMode::Fill => glow::FILL,
+                PolygonMode::Line => glow::LINE,
+            },
+            rasterizer_discard: draw.rasterizer_discard,
+            viewport: draw.viewport,
+            scissor: draw.scissor.map(scissor),
+            depth_bias: (draw.depth_bias != DepthBias::default()).then_some(draw.depth_bias),
+            depth_clamp: draw.depth_clamp,
+            depth_bounds: draw.depth_bounds,
             depth: draw.depth,
             stencil: draw.stencil,
+            read_only,
             targets: if differ {
                 draw.targets.clone()
             } else {
                 draw.targets.iter().take(1).copied().collect()
             },
+            logic: draw.logic.map(logic_operation),
+            multisample: draw.multisample,
             blend_constant: draw.blend_constant,
         })
     }
 
-    /// Sets the state.
-    pub(crate) fn apply(&self, gl: &glow::Context) {
-        // SAFETY: the context is current; the entry points are of version 3, and indexed blend
-        // functions were asked for in `new`.
+    /// Sets the state. What the context lacks is off: the limits deny it.
+    pub(crate) fn apply(&self, context: &Context) {
+        self.apply_rasterization(context);
+        self.apply_tests(context);
+        self.apply_multisample(context);
+        self.apply_targets(context);
+    }
+
+    fn apply_rasterization(&self, context: &Context) {
+        let gl = &context.gl;
+        set(gl, glow::CULL_FACE, self.cull.is_some());
+        set(gl, glow::RASTERIZER_DISCARD, self.rasterizer_discard);
+        set(gl, glow::SCISSOR_TEST, self.scissor.is_some());
+        set(gl, glow::POLYGON_OFFSET_FILL, self.depth_bias.is_some());
+        // SAFETY: the context is current; entry points are of version 3 or were asked for, and
+        // polygon modes are set in core profiles only.
         unsafe {
-            match self.cull {
-                Some(face) => {
-                    gl.enable(glow::CULL_FACE);
-                    gl.cull_face(face);
-                }
-                None => gl.disable(glow::CULL_FACE),
+            if let Some(face) = self.cull {
+                gl.cull_face(face);
             }
             gl.front_face(self.front_face);
-            match self.depth {
-                Some(depth) => {
-                    gl.enable(glow::DEPTH_TEST);
-                    gl.depth_func(compare(depth.compare));
-                    gl.depth_mask(depth.write);
-                }
-                None => gl.disable(glow::DEPTH_TEST),
+            if !context.caps.es {
+                gl.polygon_mode(glow::FRONT_AND_BACK, self.polygon_mode);
+                // Polygons may be drawn as lines or points; lines and points are never biased.
+                set(gl, glow::POLYGON_OFFSET_LINE, self.depth_bias.is_some());
+                set(gl, glow::POLYGON_OFFSET_POINT, self.depth_bias.is_some());
             }
-            match self.stencil {
-                Some(stencil) => {
-                    gl.enable(glow::STENCIL_TEST);
-                    stencil_face(gl, glow::FRONT, stencil.front);
-                    stencil_face(gl, glow::BACK, stencil.back);
-                }
-                None => gl.disable(glow::STENCIL_TEST),
+            let [x, y, w, h] = self.viewport.rect;
+            match context.extra.viewport_indexed {
+                Some(viewport) => viewport(0, x, y, w, h),
+                None => gl.viewport(x as i32, y as i32, w as i32, h as i32),
             }
+            let [near, far] = self.viewport.depth;
+            if context.caps.es {
+                gl.depth_range_f32(near, far);
+            } else {
+                gl.depth_range_f64(f64::from(near), f64::from(far));
+            }
+            if let Some([x, y, w, h]) = self.scissor {
+                gl.scissor(x, y, w, h);
+            }
+            if let Some(DepthBias {
+                constant,
+                slope,
+                clamp,
+            }) = self.depth_bias
+            {
+                let constant = constant as f32;
+                match context.extra.polygon_offset_clamp {
+                    Some(offset) if clamp != 0.0 => offset(slope, constant, clamp),
+                    _ => gl.polygon_offset(slope, constant),
+                }
+            }
+        }
+        if context.caps.depth_clamp {
+            set(gl, glow::DEPTH_CLAMP, self.depth_clamp);
+        }
+    }
+
+    fn apply_tests(&self, context: &Context) {
+        let gl = &context.gl;
+        if let Some(bounds) = context.extra.depth_bounds {
+            set(gl, DEPTH_BOUNDS_TEST, self.depth_bounds.is_some());
+            if let Some([low, high]) = self.depth_bounds {
+                // SAFETY: the context is current and has the function.
+                unsafe { bounds(f64::from(low), f64::from(high)) };
+            }
+        }
+        set(gl, glow::DEPTH_TEST, self.depth.is_some());
+        set(gl, glow::STENCIL_TEST, self.stencil.is_some());
+        // SAFETY: the context is current; the entry points are of version 3.
+        unsafe {
+            if let Some(depth) = self.depth {
+                gl.depth_func(compare(depth.compare));
+                gl.depth_mask(depth.write);
+            }
+            if let Some(stencil) = self.stencil {
+                stencil_face(gl, glow::FRONT, stencil.front);
+                stencil_face(gl, glow::BACK, stencil.back);
+            }
+            if self.read_only {
+                gl.depth_mask(false);
+                gl.stencil_mask(0);
+            }
+        }
+    }
+
+    fn apply_multisample(&self, context: &Context) {
+        let gl = &context.gl;
+        let Multisample {
+            mask,
+            alpha_to_coverage,
+            alpha_to_one,
+        } = self.multisample;
+        set(gl, glow::SAMPLE_ALPHA_TO_COVERAGE, alpha_to_coverage);
+        if context.caps.alpha_to_one {
+            set(gl, glow::SAMPLE_ALPHA_TO_ONE, alpha_to_one);
+        }
+        if let Some(set_mask) = context.extra.sample_mask {
+            set(gl, glow::SAMPLE_MASK, mask != u32::MAX);
+            // SAFETY: the context is current and has the function.
+            unsafe { set_mask(0, mask) };
+        }
+    }
+
+    fn apply_targets(&self, context: &Context) {
+        let gl = &context.gl;
+        if let Some(set_logic) = context.extra.logic_op {
+            set(gl, glow::COLOR_LOGIC_OP, self.logic.is_some());
+            // SAFETY: the context is current and has the function.
+            unsafe { set_logic(self.logic.unwrap_or(glow::COPY)) };
+        }
+        // SAFETY: the context is current; the entry points are of version 3, and targets that
+        // differ were asked for.
+        unsafe {
             let [r, g, b, a] = self.blend_constant;
             gl.blend_color(r, g, b, a);
             if let [target] = self.targets.as_slice() {
                 let [r, g, b, a] = mask(target);
                 gl.color_mask(r, g, b, a);
-                match target.blend {
-                    Some(blend) => {
-                        gl.enable(glow::BLEND);
-                        let (color, alpha) = equations(blend);
-                        gl.blend_equation_separate(color.0, alpha.0);
-                        gl.blend_func_separate(color.1, color.2, alpha.1, alpha.2);
-                    }
-                    None => gl.disable(glow::BLEND),
+                set(gl, glow::BLEND, target.blend.is_some());
+                if let Some(blend) = target.blend {
+                    let (color, alpha) = equations(blend);
+                    gl.blend_equation_separate(color.0, alpha.0);
+                    gl.blend_func_separate(color.1, color.2, alpha.1, alpha.2);
                 }
                 return;
             }
@@ -110,6 +225,53 @@ impl DrawState {
                 }
             }
         }
+    }
+}
+
+/// Switches a capability that the context knows.
+pub(crate) fn set(gl: &glow::Context, capability: u32, on: bool) {
+    // SAFETY: the context is current.
+    unsafe {
+        if on {
+            gl.enable(capability);
+        } else {
+            gl.disable(capability);
+        }
+    }
+}
+
+/// Whether GL takes a viewport as it is: it may round what lies between its sub-pixel positions
+/// (OpenGL 4.6, 13.8.1) and cut what is larger than its limit.
+fn viewport_is_exact(context: &Context, viewport: &Viewport) -> bool {
+    let steps = 2_f32.powi(context.caps.viewport_bits.unwrap_or(0).min(16) as i32);
+    let [_, _, w, h] = viewport.rect;
+    let [most_w, most_h] = context.caps.max_viewport;
+    let fits = w <= most_w as f32 && h <= most_h as f32;
+    fits && viewport.rect.iter().all(|v| (v * steps).fract() == 0.0)
+}
+
+/// GL's scissor takes signed numbers.
+fn scissor(rect: [u32; 4]) -> [i32; 4] {
+    let [x, y, w, h] = rect.map(|v| i32::try_from(v).unwrap_or(i32::MAX));
+    [x, y, w.min(i32::MAX - x), h.min(i32::MAX - y)]
+}
+
+/// Lets the largest index end a strip.
+pub(crate) fn set_restart(context: &Context) {
+    let gl = &context.gl;
+    if context.caps.fixed_restart {
+        set(gl, glow::PRIMITIVE_RESTART_FIXED_INDEX, true);
+    } else if let Some(index) = context.extra.primitive_restart_index {
+        set(gl, glow::PRIMITIVE_RESTART, true);
+        // SAFETY: the context is current and has the function.
+        unsafe { index(RESTART) };
+    }
+}
+
+/// Takes colours as linear where an attachment holds sRGB. ES always does.
+pub(crate) fn set_srgb(context: &Context, on: bool) {
+    if !context.caps.es {
+        set(&context.gl, glow::FRAMEBUFFER_SRGB, on);
     }
 }
 
@@ -152,12 +314,25 @@ pub(crate) fn reset(context: &Context) {
         ] {
             gl.disable(capability);
         }
+        let caps = &context.caps;
+        for (known, capability) in [
+            (caps.depth_clamp, glow::DEPTH_CLAMP),
+            (caps.alpha_to_one, glow::SAMPLE_ALPHA_TO_ONE),
+            (caps.fixed_restart, glow::PRIMITIVE_RESTART_FIXED_INDEX),
+            (context.extra.sample_mask.is_some(), glow::SAMPLE_MASK),
+            (context.extra.depth_bounds.is_some(), DEPTH_BOUNDS_TEST),
+        ] {
+            if known {
+                gl.disable(capability);
+            }
+        }
         if !context.caps.es {
             for capability in [
                 glow::FRAMEBUFFER_SRGB,
                 glow::COLOR_LOGIC_OP,
-                glow::DEPTH_CLAMP,
-                glow::SAMPLE_ALPHA_TO_ONE,
+                glow::POLYGON_OFFSET_LINE,
+                glow::POLYGON_OFFSET_POINT,
+                glow::PROGRAM_POINT_SIZE,
                 glow::PRIMITIVE_RESTART,
             ] {
                 gl.disable(capability);
@@ -165,8 +340,10 @@ pub(crate) fn reset(context: &Context) {
             gl.enable(glow::MULTISAMPLE);
             gl.polygon_mode(glow::FRONT_AND_BACK, glow::FILL);
         }
-        if !context.caps.es || context.caps.version >= (3, 1) {
-            gl.disable(glow::SAMPLE_MASK);
+        gl.line_width(1.0);
+        if let Some(clamp_color) = context.extra.clamp_color {
+            // Else negative values of signed normalized formats would be read as 0.
+            clamp_color(CLAMP_READ_COLOR, 0);
         }
         gl.color_mask(true, true, true, true);
         gl.depth_mask(true);
@@ -180,84 +357,4 @@ pub(crate) fn reset(context: &Context) {
         gl.pixel_store_i32(glow::UNPACK_ALIGNMENT, 1);
     }
     context.set_clip_control();
-}
-
-pub(crate) fn topology(topology: PrimitiveTopology) -> u32 {
-    match topology {
-        PrimitiveTopology::TriangleList => glow::TRIANGLES,
-        PrimitiveTopology::TriangleStrip => glow::TRIANGLE_STRIP,
-    }
-}
-
-fn mask(target: &ColorTarget) -> [bool; 4] {
-    [0, 1, 2, 3].map(|bit| target.write_mask & (1 << bit) != 0)
-}
-
-type Equation = (u32, u32, u32);
-
-fn equations(blend: BlendState) -> (Equation, Equation) {
-    let one = |c: etalon_case::state::BlendComponent| {
-        (
-            blend_operation(c.operation),
-            factor(c.src_factor),
-            factor(c.dst_factor),
-        )
-    };
-    (one(blend.color), one(blend.alpha))
-}
-
-fn compare(function: CompareFunction) -> u32 {
-    match function {
-        CompareFunction::Never => glow::NEVER,
-        CompareFunction::Less => glow::LESS,
-        CompareFunction::Equal => glow::EQUAL,
-        CompareFunction::LessEqual => glow::LEQUAL,
-        CompareFunction::Greater => glow::GREATER,
-        CompareFunction::NotEqual => glow::NOTEQUAL,
-        CompareFunction::GreaterEqual => glow::GEQUAL,
-        CompareFunction::Always => glow::ALWAYS,
-    }
-}
-
-fn operation(operation: StencilOperation) -> u32 {
-    match operation {
-        StencilOperation::Keep => glow::KEEP,
-        StencilOperation::Zero => glow::ZERO,
-        StencilOperation::Replace => glow::REPLACE,
-        StencilOperation::Invert => glow::INVERT,
-        StencilOperation::IncrementClamp => glow::INCR,
-        StencilOperation::DecrementClamp => glow::DECR,
-        StencilOperation::IncrementWrap => glow::INCR_WRAP,
-        StencilOperation::DecrementWrap => glow::DECR_WRAP,
-    }
-}
-
-fn factor(factor: BlendFactor) -> u32 {
-    match factor {
-        BlendFactor::Zero => glow::ZERO,
-        BlendFactor::One => glow::ONE,
-        BlendFactor::Src => glow::SRC_COLOR,
-        BlendFactor::OneMinusSrc => glow::ONE_MINUS_SRC_COLOR,
-        BlendFactor::SrcAlpha => glow::SRC_ALPHA,
-        BlendFactor::OneMinusSrcAlpha => glow::ONE_MINUS_SRC_ALPHA,
-        BlendFactor::Dst => glow::DST_COLOR,
-        BlendFactor::OneMinusDst => glow::ONE_MINUS_DST_COLOR,
-        BlendFactor::DstAlpha => glow::DST_ALPHA,
-        BlendFactor::OneMinusDstAlpha => glow::ONE_MINUS_DST_ALPHA,
-        BlendFactor::SrcAlphaSaturated => glow::SRC_ALPHA_SATURATE,
-        BlendFactor::Constant => glow::CONSTANT_COLOR,
-        BlendFactor::OneMinusConstant => glow::ONE_MINUS_CONSTANT_COLOR,
-        BlendFactor::ConstantAlpha => glow::CONSTANT_ALPHA,
-        BlendFactor::OneMinusConstantAlpha => glow::ONE_MINUS_CONSTANT_ALPHA,
-    }
-}
-
-fn blend_operation(operation: BlendOperation) -> u32 {
-    match operation {
-        BlendOperation::Add => glow::FUNC_ADD,
-        BlendOperation::Subtract => glow::FUNC_SUBTRACT,
-        BlendOperation::ReverseSubtract => glow::FUNC_REVERSE_SUBTRACT,
-        BlendOperation::Min => glow::MIN,
-        BlendOperation::Max => glow::MAX,
-    }
 }

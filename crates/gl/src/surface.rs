@@ -1,46 +1,52 @@
-//! Attachments and framebuffers, kept from scene to scene.
+//! Attachments: textures and renderbuffers with framebuffers of their own.
 
+use crate::codes;
 use crate::context::{Context, refused};
 use crate::format::{GlFormat, gl_format};
 use etalon_backend::BackendError;
-use etalon_frame::TextureFormat;
+use etalon_frame::{Requirement, TextureFormat};
 use glow::HasContext;
 use std::cell::Cell;
-use std::collections::HashMap;
-
-/// The most free surfaces, framebuffers and buffers, and bytes of free surfaces, that are kept.
-const MAX_FREE: usize = 64;
-const MAX_FREE_BYTES: u64 = 64 << 20;
-/// The largest buffer that is kept.
-const MAX_FREE_BUFFER: usize = 1 << 20;
 
 /// What a surface is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum SurfaceKind {
-    /// A scene's attachment.
-    Attachment(TextureFormat),
-    /// What read-back shaders write to: one 32-bit unsigned integer a texel.
+    /// A scene's attachment with so many samples per texel.
+    Attachment(TextureFormat, u32),
+    /// What read-back shaders write to: four 32-bit unsigned integers a texel.
     Fetched,
 }
 
 impl SurfaceKind {
-    fn gl(self) -> GlFormat {
+    fn gl(self) -> Result<GlFormat, BackendError> {
         match self {
-            Self::Attachment(format) => gl_format(format),
-            Self::Fetched => GlFormat {
-                internal: glow::R32UI,
-                format: glow::RED_INTEGER,
+            Self::Attachment(format, _) => {
+                gl_format(format).ok_or(BackendError::NotSupported(Requirement::Format(format)))
+            }
+            Self::Fetched => Ok(GlFormat {
+                internal: glow::RGBA32UI,
+                format: glow::RGBA_INTEGER,
                 kind: glow::UNSIGNED_INT,
                 attachment: glow::COLOR_ATTACHMENT0,
-            },
+            }),
         }
     }
 
+    fn samples(self) -> u32 {
+        match self {
+            Self::Attachment(_, samples) => samples,
+            Self::Fetched => 1,
+        }
+    }
+
+    /// Bytes per texel, roughly.
     fn bytes(self) -> u64 {
         match self {
-            Self::Attachment(TextureFormat::Rgba32Float) => 16,
-            Self::Attachment(TextureFormat::Depth32FloatStencil8) => 8,
-            _ => 4,
+            Self::Attachment(format, samples) if format.is_color() => {
+                codes::texel_bytes(format) as u64 * u64::from(samples)
+            }
+            Self::Attachment(_, samples) => 8 * u64::from(samples),
+            Self::Fetched => 16,
         }
     }
 }
@@ -48,8 +54,8 @@ impl SurfaceKind {
 /// The memory of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Storage {
-    /// A texture.
-    Texture(glow::Texture),
+    /// A texture and its target.
+    Texture(glow::Texture, u32),
     /// A renderbuffer, where textures of the format do not exist.
     Renderbuffer(glow::Renderbuffer),
 }
@@ -60,10 +66,11 @@ pub(crate) struct Surface {
     pub(crate) storage: Storage,
     pub(crate) framebuffer: glow::Framebuffer,
     status: u32,
-    kind: SurfaceKind,
-    size: [u32; 2],
+    pub(crate) attachment: u32,
+    pub(crate) kind: SurfaceKind,
+    pub(crate) size: [u32; 2],
     /// Never given twice.
-    id: u64,
+    pub(crate) id: u64,
 }
 
 thread_local! {
@@ -77,49 +84,17 @@ impl Surface {
         kind: SurfaceKind,
         size: [u32; 2],
     ) -> Result<Self, BackendError> {
-        let gl = &context.gl;
-        let format = kind.gl();
-        let (width, height) = (size[0] as i32, size[1] as i32);
-        let stencil_only = kind == SurfaceKind::Attachment(TextureFormat::Stencil8);
-        // ES reads stencil in a shader, hence from a texture.
-        let storage = if stencil_only && !(context.caps.es && context.caps.stencil_textures) {
-            // SAFETY: the context is current.
-            unsafe {
-                let buffer = gl
-                    .create_renderbuffer()
-                    .map_err(|e| refused("a renderbuffer", e))?;
-                gl.bind_renderbuffer(glow::RENDERBUFFER, Some(buffer));
-                gl.renderbuffer_storage(glow::RENDERBUFFER, format.internal, width, height);
-                Storage::Renderbuffer(buffer)
-            }
+        let format = kind.gl()?;
+        let samples = kind.samples();
+        let stencil_only = matches!(kind, SurfaceKind::Attachment(TextureFormat::Stencil8, _));
+        // A shader reads stencil in ES and where there are several samples, hence from a texture.
+        let fetched = (context.caps.es || samples > 1) && context.caps.stencil_textures;
+        let storage = if stencil_only && !fetched {
+            renderbuffer(context, format, size)?
+        } else if samples > 1 {
+            multisample_texture(context, format, size, samples)?
         } else {
-            // SAFETY: the context is current; no client memory is read.
-            unsafe {
-                let texture = gl.create_texture().map_err(|e| refused("a texture", e))?;
-                gl.active_texture(glow::TEXTURE0);
-                gl.bind_texture(glow::TEXTURE_2D, Some(texture));
-                let set = |name, value: u32| {
-                    gl.tex_parameter_i32(glow::TEXTURE_2D, name, value as i32);
-                };
-                // Fetches demand a complete texture, whatever they leave unused.
-                set(glow::TEXTURE_MAX_LEVEL, 0);
-                set(glow::TEXTURE_MIN_FILTER, glow::NEAREST);
-                set(glow::TEXTURE_MAG_FILTER, glow::NEAREST);
-                set(glow::TEXTURE_WRAP_S, glow::CLAMP_TO_EDGE);
-                set(glow::TEXTURE_WRAP_T, glow::CLAMP_TO_EDGE);
-                gl.tex_image_2d(
-                    glow::TEXTURE_2D,
-                    0,
-                    format.internal as i32,
-                    width,
-                    height,
-                    0,
-                    format.format,
-                    format.kind,
-                    glow::PixelUnpackData::Slice(None),
-                );
-                Storage::Texture(texture)
-            }
+            texture(context, format, size)?
         };
         let (framebuffer, status) = framebuffer(context, &[(storage, format.attachment)])?;
         let id = NEXT_ID.with(|next| next.replace(next.get() + 1));
@@ -127,6 +102,7 @@ impl Surface {
             storage,
             framebuffer,
             status,
+            attachment: format.attachment,
             kind,
             size,
             id,
@@ -141,7 +117,7 @@ impl Surface {
     /// The texture; `None` for a renderbuffer.
     pub(crate) fn texture(&self) -> Option<glow::Texture> {
         match self.storage {
-            Storage::Texture(texture) => Some(texture),
+            Storage::Texture(texture, _) => Some(texture),
             Storage::Renderbuffer(_) => None,
         }
     }
@@ -150,7 +126,11 @@ impl Surface {
         self.size
     }
 
-    fn bytes(&self) -> u64 {
+    pub(crate) fn samples(&self) -> u32 {
+        self.kind.samples()
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
         u64::from(self.size[0]) * u64::from(self.size[1]) * self.kind.bytes()
     }
 
@@ -161,15 +141,120 @@ impl Surface {
         unsafe {
             gl.delete_framebuffer(self.framebuffer);
             match self.storage {
-                Storage::Texture(texture) => gl.delete_texture(texture),
+                Storage::Texture(texture, _) => gl.delete_texture(texture),
                 Storage::Renderbuffer(buffer) => gl.delete_renderbuffer(buffer),
             }
         }
     }
 }
 
+fn renderbuffer(
+    context: &Context,
+    format: GlFormat,
+    [width, height]: [u32; 2],
+) -> Result<Storage, BackendError> {
+    let gl = &context.gl;
+    let (width, height) = (width as i32, height as i32);
+    // SAFETY: the context is current.
+    unsafe {
+        let buffer = gl
+            .create_renderbuffer()
+            .map_err(|e| refused("a renderbuffer", e))?;
+        gl.bind_renderbuffer(glow::RENDERBUFFER, Some(buffer));
+        gl.renderbuffer_storage(glow::RENDERBUFFER, format.internal, width, height);
+        Ok(Storage::Renderbuffer(buffer))
+    }
+}
+
+fn texture(
+    context: &Context,
+    format: GlFormat,
+    [width, height]: [u32; 2],
+) -> Result<Storage, BackendError> {
+    let gl = &context.gl;
+    let target = glow::TEXTURE_2D;
+    // SAFETY: the context is current; no client memory is read.
+    unsafe {
+        let texture = gl.create_texture().map_err(|e| refused("a texture", e))?;
+        gl.active_texture(glow::TEXTURE0);
+        gl.bind_texture(target, Some(texture));
+        let set = |name, value: u32| gl.tex_parameter_i32(target, name, value as i32);
+        // Fetches demand a complete texture, whatever they leave unused.
+        set(glow::TEXTURE_MAX_LEVEL, 0);
+        set(glow::TEXTURE_MIN_FILTER, glow::NEAREST);
+        set(glow::TEXTURE_MAG_FILTER, glow::NEAREST);
+        set(glow::TEXTURE_WRAP_S, glow::CLAMP_TO_EDGE);
+        set(glow::TEXTURE_WRAP_T, glow::CLAMP_TO_EDGE);
+        gl.tex_image_2d(
+            target,
+            0,
+            format.internal as i32,
+            width as i32,
+            height as i32,
+            0,
+            format.format,
+            format.kind,
+            glow::PixelUnpackData::Slice(None),
+        );
+        Ok(Storage::Texture(texture, target))
+    }
+}
+
+fn multisample_texture(
+    context: &Context,
+    format: GlFormat,
+    [width, height]: [u32; 2],
+    samples: u32,
+) -> Result<Storage, BackendError> {
+    let gl = &context.gl;
+    let target = glow::TEXTURE_2D_MULTISAMPLE;
+    let (samples, width, height) = (samples as i32, width as i32, height as i32);
+    let internal = format.internal;
+    // SAFETY: the context is current. ES has the one entry point since 3.1, core profiles have the
+    // other; several samples are offered from these on.
+    unsafe {
+        let texture = gl.create_texture().map_err(|e| refused("a texture", e))?;
+        gl.active_texture(glow::TEXTURE0);
+        gl.bind_texture(target, Some(texture));
+        // Sample locations are the same for every texel and format.
+        if context.caps.es {
+            gl.tex_storage_2d_multisample(target, samples, internal, width, height, true);
+        } else {
+            let internal = internal as i32;
+            gl.tex_image_2d_multisample(target, samples, internal, width, height, true);
+        }
+        Ok(Storage::Texture(texture, target))
+    }
+}
+
+/// Replaces a single-sample colour texture's contents. The bytes cover it.
+pub(crate) fn upload(context: &Context, format: TextureFormat, surface: &Surface, bytes: &[u8]) {
+    let gl = &context.gl;
+    let Some(words) = gl_format(format) else {
+        return;
+    };
+    let size = surface.size();
+    // SAFETY: the context is current, rows are packed tightly (`state::reset`), and the caller has
+    // counted the bytes.
+    unsafe {
+        gl.active_texture(glow::TEXTURE0);
+        gl.bind_texture(glow::TEXTURE_2D, surface.texture());
+        gl.tex_sub_image_2d(
+            glow::TEXTURE_2D,
+            0,
+            0,
+            0,
+            size[0] as i32,
+            size[1] as i32,
+            words.format,
+            words.kind,
+            glow::PixelUnpackData::Slice(Some(bytes)),
+        );
+    }
+}
+
 /// Makes a framebuffer, leaves it bound, and tells its status.
-fn framebuffer(
+pub(crate) fn framebuffer(
     context: &Context,
     attachments: &[(Storage, u32)],
 ) -> Result<(glow::Framebuffer, u32), BackendError> {
@@ -183,13 +268,9 @@ fn framebuffer(
         let mut buffers = Vec::new();
         for (storage, point) in attachments {
             match storage {
-                Storage::Texture(texture) => gl.framebuffer_texture_2d(
-                    glow::FRAMEBUFFER,
-                    *point,
-                    glow::TEXTURE_2D,
-                    Some(*texture),
-                    0,
-                ),
+                Storage::Texture(texture, target) => {
+                    gl.framebuffer_texture_2d(glow::FRAMEBUFFER, *point, *target, Some(*texture), 0)
+                }
                 Storage::Renderbuffer(buffer) => gl.framebuffer_renderbuffer(
                     glow::FRAMEBUFFER,
                     *point,
@@ -214,151 +295,5 @@ fn framebuffer(
         gl.read_buffer(read);
         let status = gl.check_framebuffer_status(glow::FRAMEBUFFER);
         Ok((framebuffer, status))
-    }
-}
-
-/// A pass's framebuffer with the surfaces it joins.
-#[derive(Debug)]
-pub(crate) struct Target {
-    pub(crate) framebuffer: glow::Framebuffer,
-    key: TargetKey,
-}
-
-type TargetKey = (Vec<u64>, Option<u64>);
-
-/// Objects that no scene uses now.
-#[derive(Default)]
-pub(crate) struct Pool {
-    surfaces: HashMap<(SurfaceKind, [u32; 2]), Vec<Surface>>,
-    count: usize,
-    bytes: u64,
-    targets: HashMap<TargetKey, Vec<glow::Framebuffer>>,
-    buffers: Vec<glow::Buffer>,
-}
-
-impl Pool {
-    /// A surface of this kind and size with any contents.
-    pub(crate) fn surface(
-        &mut self,
-        context: &Context,
-        kind: SurfaceKind,
-        size: [u32; 2],
-    ) -> Result<Surface, BackendError> {
-        match self.surfaces.get_mut(&(kind, size)).and_then(Vec::pop) {
-            Some(surface) => {
-                self.count -= 1;
-                self.bytes -= surface.bytes();
-                Ok(surface)
-            }
-            None => Surface::new(context, kind, size),
-        }
-    }
-
-    /// Takes a surface back.
-    pub(crate) fn put_surface(&mut self, context: &Context, surface: Surface) {
-        self.count += 1;
-        self.bytes += surface.bytes();
-        let key = (surface.kind, surface.size);
-        self.surfaces.entry(key).or_default().push(surface);
-        if self.count > MAX_FREE || self.bytes > MAX_FREE_BYTES {
-            self.delete_surfaces(context);
-        }
-    }
-
-    /// Frees all free surfaces, and the targets with them: whatever a scene needs next is made
-    /// anew, and targets never name what is gone.
-    pub(crate) fn delete_surfaces(&mut self, context: &Context) {
-        self.delete_targets(context);
-        for surface in self.surfaces.drain().flat_map(|(_, list)| list) {
-            surface.delete(context);
-        }
-        self.count = 0;
-        self.bytes = 0;
-    }
-
-    fn delete_targets(&mut self, context: &Context) {
-        for framebuffer in self.targets.drain().flat_map(|(_, list)| list) {
-            // SAFETY: the context is current and the object is its own.
-            unsafe { context.gl.delete_framebuffer(framebuffer) };
-        }
-    }
-
-    /// A framebuffer of these surfaces; `None` where the driver does not draw to them together.
-    pub(crate) fn target(
-        &mut self,
-        context: &Context,
-        color: &[&Surface],
-        depth_stencil: Option<&Surface>,
-    ) -> Result<Option<Target>, BackendError> {
-        let key = (
-            color.iter().map(|s| s.id).collect::<Vec<_>>(),
-            depth_stencil.map(|s| s.id),
-        );
-        if let Some(framebuffer) = self.targets.get_mut(&key).and_then(Vec::pop) {
-            return Ok(Some(Target { framebuffer, key }));
-        }
-        let mut attachments = Vec::new();
-        for (i, surface) in color.iter().enumerate() {
-            attachments.push((surface.storage, glow::COLOR_ATTACHMENT0 + i as u32));
-        }
-        if let Some(surface) = depth_stencil {
-            attachments.push((surface.storage, surface.kind.gl().attachment));
-        }
-        let (framebuffer, status) = framebuffer(context, &attachments)?;
-        if status == glow::FRAMEBUFFER_COMPLETE {
-            return Ok(Some(Target { framebuffer, key }));
-        }
-        // SAFETY: the context is current and the object is its own.
-        unsafe { context.gl.delete_framebuffer(framebuffer) };
-        Ok(None)
-    }
-
-    /// Takes a target back, before its surfaces.
-    pub(crate) fn put_target(&mut self, context: &Context, target: Target) {
-        if self.targets.values().map(Vec::len).sum::<usize>() >= MAX_FREE {
-            self.delete_targets(context);
-        }
-        self.targets
-            .entry(target.key)
-            .or_default()
-            .push(target.framebuffer);
-    }
-
-    /// A buffer with these contents, bound to a target.
-    pub(crate) fn buffer(
-        &mut self,
-        context: &Context,
-        target: u32,
-        data: &[u8],
-    ) -> Result<glow::Buffer, BackendError> {
-        let gl = &context.gl;
-        // SAFETY: the context is current.
-        unsafe {
-            let buffer = match self.buffers.pop() {
-                Some(buffer) => buffer,
-                None => gl.create_buffer().map_err(|e| refused("a buffer", e))?,
-            };
-            gl.bind_buffer(target, Some(buffer));
-            gl.buffer_data_u8_slice(target, data, glow::STATIC_DRAW);
-            Ok(buffer)
-        }
-    }
-
-    /// Takes a buffer of a size in bytes back.
-    pub(crate) fn put_buffer(&mut self, context: &Context, buffer: glow::Buffer, size: usize) {
-        if self.buffers.len() < MAX_FREE && size <= MAX_FREE_BUFFER {
-            self.buffers.push(buffer);
-        } else {
-            // SAFETY: the context is current and the object is its own.
-            unsafe { context.gl.delete_buffer(buffer) };
-        }
-    }
-}
-
-impl Target {
-    /// Frees the framebuffer.
-    pub(crate) fn delete(self, context: &Context) {
-        // SAFETY: the context is current and the object is its own.
-        unsafe { context.gl.delete_framebuffer(self.framebuffer) };
     }
 }

@@ -1,5 +1,6 @@
 //! What a number system offers to the pipeline.
 
+use etalon_case::state::LogicOperation;
 use etalon_frame::ChannelEncoding;
 
 /// A number system. Operations take `&mut self` so that a system may keep notes of what it did.
@@ -30,8 +31,8 @@ pub trait Arithmetic {
 
     /// A window coordinate computed by the viewport transform, in texels of an axis so long.
     fn window_coordinate(&mut self, value: Self::Real, length: f32) -> Self::Real;
-    /// A window depth computed by the viewport transform.
-    fn window_depth(&mut self, value: Self::Real) -> Self::Real;
+    /// A window depth computed by the viewport transform into a range of depths.
+    fn window_depth(&mut self, value: Self::Real, range: [f32; 2]) -> Self::Real;
 
     /// The value that a stored code stands for.
     fn decode(&mut self, encoding: ChannelEncoding, code: Self::Code) -> Self::Real;
@@ -43,6 +44,8 @@ pub trait Arithmetic {
     fn blend_operand(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
     /// A blend factor of the form `1 - value`.
     fn blend_complement(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
+    /// A factor as it is multiplied: clamped to what the encoding can hold.
+    fn blend_factor(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
     /// One side of a blend equation: operand times factor.
     fn blend_product(
         &mut self,
@@ -58,4 +61,12 @@ pub trait Arithmetic {
         b: Self::Real,
         subtract: bool,
     ) -> Self::Real;
+    /// The code that a logic operation leaves, from the codes of source and destination.
+    fn logic(
+        &mut self,
+        encoding: ChannelEncoding,
+        operation: LogicOperation,
+        src: Self::Code,
+        dst: Self::Code,
+    ) -> Self::Code;
 }

@@ -9,6 +9,8 @@ use etalon_frame::ChannelEncoding;
 pub struct BlendInput<R> {
     /// The fragment's colour.
     pub src: [R; 4],
+    /// The fragment's second source.
+    pub src1: [R; 4],
     /// The stored colour.
     pub dst: [R; 4],
     /// The blend constant.
@@ -34,6 +36,7 @@ pub fn blend<A: Arithmetic>(
     let mut operands = *input;
     for (c, encoding) in encodings.into_iter().enumerate() {
         operands.src[c] = a.blend_operand(encoding, input.src[c]);
+        operands.src1[c] = a.blend_operand(encoding, input.src1[c]);
         operands.dst[c] = a.blend_operand(encoding, input.dst[c]);
         operands.constant[c] = a.blend_operand(encoding, input.constant[c]);
     }
@@ -100,18 +103,23 @@ fn factor<A: Arithmetic>(
         BlendFactor::SrcAlpha | BlendFactor::OneMinusSrcAlpha => input.src[3],
         BlendFactor::Dst | BlendFactor::OneMinusDst => input.dst[c],
         BlendFactor::DstAlpha | BlendFactor::OneMinusDstAlpha => input.dst[3],
+        BlendFactor::Src1 | BlendFactor::OneMinusSrc1 => input.src1[c],
+        BlendFactor::Src1Alpha | BlendFactor::OneMinusSrc1Alpha => input.src1[3],
         BlendFactor::Constant | BlendFactor::OneMinusConstant => input.constant[c],
         BlendFactor::ConstantAlpha | BlendFactor::OneMinusConstantAlpha => input.constant[3],
     };
-    Factor::Value(match factor {
-        BlendFactor::OneMinusSrc
+    let value = match factor {
+        BlendFactor::OneMinusSrc1
+        | BlendFactor::OneMinusSrc1Alpha
+        | BlendFactor::OneMinusSrc
         | BlendFactor::OneMinusSrcAlpha
         | BlendFactor::OneMinusDst
         | BlendFactor::OneMinusDstAlpha
         | BlendFactor::OneMinusConstant
         | BlendFactor::OneMinusConstantAlpha => a.blend_complement(encoding, value),
         _ => value,
-    })
+    };
+    Factor::Value(a.blend_factor(encoding, value))
 }
 
 #[cfg(test)]
@@ -134,6 +142,7 @@ mod tests {
     fn run(state: &BlendState, src: [f32; 4], dst: [f32; 4]) -> [f32; 4] {
         let input = BlendInput {
             src: src.map(|v| [v]),
+            src1: [[0.0]; 4],
             dst: dst.map(|v| [v]),
             constant: [[0.0]; 4],
         };

@@ -11,6 +11,8 @@
 mod arithmetic;
 mod blend;
 mod coverage;
+mod depth;
+mod logic;
 mod plain;
 pub mod shader;
 mod stencil;
@@ -19,6 +21,8 @@ mod viewport;
 pub use arithmetic::Arithmetic;
 pub use blend::{BlendInput, blend};
 pub use coverage::{Point, SnappedTriangle, edge_value, is_top_left, signed_area};
-pub use plain::{Plain, nearest_order};
+pub use depth::{DepthPlane, slope};
+pub use logic::{logic_operation, takes_logic};
+pub use plain::Plain;
 pub use stencil::{compare, stencil_operation, stencil_passes, stencil_write};
 pub use viewport::{front_facing, is_culled, window_position};

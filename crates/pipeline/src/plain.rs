@@ -1,28 +1,21 @@
 //! The plain number system: 32-bit floats, several side by side.
 
 use crate::arithmetic::Arithmetic;
-use etalon_frame::ChannelEncoding;
+use crate::logic::logic_operation;
+use etalon_case::state::LogicOperation;
+use etalon_frame::{ChannelEncoding, linear_to_srgb};
+use half::f16;
+use std::sync::LazyLock;
 
 /// `N` floats side by side. All loops run over all lanes without branching on values, so that the
 /// compiler turns them into vector instructions.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Plain<const N: usize>;
 
-/// The order (see [`ChannelEncoding`]) nearest to a value, ties upwards; out of range and NaN go to
-/// the nearest end and zero (Vulkan, Conversion from Floating-Point to Normalized Fixed-Point).
-pub fn nearest_order(encoding: ChannelEncoding, value: f32) -> i64 {
-    match encoding {
-        ChannelEncoding::Unorm(_) | ChannelEncoding::Uint(_) => {
-            let scale = match encoding {
-                ChannelEncoding::Unorm(_) => encoding.max_order() as f64,
-                _ => 1.0,
-            };
-            let scaled = (f64::from(value) * scale + 0.5).floor();
-            scaled.clamp(0.0, encoding.max_order() as f64) as i64
-        }
-        ChannelEncoding::Float32 => encoding.order_of_code(value.to_bits()),
-    }
-}
+/// The linear values of the sRGB codes.
+static SRGB: LazyLock<[f32; 256]> = LazyLock::new(|| {
+    std::array::from_fn(|c| ChannelEncoding::Srgb8.value_of_order(c as i64) as f32)
+});
 
 #[inline(always)]
 fn zip<const N: usize>(a: [f32; N], b: [f32; N], f: impl Fn(f32, f32) -> f32) -> [f32; N] {
@@ -74,7 +67,7 @@ impl<const N: usize> Arithmetic for Plain<N> {
     }
 
     #[inline(always)]
-    fn window_depth(&mut self, value: [f32; N]) -> [f32; N] {
+    fn window_depth(&mut self, value: [f32; N], _range: [f32; 2]) -> [f32; N] {
         value
     }
 
@@ -89,8 +82,17 @@ impl<const N: usize> Arithmetic for Plain<N> {
                 let scale = encoding.max_order() as f64;
                 code.map(|c| (f64::from(c) / scale) as f32)
             }
+            ChannelEncoding::Snorm(_) => {
+                let scale = encoding.max_order() as f32;
+                code.map(|c| (encoding.order_of_code(c) as f32 / scale).max(-1.0))
+            }
+            ChannelEncoding::Srgb8 => code.map(|c| SRGB[(c & 0xff) as usize]),
             ChannelEncoding::Uint(_) => code.map(|c| c as f32),
+            ChannelEncoding::Float16 => code.map(|c| f16::from_bits(c as u16).to_f32()),
             ChannelEncoding::Float32 => code.map(f32::from_bits),
+            ChannelEncoding::Ufloat(_) => {
+                code.map(|c| encoding.value_of_order(i64::from(c)) as f32)
+            }
         }
     }
 
@@ -108,20 +110,38 @@ impl<const N: usize> Arithmetic for Plain<N> {
                 let scale = encoding.max_order() as f64;
                 value.map(|v| (f64::from(v.clamp(0.0, 1.0)) * scale + 0.5) as u32)
             }
+            ChannelEncoding::Snorm(_) => {
+                let scale = encoding.max_order() as f32;
+                value.map(|v| {
+                    let order = (v.clamp(-1.0, 1.0) * scale).round() as i64;
+                    encoding.code_of_order(order)
+                })
+            }
+            ChannelEncoding::Srgb8 => value.map(|v| {
+                let linear = f64::from(v.clamp(0.0, 1.0));
+                (linear_to_srgb(linear) * 255.0 + 0.5) as u32
+            }),
             ChannelEncoding::Uint(_) => {
                 let most = encoding.max_order() as f32;
                 value.map(|v| v.clamp(0.0, most) as u32)
             }
+            ChannelEncoding::Float16 => value.map(|v| u32::from(f16::from_f32(v).to_bits())),
             ChannelEncoding::Float32 => value.map(f32::to_bits),
+            ChannelEncoding::Ufloat(_) => value.map(|v| encoding.nearest_code(f64::from(v))),
         }
     }
 
     #[inline(always)]
     fn blend_operand(&mut self, encoding: ChannelEncoding, value: [f32; N]) -> [f32; N] {
-        match encoding {
-            ChannelEncoding::Unorm(_) => value.map(|v| v.clamp(0.0, 1.0)),
-            _ => value,
+        match encoding.normalized_range() {
+            Some((low, high)) => value.map(|v| v.clamp(low, high)),
+            None => value,
         }
+    }
+
+    #[inline(always)]
+    fn blend_factor(&mut self, encoding: ChannelEncoding, value: [f32; N]) -> [f32; N] {
+        self.blend_operand(encoding, value)
     }
 
     #[inline(always)]
@@ -153,6 +173,17 @@ impl<const N: usize> Arithmetic for Plain<N> {
             zip(a, b, |a, b| a + b)
         }
     }
+
+    #[inline(always)]
+    fn logic(
+        &mut self,
+        encoding: ChannelEncoding,
+        operation: LogicOperation,
+        src: [u32; N],
+        dst: [u32; N],
+    ) -> [u32; N] {
+        std::array::from_fn(|i| logic_operation(encoding, operation, src[i], dst[i]))
+    }
 }
 
 #[cfg(test)]
@@ -169,8 +200,6 @@ mod tests {
                 let exact = f64::from(value) * encoding.max_order() as f64;
                 let off = (f64::from(lanes) - exact).abs();
                 assert!(off <= 0.51, "{bits} bits, {value}: {off}");
-                let due = nearest_order(encoding, value);
-                assert!((i64::from(lanes) - due).abs() <= 1);
             }
         }
     }

@@ -1,15 +1,15 @@
 //! From clip space to the window, and which faces are left.
 
 use crate::arithmetic::Arithmetic;
-use etalon_case::state::{CullMode, FrontFace};
+use etalon_case::state::{CullMode, FrontFace, Viewport};
 
 /// The window position of a clip-space position: x and y in texels from the top left corner, depth
-/// in 0..=1. The viewport covers attachments of the given size (Vulkan, Controlling the Viewport;
-/// WebGPU, 23.2.4: y up in clip space is down in the window).
+/// between the viewport's depths (Vulkan, Controlling the Viewport; WebGPU, 23.2.4: y up in clip
+/// space is down in the window).
 pub fn window_position<A: Arithmetic>(
     a: &mut A,
     position: [f32; 4],
-    size: [u32; 2],
+    viewport: &Viewport,
 ) -> [A::Real; 3] {
     let clip = position.map(|v| a.constant(v));
     let half = a.constant(0.5);
@@ -18,8 +18,8 @@ pub fn window_position<A: Arithmetic>(
     } else {
         [0, 1, 2].map(|i| a.div(clip[i], clip[3]))
     };
-    let axis = |a: &mut A, value: A::Real, length: u32, flip: bool| {
-        let length = length as f32;
+    let [left, top, width, height] = viewport.rect;
+    let axis = |a: &mut A, value: A::Real, start: f32, length: f32, flip: bool| {
         let halved = a.mul(value, half);
         let unit = if flip {
             a.sub(half, halved)
@@ -27,12 +27,18 @@ pub fn window_position<A: Arithmetic>(
             a.add(half, halved)
         };
         let size = a.constant(length);
-        let exact = a.mul(unit, size);
-        a.window_coordinate(exact, length)
+        let scaled = a.mul(unit, size);
+        let start_at = a.constant(start);
+        let exact = a.add(start_at, scaled);
+        a.window_coordinate(exact, start.abs() + length)
     };
-    let x = axis(a, ndc[0], size[0], false);
-    let y = axis(a, ndc[1], size[1], true);
-    let z = a.window_depth(ndc[2]);
+    let x = axis(a, ndc[0], left, width, false);
+    let y = axis(a, ndc[1], top, height, true);
+    let [near, far] = viewport.depth.map(|d| a.constant(d));
+    let range = a.sub(far, near);
+    let scaled = a.mul(ndc[2], range);
+    let exact = a.add(near, scaled);
+    let z = a.window_depth(exact, viewport.depth);
     [x, y, z]
 }
 

@@ -180,6 +180,7 @@ mod tests {
                 api: Api::OpenGl,
                 sub_pixel_bits: 4,
                 max_size: 2048,
+                max_color_attachments: 8,
                 formats: Default::default(),
                 features: Default::default(),
                 sample_positions: Default::default(),

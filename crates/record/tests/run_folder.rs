@@ -34,6 +34,7 @@ fn header() -> Header {
                 api: Api::OpenGlEs,
                 sub_pixel_bits: 8,
                 max_size: 4096,
+                max_color_attachments: 8,
                 formats: Default::default(),
                 features: Default::default(),
                 sample_positions: [(1, vec![[128, 128]])].into(),

@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_backend::Backend;
-use etalon_case::{Case, Library};
+use etalon_case::{Case, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Api, compare};
 use etalon_reference::judgements;
@@ -15,7 +15,7 @@ const IDS: [&str; 3] = [
 ];
 
 fn case(library: &Library, id: &str) -> Case {
-    let reference = library.cases().find(|case| case.id() == id);
+    let reference = library.cases(Profile::Full).find(|case| case.id() == id);
     let reference = reference.unwrap_or_else(|| panic!("there is no case {id}"));
     reference.build().expect("a built-in case builds")
 }

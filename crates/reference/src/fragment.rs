@@ -3,14 +3,16 @@
 use crate::interval::Interval;
 use crate::judge::{Notes, Place, Sample, Walk, codes_text};
 use crate::judging::{Judging, Range};
-use crate::rules::DepthOrder;
+use crate::rules::{DepthOrder, DepthRange};
+use crate::setup::Shape;
 use crate::world::World;
 use etalon_case::scene::{Contents, Draw, StencilFace};
 use etalon_case::state::CompareFunction;
 use etalon_frame::{ChannelEncoding, CodeInterval};
-use etalon_pipeline::shader::{FragmentInput, fragment};
+use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
 use etalon_pipeline::{
     Arithmetic, BlendInput, blend, front_facing, is_culled, stencil_passes, stencil_write,
+    takes_logic,
 };
 use smallvec::SmallVec;
 
@@ -26,7 +28,11 @@ impl Walk<'_> {
     ) {
         let draw = place.draw;
         let front = front_facing(if positive_area { 1 } else { -1 }, draw.front_face);
-        if is_culled(draw.cull, front) {
+        let polygon = matches!(
+            place.primitive.shape,
+            Shape::Triangle(_) | Shape::Outline(_)
+        );
+        if polygon && is_culled(draw.cull, front) {
             notes.add(
                 || place.name(),
                 "cull",
@@ -39,11 +45,34 @@ impl Walk<'_> {
             result.push(world);
             return;
         }
+        let outline = matches!(place.primitive.shape, Shape::Outline(_));
+        if outline && !self.rules.outlines_face_as_polygons.value {
+            self.shade(place, world.clone(), !front, result, notes);
+        }
+        self.shade(place, world, front, result, notes);
+    }
+
+    /// The fragment of a primitive that is not culled, facing front or back.
+    fn shade(
+        &self,
+        place: Place<'_>,
+        world: World,
+        front: bool,
+        result: &mut SmallVec<[World; 2]>,
+        notes: &mut Notes<'_>,
+    ) {
+        let draw = place.draw;
         let mut judging = Judging::new(self.rules);
+        let own_depth = place.primitive.depth_at(place.point);
+        let texel = |t: usize| self.texel(draw, t, place.at);
         let input = FragmentInput {
             color: place.primitive.color,
             front,
-            texel: self.texel(&mut judging, draw, place.at),
+            depth: place
+                .primitive
+                .depth_seen(place.point, self.units, place.at.samples),
+            sample: place.at.sample,
+            texels: [texel(0), texel(1)],
             params: &draw.params,
         };
         let output = fragment(&mut judging, draw.shader, &input);
@@ -57,9 +86,37 @@ impl Walk<'_> {
             },
             None,
         );
+        let (can, must) = self.sample_passes(place, output.color[3]);
+        if !must {
+            notes.add(
+                || place.name(),
+                "coverage",
+                || {
+                    let word = if can { "may or may not" } else { "does not" };
+                    let sample = place.at.sample;
+                    format!("sample {sample} {word} pass mask and alpha to coverage")
+                },
+                Some(self.rules.alpha_to_coverage),
+            );
+            result.push(world.clone());
+            if !can {
+                return;
+            }
+        }
         let pass = &self.scene.passes[place.pass];
         let depth_stencil = pass.depth_stencil;
         let mut world = world;
+        // Without a depth attachment the test passes.
+        let bounded = depth_stencil.filter(|i| self.scene.attachments[*i].format.has_depth());
+        if let (Some(bounds), Some(index)) = (draw.depth_bounds, bounded) {
+            let (can, must) = self.depth_bounds(place, &world, bounds, index, notes);
+            if !must {
+                result.push(world.clone());
+            }
+            if !can {
+                return;
+            }
+        }
         let face = draw
             .stencil
             .as_ref()
@@ -82,8 +139,8 @@ impl Walk<'_> {
                 return;
             }
         }
-        let incoming = output.depth.unwrap_or(place.primitive.depth);
-        let incoming = Range::same(incoming.float.clamp(0.0, 1.0));
+        let exported = output.depth.is_some() || place.primitive.is_biased();
+        let incoming = self.in_range(place, output.depth.unwrap_or(own_depth), exported);
         let outcomes = match (draw.depth, depth_stencil) {
             (Some(state), Some(index)) => {
                 let encoding = self.depth_encoding(index);
@@ -109,16 +166,100 @@ impl Walk<'_> {
                 world.cells[index].stencil = new;
             }
             if passes {
-                self.write(place, &mut world, output.color, incoming, notes);
+                self.write(place, &mut world, &output, incoming, notes);
             }
             result.push(world);
         }
     }
 
-    /// The texel of texture 0 under the sample.
-    fn texel(&self, judging: &mut Judging<'_>, draw: &Draw, at: Sample) -> [Range; 4] {
+    /// The depth that is tested and stored: held to the viewport's range where the draw clamps;
+    /// where it does not, what lies outside of the range is treated as the rules say. The clipped
+    /// fixed-function depth alone lies inside.
+    fn in_range(&self, place: Place<'_>, depth: Range, exported: bool) -> Range {
+        let [near, far] = place.draw.viewport.depth.map(f64::from);
+        let (near, far) = (near.min(far), near.max(far));
+        let held = depth.float.clamp(near, far);
+        let whole = Interval {
+            low: 0.0,
+            high: 1.0,
+        };
+        let unit = depth.float.clamp(0.0, 1.0);
+        let slack = self.rules.float_error.value * 4.0;
+        let outside = depth.float.low < near - slack || depth.float.high > far + slack;
+        Range::same(match self.rules.depth_range.value {
+            _ if place.draw.depth_clamp => held,
+            _ if !(exported && outside) => unit,
+            DepthRange::Undefined => whole,
+            DepthRange::Viewport => held,
+            DepthRange::Either => held.hull(unit),
+        })
+    }
+
+    /// Whether mask and alpha to coverage can and whether they must let the sample through.
+    fn sample_passes(&self, place: Place<'_>, alpha: Range) -> (bool, bool) {
+        let state = place.draw.multisample;
+        if state.mask & (1 << place.at.sample) == 0 {
+            return (false, false);
+        }
+        if !state.alpha_to_coverage {
+            return (true, true);
+        }
+        let alpha = alpha.hull();
+        let several = place.at.samples > 1;
+        (alpha.high > 0.0 || !several, alpha.low >= 1.0)
+    }
+
+    /// Whether the stored depth can and whether it must lie within the bounds (Vulkan, Depth Bounds
+    /// Test).
+    fn depth_bounds(
+        &self,
+        place: Place<'_>,
+        world: &World,
+        [low, high]: [f32; 2],
+        index: usize,
+        notes: &mut Notes<'_>,
+    ) -> (bool, bool) {
+        let encoding = self.depth_encoding(index);
+        let stored = world.cells[index].channels[0];
+        let mut judging = Judging::new(self.rules);
+        let exact = Interval {
+            low: encoding.value_of_order(stored.low),
+            high: encoding.value_of_order(stored.high),
+        };
+        let stored = exact.hull(judging.decode(encoding, stored).hull());
+        // A bound may be compared as it is or as the attachment would hold it.
+        let mut bound = |v: f32| {
+            let v = judging.constant(v);
+            let codes = judging.encode(encoding, v);
+            Interval {
+                low: encoding.value_of_order(codes.low).min(v.float.low),
+                high: encoding.value_of_order(codes.high).max(v.float.high),
+            }
+        };
+        let (low, high) = (bound(low), bound(high));
+        let can = stored.high >= low.low && stored.low <= high.high;
+        let must = stored.low >= low.high && stored.high <= high.low;
+        notes.add(
+            || place.name(),
+            "depth bounds",
+            || {
+                let word = match (can, must) {
+                    (_, true) => "inside",
+                    (true, false) => "perhaps inside",
+                    (false, _) => "outside",
+                };
+                format!("stored {stored} is {word} {low} to {high}")
+            },
+            Some(self.rules.depth_order.citation),
+        );
+        (can, must)
+    }
+
+    /// The texel of a texture under the sample.
+    fn texel(&self, draw: &Draw, t: usize, at: Sample) -> [Range; 4] {
+        let mut judging = Judging::new(self.rules);
         let mut texel = [Range::exact(0.0); 4];
-        if let Some(index) = draw.textures.first() {
+        if let Some(index) = draw.textures.get(t) {
             let attachment = &self.scene.attachments[*index];
             if let Contents::Texels(codes) = &attachment.contents {
                 let encodings = attachment.format.color_channels();
@@ -126,6 +267,10 @@ impl Walk<'_> {
                 for (c, encoding) in encodings.iter().enumerate() {
                     let order = encoding.order_of_code(codes[start + c]);
                     texel[c] = judging.decode(*encoding, CodeInterval::exact(order));
+                }
+                // A format without alpha is fetched with alpha 1.
+                if encodings.len() < 4 {
+                    texel[3] = Range::exact(1.0);
                 }
             }
         }
@@ -208,7 +353,7 @@ impl Walk<'_> {
         &self,
         place: Place<'_>,
         world: &mut World,
-        color: [Range; 4],
+        output: &FragmentOutput<Range>,
         depth: Range,
         notes: &mut Notes<'_>,
     ) {
@@ -227,19 +372,30 @@ impl Walk<'_> {
                 Some(self.rules.store.citation),
             );
         }
+        let mut color = output.color;
+        let mut second = output.second.unwrap_or([Range::exact(0.0); 4]);
+        if place.draw.multisample.alpha_to_one {
+            color[3] = Range::exact(1.0);
+            second[3] = Range::exact(1.0);
+        }
         for (target, index) in place.draw.targets.iter().zip(&pass.color) {
             let attachment = &self.scene.attachments[*index];
             let encodings = attachment.format.color_channels();
             let all: [ChannelEncoding; 4] =
                 std::array::from_fn(|c| encodings[c.min(encodings.len() - 1)]);
+            let missing = missing_channels(encodings.len());
             let cell = &mut world.cells[*index];
             let value = match &target.blend {
                 None => color,
                 Some(state) => {
-                    let dst = std::array::from_fn(|c| judging.decode(all[c], cell.channels[c]));
+                    let dst = std::array::from_fn(|c| match missing[c] {
+                        Some(value) => Range::exact(value),
+                        None => judging.decode(all[c], cell.channels[c]),
+                    });
                     let constant = place.draw.blend_constant.map(|v| judging.constant(v));
                     let input = BlendInput {
                         src: color,
+                        src1: second,
                         dst,
                         constant,
                     };
@@ -270,7 +426,13 @@ impl Walk<'_> {
             };
             for (c, encoding) in encodings.iter().enumerate() {
                 if target.write_mask & (1 << c) != 0 {
-                    cell.channels[c] = judging.encode(*encoding, value[c]);
+                    let codes = judging.encode(*encoding, value[c]);
+                    cell.channels[c] = match place.draw.logic {
+                        Some(operation) if takes_logic(attachment.format) => {
+                            judging.logic(*encoding, operation, codes, cell.channels[c])
+                        }
+                        _ => codes,
+                    };
                 }
             }
             let cell = *cell;
@@ -293,6 +455,15 @@ impl Walk<'_> {
             );
         }
     }
+}
+
+/// What a destination's missing channels count as in blending: colours 0, alpha 1 (Vulkan, Blending;
+/// OpenGL 4.6, 17.3.6).
+fn missing_channels(channels: usize) -> [Option<f64>; 4] {
+    std::array::from_fn(|c| {
+        let value = if c == 3 { 1.0 } else { 0.0 };
+        (c >= channels).then_some(value)
+    })
 }
 
 /// Whether a comparison of some value of `left` with some value of `right` can be true, and whether

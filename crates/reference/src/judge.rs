@@ -1,16 +1,18 @@
 //! The walk over samples and worlds.
 
+use crate::coverage::misses;
+use crate::interval::Interval;
 use crate::judging::{Judging, Range};
-use crate::rules::{Rules, SharedEdge};
-use crate::setup::{self, DrawSetup, Primitive, Side, units_per_texel};
-use crate::world::{Cell, Decision, World, merge};
+use crate::rules::{Resolve, Rules};
+use crate::setup::{self, DrawSetup, Primitive, Shape, Side, units_per_texel};
+use crate::world::{Cell, World, merge};
 use etalon_case::Scene;
 use etalon_case::scene::{Contents, Draw};
 use etalon_frame::{
     Aspect, ChannelEncoding, CodeInterval, LegalSet, LegalSetBuilder, Limits, ReadPath, Story,
     StoryLine, TexelSet, WorldBox,
 };
-use etalon_pipeline::{Arithmetic, Point, is_top_left};
+use etalon_pipeline::{Arithmetic, Point};
 use smallvec::SmallVec;
 use std::borrow::Cow;
 
@@ -107,30 +109,40 @@ pub fn explain(scene: &Scene, limits: &Limits, rules: &Rules, at: Sample) -> Sto
     story
 }
 
+pub(crate) type Worlds = SmallVec<[World; 2]>;
+
+/// Whether a draw's scissor rectangle lets a texel through.
+fn in_scissor(draw: &Draw, at: Sample) -> bool {
+    draw.scissor
+        .is_none_or(|[x, y, w, h]| at.x >= x && at.y >= y && at.x - x < w && at.y - y < h)
+}
+
 pub(crate) struct Walk<'a> {
     pub(crate) scene: &'a Scene,
-    limits: &'a Limits,
+    pub(crate) limits: &'a Limits,
     pub(crate) rules: &'a Rules,
     /// Per pass and draw.
     setups: Vec<Vec<DrawSetup>>,
-    units: i64,
+    pub(crate) units: i64,
 }
 
 /// Where in the scene a fragment comes from.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<'a> {
     pub(crate) at: Sample,
-    /// Where the sample lies relative to the primitive's edges.
-    sides: [Side; 3],
+    /// The sample's position in sub-texel units.
+    pub(crate) point: Point,
+    /// Where it lies relative to a triangle's edges.
+    pub(crate) sides: [Side; 3],
     pub(crate) pass: usize,
-    draw_index: usize,
+    pub(crate) draw_index: usize,
     pub(crate) draw: &'a Draw,
-    primitive_index: usize,
+    pub(crate) primitive_index: usize,
     pub(crate) primitive: &'a Primitive,
     /// Unique over the scene.
-    draw_id: u32,
+    pub(crate) draw_id: u32,
     /// How many worlds there are, for the story.
-    world: usize,
+    pub(crate) world: usize,
 }
 
 /// A note taker: costs nothing while nobody listens.
@@ -175,12 +187,17 @@ impl<'a> Walk<'a> {
             .passes
             .iter()
             .map(|pass| {
-                let target = pass.color.first().copied().or(pass.depth_stencil);
-                let size = target.map_or([1, 1], |i| scene.attachments[i].size);
-                pass.draws
-                    .iter()
-                    .map(|draw| setup::draw(rules, limits, draw, size))
-                    .collect()
+                let context = setup::Context {
+                    rules,
+                    limits,
+                    size: scene.pass_size(pass),
+                    depth: pass
+                        .depth_stencil
+                        .filter(|i| scene.attachments[*i].format.has_depth())
+                        .map(|i| depth_encoding(scene, limits, i)),
+                };
+                let draws = pass.draws.iter();
+                draws.map(|draw| setup::draw(&context, draw)).collect()
             })
             .collect();
         Self {
@@ -194,14 +211,7 @@ impl<'a> Walk<'a> {
 
     /// The encoding in which an attachment stores its depth.
     pub(crate) fn depth_encoding(&self, attachment: usize) -> ChannelEncoding {
-        let format = self.scene.attachments[attachment].format;
-        let of = |encodings: &[ChannelEncoding]| encodings.first().copied();
-        self.limits
-            .formats
-            .get(&format)
-            .and_then(|support| of(&support.depth))
-            .or_else(|| of(format.depth_encodings()))
-            .unwrap_or(ChannelEncoding::Float32)
+        depth_encoding(self.scene, self.limits, attachment)
     }
 
     /// The encodings in which an aspect arrives, and how it is read.
@@ -229,21 +239,25 @@ impl<'a> Walk<'a> {
 
     fn sample(&self, at: Sample, story: Option<&mut Story>) -> TexelSet {
         let mut notes = Notes(story);
-        let mut worlds: SmallVec<[World; 2]> = SmallVec::new();
-        worlds.push(self.initial(at, &mut notes));
+        match self.worlds(at, self.scene.passes.len(), &mut notes) {
+            Some(worlds) => self.finish(&worlds, at, &mut notes),
+            None => TexelSet::default(),
+        }
+    }
+
+    /// The worlds of a sample after the first passes; `None` when it is open.
+    fn worlds(&self, at: Sample, passes: usize, notes: &mut Notes<'_>) -> Option<Worlds> {
+        let mut worlds: Worlds = SmallVec::new();
+        worlds.push(self.initial(at, notes));
         let mut draw_id = 0;
-        let point = self.sample_point(at);
-        for (p, pass) in self.scene.passes.iter().enumerate() {
-            let target = pass.color.first().copied().or(pass.depth_stencil);
-            let shape = target.map(|i| {
-                let a = &self.scene.attachments[i];
-                (a.size, a.samples)
-            });
+        for (p, pass) in self.scene.passes[..passes].iter().enumerate() {
+            let shape = (self.scene.pass_size(pass), self.scene.pass_samples(pass));
             for (d, draw) in pass.draws.iter().enumerate() {
                 draw_id += 1;
-                if shape != Some((at.size, at.samples)) {
+                if shape != (at.size, at.samples) || !in_scissor(draw, at) {
                     continue;
                 }
+                let point = self.sample_point(at);
                 let setup = &self.setups[p][d];
                 for i in &setup.rows[at.y as usize] {
                     let primitive = &setup.primitives[*i as usize];
@@ -251,12 +265,23 @@ impl<'a> Walk<'a> {
                     if x < primitive.bounds[0] || x >= primitive.bounds[2] {
                         continue;
                     }
-                    let sides = [0, 1, 2].map(|i| primitive.side(i, point));
-                    if misses(primitive, sides) {
+                    let (can, must) = self.in_viewport(draw, primitive, point);
+                    if !can {
                         continue;
                     }
+                    let sides = match &primitive.shape {
+                        Shape::Triangle(triangle) => {
+                            let sides = [0, 1, 2].map(|i| triangle.side(i, point));
+                            if misses(triangle, sides) {
+                                continue;
+                            }
+                            sides
+                        }
+                        _ => [Side::Unknown; 3],
+                    };
                     let place = Place {
                         at,
+                        point,
                         sides,
                         pass: p,
                         draw_index: d,
@@ -266,7 +291,15 @@ impl<'a> Walk<'a> {
                         draw_id,
                         world: 0,
                     };
-                    worlds = self.primitive(place, worlds, &mut notes);
+                    let (inside_can, inside_must) = primitive.inside_depth(point);
+                    if !draw.depth_clamp && !inside_can {
+                        continue;
+                    }
+                    let certain = must && (draw.depth_clamp || inside_must);
+                    let before = (!certain).then(|| worlds.clone());
+                    worlds = self.primitive(place, worlds, notes);
+                    // A sample that may be clipped away also keeps what it was.
+                    worlds.extend(before.into_iter().flatten());
                     if !merge(&mut worlds) {
                         notes.add(
                             || place.name(),
@@ -274,15 +307,89 @@ impl<'a> Walk<'a> {
                             || format!("{} worlds: the sample is open", worlds.len()),
                             None,
                         );
-                        return TexelSet::default();
+                        return None;
                     }
                 }
                 // No later draw refers to this one's choices.
                 worlds.iter_mut().for_each(|w| w.decisions.clear());
                 merge(&mut worlds);
             }
+            for (source, target) in pass.color.iter().zip(&pass.resolve) {
+                let Some(target) = *target else { continue };
+                let attachment = &self.scene.attachments[target];
+                if (attachment.size, attachment.samples) == (at.size, at.samples) {
+                    let channels = self.resolve(*source, at, p + 1, notes)?;
+                    worlds
+                        .iter_mut()
+                        .for_each(|w| w.cells[target].channels = channels);
+                    merge(&mut worlds);
+                }
+            }
         }
-        self.finish(&worlds, at, &mut notes)
+        Some(worlds)
+    }
+
+    /// What the samples of a texel are averaged to after the first passes; `None` when a sample is
+    /// open. The hull over samples and worlds, never their product.
+    fn resolve(
+        &self,
+        source: usize,
+        at: Sample,
+        passes: usize,
+        notes: &mut Notes<'_>,
+    ) -> Option<[CodeInterval; 4]> {
+        let attachment = &self.scene.attachments[source];
+        let encodings = attachment.format.color_channels();
+        let mut sum = [Interval::exact(0.0); 4];
+        let mut hull: [Option<CodeInterval>; 4] = [None; 4];
+        for sample in 0..attachment.samples {
+            let at = Sample {
+                samples: attachment.samples,
+                sample,
+                ..at
+            };
+            let worlds = self.worlds(at, passes, &mut Notes(None))?;
+            for (c, encoding) in encodings.iter().enumerate() {
+                let all = worlds.iter().map(|w| w.cells[source].channels[c]);
+                let Some(one) = all.reduce(CodeInterval::hull) else {
+                    continue;
+                };
+                hull[c] = Some(hull[c].map_or(one, |h| h.hull(one)));
+                let value = Judging::new(self.rules).decode(*encoding, one).float;
+                sum[c] = sum[c].corners(value, |a, b| a + b);
+            }
+        }
+        let mut judging = Judging::new(self.rules);
+        let mut result = [CodeInterval::exact(0); 4];
+        for (c, encoding) in encodings.iter().enumerate() {
+            let between = hull[c].unwrap_or(CodeInterval::exact(0));
+            let count = f64::from(attachment.samples);
+            // The error is relative to the samples, of which the sum may be a small difference.
+            let values = [between.low, between.high].map(|o| encoding.value_of_order(o).abs());
+            let error = values[0].max(values[1]) * count * self.rules.float_error.value;
+            let average = sum[c].map_increasing(|v| v / count).widen(error);
+            let average = judging.encode(*encoding, Range::same(average));
+            result[c] = match self.rules.resolve.value {
+                _ if between.is_exact() && !encoding.is_float() => between,
+                Resolve::Between if encoding.is_float() => between.hull(average),
+                Resolve::Between => between,
+                Resolve::Average => average,
+            };
+        }
+        notes.add(
+            || format!("after pass {}", passes - 1),
+            "resolve",
+            || {
+                let text = encodings
+                    .iter()
+                    .zip(&result)
+                    .map(|(e, codes)| codes_text(*e, *codes))
+                    .collect::<Vec<_>>();
+                format!("{} gives {}", attachment.name, text.join(", "))
+            },
+            Some(self.rules.resolve.citation),
+        );
+        Some(result)
     }
 
     fn initial(&self, at: Sample, notes: &mut Notes<'_>) -> World {
@@ -358,34 +465,6 @@ impl<'a> Walk<'a> {
         parts.join(", ")
     }
 
-    /// Carries worlds through one primitive.
-    fn primitive(
-        &self,
-        place: Place<'_>,
-        worlds: SmallVec<[World; 2]>,
-        notes: &mut Notes<'_>,
-    ) -> SmallVec<[World; 2]> {
-        let (least, most) = place.primitive.area;
-        let mut result = SmallVec::new();
-        let several = worlds.len() > 1;
-        for (w, world) in worlds.into_iter().enumerate() {
-            let mut place = place;
-            place.world = if several { w + 1 } else { 0 };
-            for positive in [true, false] {
-                let possible = if positive { most > 0 } else { least < 0 };
-                if !possible {
-                    continue;
-                }
-                self.covered(place, world.clone(), positive, &mut result, notes);
-            }
-            // A triangle that legal snapping can flatten may also cover nothing.
-            if least <= 0 && most >= 0 {
-                result.push(world);
-            }
-        }
-        result
-    }
-
     fn sample_point(&self, at: Sample) -> Point {
         let position = self
             .limits
@@ -400,76 +479,6 @@ impl<'a> Walk<'a> {
         Point {
             x: axis(at.x, position[0]),
             y: axis(at.y, position[1]),
-        }
-    }
-
-    /// Splits a world by the edges that may or may not hold the sample.
-    fn covered(
-        &self,
-        place: Place<'_>,
-        world: World,
-        positive_area: bool,
-        result: &mut SmallVec<[World; 2]>,
-        notes: &mut Notes<'_>,
-    ) {
-        let primitive = place.primitive;
-        let mut pending: SmallVec<[World; 2]> = SmallVec::new();
-        pending.push(world);
-        let inside = inside_of(positive_area);
-        let sides = place.sides;
-        if sides
-            .into_iter()
-            .any(|side| is_outside(side, positive_area))
-        {
-            result.append(&mut pending);
-            return;
-        }
-        for (i, side) in sides.into_iter().enumerate() {
-            if side == inside {
-                continue;
-            }
-            if side == Side::On && self.rules.shared_edge.value == SharedEdge::TopLeft {
-                let (p, q) = primitive.edge(i);
-                let (p, q) = if positive_area { (q, p) } else { (p, q) };
-                if !is_top_left(p, q) {
-                    result.append(&mut pending);
-                    return;
-                }
-                continue;
-            }
-            let (a, b) = (primitive.ids[i], primitive.ids[(i + 1) % 3]);
-            let decision = Decision {
-                draw: place.draw_id,
-                ends: (a.min(b), a.max(b)),
-                owner: (self.rules.shared_edge.value == SharedEdge::Independent)
-                    .then_some(place.primitive_index as u32),
-            };
-            // The side is named by the edge's canonical direction.
-            let wanted = (inside == Side::Positive) == (a < b);
-            let mut inside_worlds = SmallVec::new();
-            for world in pending {
-                match world.decided(decision) {
-                    Some(outcome) if outcome == wanted => inside_worlds.push(world),
-                    Some(_) => result.push(world),
-                    None => {
-                        result.push(world.with(decision, !wanted));
-                        inside_worlds.push(world.with(decision, wanted));
-                    }
-                }
-            }
-            pending = inside_worlds;
-            notes.add(
-                || place.name(),
-                "coverage",
-                || format!("edge {i} is too near to tell: covered and not covered both stand"),
-                Some(match side {
-                    Side::On => self.rules.shared_edge.citation,
-                    _ => self.rules.snap.citation,
-                }),
-            );
-        }
-        for world in pending {
-            self.fragment(place, world, positive_area, result, notes);
         }
     }
 
@@ -533,26 +542,15 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// The side of a triangle's edges on which its inside lies. With y down, a triangle of positive area
-/// (y up) has it where edge functions are negative.
-fn inside_of(positive_area: bool) -> Side {
-    if positive_area {
-        Side::Negative
-    } else {
-        Side::Positive
-    }
-}
-
-/// Whether a sample is outside a triangle whichever way it turns: nothing happens in any world.
-fn misses(primitive: &Primitive, sides: [Side; 3]) -> bool {
-    let (least, most) = primitive.area;
-    let outside = |positive: bool| sides.into_iter().any(|side| is_outside(side, positive));
-    least != 0 && most != 0 && (most < 0 || outside(true)) && (least > 0 || outside(false))
-}
-
-/// Whether a side of one edge is certainly outside a triangle.
-fn is_outside(side: Side, positive_area: bool) -> bool {
-    matches!(side, Side::Positive | Side::Negative) && side != inside_of(positive_area)
+fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {
+    let format = scene.attachments[attachment].format;
+    let of = |encodings: &[ChannelEncoding]| encodings.first().copied();
+    limits
+        .formats
+        .get(&format)
+        .and_then(|support| of(&support.depth))
+        .or_else(|| of(format.depth_encodings()))
+        .unwrap_or(ChannelEncoding::Float32)
 }
 
 pub(crate) fn codes_text(encoding: ChannelEncoding, codes: CodeInterval) -> String {

@@ -1,9 +1,10 @@
 //! The judging number system: intervals that hold every value the rules allow.
 
 use crate::interval::Interval;
-use crate::rules::{BlendPrecision, Rounding, Rules};
-use etalon_frame::{ChannelEncoding, CodeInterval};
-use etalon_pipeline::Arithmetic;
+use crate::rules::{BlendPrecision, FactorClamp, Rounding, Rules};
+use etalon_case::state::LogicOperation;
+use etalon_frame::{ChannelEncoding, CodeInterval, srgb_to_linear};
+use etalon_pipeline::{Arithmetic, logic_operation};
 
 /// Every value that some permitted way of computing arrives at.
 ///
@@ -69,42 +70,93 @@ impl<'r> Judging<'r> {
 
     /// Widens to the destination's codes on either side, where blending may round to them.
     fn round_outward(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
-        match (self.rules.blend.value, encoding) {
-            (BlendPrecision::DestinationCodes, ChannelEncoding::Unorm(_)) => {
+        if self.rules.blend.value != BlendPrecision::DestinationCodes {
+            return value;
+        }
+        match encoding {
+            ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => {
                 let scale = encoding.max_order() as f64;
                 Interval {
                     low: (value.low * scale + INTEGER_SLACK).floor() / scale,
                     high: (value.high * scale - INTEGER_SLACK).ceil() / scale,
                 }
             }
-            _ => value,
+            // The codes of sRGB are spaced in the encoded value.
+            ChannelEncoding::Srgb8 => {
+                let position = |v: f64| encoding.position(v).unwrap_or(0.0);
+                let linear = |code: f64| srgb_to_linear((code / 255.0).clamp(0.0, 1.0));
+                Interval {
+                    low: linear((position(value.low.max(0.0)) + INTEGER_SLACK).floor())
+                        .min(value.low),
+                    high: linear((position(value.high.max(0.0)) - INTEGER_SLACK).ceil())
+                        .max(value.high),
+                }
+            }
+            ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) => {
+                let low = encoding.value_of_order(encoding.order_below(value.low));
+                let high = encoding.value_of_order(encoding.order_above(value.high));
+                // A format without a sign may be computed without one.
+                Interval {
+                    low: low.min(value.low),
+                    high: high.max(value.high),
+                }
+            }
+            ChannelEncoding::Uint(_) | ChannelEncoding::Float32 => value,
         }
     }
 
     fn store(&self, encoding: ChannelEncoding, value: Interval, slack: f64) -> CodeInterval {
-        match encoding {
-            ChannelEncoding::Unorm(_) => {
-                let scale = encoding.max_order() as f64;
-                let (low, high) = match self.rules.store.value {
-                    Rounding::EitherNeighbour => (
-                        (value.low * scale + slack).floor(),
-                        (value.high * scale - slack).ceil(),
-                    ),
-                    Rounding::Within(codes) => (
-                        (value.low * scale - codes).ceil(),
-                        (value.high * scale + codes).floor(),
-                    ),
-                };
-                let inside = |v: f64| v.clamp(0.0, scale) as i64;
-                CodeInterval::new(inside(low), inside(high))
-            }
-            ChannelEncoding::Uint(_) => {
-                CodeInterval::new(value.low.floor() as i64, value.high.ceil() as i64)
-            }
-            ChannelEncoding::Float32 => {
-                CodeInterval::new(order_below(value.low), order_above(value.high))
-            }
+        let ends = (encoding.min_order() as f64, encoding.max_order() as f64);
+        let position = |v: f64| {
+            let held = match encoding.normalized_range() {
+                Some((low, high)) => v.clamp(f64::from(low), f64::from(high)),
+                None => v,
+            };
+            encoding.position(held)
+        };
+        if let (Some(low), Some(high)) = (position(value.low), position(value.high)) {
+            let (low, high) = match self.rules.store.value {
+                Rounding::EitherNeighbour => ((low + slack).floor(), (high - slack).ceil()),
+                Rounding::Within(codes) => ((low - codes).ceil(), (high + codes).floor()),
+            };
+            let least = match encoding {
+                // -1 is stored as the code above the lowest.
+                ChannelEncoding::Snorm(_) => ends.0 + 1.0,
+                _ => ends.0,
+            };
+            let inside = |v: f64| v.clamp(least, ends.1) as i64;
+            return CodeInterval::new(inside(low), inside(high));
         }
+        if encoding == ChannelEncoding::Float32 {
+            return CodeInterval::new(order_below(value.low), order_above(value.high));
+        }
+        let limit = encoding.value_of_order(encoding.max_order());
+        let low = match value.low {
+            v if v > limit => encoding.max_order(),
+            v => encoding.order_below(v),
+        };
+        // Past the largest value, that or infinity.
+        let high = match value.high {
+            v if v > limit => encoding.max_order() + 1,
+            v => encoding.order_above(v),
+        };
+        let low = if value.low < -limit && encoding == ChannelEncoding::Float16 {
+            encoding.min_order() - 1
+        } else {
+            low
+        };
+        // Values below the normal ones may be flushed to zero (Vulkan, 16-Bit Floating-Point Numbers;
+        // OpenGL 4.6, 2.3.4.2 to 2.3.4.4).
+        let normal = match encoding {
+            ChannelEncoding::Ufloat(mantissa) => 1 << mantissa,
+            _ => 1 << 10,
+        };
+        let (low, high) = (low.min(high), high.max(low));
+        let flush = |order: i64, towards: i64| match order.abs() < normal {
+            true => towards,
+            false => order,
+        };
+        CodeInterval::new(flush(low, low.min(0)), flush(high, high.max(0)))
     }
 }
 
@@ -167,11 +219,21 @@ impl Arithmetic for Judging<'_> {
     fn window_coordinate(&mut self, value: Range, length: f32) -> Range {
         let largest = value.float.low.abs().max(value.float.high.abs());
         let scale = largest.max(f64::from(length));
-        Range::same(value.float.widen(scale * self.error()))
+        Range::same(value.float.widen(scale * self.error() * 2.0))
     }
 
-    fn window_depth(&mut self, value: Range) -> Range {
-        Range::same(value.float.widen_relative(self.error()).clamp(0.0, 1.0))
+    /// The terms are as large as the viewport's depths; where the near one is 0 there is but one
+    /// term.
+    fn window_depth(&mut self, value: Range, range: [f32; 2]) -> Range {
+        let error = self.error();
+        Range::same(if range[0] == 0.0 {
+            value.float.widen_relative(error)
+        } else {
+            // Difference, product and sum, each rounded.
+            value
+                .float
+                .widen(f64::from(range[0].max(range[1])) * error * 2.0)
+        })
     }
 
     fn decode(&mut self, encoding: ChannelEncoding, code: CodeInterval) -> Range {
@@ -180,10 +242,11 @@ impl Arithmetic for Judging<'_> {
             high: encoding.value_of_order(code.high),
         };
         match encoding {
-            ChannelEncoding::Unorm(_) => {
+            ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => {
                 let error = self.rules.decode_error.value;
-                let down = |v: f64| if v == 1.0 { v } else { v - v * error };
-                let up = |v: f64| if v == 1.0 { v } else { v + v * error };
+                let exact = |v: f64| v.abs() == 1.0;
+                let down = |v: f64| if exact(v) { v } else { v - v.abs() * error };
+                let up = |v: f64| if exact(v) { v } else { v + v.abs() * error };
                 Range {
                     float: Interval {
                         low: down(value.low),
@@ -192,7 +255,22 @@ impl Arithmetic for Judging<'_> {
                     coarse: value,
                 }
             }
-            ChannelEncoding::Uint(_) | ChannelEncoding::Float32 => Range::same(value),
+            // Within half a code of the encoded value (Direct3D 11.3, 3.2.3.7); no text is tighter.
+            ChannelEncoding::Srgb8 => {
+                let linear = |code: f64| srgb_to_linear(code / 255.0);
+                let ends = |order: i64, by: f64| match order {
+                    0 | 255 => linear(order as f64),
+                    _ => linear(order as f64 + by),
+                };
+                Range::same(Interval {
+                    low: ends(code.low, -0.5),
+                    high: ends(code.high, 0.5),
+                })
+            }
+            ChannelEncoding::Uint(_)
+            | ChannelEncoding::Float16
+            | ChannelEncoding::Float32
+            | ChannelEncoding::Ufloat(_) => Range::same(value),
         }
     }
 
@@ -206,12 +284,15 @@ impl Arithmetic for Judging<'_> {
     }
 
     fn blend_operand(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
-        let clamped = match encoding {
-            ChannelEncoding::Unorm(_) => Range {
-                float: value.float.clamp(0.0, 1.0),
-                coarse: value.coarse.clamp(0.0, 1.0),
-            },
-            _ => value,
+        let clamped = match encoding.normalized_range() {
+            Some((low, high)) => {
+                let (low, high) = (f64::from(low), f64::from(high));
+                Range {
+                    float: value.float.clamp(low, high),
+                    coarse: value.coarse.clamp(low, high),
+                }
+            }
+            None => value,
         };
         Range {
             float: clamped.float,
@@ -233,6 +314,24 @@ impl Arithmetic for Judging<'_> {
         }
     }
 
+    fn blend_factor(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
+        let Some((low, high)) = encoding.normalized_range() else {
+            return value;
+        };
+        let (low, high) = (f64::from(low), f64::from(high));
+        let clamp = |v: Interval| {
+            let clamped = v.clamp(low, high);
+            match self.rules.factor_clamp.value {
+                FactorClamp::Clamped => clamped,
+                FactorClamp::Either => clamped.hull(v),
+            }
+        };
+        Range {
+            float: clamp(value.float),
+            coarse: clamp(value.coarse),
+        }
+    }
+
     fn blend_product(&mut self, encoding: ChannelEncoding, operand: Range, factor: Range) -> Range {
         let product = operand.zip(factor, |a, b| a.corners(b, |a, b| a * b));
         let plain = |v: Interval| v.is(0.0) || v.is(1.0);
@@ -249,7 +348,7 @@ impl Arithmetic for Judging<'_> {
 
     fn blend_sum(
         &mut self,
-        _encoding: ChannelEncoding,
+        encoding: ChannelEncoding,
         a: Range,
         b: Range,
         subtract: bool,
@@ -268,8 +367,37 @@ impl Arithmetic for Judging<'_> {
         };
         Range {
             float,
-            coarse: sum.coarse,
+            coarse: match encoding {
+                // A sum of floats is rounded like any result; one of integers is an integer.
+                ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) | ChannelEncoding::Srgb8 => {
+                    self.round_outward(encoding, sum.coarse)
+                }
+                _ => sum.coarse,
+            },
         }
+    }
+
+    /// Exact for exact codes; the hull of all outcomes for a few codes; anything otherwise.
+    fn logic(
+        &mut self,
+        encoding: ChannelEncoding,
+        operation: LogicOperation,
+        src: CodeInterval,
+        dst: CodeInterval,
+    ) -> CodeInterval {
+        if src.count().saturating_mul(dst.count()) > 64 {
+            return CodeInterval::new(encoding.min_order(), encoding.max_order());
+        }
+        let mut result: Option<CodeInterval> = None;
+        for s in src.low..=src.high {
+            for d in dst.low..=dst.high {
+                let (s, d) = (encoding.code_of_order(s), encoding.code_of_order(d));
+                let code = logic_operation(encoding, operation, s, d);
+                let one = CodeInterval::exact(encoding.order_of_code(code));
+                result = Some(result.map_or(one, |r| r.hull(one)));
+            }
+        }
+        result.unwrap_or(dst)
     }
 }
 

@@ -4,6 +4,8 @@
 //! gives a [`LegalSet`](etalon_frame::LegalSet) per band; [`explain`] tells the story of one sample.
 //! The permissions it grants stand in [`rules`], with their citations.
 
+mod coverage;
+mod depth;
 mod fragment;
 mod interval;
 mod judge;

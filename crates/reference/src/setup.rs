@@ -1,11 +1,14 @@
 //! Primitives, once per scene: snapped positions, facing, depth, and which rows they can reach.
 
+use crate::depth::{Depth, depth_bias};
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
 use crate::rules::{Rules, Snap};
+use etalon_case::Primitive as Vertices;
 use etalon_case::scene::Draw;
-use etalon_frame::Limits;
-use etalon_pipeline::{Point, edge_value, signed_area, window_position};
+use etalon_case::state::PolygonMode;
+use etalon_frame::{ChannelEncoding, Limits};
+use etalon_pipeline::{Arithmetic, Point, edge_value, signed_area, window_position};
 
 /// All positions that legal snapping can give one vertex: x and y each from low to high, in units
 /// of [`units_per_texel`].
@@ -16,7 +19,7 @@ pub(crate) struct SnapBox {
 }
 
 impl SnapBox {
-    fn corners(self) -> [Point; 4] {
+    pub(crate) fn corners(self) -> [Point; 4] {
         let point = |x, y| Point { x, y };
         [
             self.low,
@@ -26,8 +29,21 @@ impl SnapBox {
         ]
     }
 
-    fn is_exact(self) -> bool {
+    pub(crate) fn is_exact(self) -> bool {
         self.low == self.high
+    }
+
+    pub(crate) fn hull(self, other: Self) -> Self {
+        Self {
+            low: Point {
+                x: self.low.x.min(other.low.x),
+                y: self.low.y.min(other.low.y),
+            },
+            high: Point {
+                x: self.high.x.max(other.high.x),
+                y: self.high.y.max(other.high.y),
+            },
+        }
     }
 }
 
@@ -36,21 +52,45 @@ pub(crate) fn units_per_texel(limits: &Limits) -> i64 {
     1 << limits.sub_pixel_bits.max(8)
 }
 
-/// A triangle ready to be judged.
-#[derive(Clone, Debug)]
-pub(crate) struct Primitive {
-    /// Vertices in their own order.
+/// What a primitive covers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Shape {
+    /// The inside of a triangle.
+    Triangle(Triangle),
+    /// The edges of a triangle.
+    Outline(Triangle),
+    /// A line one texel wide.
+    Line([SnapBox; 2]),
+    /// A point of one texel.
+    Point(SnapBox),
+}
+
+/// A triangle's vertices in their own order.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Triangle {
     pub(crate) vertices: [SnapBox; 3],
     /// Which positions coincide: equal numbers, equal places in clip space.
     pub(crate) ids: [u64; 3],
     /// Least and greatest signed area, y up.
     pub(crate) area: (i64, i64),
-    /// Window depth over the whole primitive.
-    pub(crate) depth: Range,
+}
+
+/// A primitive ready to be judged.
+#[derive(Clone, Debug)]
+pub(crate) struct Primitive {
+    pub(crate) shape: Shape,
     /// The flat vertex colour.
     pub(crate) color: [Range; 4],
     /// Texels it may touch: left, top, right, bottom, the last two excluded.
     pub(crate) bounds: [i64; 4],
+    /// Window depth, before any bias.
+    window_depth: Depth,
+    /// Clip-space depth, by which the near and far planes clip.
+    clip_depth: Depth,
+    /// What a depth bias adds.
+    bias: Interval,
+    /// All snapped vertices.
+    all: SnapBox,
 }
 
 /// Where a sample lies relative to one edge.
@@ -66,7 +106,7 @@ pub(crate) enum Side {
     Unknown,
 }
 
-impl Primitive {
+impl Triangle {
     /// The side of the edge from vertex `i` to the next one on which a point lies.
     pub(crate) fn side(&self, i: usize, at: Point) -> Side {
         let (p, q) = (self.vertices[i], self.vertices[(i + 1) % 3]);
@@ -107,6 +147,136 @@ impl Primitive {
     }
 }
 
+/// How often a sample is covered by one primitive: at least, at most.
+pub(crate) type Times = (u32, u32);
+
+impl Primitive {
+    /// How often a sample of a texel is covered by a point, a line or an outline. Triangles are
+    /// walked edge by edge instead.
+    pub(crate) fn times(&self, at: Point, units: i64) -> Times {
+        match &self.shape {
+            Shape::Point(center) => point_times(*center, at, units),
+            Shape::Line(ends) => line_times(*ends, at, units),
+            Shape::Outline(triangle) => {
+                let v = triangle.vertices;
+                let edges = [[v[0], v[1]], [v[1], v[2]], [v[2], v[0]]];
+                let each = edges.map(|edge| line_times(edge, at, units));
+                let most = each.iter().map(|t| t.1).sum();
+                // Edges that overlap may be drawn once.
+                (each.iter().map(|t| t.0).max().unwrap_or(0), most)
+            }
+            Shape::Triangle(_) => (0, 1),
+        }
+    }
+
+    /// The window depth at a sample that the primitive covers, with its bias.
+    pub(crate) fn depth_at(&self, at: Point) -> Range {
+        let depth = self.window_depth.at(at);
+        Range::same(depth.corners(self.bias, |a, b| a + b))
+    }
+
+    /// The depth that a shader sees at the fragment of a texel: of several samples it may stand for
+    /// any point of the texel, and whether a bias is in it is not told.
+    pub(crate) fn depth_seen(&self, at: Point, units: i64, samples: u32) -> Range {
+        let mut depth = self.window_depth.at(at);
+        if samples > 1 {
+            let corner = |v: i64| v.div_euclid(units) * units;
+            for (x, y) in [(0, 0), (units, 0), (0, units), (units, units)] {
+                let point = Point {
+                    x: corner(at.x) + x,
+                    y: corner(at.y) + y,
+                };
+                depth = depth.hull(self.window_depth.beyond(point));
+            }
+        }
+        let biased = depth.corners(self.bias, |a, b| a + b);
+        Range::same(depth.hull(biased))
+    }
+
+    /// Whether a depth bias may move its fragments.
+    pub(crate) fn is_biased(&self) -> bool {
+        !self.bias.is(0.0)
+    }
+
+    /// Whether all vertices lie inside a rectangle of left, top, width and height.
+    pub(crate) fn inside_rect(&self, [x, y, w, h]: [f64; 4]) -> bool {
+        let (low, high) = (self.all.low, self.all.high);
+        low.x as f64 >= x && low.y as f64 >= y && high.x as f64 <= x + w && high.y as f64 <= y + h
+    }
+
+    /// Whether a covered sample lies between near and far plane: whether it can, whether it must.
+    pub(crate) fn inside_depth(&self, at: Point) -> (bool, bool) {
+        let depth = self.clip_depth.at(at);
+        (
+            depth.high >= 0.0 && depth.low <= 1.0,
+            depth.low >= 0.0 && depth.high <= 1.0,
+        )
+    }
+}
+
+fn point_times(center: SnapBox, at: Point, units: i64) -> Times {
+    let half = units / 2;
+    let axis = |low: i64, high: i64, at: i64| {
+        let must = high - half < at && at < low + half;
+        let can = low - half <= at && at <= high + half;
+        (can, must)
+    };
+    let x = axis(center.low.x, center.high.x, at.x);
+    let y = axis(center.low.y, center.high.y, at.y);
+    (u32::from(x.1 && y.1), u32::from(x.0 && y.0))
+}
+
+/// A line that runs along an axis covers, between its end texels, the texels it runs through; at
+/// the ends and beside slanted lines the rules (diamond exit, rectangle) differ, so that anything
+/// is legal there.
+fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
+    let [a, b] = ends;
+    let reach = units * 3 / 2;
+    let all = a.hull(b);
+    let near = at.x >= all.low.x - reach
+        && at.x <= all.high.x + reach
+        && at.y >= all.low.y - reach
+        && at.y <= all.high.y + reach;
+    let distance = edge_value(a.low, b.low, at).unsigned_abs() as f64;
+    let length = ((b.low.x - a.low.x) as f64).hypot((b.low.y - a.low.y) as f64);
+    // Legal snapping moves either end by no more than a texel's sixteenth, far less than the half
+    // texel that the reach leaves over.
+    if !near || (length > 0.0 && distance > length * reach as f64) {
+        return (0, 0);
+    }
+    let along = |low: i64, high: i64, at: i64| at - units > low && at + units < high;
+    // Whether a line between two positions neither runs through the sample's texel nor, one texel
+    // wide, reaches the sample.
+    let misses = |low: i64, high: i64, at: i64| {
+        let far = at < low - units / 2 || at > high + units / 2;
+        far && !touches(low, high, at, units)
+    };
+    let across = |line: SnapBox, low: fn(Point) -> i64, at: i64| {
+        let (least, most) = (low(line.low), low(line.high));
+        let cell = at.div_euclid(units);
+        least.div_euclid(units) == cell
+            && most.div_euclid(units) == cell
+            && most - units / 2 < at
+            && at < least + units / 2
+    };
+    let horizontal = a.low.y == b.low.y && a.high.y == b.high.y;
+    let vertical = a.low.x == b.low.x && a.high.x == b.high.x;
+    let x = (a.high.x.min(b.high.x), a.low.x.max(b.low.x));
+    let y = (a.high.y.min(b.high.y), a.low.y.max(b.low.y));
+    let must = (horizontal && along(x.0, x.1, at.x) && across(all, |p| p.y, at.y))
+        || (vertical && along(y.0, y.1, at.y) && across(all, |p| p.x, at.x));
+    // An axis-aligned line covers nothing farther beside it.
+    let beside = (horizontal && misses(all.low.y, all.high.y, at.y))
+        || (vertical && misses(all.low.x, all.high.x, at.x));
+    (u32::from(must), u32::from(!beside))
+}
+
+/// Whether a line that lies between two positions can run through a sample's texel.
+fn touches(low: i64, high: i64, at: i64, units: i64) -> bool {
+    let cell = at.div_euclid(units);
+    low.div_euclid(units) <= cell && cell <= high.div_euclid(units)
+}
+
 /// A draw's primitives and, per row of texels, those that may touch it, in drawing order.
 #[derive(Clone, Debug)]
 pub(crate) struct DrawSetup {
@@ -114,62 +284,140 @@ pub(crate) struct DrawSetup {
     pub(crate) rows: Vec<Vec<u32>>,
 }
 
-pub(crate) fn draw(rules: &Rules, limits: &Limits, draw: &Draw, size: [u32; 2]) -> DrawSetup {
-    let vertices: Vec<(SnapBox, Range)> = draw
+#[derive(Clone, Copy)]
+struct Vertex {
+    snapped: SnapBox,
+    window_z: Interval,
+    clip_z: Interval,
+    id: u64,
+}
+
+/// What [`draw`] needs to know besides the draw.
+pub(crate) struct Context<'a> {
+    pub(crate) rules: &'a Rules,
+    pub(crate) limits: &'a Limits,
+    /// The size of the pass's attachments.
+    pub(crate) size: [u32; 2],
+    /// The encoding of the pass's depth, where it has one.
+    pub(crate) depth: Option<ChannelEncoding>,
+}
+
+pub(crate) fn draw(context: &Context<'_>, draw: &Draw) -> DrawSetup {
+    let vertices: Vec<Vertex> = draw
         .mesh
         .vertices
         .iter()
-        .map(|v| vertex(rules, limits, v.position, size))
+        .map(|v| vertex(context, draw, v.position))
         .collect();
-    let id = |i: usize| {
-        let [x, y, ..] = draw.mesh.vertices[i].position.map(f32::to_bits);
-        u64::from(x) << 32 | u64::from(y)
-    };
-    let units = units_per_texel(limits);
-    let mut rows = vec![Vec::new(); size[1] as usize];
+    let height = i64::from(context.size[1]);
+    let mut rows = vec![Vec::new(); context.size[1] as usize];
     let mut primitives = Vec::new();
-    for triangle in draw.mesh.triangles(draw.topology) {
-        let boxes = triangle.map(|i| vertices[i].0);
-        let depth = triangle
-            .map(|i| vertices[i].1)
-            .into_iter()
-            .reduce(|a, b| Range::same(a.float.hull(b.float)))
-            .unwrap_or(Range::exact(0.0));
+    if draw.rasterizer_discard {
+        return DrawSetup { primitives, rows };
+    }
+    for one in draw.mesh.primitives(draw.topology) {
+        let own: Vec<usize> = match one {
+            Vertices::Point(i) => vec![i],
+            Vertices::Line(line) => line.to_vec(),
+            Vertices::Triangle(triangle) => triangle.to_vec(),
+        };
         let color = std::array::from_fn(|c| {
-            let values = triangle.map(|i| f64::from(draw.mesh.vertices[i].color[c]));
-            let hull = values
-                .into_iter()
-                .map(Interval::exact)
-                .reduce(Interval::hull)
-                .unwrap_or(Interval::exact(0.0));
-            Range::same(hull)
+            let value = |i: &usize| Interval::exact(f64::from(draw.mesh.vertices[*i].color[c]));
+            let hull = own.iter().map(value).reduce(Interval::hull);
+            Range::same(hull.unwrap_or(Interval::exact(0.0)))
         });
-        let least = |f: fn(Point) -> i64| boxes.iter().map(|b| f(b.low)).min().unwrap_or(0);
-        let most = |f: fn(Point) -> i64| boxes.iter().map(|b| f(b.high)).max().unwrap_or(0);
-        let bounds = [
-            least(|p| p.x).div_euclid(units),
-            least(|p| p.y).div_euclid(units),
-            most(|p| p.x).div_euclid(units) + 1,
-            most(|p| p.y).div_euclid(units) + 1,
-        ];
-        let first = bounds[1].clamp(0, i64::from(size[1])) as usize;
-        let last = bounds[3].clamp(0, i64::from(size[1])) as usize;
+        let boxes = own.iter().map(|i| vertices[*i].snapped);
+        let Some(all) = boxes.reduce(SnapBox::hull) else {
+            continue;
+        };
+        let primitive = primitive(context, draw, one, &vertices, color, all);
+        let first = primitive.bounds[1].clamp(0, height) as usize;
+        let last = primitive.bounds[3].clamp(0, height) as usize;
         for row in &mut rows[first..last.max(first)] {
             row.push(primitives.len() as u32);
         }
-        primitives.push(Primitive {
-            vertices: boxes,
-            ids: triangle.map(id),
-            area: area(boxes),
-            depth,
-            color,
-            bounds,
-        });
+        primitives.push(primitive);
     }
     DrawSetup { primitives, rows }
 }
 
-fn area(boxes: [SnapBox; 3]) -> (i64, i64) {
+fn primitive(
+    context: &Context<'_>,
+    draw: &Draw,
+    one: Vertices,
+    vertices: &[Vertex],
+    color: [Range; 4],
+    all: SnapBox,
+) -> Primitive {
+    let units = units_per_texel(context.limits);
+    let grid = units >> context.limits.sub_pixel_bits;
+    let error = context.rules.float_error.value;
+    let mut bias = Interval::exact(0.0);
+    let (shape, window_depth, clip_depth) = match one {
+        Vertices::Point(i) => {
+            let v = vertices[i];
+            (
+                Shape::Point(v.snapped),
+                Depth::flat(&[v.window_z]),
+                Depth::flat(&[v.clip_z]),
+            )
+        }
+        Vertices::Line(line) => {
+            let v = line.map(|i| vertices[i]);
+            (
+                Shape::Line(v.map(|v| v.snapped)),
+                Depth::along(v.map(|v| v.snapped), v.map(|v| v.window_z), units),
+                Depth::along(v.map(|v| v.snapped), v.map(|v| v.clip_z), units),
+            )
+        }
+        Vertices::Triangle(triangle) => {
+            let v = triangle.map(|i| vertices[i]);
+            let boxes = v.map(|v| v.snapped);
+            let triangle = Triangle {
+                vertices: boxes,
+                ids: v.map(|v| v.id),
+                area: area(boxes),
+            };
+            let window = Depth::over(boxes, v.map(|v| v.window_z), grid, error);
+            bias = depth_bias(context, draw, boxes, v.map(|v| v.window_z));
+            let shape = match draw.polygon_mode {
+                PolygonMode::Fill => Shape::Triangle(triangle),
+                PolygonMode::Line => Shape::Outline(triangle),
+            };
+            let mut depths = [window, Depth::over(boxes, v.map(|v| v.clip_z), grid, error)];
+            if draw.polygon_mode == PolygonMode::Line {
+                // An edge reaches beyond the triangle as a line does.
+                for depth in &mut depths {
+                    let steep = depth.steepest();
+                    depth.error += steep * 2.0 * units as f64;
+                    depth.hull = depth.hull.widen(steep * 2.0 * units as f64);
+                }
+            }
+            let [window, clip] = depths;
+            (shape, window, clip)
+        }
+    };
+    let reach = match shape {
+        Shape::Triangle(_) => 0,
+        _ => 2 * units,
+    };
+    Primitive {
+        shape,
+        color,
+        bounds: [
+            (all.low.x - reach).div_euclid(units),
+            (all.low.y - reach).div_euclid(units),
+            (all.high.x + reach).div_euclid(units) + 1,
+            (all.high.y + reach).div_euclid(units) + 1,
+        ],
+        window_depth,
+        clip_depth,
+        bias,
+        all,
+    }
+}
+
+pub(crate) fn area(boxes: [SnapBox; 3]) -> (i64, i64) {
     // One corner settles most triangles; see `side`.
     let size = |b: SnapBox| (b.high.x - b.low.x).max(b.high.y - b.low.y);
     let moved = boxes.map(size).into_iter().max().unwrap_or(0);
@@ -193,22 +441,29 @@ fn area(boxes: [SnapBox; 3]) -> (i64, i64) {
     (least, most)
 }
 
-fn vertex(rules: &Rules, limits: &Limits, position: [f32; 4], size: [u32; 2]) -> (SnapBox, Range) {
-    let window = window_position(&mut Judging::new(rules), position, size);
+fn vertex(context: &Context<'_>, draw: &Draw, position: [f32; 4]) -> Vertex {
+    let mut judging = Judging::new(context.rules);
+    let window = window_position(&mut judging, position, &draw.viewport);
+    let clip = judging.constant(position[2] / position[3]);
+    let limits = context.limits;
     let grid = f64::from(1_u32 << limits.sub_pixel_bits);
     let step = units_per_texel(limits) >> limits.sub_pixel_bits;
     let snap = |range: Range| -> (i64, i64) {
         let Interval { low, high } = range.hull();
-        let (low, high) = match rules.snap.value {
+        let (low, high) = match context.rules.snap.value {
             Snap::EitherSide => ((low * grid).floor(), (high * grid).ceil()),
             Snap::Nearest => ((low * grid + 0.5).floor(), (high * grid + 0.5).floor()),
         };
         (low as i64 * step, high as i64 * step)
     };
     let (x, y) = (snap(window[0]), snap(window[1]));
-    let snapped = SnapBox {
-        low: Point { x: x.0, y: y.0 },
-        high: Point { x: x.1, y: y.1 },
-    };
-    (snapped, window[2])
+    Vertex {
+        snapped: SnapBox {
+            low: Point { x: x.0, y: y.0 },
+            high: Point { x: x.1, y: y.1 },
+        },
+        window_z: window[2].hull(),
+        clip_z: clip.hull(),
+        id: u64::from(position[0].to_bits()) << 32 | u64::from(position[1].to_bits()),
+    }
 }

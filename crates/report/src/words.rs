@@ -113,9 +113,12 @@ pub(crate) fn channel_of(m: &ChannelMismatch) -> String {
 /// A code as it is stored.
 pub(crate) fn code_text(encoding: ChannelEncoding, code: u32) -> String {
     match encoding {
-        ChannelEncoding::Unorm(bits) => {
+        ChannelEncoding::Unorm(bits) | ChannelEncoding::Snorm(bits) => {
             format!("0x{code:0width$x}", width = usize::from(bits).div_ceil(4))
         }
+        ChannelEncoding::Srgb8 => format!("0x{code:02x}"),
+        ChannelEncoding::Float16 => format!("0x{code:04x}"),
+        ChannelEncoding::Ufloat(_) => format!("0x{code:03x}"),
         ChannelEncoding::Uint(_) => code.to_string(),
         ChannelEncoding::Float32 => format!("0x{code:08x}"),
     }

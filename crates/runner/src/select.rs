@@ -1,6 +1,6 @@
 //! Which cases run.
 
-use etalon_case::{CaseRef, Library};
+use etalon_case::{CaseRef, Library, Profile};
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
 use thiserror::Error;
 
@@ -45,14 +45,21 @@ impl Globs {
     }
 }
 
-/// The cases whose ids match any of the globs; all where there are none. See [`Globs`].
+/// The cases of a profile whose ids match any of the globs; all where there are none. See [`Globs`].
 ///
 /// # Errors
 /// When a glob cannot be read.
-pub fn select<'a>(library: &'a Library, globs: &[String]) -> Result<Selection<'a>, SelectError> {
+pub fn select<'a>(
+    library: &'a Library,
+    profile: Profile,
+    globs: &[String],
+) -> Result<Selection<'a>, SelectError> {
     let globs = Globs::new(globs)?;
     Ok(Selection {
-        cases: library.cases().filter(|c| globs.matches(&c.id())).collect(),
+        cases: library
+            .cases(profile)
+            .filter(|c| globs.matches(&c.id()))
+            .collect(),
     })
 }
 

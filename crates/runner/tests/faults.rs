@@ -5,7 +5,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared, Unavailable};
-use etalon_case::{Case, Library, Scene};
+use etalon_case::{Case, Library, Profile, Scene};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Feature, Frame, Limits, Requirement};
 use etalon_record::{Expectations, FORMAT, Header, Machine, Record, Run, Verdict};
@@ -243,7 +243,10 @@ fn cases(folder: &Path) -> Vec<Case> {
     fs::create_dir_all(folder.join("cases")).unwrap();
     fs::write(folder.join("cases/fill.json"), text).unwrap();
     let library = Library::from_folder(&folder.join("cases")).unwrap();
-    library.cases().map(|c| c.build().unwrap()).collect()
+    library
+        .cases(Profile::Full)
+        .map(|c| c.build().unwrap())
+        .collect()
 }
 
 /// Runs all cases on one worker; what was recorded, in order.

@@ -139,7 +139,7 @@ impl Drop for VulkanBackend {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_case::Library;
+    use etalon_case::{Library, Profile};
 
     /// The validation layer names every object that outlives its device.
     #[test]
@@ -150,7 +150,7 @@ mod tests {
         };
         let backend = open("vulkan:0", &options).expect("this test needs a Vulkan driver");
         let library = Library::built_in().expect("built-in files parse");
-        for case in library.cases().step_by(251) {
+        for case in library.cases(Profile::Full).step_by(251) {
             let scene = case.build().expect("built-in cases build").scene;
             if backend.limits().missing(&scene.requirements()).is_none() {
                 let mut prepared = backend.prepare(&scene).expect("the limits allow it");

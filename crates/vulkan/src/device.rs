@@ -24,8 +24,9 @@ pub(crate) struct Device {
     pub(crate) memory: vk::PhysicalDeviceMemoryProperties,
     /// Whether the queue runs compute shaders.
     pub(crate) compute: bool,
-    /// Whether colour attachments may differ in blending.
-    pub(crate) independent_blend: bool,
+    /// The optional features that the suite has a use for, as far as the device has them; all are
+    /// enabled.
+    pub(crate) features: vk::PhysicalDeviceFeatures,
     /// Valid bits of a timestamp; 0 where there are none.
     pub(crate) timestamp_bits: u32,
 }
@@ -105,6 +106,22 @@ fn short_name(id: vk::DriverId, vendor: u32) -> String {
     }
 }
 
+/// Those of a device's features that the suite asks for.
+fn wanted(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures {
+    vk::PhysicalDeviceFeatures {
+        alpha_to_one: has.alpha_to_one,
+        depth_bias_clamp: has.depth_bias_clamp,
+        depth_bounds: has.depth_bounds,
+        depth_clamp: has.depth_clamp,
+        dual_src_blend: has.dual_src_blend,
+        fill_mode_non_solid: has.fill_mode_non_solid,
+        independent_blend: has.independent_blend,
+        logic_op: has.logic_op,
+        sample_rate_shading: has.sample_rate_shading,
+        ..vk::PhysicalDeviceFeatures::default()
+    }
+}
+
 impl Device {
     pub(crate) fn new(
         instance: Rc<Instance>,
@@ -143,8 +160,7 @@ impl Device {
         let queues = [vk::DeviceQueueCreateInfo::default()
             .queue_family_index(index)
             .queue_priorities(&priorities)];
-        let enabled = vk::PhysicalDeviceFeatures::default()
-            .independent_blend(features.independent_blend != 0);
+        let enabled = wanted(&features);
         // Both are mandatory in Vulkan 1.3.
         let mut enabled13 = vk::PhysicalDeviceVulkan13Features::default()
             .dynamic_rendering(true)
@@ -173,7 +189,7 @@ impl Device {
             limits: properties.limits,
             memory,
             compute: family.queue_flags.contains(compute),
-            independent_blend: features.independent_blend != 0,
+            features: enabled,
             timestamp_bits: if properties.limits.timestamp_period > 0.0 {
                 family.timestamp_valid_bits
             } else {

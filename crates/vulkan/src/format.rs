@@ -9,15 +9,42 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Native {
     pub(crate) raw: vk::Format,
-    /// Whether it can be drawn to with every state; `rgba32float` need not.
+    /// Whether it can be drawn to.
     pub(crate) attachment: bool,
+    /// Whether it can be blended into.
+    pub(crate) blendable: bool,
 }
 
-/// The candidates for each format, the best first. WebGPU leaves the depth of `depth24plus` open,
-/// and whether `stencil8` has a depth aspect beside it.
+/// The candidates for each format, the best first. They hold the same channels of the same widths,
+/// whatever their order in memory: codes are packed and unpacked by [`layout`]. WebGPU leaves the
+/// depth of `depth24plus` open, and whether `stencil8` has a depth aspect beside it.
 fn candidates(format: TextureFormat) -> &'static [vk::Format] {
     match format {
+        TextureFormat::R8Unorm => &[vk::Format::R8_UNORM],
+        TextureFormat::Rg8Unorm => &[vk::Format::R8G8_UNORM],
         TextureFormat::Rgba8Unorm => &[vk::Format::R8G8B8A8_UNORM],
+        TextureFormat::Rgba8UnormSrgb => &[vk::Format::R8G8B8A8_SRGB, vk::Format::B8G8R8A8_SRGB],
+        TextureFormat::Bgra8Unorm => &[vk::Format::B8G8R8A8_UNORM],
+        TextureFormat::Rgba8Snorm => &[vk::Format::R8G8B8A8_SNORM],
+        TextureFormat::Rgb10a2Unorm => &[
+            vk::Format::A2B10G10R10_UNORM_PACK32,
+            vk::Format::A2R10G10B10_UNORM_PACK32,
+        ],
+        TextureFormat::B5g6r5Unorm => &[
+            vk::Format::R5G6B5_UNORM_PACK16,
+            vk::Format::B5G6R5_UNORM_PACK16,
+        ],
+        TextureFormat::Bgr5a1Unorm => &[
+            vk::Format::A1R5G5B5_UNORM_PACK16,
+            vk::Format::R5G5B5A1_UNORM_PACK16,
+            vk::Format::B5G5R5A1_UNORM_PACK16,
+        ],
+        TextureFormat::Bgra4Unorm => &[
+            vk::Format::B4G4R4A4_UNORM_PACK16,
+            vk::Format::R4G4B4A4_UNORM_PACK16,
+        ],
+        TextureFormat::Rg11b10Ufloat => &[vk::Format::B10G11R11_UFLOAT_PACK32],
+        TextureFormat::Rgba16Float => &[vk::Format::R16G16B16A16_SFLOAT],
         TextureFormat::Rgba32Float => &[vk::Format::R32G32B32A32_SFLOAT],
         TextureFormat::Depth16Unorm => &[vk::Format::D16_UNORM],
         TextureFormat::Depth24Plus => &[vk::Format::X8_D24_UNORM_PACK32, vk::Format::D32_SFLOAT],
@@ -35,20 +62,21 @@ fn candidates(format: TextureFormat) -> &'static [vk::Format] {
     }
 }
 
-/// The formats that the device supports, as [`etalon_frame::Limits::formats`] promises them.
+/// The formats that the device supports, as [`etalon_frame::Limits::formats`] promises them: colours
+/// can be copied and fetched from, depth and stencil copied and drawn to. A candidate that can also
+/// be drawn to goes before one that cannot.
 pub(crate) fn natives(device: &Device) -> BTreeMap<TextureFormat, Native> {
     let transfer = vk::FormatFeatureFlags::TRANSFER_SRC | vk::FormatFeatureFlags::TRANSFER_DST;
-    let sampled = vk::FormatFeatureFlags::SAMPLED_IMAGE;
-    let drawn =
-        vk::FormatFeatureFlags::COLOR_ATTACHMENT | vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND;
-    let tested = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
     let mut natives = BTreeMap::new();
     for format in TextureFormat::ALL {
-        let (needed, attachment) = match format {
-            TextureFormat::Rgba8Unorm => (transfer | sampled | drawn, drawn),
-            TextureFormat::Rgba32Float => (transfer | sampled, drawn),
-            _ => (transfer | tested, tested),
+        let (needed, attachment) = if format.is_color() {
+            let sampled = vk::FormatFeatureFlags::SAMPLED_IMAGE;
+            (transfer | sampled, vk::FormatFeatureFlags::COLOR_ATTACHMENT)
+        } else {
+            let tested = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
+            (transfer | tested, tested)
         };
+        let mut usable = Vec::new();
         for raw in candidates(format) {
             // SAFETY: the physical device is of this living instance.
             let properties = unsafe {
@@ -59,16 +87,56 @@ pub(crate) fn natives(device: &Device) -> BTreeMap<TextureFormat, Native> {
             };
             let has = properties.optimal_tiling_features;
             if has.contains(needed) {
-                let native = Native {
+                usable.push(Native {
                     raw: *raw,
                     attachment: has.contains(attachment),
-                };
-                natives.insert(format, native);
-                break;
+                    blendable: has.contains(vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND),
+                });
             }
+        }
+        let drawn = usable.iter().find(|n| n.attachment);
+        if let Some(native) = drawn.or(usable.first()) {
+            natives.insert(format, *native);
         }
     }
     natives
+}
+
+/// Where the channels of a colour format lie in a texel's little-endian bytes: the first bit and the
+/// width of each, red to alpha (Vulkan, Packed Formats; Byte mappings).
+pub(crate) fn layout(raw: vk::Format) -> &'static [(u32, u32)] {
+    match raw {
+        vk::Format::R8_UNORM => &[(0, 8)],
+        vk::Format::R8G8_UNORM => &[(0, 8), (8, 8)],
+        vk::Format::R8G8B8A8_UNORM | vk::Format::R8G8B8A8_SRGB | vk::Format::R8G8B8A8_SNORM => {
+            &[(0, 8), (8, 8), (16, 8), (24, 8)]
+        }
+        vk::Format::B8G8R8A8_UNORM | vk::Format::B8G8R8A8_SRGB => {
+            &[(16, 8), (8, 8), (0, 8), (24, 8)]
+        }
+        vk::Format::A2B10G10R10_UNORM_PACK32 => &[(0, 10), (10, 10), (20, 10), (30, 2)],
+        vk::Format::A2R10G10B10_UNORM_PACK32 => &[(20, 10), (10, 10), (0, 10), (30, 2)],
+        vk::Format::R5G6B5_UNORM_PACK16 => &[(11, 5), (5, 6), (0, 5)],
+        vk::Format::B5G6R5_UNORM_PACK16 => &[(0, 5), (5, 6), (11, 5)],
+        vk::Format::A1R5G5B5_UNORM_PACK16 => &[(10, 5), (5, 5), (0, 5), (15, 1)],
+        vk::Format::R5G5B5A1_UNORM_PACK16 => &[(11, 5), (6, 5), (1, 5), (0, 1)],
+        vk::Format::B5G5R5A1_UNORM_PACK16 => &[(1, 5), (6, 5), (11, 5), (0, 1)],
+        vk::Format::R4G4B4A4_UNORM_PACK16 => &[(12, 4), (8, 4), (4, 4), (0, 4)],
+        vk::Format::B4G4R4A4_UNORM_PACK16 => &[(4, 4), (8, 4), (12, 4), (0, 4)],
+        vk::Format::B10G11R11_UFLOAT_PACK32 => &[(0, 11), (11, 11), (22, 10)],
+        vk::Format::R16G16B16A16_SFLOAT => &[(0, 16), (16, 16), (32, 16), (48, 16)],
+        vk::Format::R32G32B32A32_SFLOAT => &[(0, 32), (32, 32), (64, 32), (96, 32)],
+        _ => &[],
+    }
+}
+
+/// The format through which a shader sees the stored codes of another that it would see converted.
+pub(crate) fn unconverted(raw: vk::Format) -> Option<vk::Format> {
+    match raw {
+        vk::Format::R8G8B8A8_SRGB => Some(vk::Format::R8G8B8A8_UNORM),
+        vk::Format::B8G8R8A8_SRGB => Some(vk::Format::B8G8R8A8_UNORM),
+        _ => None,
+    }
 }
 
 /// All aspects of a Vulkan format, also those that ours does not name.
@@ -115,51 +183,59 @@ pub(crate) fn depth_encoding(raw: vk::Format) -> ChannelEncoding {
     }
 }
 
-/// Bytes that one channel takes in a buffer (Vulkan, Copying Data Between Buffers and Images).
-pub(crate) fn channel_bytes(encoding: ChannelEncoding) -> usize {
-    match encoding {
-        ChannelEncoding::Unorm(bits) | ChannelEncoding::Uint(bits) => match bits {
-            0..=8 => 1,
-            9..=16 => 2,
-            _ => 4,
-        },
-        ChannelEncoding::Float32 => 4,
-    }
-}
-
-/// Reads codes out of a buffer of little-endian channels.
-pub(crate) fn decode(bytes: &[u8], encodings: &[ChannelEncoding]) -> Vec<u32> {
-    // All our formats have channels of one encoding.
-    let Some(encoding) = encodings.first().copied() else {
-        return Vec::new();
-    };
-    match channel_bytes(encoding) {
-        1 => bytes.iter().map(|b| u32::from(*b)).collect(),
-        2 => bytes
-            .chunks_exact(2)
-            .map(|c| u32::from(u16::from_le_bytes([c[0], c[1]])))
-            .collect(),
-        _ => {
-            // The upper bits of a copied 24-bit depth are undefined.
-            let mask = match encoding {
-                ChannelEncoding::Unorm(24) => 0x00ff_ffff,
-                _ => u32::MAX,
-            };
-            bytes
-                .chunks_exact(4)
-                .map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]) & mask)
-                .collect()
+/// Bytes that one texel's aspect takes in a buffer (Vulkan, Copying Data Between Buffers and
+/// Images).
+pub(crate) fn texel_bytes(raw: vk::Format, aspect: Aspect) -> usize {
+    match (aspect, depth_encoding(raw)) {
+        (Aspect::Color, _) => {
+            let bits: u32 = layout(raw).iter().map(|(_, width)| width).sum();
+            bits.div_ceil(8) as usize
         }
+        (Aspect::Depth, ChannelEncoding::Unorm(16)) => 2,
+        (Aspect::Depth, _) => 4,
+        (Aspect::Stencil, _) => 1,
     }
 }
 
-/// Writes codes of a colour format as its texels lie in a buffer.
-pub(crate) fn encode(codes: &[u32], format: TextureFormat) -> Vec<u8> {
-    let encoding = format.color_channels().first().copied();
-    let bytes = encoding.map_or(4, channel_bytes);
-    let mut out = Vec::with_capacity(codes.len() * bytes);
-    for code in codes {
-        out.extend_from_slice(&code.to_le_bytes()[..bytes]);
+/// Where the channels of an aspect lie in the bytes of a copied texel. The upper bits of a copied
+/// 24-bit depth are undefined.
+fn copied_layout(raw: vk::Format, aspect: Aspect) -> &'static [(u32, u32)] {
+    match (aspect, depth_encoding(raw)) {
+        (Aspect::Color, _) => layout(raw),
+        (Aspect::Depth, ChannelEncoding::Unorm(16)) => &[(0, 16)],
+        (Aspect::Depth, ChannelEncoding::Unorm(24)) => &[(0, 24)],
+        (Aspect::Depth, _) => &[(0, 32)],
+        (Aspect::Stencil, _) => &[(0, 8)],
+    }
+}
+
+/// The codes of copied texels, channel by channel.
+pub(crate) fn decode(bytes: &[u8], raw: vk::Format, aspect: Aspect) -> Vec<u32> {
+    let layout = copied_layout(raw, aspect);
+    let texels = bytes.chunks_exact(texel_bytes(raw, aspect).max(1));
+    let mut codes = Vec::with_capacity(texels.len() * layout.len());
+    for texel in texels {
+        let mut whole = [0; 16];
+        whole[..texel.len()].copy_from_slice(texel);
+        let bits = u128::from_le_bytes(whole);
+        codes.extend(layout.iter().map(|(shift, width)| {
+            let mask = u128::from(u32::MAX >> (32 - width));
+            (bits >> shift & mask) as u32
+        }));
+    }
+    codes
+}
+
+/// Codes of a colour format as its texels lie in a buffer.
+pub(crate) fn encode(codes: &[u32], raw: vk::Format) -> Vec<u8> {
+    let (layout, bytes) = (layout(raw), texel_bytes(raw, Aspect::Color));
+    let mut out = Vec::with_capacity(codes.len() / layout.len().max(1) * bytes);
+    for texel in codes.chunks_exact(layout.len().max(1)) {
+        let channels = layout.iter().zip(texel);
+        let bits = channels.fold(0_u128, |bits, ((shift, _), code)| {
+            bits | u128::from(*code) << shift
+        });
+        out.extend_from_slice(&bits.to_le_bytes()[..bytes]);
     }
     out
 }
@@ -170,16 +246,72 @@ mod tests {
 
     #[test]
     fn a_copied_24_bit_depth_drops_its_undefined_bits() {
-        let codes = decode(&[1, 2, 3, 0xff], &[ChannelEncoding::Unorm(24)]);
+        let raw = vk::Format::X8_D24_UNORM_PACK32;
+        let codes = decode(&[1, 2, 3, 0xff], raw, Aspect::Depth);
         assert_eq!(codes, [0x0003_0201]);
     }
 
     #[test]
-    fn uploads_decode_to_themselves() {
-        for format in [TextureFormat::Rgba8Unorm, TextureFormat::Rgba32Float] {
-            let codes = [0, 1, 127, 255];
-            let bytes = encode(&codes, format);
-            assert_eq!(decode(&bytes, format.color_channels()), codes);
+    fn every_candidate_holds_the_channels_of_its_format_without_gap_or_overlap() {
+        for format in TextureFormat::ALL.into_iter().filter(|f| f.is_color()) {
+            for raw in candidates(format) {
+                let (layout, encodings) = (layout(*raw), format.color_channels());
+                assert_eq!(layout.len(), encodings.len(), "{raw:?}");
+                let mut seen = 0_u128;
+                for ((shift, width), encoding) in layout.iter().zip(encodings) {
+                    let codes = encoding.max_order() - encoding.min_order();
+                    let sign = u32::from(encoding.min_order() < 0);
+                    let bits = match encoding {
+                        ChannelEncoding::Float16 | ChannelEncoding::Ufloat(6) => {
+                            16 - 5 * (1 - sign)
+                        }
+                        ChannelEncoding::Ufloat(_) => 10,
+                        ChannelEncoding::Float32 => 32,
+                        _ => codes.ilog2() + 1,
+                    };
+                    assert_eq!(*width, bits, "{raw:?}");
+                    let mask = ((1_u128 << width) - 1) << shift;
+                    assert_eq!(seen & mask, 0, "{raw:?}");
+                    seen |= mask;
+                }
+                let total = 8 * texel_bytes(*raw, Aspect::Color) as u32;
+                assert_eq!(seen.trailing_ones(), total, "{raw:?}");
+            }
         }
+    }
+
+    #[test]
+    fn uploads_decode_to_themselves() {
+        for format in TextureFormat::ALL.into_iter().filter(|f| f.is_color()) {
+            let order = |i: usize, e: &ChannelEncoding| match i % 3 {
+                0 => e.max_order(),
+                1 => e.min_order(),
+                _ => 1,
+            };
+            let channels = format.color_channels().iter().enumerate();
+            let codes: Vec<u32> = channels
+                .map(|(i, e)| e.code_of_order(order(i, e)))
+                .collect();
+            let two = [codes.clone(), codes].concat();
+            for raw in candidates(format) {
+                let bytes = encode(&two, *raw);
+                assert_eq!(decode(&bytes, *raw, Aspect::Color), two, "{raw:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn packed_channels_begin_at_the_highest_bit() {
+        let codes = [31, 0, 0];
+        assert_eq!(encode(&codes, vk::Format::R5G6B5_UNORM_PACK16), [0, 0xf8]);
+        assert_eq!(encode(&codes, vk::Format::B5G6R5_UNORM_PACK16), [0x1f, 0]);
+        let codes = [0, 0, 0, 1];
+        assert_eq!(encode(&codes, vk::Format::A1R5G5B5_UNORM_PACK16), [0, 0x80]);
+        let codes = [1, 2, 3, 4];
+        assert_eq!(encode(&codes, vk::Format::B8G8R8A8_UNORM), [3, 2, 1, 4]);
+        assert_eq!(
+            encode(&codes, vk::Format::B4G4R4A4_UNORM_PACK16),
+            [0x14, 0x32]
+        );
     }
 }

@@ -1,11 +1,14 @@
-//! What the processor gives the device: vertices, parameters, texels.
+//! What the processor gives the device: vertices, indices, parameters, texels.
 
 use crate::device::Device;
-use crate::format;
+use crate::format::{self, Native};
 use crate::memory::Buffer;
 use etalon_backend::BackendError;
 use etalon_case::scene::{Contents, Draw, Params};
-use etalon_case::{Scene, Vertex};
+use etalon_case::state::PrimitiveTopology;
+use etalon_case::{RESTART, Scene, Vertex};
+use etalon_frame::TextureFormat;
+use std::collections::BTreeMap;
 use std::mem::size_of;
 
 /// Bytes of the parameter block.
@@ -26,10 +29,71 @@ impl Placer {
     }
 }
 
+/// Where one draw's inputs lie, and how many of them there are.
+pub(crate) struct DrawInputs {
+    pub(crate) vertices: u64,
+    pub(crate) params: u64,
+    /// How many vertices, or indices where there are any, are drawn.
+    pub(crate) count: usize,
+    /// The indices, where the mesh has any.
+    indices: Option<(u64, Vec<u32>)>,
+}
+
+impl DrawInputs {
+    fn place(placer: &mut Placer, uniform: u64, draw: &Draw) -> Self {
+        let params = placer.place(PARAMS_BYTES, uniform);
+        let mesh = &draw.mesh;
+        let vertices = placer.place(mesh.bytes().len() as u64, size_of::<Vertex>() as u64);
+        let indices = mesh.indices.as_ref().map(|all| {
+            let indices = device_indices(draw.topology, all);
+            let bytes = indices.len() * size_of::<u32>();
+            (placer.place(bytes as u64, size_of::<u32>() as u64), indices)
+        });
+        Self {
+            vertices,
+            params,
+            count: match &indices {
+                Some((_, indices)) => indices.len(),
+                None => mesh.vertices.len(),
+            },
+            indices,
+        }
+    }
+
+    /// Where the indices lie.
+    pub(crate) fn index_offset(&self) -> Option<u64> {
+        self.indices.as_ref().map(|(offset, _)| *offset)
+    }
+
+    /// Whether an index ends a strip or fan.
+    pub(crate) fn restarts(&self) -> bool {
+        let indices = self.indices.as_ref().map(|(_, indices)| indices);
+        indices.is_some_and(|i| i.contains(&RESTART))
+    }
+}
+
+/// The indices as the device may have them: lists cannot be restarted without an extension (Vulkan,
+/// primitiveTopologyListRestart), so the restarts of a list go, and with them what they leave
+/// incomplete.
+fn device_indices(topology: PrimitiveTopology, indices: &[u32]) -> Vec<u32> {
+    let per_primitive = match topology {
+        PrimitiveTopology::PointList => 1,
+        PrimitiveTopology::LineList => 2,
+        PrimitiveTopology::TriangleList => 3,
+        PrimitiveTopology::LineStrip
+        | PrimitiveTopology::TriangleStrip
+        | PrimitiveTopology::TriangleFan => return indices.to_vec(),
+    };
+    let runs = indices.split(|i| *i == RESTART);
+    runs.flat_map(|run| &run[..run.len() / per_primitive * per_primitive])
+        .copied()
+        .collect()
+}
+
 /// Where a scene's inputs lie in its buffer.
 pub(crate) struct Inputs {
-    /// Vertices and parameters of each draw of each pass.
-    pub(crate) draws: Vec<Vec<(u64, u64)>>,
+    /// What each draw of each pass takes.
+    pub(crate) draws: Vec<Vec<DrawInputs>>,
     /// Texels of each attachment that is uploaded.
     texels: Vec<Option<(u64, Vec<u8>)>>,
     pub(crate) bytes: u64,
@@ -37,26 +101,27 @@ pub(crate) struct Inputs {
 
 impl Inputs {
     /// Finds a place for everything.
-    pub(crate) fn place(device: &Device, scene: &Scene) -> Self {
+    pub(crate) fn place(
+        device: &Device,
+        natives: &BTreeMap<TextureFormat, Native>,
+        scene: &Scene,
+    ) -> Self {
         let mut placer = Placer::default();
         let uniform = device.limits.min_uniform_buffer_offset_alignment;
         let mut draws = Vec::with_capacity(scene.passes.len());
         for pass in &scene.passes {
-            let place = |draw: &Draw| {
-                let params = placer.place(PARAMS_BYTES, uniform);
-                let vertices =
-                    placer.place(draw.mesh.bytes().len() as u64, size_of::<Vertex>() as u64);
-                (vertices, params)
-            };
+            let place = |draw: &Draw| DrawInputs::place(&mut placer, uniform, draw);
             draws.push(pass.draws.iter().map(place).collect());
         }
         let mut texels = Vec::with_capacity(scene.attachments.len());
         for attachment in &scene.attachments {
-            let Contents::Texels(codes) = &attachment.contents else {
+            let (Contents::Texels(codes), Some(native)) =
+                (&attachment.contents, natives.get(&attachment.format))
+            else {
                 texels.push(None);
                 continue;
             };
-            let bytes = format::encode(codes, attachment.format);
+            let bytes = format::encode(codes, native.raw);
             // A multiple of every texel's size.
             texels.push(Some((placer.place(bytes.len() as u64, 16), bytes)));
         }
@@ -69,10 +134,14 @@ impl Inputs {
 
     /// Writes everything to its place in a buffer of at least `bytes`.
     pub(crate) fn write(&self, buffer: &mut Buffer, scene: &Scene) -> Result<(), BackendError> {
-        for (pass, offsets) in scene.passes.iter().zip(&self.draws) {
-            for (draw, (vertices, params)) in pass.draws.iter().zip(offsets) {
-                buffer.write(*vertices, draw.mesh.bytes())?;
-                buffer.write(*params, &draw.params.to_bytes())?;
+        for (pass, places) in scene.passes.iter().zip(&self.draws) {
+            for (draw, place) in pass.draws.iter().zip(places) {
+                buffer.write(place.vertices, draw.mesh.bytes())?;
+                buffer.write(place.params, &draw.params.to_bytes())?;
+                if let Some((offset, indices)) = &place.indices {
+                    let bytes: Vec<u8> = indices.iter().flat_map(|i| i.to_ne_bytes()).collect();
+                    buffer.write(*offset, &bytes)?;
+                }
             }
         }
         for (offset, bytes) in self.texels.iter().flatten() {
@@ -85,5 +154,20 @@ impl Inputs {
     pub(crate) fn texels(&self, attachment: usize) -> u64 {
         let texels = self.texels.get(attachment).and_then(Option::as_ref);
         texels.map_or(0, |(offset, _)| *offset)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn restarts_of_a_list_take_incomplete_primitives_along() {
+        let indices = [0, 1, 2, 3, RESTART, 4, 5, 6, RESTART, 7];
+        let list = |topology| device_indices(topology, &indices);
+        assert_eq!(list(PrimitiveTopology::TriangleList), [0, 1, 2, 4, 5, 6]);
+        assert_eq!(list(PrimitiveTopology::LineList), [0, 1, 2, 3, 4, 5]);
+        assert_eq!(list(PrimitiveTopology::PointList), [0, 1, 2, 3, 4, 5, 6, 7]);
+        assert_eq!(list(PrimitiveTopology::TriangleFan), indices);
     }
 }

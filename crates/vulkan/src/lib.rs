@@ -2,7 +2,7 @@
 //!
 //! It wants Vulkan 1.3 of a device (dynamic rendering, synchronization2) and loads `libvulkan.so.1`
 //! at run time; nothing is linked. The conventions of `etalon-backend` need no tricks here: depth
-//! is 0..=1 already, and a viewport of negative height turns clip space's y axis up. Face winding is
+//! is 0..=1 already, and viewports of negative height turn clip space's y axis up. Face winding is
 //! judged in framebuffer coordinates (Vulkan, Basic Polygon Rasterization: the signed area), so that
 //! `ccw` means what it means in WebGPU.
 //!
@@ -11,6 +11,7 @@
 
 mod backend;
 mod device;
+mod dynamic;
 mod error;
 mod format;
 mod inputs;
@@ -18,6 +19,7 @@ mod instance;
 mod limits;
 mod memory;
 mod pipeline;
+mod plan;
 mod prepared;
 mod read;
 mod record;

@@ -28,6 +28,7 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
         };
         let support = FormatSupport {
             samples: sample_counts(device, *format, *native),
+            blendable: native.attachment && native.blendable,
             depth,
             // Codes come back as they are stored, also from the shader that reads samples.
             read: ReadPath::Copy,
@@ -44,22 +45,60 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
         api: Api::Vulkan,
         sub_pixel_bits: u8::try_from(raw.sub_pixel_precision_bits).unwrap_or(u8::MAX),
         max_size,
+        max_color_attachments: raw
+            .max_color_attachments
+            .min(raw.max_fragment_output_attachments),
         formats,
-        features: Feature::ALL.into_iter().collect(),
+        features: Feature::ALL
+            .into_iter()
+            .filter(|f| has(device, *f))
+            .collect(),
         sample_positions,
     }
+}
+
+/// Whether the device has a feature; what Vulkan 1.3 has without asking is always there.
+fn has(device: &Device, feature: Feature) -> bool {
+    let features = &device.features;
+    let flag = match feature {
+        Feature::AlphaToOne => features.alpha_to_one,
+        Feature::DepthBiasClamp => features.depth_bias_clamp,
+        Feature::DepthBounds => features.depth_bounds,
+        Feature::DepthClamp => features.depth_clamp,
+        Feature::DualSourceBlending if device.limits.max_fragment_dual_src_attachments == 0 => {
+            vk::FALSE
+        }
+        Feature::DualSourceBlending => features.dual_src_blend,
+        Feature::IndependentBlend => features.independent_blend,
+        Feature::LogicOperations => features.logic_op,
+        Feature::PolygonModeLine => features.fill_mode_non_solid,
+        Feature::SampleShading => features.sample_rate_shading,
+        Feature::ConstantAlphaBlendFactor
+        | Feature::FrontAndBackCulling
+        | Feature::MinMaxBlendFactors
+        | Feature::RasterizerDiscard
+        | Feature::ReversedDepthRange
+        | Feature::ScissorOutside
+        | Feature::SeparateStencilMasks
+        | Feature::TriangleFans
+        | Feature::ViewportOutside => vk::TRUE,
+    };
+    flag != vk::FALSE
 }
 
 /// Sample counts that can be drawn, cleared and read back sample by sample. Without the standard
 /// sample locations nothing could be asserted of more than one.
 fn sample_counts(device: &Device, format: TextureFormat, native: Native) -> Vec<u32> {
+    if !native.attachment {
+        return Vec::new();
+    }
     let mut counts = vec![1];
     let raw = &device.limits;
     let readable = format.aspects().iter().all(|aspect| {
         let channels = format::channels(format, native.raw, *aspect);
-        channels.iter().all(|c| samples::can_read(*aspect, *c))
+        channels.iter().all(|c| samples::can_read(*c))
     });
-    if raw.standard_sample_locations == 0 || !device.compute || !native.attachment || !readable {
+    if raw.standard_sample_locations == 0 || !device.compute || !readable {
         return counts;
     }
     let usage =

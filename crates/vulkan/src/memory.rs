@@ -16,7 +16,7 @@ const SMALLEST_BUFFER: u64 = 64 << 10;
 /// What a buffer is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BufferUse {
-    /// Written by the processor: vertices, parameters, uploads.
+    /// Written by the processor: vertices, indices, parameters, uploads.
     Input,
     /// Read by the processor: what comes back.
     Output,
@@ -50,6 +50,8 @@ pub(crate) struct Image {
     bytes: u64,
     /// One view of all aspects, and one of each aspect where there are two and shaders read them.
     views: Vec<(vk::ImageAspectFlags, vk::ImageView)>,
+    /// For a multisampled sRGB image that shaders read, a view that shows its codes unconverted.
+    unconverted: Option<vk::ImageView>,
 }
 
 /// Objects that no scene uses at present, oldest first.
@@ -84,6 +86,7 @@ impl Buffer {
         let (flags, preferred) = match self.usage {
             BufferUse::Input => (
                 vk::BufferUsageFlags::VERTEX_BUFFER
+                    | vk::BufferUsageFlags::INDEX_BUFFER
                     | vk::BufferUsageFlags::UNIFORM_BUFFER
                     | vk::BufferUsageFlags::TRANSFER_SRC,
                 vk::MemoryPropertyFlags::DEVICE_LOCAL,
@@ -166,6 +169,7 @@ impl Image {
             memory: vk::DeviceMemory::null(),
             bytes: 0,
             views: Vec::new(),
+            unconverted: None,
         };
         let created = image.create(device);
         if let Err(error) = created {
@@ -177,7 +181,12 @@ impl Image {
 
     fn create(&mut self, device: &Device) -> Result<(), BackendError> {
         let key = self.key;
-        let info = vk::ImageCreateInfo::default()
+        let read_by_sample = key.samples > 1 && key.usage.contains(vk::ImageUsageFlags::SAMPLED);
+        let unconverted = format::unconverted(key.format).filter(|_| read_by_sample);
+        // Told of both formats, a driver need not store the image otherwise than usual.
+        let both_formats = [key.format, unconverted.unwrap_or(key.format)];
+        let mut list = vk::ImageFormatListCreateInfo::default().view_formats(&both_formats);
+        let mut info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
             .format(key.format)
             .extent(vk::Extent3D {
@@ -190,6 +199,11 @@ impl Image {
             .samples(state::samples(key.samples))
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(key.usage);
+        if unconverted.is_some() {
+            info = info
+                .flags(vk::ImageCreateFlags::MUTABLE_FORMAT)
+                .push_next(&mut list);
+        }
         // SAFETY: the device lives, and the format's support was asked for.
         self.raw = unsafe { device.raw.create_image(&info, None) }.check("an image")?;
         // SAFETY: the image was just made.
@@ -216,17 +230,36 @@ impl Image {
             masks.extend([vk::ImageAspectFlags::DEPTH, vk::ImageAspectFlags::STENCIL]);
         }
         for mask in masks {
-            let info = vk::ImageViewCreateInfo::default()
-                .image(self.raw)
-                .view_type(vk::ImageViewType::TYPE_2D)
-                .format(key.format)
-                .subresource_range(range(mask));
-            // SAFETY: the image is bound and lives as long as its views.
-            let view =
-                unsafe { device.raw.create_image_view(&info, None) }.check("an image view")?;
+            let view = self.create_view(device, key.format, mask)?;
             self.views.push((mask, view));
         }
+        if let Some(format) = unconverted {
+            self.unconverted = Some(self.create_view(device, format, all)?);
+        }
         Ok(())
+    }
+
+    fn create_view(
+        &self,
+        device: &Device,
+        format: vk::Format,
+        mask: vk::ImageAspectFlags,
+    ) -> Result<vk::ImageView, BackendError> {
+        let info = vk::ImageViewCreateInfo::default()
+            .image(self.raw)
+            .view_type(vk::ImageViewType::TYPE_2D)
+            .format(format)
+            .subresource_range(range(mask));
+        // SAFETY: the image is bound, lives as long as its views, and was made for this format.
+        unsafe { device.raw.create_image_view(&info, None) }.check("an image view")
+    }
+
+    /// The view through which a shader reads the samples of one aspect.
+    pub(crate) fn sample_view(
+        &self,
+        mask: vk::ImageAspectFlags,
+    ) -> Result<vk::ImageView, BackendError> {
+        self.unconverted.map_or_else(|| self.view(mask), Ok)
     }
 
     /// The view of exactly these aspects.
@@ -250,7 +283,8 @@ impl Image {
     fn destroy(&self, device: &Device) {
         // SAFETY: the device is done with the image; null handles are ignored.
         unsafe {
-            for (_, view) in &self.views {
+            let views = self.views.iter().map(|(_, view)| view);
+            for view in views.chain(&self.unconverted) {
                 device.raw.destroy_image_view(*view, None);
             }
             device.raw.destroy_image(self.raw, None);

@@ -1,15 +1,15 @@
 //! Pipelines, kept by everything static about them.
 
 use crate::device::Device;
+use crate::dynamic;
 use crate::error::Check;
 use crate::shader::{Module, Modules};
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_case::scene::{ColorTarget, Draw, StencilFace};
+use etalon_case::scene::{ColorTarget, Draw};
 use etalon_case::state::{
-    BlendComponent, CompareFunction, CullMode, DepthState, FrontFace, PrimitiveTopology, Shader,
-    StencilOperation,
+    BlendComponent, LogicOperation, Multisample, PolygonMode, PrimitiveTopology, Shader,
 };
 use std::collections::HashMap;
 use std::mem::{offset_of, size_of};
@@ -30,27 +30,28 @@ pub(crate) struct Targets {
     pub(crate) samples: u32,
 }
 
-/// One face's stencil state without what is dynamic: the masks and the reference.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct StencilKey {
-    compare: CompareFunction,
-    fail_op: StencilOperation,
-    depth_fail_op: StencilOperation,
-    pass_op: StencilOperation,
-}
-
-/// Everything static about a pipeline. Dynamic are viewport, scissor, blend constant, stencil masks
-/// and references.
+/// Everything static about a pipeline; the rest is [`dynamic::STATES`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Key {
     targets: Targets,
     shader: Shader,
-    topology: PrimitiveTopology,
-    cull: CullMode,
-    front_face: FrontFace,
-    depth: Option<DepthState>,
-    stencil: Option<[StencilKey; 2]>,
+    /// The first topology of its class (Vulkan, Topology Class): within it, topology is dynamic.
+    class: PrimitiveTopology,
+    polygon_mode: PolygonMode,
+    depth_clamp: bool,
+    multisample: Multisample,
+    logic: Option<LogicOperation>,
     color: Vec<ColorTarget>,
+}
+
+fn class(topology: PrimitiveTopology) -> PrimitiveTopology {
+    match topology {
+        PrimitiveTopology::PointList => PrimitiveTopology::PointList,
+        PrimitiveTopology::LineList | PrimitiveTopology::LineStrip => PrimitiveTopology::LineList,
+        PrimitiveTopology::TriangleList
+        | PrimitiveTopology::TriangleStrip
+        | PrimitiveTopology::TriangleFan => PrimitiveTopology::TriangleList,
+    }
 }
 
 /// The layouts that shaders with so many textures share.
@@ -74,25 +75,6 @@ pub(crate) struct Pipelines {
     cache: vk::PipelineCache,
     layouts: HashMap<usize, Layout>,
     pipelines: HashMap<Key, Rc<Pipeline>>,
-}
-
-impl StencilKey {
-    fn new(face: &StencilFace) -> Self {
-        Self {
-            compare: face.compare,
-            fail_op: face.fail_op,
-            depth_fail_op: face.depth_fail_op,
-            pass_op: face.pass_op,
-        }
-    }
-
-    fn native(self) -> vk::StencilOpState {
-        vk::StencilOpState::default()
-            .compare_op(state::compare(self.compare))
-            .fail_op(state::stencil(self.fail_op))
-            .depth_fail_op(state::stencil(self.depth_fail_op))
-            .pass_op(state::stencil(self.pass_op))
-    }
 }
 
 impl Pipelines {
@@ -146,23 +128,15 @@ impl Pipelines {
         let key = Key {
             targets: targets.clone(),
             shader: draw.shader,
-            topology: draw.topology,
-            cull: draw.cull,
-            front_face: draw.front_face,
-            depth: draw.depth,
-            stencil: draw
-                .stencil
-                .map(|s| [StencilKey::new(&s.front), StencilKey::new(&s.back)]),
+            class: class(draw.topology),
+            polygon_mode: draw.polygon_mode,
+            depth_clamp: draw.depth_clamp,
+            multisample: draw.multisample,
+            logic: draw.logic,
             color: draw.targets.clone(),
         };
         if let Some(pipeline) = self.pipelines.get(&key) {
             return Ok(pipeline.clone());
-        }
-        if key.color.windows(2).any(|w| w[0] != w[1]) && !device.independent_blend {
-            return Err(BackendError::Resource {
-                what: "a pipeline with different blending per attachment".to_owned(),
-                message: "the device lacks independentBlend".to_owned(),
-            });
         }
         if self.pipelines.len() >= KEPT_PIPELINES {
             self.drop_unused(device);
@@ -252,42 +226,28 @@ fn create(
         .vertex_binding_descriptions(&bindings)
         .vertex_attribute_descriptions(&attributes);
     let assembly =
-        vk::PipelineInputAssemblyStateCreateInfo::default().topology(state::topology(key.topology));
+        vk::PipelineInputAssemblyStateCreateInfo::default().topology(state::topology(key.class));
     let viewport = vk::PipelineViewportStateCreateInfo::default()
         .viewport_count(1)
         .scissor_count(1);
     let raster = vk::PipelineRasterizationStateCreateInfo::default()
-        .polygon_mode(vk::PolygonMode::FILL)
-        .cull_mode(state::cull(key.cull))
-        .front_face(state::front_face(key.front_face))
+        .polygon_mode(state::polygon_mode(key.polygon_mode))
+        .depth_clamp_enable(key.depth_clamp)
         .line_width(1.0);
+    // One word holds the masks of up to 32 samples.
+    let mask = [key.multisample.mask];
     let multisample = vk::PipelineMultisampleStateCreateInfo::default()
-        .rasterization_samples(state::samples(key.targets.samples));
-
-    let mut depth_stencil = vk::PipelineDepthStencilStateCreateInfo::default();
-    if let Some(depth) = key.depth {
-        depth_stencil = depth_stencil
-            .depth_test_enable(true)
-            .depth_write_enable(depth.write)
-            .depth_compare_op(state::compare(depth.compare));
-    }
-    if let Some([front, back]) = key.stencil {
-        depth_stencil = depth_stencil
-            .stencil_test_enable(true)
-            .front(front.native())
-            .back(back.native());
-    }
+        .rasterization_samples(state::samples(key.targets.samples))
+        .sample_mask(&mask)
+        .alpha_to_coverage_enable(key.multisample.alpha_to_coverage)
+        .alpha_to_one_enable(key.multisample.alpha_to_one);
+    let depth_stencil = vk::PipelineDepthStencilStateCreateInfo::default();
     let targets: Vec<_> = key.color.iter().map(color_target).collect();
-    let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&targets);
-    let dynamic = [
-        vk::DynamicState::VIEWPORT,
-        vk::DynamicState::SCISSOR,
-        vk::DynamicState::BLEND_CONSTANTS,
-        vk::DynamicState::STENCIL_COMPARE_MASK,
-        vk::DynamicState::STENCIL_WRITE_MASK,
-        vk::DynamicState::STENCIL_REFERENCE,
-    ];
-    let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
+    let mut blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&targets);
+    if let Some(logic) = key.logic {
+        blend = blend.logic_op_enable(true).logic_op(state::logic(logic));
+    }
+    let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic::STATES);
     let mut rendering = vk::PipelineRenderingCreateInfo::default()
         .color_attachment_formats(&key.targets.color)
         .depth_attachment_format(key.targets.depth)
@@ -304,7 +264,8 @@ fn create(
         .dynamic_state(&dynamic)
         .layout(layout)
         .push_next(&mut rendering);
-    // SAFETY: all parts of `info` live, and the formats are those the device can draw to.
+    // SAFETY: all parts of `info` live, the formats are those the device can draw to, and the limits
+    // were asked for every feature used.
     let made = unsafe {
         device
             .raw

@@ -5,7 +5,7 @@ use crate::device::Device;
 use crate::format;
 use crate::inputs::Placer;
 use crate::memory::{Buffer, Image};
-use crate::samples::{SampleReader, SampleReaders};
+use crate::samples::{self, SampleReader, SampleReaders};
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::BackendError;
@@ -23,6 +23,7 @@ pub(crate) struct ReadPlan {
     name: String,
     size: [u32; 2],
     samples: u32,
+    raw: vk::Format,
     channels: Vec<ChannelEncoding>,
     bytes: u64,
 }
@@ -51,14 +52,12 @@ impl ReadPlan {
             for aspect in format.aspects() {
                 let channels = format::channels(format, native.raw, *aspect);
                 let texels = u64::from(attachment.size[0]) * u64::from(attachment.size[1]);
-                let channel = match channels.first() {
-                    // The shader that reads samples stores a word per channel.
-                    Some(_) if attachment.samples > 1 => 4,
-                    Some(encoding) => format::channel_bytes(*encoding),
-                    None => 0,
+                let per_texel = if attachment.samples > 1 {
+                    attachment.samples as usize * samples::words(*aspect) * size_of::<u32>()
+                } else {
+                    format::texel_bytes(native.raw, *aspect)
                 };
-                let per_texel = u64::from(attachment.samples) * (channels.len() * channel) as u64;
-                let bytes = texels * per_texel;
+                let bytes = texels * per_texel as u64;
                 reads.push(Self {
                     attachment: *index,
                     aspect: *aspect,
@@ -67,6 +66,7 @@ impl ReadPlan {
                     name: attachment.name.clone(),
                     size: attachment.size,
                     samples: attachment.samples,
+                    raw: native.raw,
                     channels,
                     bytes,
                 });
@@ -85,20 +85,20 @@ impl ReadPlan {
         image: &Image,
         output: &Buffer,
     ) -> Result<(), BackendError> {
-        let (true, Some(encoding)) = (self.samples > 1, self.channels.first()) else {
+        if self.samples == 1 {
             return Ok(());
-        };
+        }
         if self.bytes > u64::from(device.limits.max_storage_buffer_range) {
             return Err(BackendError::Resource {
                 what: format!("{} bytes of samples to read back", self.bytes),
                 message: "maxStorageBufferRange is smaller".to_owned(),
             });
         }
-        let reader = readers.get(device, self.aspect, *encoding)?;
+        let reader = readers.get(device, self.aspect)?;
         let set = slot.descriptor_set(device, reader.layout.set)?;
         let images = [vk::DescriptorImageInfo {
             sampler: vk::Sampler::null(),
-            image_view: image.view(format::aspect_flag(self.aspect))?,
+            image_view: image.sample_view(format::aspect_flag(self.aspect))?,
             image_layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
         }];
         let buffers = [vk::DescriptorBufferInfo {
@@ -128,9 +128,9 @@ impl ReadPlan {
             .map_err(|_| BackendError::Internal("an image too large to read".to_owned()))?;
         let bytes = output.read(self.offset, length)?;
         let codes = if self.reader.is_some() {
-            format::decode(&bytes, &[ChannelEncoding::Float32])
+            self.codes_of_samples(&bytes)
         } else {
-            format::decode(&bytes, &self.channels)
+            format::decode(&bytes, self.raw, self.aspect)
         };
         Ok(etalon_frame::Image {
             attachment: self.name.clone(),
@@ -141,5 +141,19 @@ impl ReadPlan {
             read: ReadPath::Copy,
             codes,
         })
+    }
+
+    /// The codes of what the shader stored, the channels that the format lacks left out.
+    fn codes_of_samples(&self, bytes: &[u8]) -> Vec<u32> {
+        let sample = samples::words(self.aspect) * size_of::<u32>();
+        let mut codes = Vec::with_capacity(bytes.len() / sample * self.channels.len());
+        for stored in bytes.chunks_exact(sample) {
+            let words = stored.chunks_exact(4);
+            for (encoding, word) in self.channels.iter().zip(words) {
+                let seen = u32::from_le_bytes([word[0], word[1], word[2], word[3]]);
+                codes.push(samples::code(*encoding, seen));
+            }
+        }
+        codes
     }
 }

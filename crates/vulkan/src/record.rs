@@ -3,7 +3,7 @@
 use crate::device::Device;
 use crate::memory::range;
 use crate::pipeline::Pipeline;
-use crate::prepared::{AttachmentPlan, DrawPlan, PassPlan, Plan, Role, Start};
+use crate::plan::{AttachmentPlan, DepthStencilPlan, DrawPlan, PassPlan, Plan, Role, Start};
 use crate::samples::TILE;
 use ash::vk;
 
@@ -33,6 +33,25 @@ const COMPUTE: Place = Place {
     access: vk::AccessFlags2::SHADER_SAMPLED_READ,
 };
 
+/// Depth and stencil in a pass that promises to write neither.
+const TESTED_ONLY: Place = Place {
+    layout: vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
+    stages: TESTED.stages,
+    access: vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_READ,
+};
+
+const TESTED: Place = Place {
+    layout: vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+    stages: vk::PipelineStageFlags2::from_raw(
+        vk::PipelineStageFlags2::EARLY_FRAGMENT_TESTS.as_raw()
+            | vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS.as_raw(),
+    ),
+    access: vk::AccessFlags2::from_raw(
+        vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_READ.as_raw()
+            | vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw(),
+    ),
+};
+
 /// Whatever happened before; contents need not survive.
 const ANYTHING: Place = Place {
     layout: vk::ImageLayout::UNDEFINED,
@@ -50,13 +69,7 @@ impl AttachmentPlan {
                 access: vk::AccessFlags2::COLOR_ATTACHMENT_READ
                     | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
             },
-            Role::DepthStencil => Place {
-                layout: vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
-                stages: vk::PipelineStageFlags2::EARLY_FRAGMENT_TESTS
-                    | vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS,
-                access: vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_READ
-                    | vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE,
-            },
+            Role::DepthStencil => TESTED,
             Role::Fetched => Place {
                 layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
                 stages: vk::PipelineStageFlags2::VERTEX_SHADER
@@ -162,7 +175,17 @@ pub(crate) fn passes(device: &Device, commands: vk::CommandBuffer, plan: &Plan, 
         if index > 0 {
             between_passes(device, commands);
         }
+        let only_tested = pass.depth_stencil.as_ref().filter(|d| d.read_only);
+        let attachment = only_tested.and_then(|d| plan.attachments.get(d.attachment));
+        if let Some(attachment) = attachment {
+            let barrier = attachment.barrier(attachment.home(), TESTED_ONLY);
+            barriers(device, commands, &[barrier]);
+        }
         self::pass(device, commands, pass, input);
+        if let Some(attachment) = attachment {
+            let barrier = attachment.barrier(TESTED_ONLY, attachment.home());
+            barriers(device, commands, &[barrier]);
+        }
     }
 }
 
@@ -194,14 +217,30 @@ fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk
             .load_op(vk::AttachmentLoadOp::LOAD)
             .store_op(vk::AttachmentStoreOp::STORE)
     };
-    let color: Vec<_> = pass
-        .color
-        .iter()
-        .map(|view| attachment(*view, vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL))
-        .collect();
-    let tested = vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
-    let depth = pass.depth.map(|view| attachment(view, tested));
-    let stencil = pass.stencil.map(|view| attachment(view, tested));
+    let drawn = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+    let mut color = Vec::with_capacity(pass.color.len());
+    for target in &pass.color {
+        let mut info = attachment(target.view, drawn);
+        if let Some(resolve) = target.resolve {
+            info = info
+                .resolve_mode(vk::ResolveModeFlags::AVERAGE)
+                .resolve_image_view(resolve)
+                .resolve_image_layout(drawn);
+        }
+        color.push(info);
+    }
+    let tested = pass.depth_stencil.as_ref().map(|d| {
+        if d.read_only {
+            // Storing would count as writing.
+            attachment(d.view, TESTED_ONLY.layout).store_op(vk::AttachmentStoreOp::NONE)
+        } else {
+            attachment(d.view, TESTED.layout)
+        }
+    });
+    let has =
+        |aspect: fn(&DepthStencilPlan) -> bool| pass.depth_stencil.as_ref().is_some_and(aspect);
+    let depth = tested.filter(|_| has(|d| d.has_depth));
+    let stencil = tested.filter(|_| has(|d| d.has_stencil));
     let [width, height] = pass.size;
     let area = vk::Rect2D {
         offset: vk::Offset2D::default(),
@@ -217,20 +256,9 @@ fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk
     if let Some(stencil) = &stencil {
         info = info.stencil_attachment(stencil);
     }
-    // The negative height turns clip space's y axis up.
-    let viewport = vk::Viewport {
-        x: 0.0,
-        y: height as f32,
-        width: width as f32,
-        height: -(height as f32),
-        min_depth: 0.0,
-        max_depth: 1.0,
-    };
     // SAFETY: recording; the attachments are in the layouts named, and live as long as the scene.
     unsafe {
         api.cmd_begin_rendering(commands, &info);
-        api.cmd_set_viewport(commands, 0, &[viewport]);
-        api.cmd_set_scissor(commands, 0, &[area]);
         let mut bound: Option<&Pipeline> = None;
         for draw in &pass.draws {
             let pipeline = &*draw.pipeline;
@@ -260,19 +288,15 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
             &[draw.set],
             &[draw.params],
         );
-        api.cmd_set_blend_constants(commands, &draw.blend_constant);
-        if let Some(stencil) = &draw.stencil {
-            for (face, side) in [
-                (vk::StencilFaceFlags::FRONT, &stencil.front),
-                (vk::StencilFaceFlags::BACK, &stencil.back),
-            ] {
-                api.cmd_set_stencil_compare_mask(commands, face, side.read_mask.into());
-                api.cmd_set_stencil_write_mask(commands, face, side.write_mask.into());
-                api.cmd_set_stencil_reference(commands, face, side.reference.into());
-            }
-        }
+        draw.dynamic.set(device, commands);
         api.cmd_bind_vertex_buffers(commands, 0, &[input], &[draw.vertices]);
-        api.cmd_draw(commands, draw.count, 1, 0, 0);
+        match draw.indices {
+            Some(offset) => {
+                api.cmd_bind_index_buffer(commands, input, offset, vk::IndexType::UINT32);
+                api.cmd_draw_indexed(commands, draw.count, 1, 0, 0, 0);
+            }
+            None => api.cmd_draw(commands, draw.count, 1, 0, 0),
+        }
     }
 }
 

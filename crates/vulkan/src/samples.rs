@@ -1,9 +1,11 @@
 //! Reading every sample of a multisampled attachment: no copy can, so a compute shader does.
 //!
-//! The shader stores codes. It may, because the encodings it is used for survive the way through a
-//! 32-bit float: 8- and 16-bit normalized values lie so far apart that rounding finds the code back
-//! whatever the last bits of the conversion (Vulkan, Conversion From Normalized Fixed-Point), and
-//! floats and integers arrive as they are. 24-bit depth does not, and is never multisampled here.
+//! The shader stores what it saw, 32-bit floats or integers, and [`code`] finds the codes that stand
+//! for it. It may, because the encodings it is used for survive that way: normalized values of up to
+//! 16 bits lie so far apart that rounding finds the code back whatever the last bits of the
+//! conversion (Vulkan, Conversion From Normalized Fixed-Point), floats and integers arrive as they
+//! are, and sRGB codes are seen unconverted. Of the two codes of a signed -1 the nearer to 0 is
+//! found. 24-bit depth does not survive, and is never multisampled here.
 
 use crate::device::Device;
 use crate::error::Check;
@@ -21,7 +23,7 @@ pub(crate) const TILE: u32 = 8;
 #[derive(Debug, Default)]
 pub(crate) struct SampleReaders {
     layout: Option<Layout>,
-    pipelines: HashMap<(Aspect, ChannelEncoding), vk::Pipeline>,
+    pipelines: HashMap<Aspect, vk::Pipeline>,
 }
 
 /// A reader: a pipeline with its layouts.
@@ -32,26 +34,57 @@ pub(crate) struct SampleReader {
 }
 
 /// Whether samples of this encoding can be read back code by code.
-pub(crate) fn can_read(aspect: Aspect, encoding: ChannelEncoding) -> bool {
-    source(aspect, encoding).is_some()
+pub(crate) fn can_read(encoding: ChannelEncoding) -> bool {
+    match encoding {
+        ChannelEncoding::Unorm(bits) | ChannelEncoding::Snorm(bits) => bits <= 16,
+        _ => true,
+    }
 }
 
-/// The compute shader for one aspect, or nothing where codes would not survive.
-fn source(aspect: Aspect, encoding: ChannelEncoding) -> Option<String> {
-    let texture = match aspect {
-        Aspect::Color => "texture_multisampled_2d<f32>",
-        Aspect::Depth => "texture_depth_multisampled_2d",
-        Aspect::Stencil => "texture_multisampled_2d<u32>",
+/// How many words the shader stores for each sample of an aspect.
+pub(crate) fn words(aspect: Aspect) -> usize {
+    if aspect == Aspect::Color { 4 } else { 1 }
+}
+
+/// The code of a channel that a shader saw as these bits.
+pub(crate) fn code(encoding: ChannelEncoding, seen: u32) -> u32 {
+    match encoding {
+        ChannelEncoding::Float32 | ChannelEncoding::Uint(_) => seen,
+        ChannelEncoding::Float16 => shortened(seen, 10) | seen >> 31 << 15,
+        ChannelEncoding::Ufloat(mantissa) => shortened(seen, mantissa.into()),
+        ChannelEncoding::Srgb8 => code(ChannelEncoding::Unorm(8), seen),
+        ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => {
+            encoding.nearest_code(f32::from_bits(seen).into())
+        }
+    }
+}
+
+/// The magnitude of a 32-bit float in a format of 5 exponent bits and so many mantissa bits, which
+/// holds it exactly.
+fn shortened(seen: u32, mantissa: u32) -> u32 {
+    let (exponent, fraction) = (seen >> 23 & 0xff, seen & 0x7f_ffff);
+    match exponent {
+        // A NaN stays one whatever bits are cut off.
+        0xff => 31 << mantissa | fraction >> (23 - mantissa) | u32::from(fraction != 0),
+        // The bias is 15 where it was 127.
+        113.. => (exponent - 112) << mantissa | fraction >> (23 - mantissa),
+        // Denormalized there: a multiple of the least value, 2^-(14 + mantissa).
+        _ => (f32::from_bits(seen).abs() * f32::from_bits((127 + 14 + mantissa) << 23)) as u32,
+    }
+}
+
+/// The compute shader for one aspect.
+fn source(aspect: Aspect) -> String {
+    let (texture, code) = match aspect {
+        Aspect::Color => ("texture_multisampled_2d<f32>", "bitcast<vec4u>(texel)"),
+        Aspect::Depth => (
+            "texture_depth_multisampled_2d",
+            "vec4u(bitcast<u32>(texel))",
+        ),
+        Aspect::Stencil => ("texture_multisampled_2d<u32>", "texel"),
     };
-    let (texel, channels) = match (aspect, encoding) {
-        (Aspect::Color, ChannelEncoding::Unorm(8)) => ("vec4u(round(texel * 255.0))", 4),
-        (Aspect::Color, ChannelEncoding::Float32) => ("bitcast<vec4u>(texel)", 4),
-        (Aspect::Depth, ChannelEncoding::Unorm(16)) => ("vec4u(u32(round(texel * 65535.0)))", 1),
-        (Aspect::Depth, ChannelEncoding::Float32) => ("vec4u(bitcast<u32>(texel))", 1),
-        (Aspect::Stencil, ChannelEncoding::Uint(8)) => ("texel", 1),
-        _ => return None,
-    };
-    Some(format!(
+    let words = words(aspect);
+    format!(
         "@group(0) @binding(0) var source: {texture};
 @group(0) @binding(1) var<storage, read_write> codes: array<u32>;
 
@@ -64,15 +97,15 @@ fn cs(@builtin(global_invocation_id) id: vec3u) {{
     let samples = textureNumSamples(source);
     for (var s = 0u; s < samples; s++) {{
         let texel = textureLoad(source, vec2i(id.xy), i32(s));
-        let code = {texel};
-        let at = ((id.y * size.x + id.x) * samples + s) * {channels}u;
-        for (var c = 0u; c < {channels}u; c++) {{
+        let code = {code};
+        let at = ((id.y * size.x + id.x) * samples + s) * {words}u;
+        for (var c = 0u; c < {words}u; c++) {{
             codes[at + c] = code[c];
         }}
     }}
 }}
 "
-    ))
+    )
 }
 
 impl SampleReaders {
@@ -81,21 +114,16 @@ impl SampleReaders {
         &mut self,
         device: &Device,
         aspect: Aspect,
-        encoding: ChannelEncoding,
     ) -> Result<SampleReader, BackendError> {
         let layout = match self.layout {
             Some(layout) => layout,
             None => *self.layout.insert(layout(device)?),
         };
-        let key = (aspect, encoding);
-        if let Some(pipeline) = self.pipelines.get(&key).copied() {
+        if let Some(pipeline) = self.pipelines.get(&aspect).copied() {
             return Ok(SampleReader { pipeline, layout });
         }
-        let source = source(aspect, encoding).ok_or_else(|| {
-            BackendError::Internal(format!("samples of a {encoding} {aspect} are not readable"))
-        })?;
-        let pipeline = pipeline(device, &source, layout.pipeline)?;
-        self.pipelines.insert(key, pipeline);
+        let pipeline = pipeline(device, &source(aspect), layout.pipeline)?;
+        self.pipelines.insert(aspect, pipeline);
         Ok(SampleReader { pipeline, layout })
     }
 
@@ -165,17 +193,47 @@ mod tests {
     #[test]
     fn every_reader_translates() {
         for aspect in [Aspect::Color, Aspect::Depth, Aspect::Stencil] {
-            for encoding in [
-                ChannelEncoding::Unorm(8),
-                ChannelEncoding::Unorm(16),
-                ChannelEncoding::Unorm(24),
-                ChannelEncoding::Uint(8),
-                ChannelEncoding::Float32,
-            ] {
-                if let Some(source) = source(aspect, encoding) {
-                    shader::translate("read_samples", &source).expect("our own shader");
+            shader::translate("read_samples", &source(aspect)).expect("our own shader");
+        }
+    }
+
+    #[test]
+    fn every_code_comes_back_from_what_a_shader_sees() {
+        for encoding in [
+            ChannelEncoding::Unorm(1),
+            ChannelEncoding::Unorm(5),
+            ChannelEncoding::Unorm(10),
+            ChannelEncoding::Unorm(16),
+            ChannelEncoding::Snorm(8),
+            ChannelEncoding::Float16,
+            ChannelEncoding::Ufloat(6),
+            ChannelEncoding::Ufloat(5),
+        ] {
+            assert!(can_read(encoding));
+            for order in encoding.min_order()..=encoding.max_order() {
+                let value = encoding.value_of_order(order) as f32;
+                if encoding == ChannelEncoding::Snorm(8) && order == encoding.min_order() {
+                    assert_eq!(code(encoding, value.to_bits()), 0x81);
+                    continue;
+                }
+                // The conversion's last bits are open.
+                for ulps in if encoding.is_float() { 0..1 } else { -40..41 } {
+                    let seen = value.to_bits().saturating_add_signed(ulps);
+                    assert_eq!(code(encoding, seen), encoding.code_of_order(order));
                 }
             }
+        }
+        assert!(!can_read(ChannelEncoding::Unorm(24)));
+    }
+
+    #[test]
+    fn signs_infinities_and_nan_keep_what_they_are() {
+        let short = |value: f32, e| code(e, value.to_bits());
+        assert_eq!(short(-0.0, ChannelEncoding::Float16), 0x8000);
+        assert_eq!(short(f32::NEG_INFINITY, ChannelEncoding::Float16), 0xfc00);
+        assert_eq!(short(f32::INFINITY, ChannelEncoding::Ufloat(5)), 31 << 5);
+        for e in [ChannelEncoding::Float16, ChannelEncoding::Ufloat(6)] {
+            assert!(e.is_nan(short(f32::NAN, e)));
         }
     }
 }

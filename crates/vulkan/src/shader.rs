@@ -38,13 +38,15 @@ pub(crate) fn translate(name: &str, source: &str) -> Result<Translated, BackendE
     };
     let module =
         naga::front::wgsl::parse_str(source).map_err(|e| fail(e.emit_to_string(source)))?;
-    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+    let capabilities = Capabilities::DUAL_SOURCE_BLENDING | Capabilities::MULTISAMPLED_SHADING;
+    let info = Validator::new(ValidationFlags::all(), capabilities)
         .validate(&module)
         .map_err(|e| fail(e.emit_to_string(source)))?;
-    // No flags: the viewport turns y up, not the shader, and a written depth stays as it is.
+    // The viewport turns y up, not the shader, and a written depth stays as it is. The size of
+    // points, which WGSL leaves at 1, must be written for points and is ignored for all else.
     let options = spv::Options {
         lang_version: (1, 3),
-        flags: spv::WriterFlags::empty(),
+        flags: spv::WriterFlags::FORCE_POINT_SIZE,
         ..spv::Options::default()
     };
     let words = spv::write_vec(&module, &info, &options, None).map_err(|e| fail(e.to_string()))?;

@@ -2,8 +2,8 @@
 
 use ash::vk;
 use etalon_case::state::{
-    BlendFactor, BlendOperation, CompareFunction, CullMode, FrontFace, PrimitiveTopology,
-    StencilOperation,
+    BlendFactor, BlendOperation, CompareFunction, CullMode, FrontFace, LogicOperation, PolygonMode,
+    PrimitiveTopology, StencilOperation,
 };
 
 pub(crate) fn compare(function: CompareFunction) -> vk::CompareOp {
@@ -61,6 +61,38 @@ pub(crate) fn blend_factor(factor: BlendFactor) -> vk::BlendFactor {
         BlendFactor::OneMinusConstant => vk::BlendFactor::ONE_MINUS_CONSTANT_COLOR,
         BlendFactor::ConstantAlpha => vk::BlendFactor::CONSTANT_ALPHA,
         BlendFactor::OneMinusConstantAlpha => vk::BlendFactor::ONE_MINUS_CONSTANT_ALPHA,
+        BlendFactor::Src1 => vk::BlendFactor::SRC1_COLOR,
+        BlendFactor::OneMinusSrc1 => vk::BlendFactor::ONE_MINUS_SRC1_COLOR,
+        BlendFactor::Src1Alpha => vk::BlendFactor::SRC1_ALPHA,
+        BlendFactor::OneMinusSrc1Alpha => vk::BlendFactor::ONE_MINUS_SRC1_ALPHA,
+    }
+}
+
+pub(crate) fn logic(operation: LogicOperation) -> vk::LogicOp {
+    match operation {
+        LogicOperation::Clear => vk::LogicOp::CLEAR,
+        LogicOperation::And => vk::LogicOp::AND,
+        LogicOperation::AndReverse => vk::LogicOp::AND_REVERSE,
+        LogicOperation::Copy => vk::LogicOp::COPY,
+        LogicOperation::AndInverted => vk::LogicOp::AND_INVERTED,
+        LogicOperation::Noop => vk::LogicOp::NO_OP,
+        LogicOperation::Xor => vk::LogicOp::XOR,
+        LogicOperation::Or => vk::LogicOp::OR,
+        LogicOperation::Nor => vk::LogicOp::NOR,
+        LogicOperation::Equivalent => vk::LogicOp::EQUIVALENT,
+        LogicOperation::Invert => vk::LogicOp::INVERT,
+        LogicOperation::OrReverse => vk::LogicOp::OR_REVERSE,
+        LogicOperation::CopyInverted => vk::LogicOp::COPY_INVERTED,
+        LogicOperation::OrInverted => vk::LogicOp::OR_INVERTED,
+        LogicOperation::Nand => vk::LogicOp::NAND,
+        LogicOperation::Set => vk::LogicOp::SET,
+    }
+}
+
+pub(crate) fn polygon_mode(mode: PolygonMode) -> vk::PolygonMode {
+    match mode {
+        PolygonMode::Fill => vk::PolygonMode::FILL,
+        PolygonMode::Line => vk::PolygonMode::LINE,
     }
 }
 
@@ -82,8 +114,12 @@ pub(crate) fn front_face(face: FrontFace) -> vk::FrontFace {
 
 pub(crate) fn topology(topology: PrimitiveTopology) -> vk::PrimitiveTopology {
     match topology {
+        PrimitiveTopology::PointList => vk::PrimitiveTopology::POINT_LIST,
+        PrimitiveTopology::LineList => vk::PrimitiveTopology::LINE_LIST,
+        PrimitiveTopology::LineStrip => vk::PrimitiveTopology::LINE_STRIP,
         PrimitiveTopology::TriangleList => vk::PrimitiveTopology::TRIANGLE_LIST,
         PrimitiveTopology::TriangleStrip => vk::PrimitiveTopology::TRIANGLE_STRIP,
+        PrimitiveTopology::TriangleFan => vk::PrimitiveTopology::TRIANGLE_FAN,
     }
 }
 

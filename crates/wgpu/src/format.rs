@@ -1,15 +1,28 @@
 //! This suite's words in wgpu's.
 
+use etalon_backend::BackendError;
 use etalon_case::scene::{StencilFace, StencilState};
 use etalon_case::state::{
-    BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction, CullMode, DepthState,
-    FrontFace, PrimitiveTopology, StencilOperation,
+    BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction, CullMode, DepthBias,
+    DepthState, FrontFace, PolygonMode, PrimitiveTopology, StencilOperation,
 };
-use etalon_frame::TextureFormat;
+use etalon_frame::{Requirement, TextureFormat};
 
-pub(crate) fn texture(format: TextureFormat) -> wgpu::TextureFormat {
-    match format {
+/// WebGPU's format, where it has it.
+pub(crate) fn texture(format: TextureFormat) -> Option<wgpu::TextureFormat> {
+    Some(match format {
+        TextureFormat::R8Unorm => wgpu::TextureFormat::R8Unorm,
+        TextureFormat::Rg8Unorm => wgpu::TextureFormat::Rg8Unorm,
         TextureFormat::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
+        TextureFormat::Rgba8UnormSrgb => wgpu::TextureFormat::Rgba8UnormSrgb,
+        TextureFormat::Bgra8Unorm => wgpu::TextureFormat::Bgra8Unorm,
+        TextureFormat::Rgba8Snorm => wgpu::TextureFormat::Rgba8Snorm,
+        TextureFormat::Rgb10a2Unorm => wgpu::TextureFormat::Rgb10a2Unorm,
+        TextureFormat::B5g6r5Unorm | TextureFormat::Bgr5a1Unorm | TextureFormat::Bgra4Unorm => {
+            return None;
+        }
+        TextureFormat::Rg11b10Ufloat => wgpu::TextureFormat::Rg11b10Ufloat,
+        TextureFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
         TextureFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
         TextureFormat::Depth16Unorm => wgpu::TextureFormat::Depth16Unorm,
         TextureFormat::Depth24Plus => wgpu::TextureFormat::Depth24Plus,
@@ -17,7 +30,12 @@ pub(crate) fn texture(format: TextureFormat) -> wgpu::TextureFormat {
         TextureFormat::Depth32Float => wgpu::TextureFormat::Depth32Float,
         TextureFormat::Depth32FloatStencil8 => wgpu::TextureFormat::Depth32FloatStencil8,
         TextureFormat::Stencil8 => wgpu::TextureFormat::Stencil8,
-    }
+    })
+}
+
+/// WebGPU's format of an attachment, which the limits have let through.
+pub(crate) fn known(format: TextureFormat) -> Result<wgpu::TextureFormat, BackendError> {
+    texture(format).ok_or(BackendError::NotSupported(Requirement::Format(format)))
 }
 
 /// A pipeline's depth and stencil state. A test that is off passes always and writes nothing.
@@ -25,14 +43,31 @@ pub(crate) fn depth_stencil(
     format: TextureFormat,
     depth: Option<DepthState>,
     stencil: Option<StencilState>,
-) -> wgpu::DepthStencilState {
+    bias: wgpu::DepthBiasState,
+) -> Result<wgpu::DepthStencilState, BackendError> {
     let has_depth = format.has_depth();
-    wgpu::DepthStencilState {
-        format: texture(format),
+    Ok(wgpu::DepthStencilState {
+        format: known(format)?,
         depth_write_enabled: has_depth.then(|| depth.is_some_and(|d| d.write)),
         depth_compare: Some(depth.map_or(wgpu::CompareFunction::Always, |d| compare(d.compare))),
         stencil: stencil.map(self::stencil).unwrap_or_default(),
-        bias: wgpu::DepthBiasState::default(),
+        bias,
+    })
+}
+
+/// Only polygons have a bias, and WebGPU refuses one on anything else (GPUDepthStencilState).
+pub(crate) fn bias(bias: DepthBias, topology: PrimitiveTopology) -> wgpu::DepthBiasState {
+    match topology {
+        PrimitiveTopology::PointList
+        | PrimitiveTopology::LineList
+        | PrimitiveTopology::LineStrip => wgpu::DepthBiasState::default(),
+        PrimitiveTopology::TriangleList
+        | PrimitiveTopology::TriangleStrip
+        | PrimitiveTopology::TriangleFan => wgpu::DepthBiasState {
+            constant: bias.constant,
+            slope_scale: bias.slope,
+            clamp: bias.clamp,
+        },
     }
 }
 
@@ -121,30 +156,62 @@ fn factor(factor: BlendFactor) -> wgpu::BlendFactor {
         BlendFactor::OneMinusConstant | BlendFactor::OneMinusConstantAlpha => {
             wgpu::BlendFactor::OneMinusConstant
         }
+        BlendFactor::Src1 => wgpu::BlendFactor::Src1,
+        BlendFactor::OneMinusSrc1 => wgpu::BlendFactor::OneMinusSrc1,
+        BlendFactor::Src1Alpha => wgpu::BlendFactor::Src1Alpha,
+        BlendFactor::OneMinusSrc1Alpha => wgpu::BlendFactor::OneMinusSrc1Alpha,
     }
 }
 
-pub(crate) fn primitive(
-    topology: PrimitiveTopology,
-    front_face: FrontFace,
-    cull: CullMode,
-) -> wgpu::PrimitiveState {
+/// How a draw makes primitives and which of their sides and parts it draws.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct Shape {
+    pub(crate) topology: PrimitiveTopology,
+    pub(crate) indexed: bool,
+    pub(crate) front_face: FrontFace,
+    pub(crate) cull: CullMode,
+    pub(crate) polygon_mode: PolygonMode,
+    pub(crate) depth_clamp: bool,
+}
+
+/// Whether each vertex goes on from the one before.
+pub(crate) fn is_strip(topology: PrimitiveTopology) -> bool {
+    matches!(
+        topology,
+        PrimitiveTopology::LineStrip | PrimitiveTopology::TriangleStrip
+    )
+}
+
+pub(crate) fn primitive(shape: Shape) -> wgpu::PrimitiveState {
     wgpu::PrimitiveState {
-        topology: match topology {
-            PrimitiveTopology::TriangleList => wgpu::PrimitiveTopology::TriangleList,
+        topology: match shape.topology {
+            PrimitiveTopology::PointList => wgpu::PrimitiveTopology::PointList,
+            PrimitiveTopology::LineList => wgpu::PrimitiveTopology::LineList,
+            PrimitiveTopology::LineStrip => wgpu::PrimitiveTopology::LineStrip,
+            // Fans need a feature that is denied.
+            PrimitiveTopology::TriangleList | PrimitiveTopology::TriangleFan => {
+                wgpu::PrimitiveTopology::TriangleList
+            }
             PrimitiveTopology::TriangleStrip => wgpu::PrimitiveTopology::TriangleStrip,
         },
-        front_face: match front_face {
+        strip_index_format: (shape.indexed && is_strip(shape.topology))
+            .then_some(wgpu::IndexFormat::Uint32),
+        front_face: match shape.front_face {
             FrontFace::Ccw => wgpu::FrontFace::Ccw,
             FrontFace::Cw => wgpu::FrontFace::Cw,
         },
-        cull_mode: match cull {
+        cull_mode: match shape.cull {
             // Both faces together need a feature that is denied.
             CullMode::None | CullMode::FrontAndBack => None,
             CullMode::Front => Some(wgpu::Face::Front),
             CullMode::Back => Some(wgpu::Face::Back),
         },
-        ..wgpu::PrimitiveState::default()
+        unclipped_depth: shape.depth_clamp,
+        polygon_mode: match shape.polygon_mode {
+            PolygonMode::Fill => wgpu::PolygonMode::Fill,
+            PolygonMode::Line => wgpu::PolygonMode::Line,
+        },
+        conservative: false,
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::error::Errors;
 use crate::format;
-use crate::limits::{Abilities, usages};
-use crate::pipeline::Pipelines;
+use crate::limits::{Abilities, fetched};
+use crate::pipeline::{Layout, Pipelines};
 use crate::pool::{Lease, Pool};
 use etalon_backend::BackendError;
 use etalon_frame::{Limits, TextureFormat};
@@ -33,6 +33,7 @@ pub(crate) struct Gpu {
 pub(crate) struct TextureKey {
     format: wgpu::TextureFormat,
     size: [u32; 2],
+    samples: u32,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -49,8 +50,41 @@ pub(crate) struct Target {
     pub(crate) texture: wgpu::Texture,
     /// All aspects, to draw to.
     pub(crate) view: wgpu::TextureView,
-    /// The texture, or its depth aspect, to fetch from.
-    fetch: OnceCell<wgpu::BindGroup>,
+    /// What a shader fetches of colour or depth.
+    fetch: OnceCell<wgpu::TextureView>,
+    /// What a shader fetches of stencil.
+    stencil: OnceCell<wgpu::TextureView>,
+}
+
+impl Target {
+    /// Colour, or depth, to fetch from.
+    pub(crate) fn fetch(&self) -> &wgpu::TextureView {
+        self.fetch.get_or_init(|| {
+            let depth = self.texture.format().has_depth_aspect();
+            self.seen(if depth {
+                wgpu::TextureAspect::DepthOnly
+            } else {
+                wgpu::TextureAspect::All
+            })
+        })
+    }
+
+    /// Stencil, to fetch from.
+    pub(crate) fn stencil(&self) -> &wgpu::TextureView {
+        let aspect = wgpu::TextureAspect::StencilOnly;
+        self.stencil.get_or_init(|| self.seen(aspect))
+    }
+
+    fn seen(&self, aspect: wgpu::TextureAspect) -> wgpu::TextureView {
+        // The samples of an sRGB texture are fetched to learn its codes.
+        let format = self.texture.format();
+        let cast = self.texture.sample_count() > 1 && format.is_srgb();
+        self.texture.create_view(&wgpu::TextureViewDescriptor {
+            aspect,
+            format: cast.then(|| format.remove_srgb_suffix()),
+            ..wgpu::TextureViewDescriptor::default()
+        })
+    }
 }
 
 /// Two timestamps around a submit.
@@ -122,9 +156,7 @@ impl Gpu {
     ) -> Result<T, BackendError> {
         let result = self.errors.guard(what, action);
         if result.is_err() {
-            self.textures.clear();
-            self.buffers.clear();
-            self.pipelines.clear();
+            self.forget();
             if let Some(clock) = &self.clock {
                 // It may be mapped; that it may not be is no error of the next scene's.
                 clock.mapped.unmap();
@@ -134,68 +166,98 @@ impl Gpu {
         result
     }
 
+    /// Forgets what was kept from scene to scene.
+    pub(crate) fn forget(&self) {
+        self.textures.clear();
+        self.buffers.clear();
+        self.pipelines.clear();
+    }
+
     /// A texture for an attachment; its contents are unknown.
-    pub(crate) fn attachment(&self, format: TextureFormat, size: [u32; 2]) -> TextureLease<'_> {
-        let usage = usages(format, self.abilities.draws_floats);
-        self.texture(format::texture(format), size, usage)
+    pub(crate) fn attachment(
+        &self,
+        format: TextureFormat,
+        size: [u32; 2],
+        samples: u32,
+    ) -> Result<TextureLease<'_>, BackendError> {
+        let known = format::known(format)?;
+        let drawable = self.draws(format);
+        let usage = match (samples, drawable) {
+            (1, false) => fetched(format),
+            (1, true) => fetched(format) | TextureUsages::RENDER_ATTACHMENT,
+            _ => TextureUsages::TEXTURE_BINDING | TextureUsages::RENDER_ATTACHMENT,
+        };
+        Ok(self.texture(known, size, samples, usage))
+    }
+
+    /// Whether attachments of the format can be drawn to.
+    pub(crate) fn draws(&self, format: TextureFormat) -> bool {
+        let support = self.limits.formats.get(&format);
+        support.is_some_and(|support| !support.samples.is_empty())
     }
 
     /// A texture that a shader writes to on its way to a buffer; its contents are unknown.
     pub(crate) fn scratch(&self, format: wgpu::TextureFormat, size: [u32; 2]) -> TextureLease<'_> {
-        let usage = usages(TextureFormat::Rgba8Unorm, false);
-        self.texture(format, size, usage)
+        let usage = fetched(TextureFormat::Rgba8Unorm) | TextureUsages::RENDER_ATTACHMENT;
+        self.texture(format, size, 1, usage)
     }
 
-    /// A format has the same usages wherever it is used, so they are no part of the key.
+    /// A format has the same usages wherever it is used with so many samples, so they are no part
+    /// of the key.
     fn texture(
         &self,
         format: wgpu::TextureFormat,
         size: [u32; 2],
+        samples: u32,
         usage: TextureUsages,
     ) -> TextureLease<'_> {
-        let texels = u64::from(size[0]) * u64::from(size[1]);
+        let texels = u64::from(size[0]) * u64::from(size[1]) * u64::from(samples);
         // An estimate: what a device allocates in addition is its secret.
         let bytes = texels * u64::from(format.block_copy_size(None).unwrap_or(8));
-        self.textures.take(TextureKey { format, size }, bytes, || {
+        let key = TextureKey {
+            format,
+            size,
+            samples,
+        };
+        let casts = [format.remove_srgb_suffix()];
+        self.textures.take(key, bytes, || {
             let texture = self.device.create_texture(&wgpu::TextureDescriptor {
                 label: None,
                 size: extent(size),
                 mip_level_count: 1,
-                sample_count: 1,
+                sample_count: samples,
                 dimension: wgpu::TextureDimension::D2,
                 format,
                 usage,
-                view_formats: &[],
+                view_formats: if samples > 1 && format.is_srgb() {
+                    &casts
+                } else {
+                    &[]
+                },
             });
             let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
             Rc::new(Target {
                 texture,
                 view,
                 fetch: OnceCell::new(),
+                stencil: OnceCell::new(),
             })
         })
     }
 
-    /// What binds a texture, or its depth, to a shader that fetches from it.
-    pub(crate) fn fetch<'a>(&self, target: &'a Target) -> &'a wgpu::BindGroup {
-        target.fetch.get_or_init(|| {
-            let depth = target.texture.format().has_depth_aspect();
-            let view = target.texture.create_view(&wgpu::TextureViewDescriptor {
-                aspect: if depth {
-                    wgpu::TextureAspect::DepthOnly
-                } else {
-                    wgpu::TextureAspect::All
-                },
-                ..wgpu::TextureViewDescriptor::default()
-            });
-            self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: None,
-                layout: &self.pipelines.layouts.texture.bindings,
-                entries: &[wgpu::BindGroupEntry {
-                    binding: 1,
-                    resource: wgpu::BindingResource::TextureView(&view),
-                }],
+    /// Views bound to a shader that fetches from them, the first at binding 1.
+    pub(crate) fn bound(&self, layout: &Layout, views: &[&wgpu::TextureView]) -> wgpu::BindGroup {
+        let entries: Vec<_> = (1..)
+            .zip(views)
+            .map(|(binding, view)| wgpu::BindGroupEntry {
+                binding,
+                resource: wgpu::BindingResource::TextureView(view),
             })
+            .collect();
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &layout.bindings,
+            entries: &entries,
         })
     }
 

@@ -1,62 +1,29 @@
 //! What an adapter can do.
 
 use crate::format;
-use etalon_case::Scene;
-use etalon_case::scene::Contents;
-use etalon_frame::{Api, FormatSupport, Limits, ReadPath, Requirement, TextureFormat};
+use etalon_frame::{Api, ChannelEncoding, Feature, FormatSupport, Limits, ReadPath, TextureFormat};
 use std::collections::{BTreeMap, BTreeSet};
-use wgpu::{DownlevelFlags, Features, TextureUsages};
+use wgpu::{DownlevelFlags, Features, TextureFormatFeatureFlags, TextureUsages};
 
 /// WebGPU does not tell; 4 is the least that any API under it allows.
 const SUB_PIXEL_BITS: u8 = 4;
+/// WebGPU's only sample count above one (GPUTextureDescriptor, sampleCount).
+pub(crate) const SAMPLES: u32 = 4;
+/// The most bytes of a texel, as WebGPU counts the colour attachments of a pass (maxColorAttachmentBytesPerSample).
+const MOST_TEXEL_BYTES: u32 = 16;
+/// The largest coordinate of a viewport that a scene can name, its far edge included.
+const VIEWPORT_REACH: u32 = 8192;
 
 /// The optional features of a device that this backend makes use of.
 pub(crate) fn wanted_features() -> Features {
-    Features::TIMESTAMP_QUERY | Features::DEPTH32FLOAT_STENCIL8 | Features::FLOAT32_BLENDABLE
-}
-
-/// What a texture of this format must serve for.
-fn needed(format: TextureFormat) -> TextureUsages {
-    let fetched = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
-    match format {
-        TextureFormat::Rgba8Unorm => {
-            fetched | TextureUsages::COPY_DST | TextureUsages::RENDER_ATTACHMENT
-        }
-        // Uploaded and fetched; whether it can be drawn to besides is the adapter's choice.
-        TextureFormat::Rgba32Float => fetched | TextureUsages::COPY_DST,
-        _ => fetched | TextureUsages::RENDER_ATTACHMENT,
-    }
-}
-
-/// What a texture of this format serves for on this adapter.
-pub(crate) fn usages(format: TextureFormat, drawable_floats: bool) -> TextureUsages {
-    let drawn = format == TextureFormat::Rgba32Float && drawable_floats;
-    needed(format)
-        | if drawn {
-            TextureUsages::RENDER_ATTACHMENT
-        } else {
-            TextureUsages::empty()
-        }
-}
-
-/// How the depth aspect, or colour, of a format is read back. `copies` tells whether the adapter
-/// copies depth at all; WebGPU never copies the depth of `depth24plus` (26.1.2).
-pub(crate) fn read_path(format: TextureFormat, copies: bool) -> ReadPath {
-    match format {
-        TextureFormat::Rgba8Unorm | TextureFormat::Rgba32Float | TextureFormat::Stencil8 => {
-            ReadPath::Copy
-        }
-        TextureFormat::Depth24Plus | TextureFormat::Depth24PlusStencil8 => ReadPath::Shader,
-        TextureFormat::Depth16Unorm
-        | TextureFormat::Depth32Float
-        | TextureFormat::Depth32FloatStencil8 => {
-            if copies {
-                ReadPath::Copy
-            } else {
-                ReadPath::Shader
-            }
-        }
-    }
+    Features::TIMESTAMP_QUERY
+        | Features::DEPTH32FLOAT_STENCIL8
+        | Features::FLOAT32_BLENDABLE
+        | Features::RG11B10UFLOAT_RENDERABLE
+        | Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
+        | Features::DUAL_SOURCE_BLENDING
+        | Features::DEPTH_CLIP_CONTROL
+        | Features::POLYGON_MODE_LINE
 }
 
 /// What matters here of an adapter and is not said by its limits.
@@ -64,76 +31,194 @@ pub(crate) fn read_path(format: TextureFormat, copies: bool) -> ReadPath {
 pub(crate) struct Abilities {
     /// Depth and stencil can be copied to buffers.
     pub(crate) copies: bool,
-    /// `rgba32float` can be drawn to.
-    pub(crate) draws_floats: bool,
-    /// `rgba32float` can be blended.
-    pub(crate) blends_floats: bool,
+    /// A texture can be seen in another format of its kind, sRGB as its codes.
+    pub(crate) casts: bool,
 }
 
 impl Abilities {
     pub(crate) fn of(adapter: &wgpu::Adapter) -> Self {
         let flags = adapter.get_downlevel_capabilities().flags;
-        let floats = adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float);
         Self {
             copies: flags.contains(DownlevelFlags::DEPTH_TEXTURE_AND_BUFFER_COPIES),
-            draws_floats: floats
-                .allowed_usages
-                .contains(TextureUsages::RENDER_ATTACHMENT),
-            blends_floats: adapter.features().contains(Features::FLOAT32_BLENDABLE),
+            casts: flags.contains(DownlevelFlags::VIEW_FORMATS),
         }
     }
 }
 
-/// What a scene asks for and the adapter's limits cannot say that it lacks: `rgba32float` is
-/// promised as a source of values only.
-pub(crate) fn missing(scene: &Scene, abilities: Abilities) -> Option<Requirement> {
-    let float = |index: usize| scene.attachments[index].format == TextureFormat::Rgba32Float;
-    let cleared = scene.attachments.iter().any(|a| {
-        a.format == TextureFormat::Rgba32Float && !matches!(a.contents, Contents::Texels(_))
-    });
-    let drawn = scene
-        .passes
-        .iter()
-        .flat_map(|p| &p.color)
-        .any(|i| float(*i));
-    let blended = scene.passes.iter().any(|pass| {
-        pass.draws.iter().any(|draw| {
-            let targets = pass.color.iter().zip(&draw.targets);
-            targets
-                .into_iter()
-                .any(|(i, t)| float(*i) && t.blend.is_some())
-        })
-    });
-    let lacks =
-        (cleared || drawn) && !abilities.draws_floats || blended && !abilities.blends_floats;
-    lacks.then_some(Requirement::Format(TextureFormat::Rgba32Float))
+/// What a single-sample texture of this format must serve for, besides being drawn to.
+pub(crate) fn fetched(format: TextureFormat) -> TextureUsages {
+    let fetched = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
+    if format.is_color() {
+        fetched | TextureUsages::COPY_DST
+    } else {
+        fetched
+    }
 }
 
-/// The adapter's limits, of a device with these features.
+/// How the depth aspect, or colour, of a format is read back. WebGPU never copies the depth of
+/// `depth24plus` (26.1.2).
+pub(crate) fn read_path(format: TextureFormat, abilities: Abilities) -> ReadPath {
+    match format {
+        TextureFormat::Depth24Plus | TextureFormat::Depth24PlusStencil8 => ReadPath::Shader,
+        TextureFormat::Depth16Unorm
+        | TextureFormat::Depth32Float
+        | TextureFormat::Depth32FloatStencil8
+            if !abilities.copies =>
+        {
+            ReadPath::Shader
+        }
+        _ => ReadPath::Copy,
+    }
+}
+
+/// Whether the codes of several samples, which only a shader can read, are as good as those that
+/// [`read_path`] promises.
 ///
-/// Attachments have one sample: WebGPU reads a multisampled attachment back only through a shader,
-/// and wgpu advertises four samples on drivers that have one.
-pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, copies: bool) -> Limits {
-    let mut formats = BTreeMap::new();
-    for texture in TextureFormat::ALL {
-        let real = format::texture(texture);
-        let allowed = adapter.get_texture_format_features(real).allowed_usages;
-        if features.contains(real.required_features()) && allowed.contains(needed(texture)) {
-            let support = FormatSupport {
-                samples: vec![1],
-                // Which of them it is stays the driver's secret.
-                depth: texture.depth_encodings().to_vec(),
-                read: read_path(texture, copies),
-            };
-            formats.insert(texture, support);
+/// A float arrives as it is. Of a normalized integer the API allows an error of one part in 10^5
+/// (Vulkan, Fundamentals; OpenGL 4.6, 2.3.5): up to 10 bits that leaves no doubt which code it was,
+/// with 16 it may. Two codes of a signed one stand for -1. An sRGB code is only exact where the
+/// texture can be seen as if it were linear.
+fn samples_are_exact(format: TextureFormat, abilities: Abilities) -> bool {
+    let exact = |encoding: &ChannelEncoding| match encoding {
+        ChannelEncoding::Snorm(_) => false,
+        ChannelEncoding::Srgb8 => abilities.casts,
+        ChannelEncoding::Unorm(bits) => *bits <= 10,
+        _ => true,
+    };
+    read_path(format, abilities) == ReadPath::Shader
+        || format.color_channels().iter().all(exact)
+            && (!format.has_depth() || format.depth_encodings() == [ChannelEncoding::Float32])
+}
+
+/// What wgpu lets a device with these features do with a format: the adapter's word where the
+/// feature or a downlevel adapter calls for it, else WebGPU's table (as its validation does).
+fn format_features(
+    adapter: &wgpu::Adapter,
+    features: Features,
+    format: wgpu::TextureFormat,
+) -> wgpu::TextureFormatFeatures {
+    let flags = adapter.get_downlevel_capabilities().flags;
+    if features.contains(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES)
+        || !flags.contains(DownlevelFlags::WEBGPU_TEXTURE_FORMAT_SUPPORT)
+    {
+        adapter.get_texture_format_features(format)
+    } else {
+        format.guaranteed_format_features(features)
+    }
+}
+
+fn support(
+    adapter: &wgpu::Adapter,
+    features: Features,
+    abilities: Abilities,
+    format: TextureFormat,
+) -> Option<FormatSupport> {
+    let real = format::texture(format)?;
+    if !features.contains(real.required_features()) {
+        return None;
+    }
+    let found = format_features(adapter, features, real);
+    let drawable = found
+        .allowed_usages
+        .contains(TextureUsages::RENDER_ATTACHMENT)
+        && (format != TextureFormat::Rg11b10Ufloat
+            || features.contains(Features::RG11B10UFLOAT_RENDERABLE)
+            || features.contains(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES));
+    let due = fetched(format);
+    if !found.allowed_usages.contains(due) || !format.is_color() && !drawable {
+        return None;
+    }
+    let multisampled = found.flags.sample_count_supported(SAMPLES)
+        && (!format.is_color()
+            || found
+                .flags
+                .contains(TextureFormatFeatureFlags::MULTISAMPLE_RESOLVE))
+        && samples_are_exact(format, abilities);
+    let mut samples = Vec::new();
+    if drawable {
+        samples.push(1);
+        if multisampled {
+            samples.push(SAMPLES);
         }
     }
+    Some(FormatSupport {
+        samples,
+        blendable: drawable
+            && found.flags.contains(TextureFormatFeatureFlags::BLENDABLE)
+            && (format != TextureFormat::Rgba32Float
+                || features.contains(Features::FLOAT32_BLENDABLE)),
+        // Which of them it is stays the driver's secret.
+        depth: format.depth_encodings().to_vec(),
+        read: read_path(format, abilities),
+    })
+}
+
+/// What wgpu takes beyond WebGPU's least. It has no word for the rest, or refuses it: reversed
+/// depth ranges, scissors beyond the attachments, factors of `min` and `max`.
+fn offered(flags: DownlevelFlags, features: Features, max_size: u32) -> BTreeSet<Feature> {
+    let flag = |flag| flags.contains(flag);
+    let feature = |feature| features.contains(feature);
+    let all = [
+        (
+            Feature::DepthBiasClamp,
+            flag(DownlevelFlags::DEPTH_BIAS_CLAMP),
+        ),
+        (Feature::DepthClamp, feature(Features::DEPTH_CLIP_CONTROL)),
+        (
+            Feature::DualSourceBlending,
+            feature(Features::DUAL_SOURCE_BLENDING),
+        ),
+        (
+            Feature::IndependentBlend,
+            flag(DownlevelFlags::INDEPENDENT_BLEND),
+        ),
+        (
+            Feature::PolygonModeLine,
+            feature(Features::POLYGON_MODE_LINE),
+        ),
+        (
+            Feature::SampleShading,
+            flag(DownlevelFlags::MULTISAMPLED_SHADING),
+        ),
+        // WebGPU bounds a viewport by twice the largest texture (setViewport).
+        (Feature::ViewportOutside, 2 * max_size > VIEWPORT_REACH),
+    ];
+    all.into_iter()
+        .filter_map(|(f, has)| has.then_some(f))
+        .collect()
+}
+
+/// The adapter's limits, of a device with these features. Whether several samples really work is
+/// for [`crate::probe`] to find out.
+pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abilities) -> Limits {
+    let of = adapter.limits();
+    let flags = adapter.get_downlevel_capabilities().flags;
+    let formats: BTreeMap<_, _> = TextureFormat::ALL
+        .into_iter()
+        .filter_map(|f| Some((f, support(adapter, features, abilities, f)?)))
+        .collect();
+    let max_size = of.max_texture_dimension_2d;
     Limits {
         api: Api::WebGpu,
         sub_pixel_bits: SUB_PIXEL_BITS,
-        max_size: adapter.limits().max_texture_dimension_2d,
+        max_size,
+        max_color_attachments: of
+            .max_color_attachments
+            .min(of.max_color_attachment_bytes_per_sample / MOST_TEXEL_BYTES),
         formats,
-        features: BTreeSet::new(),
-        sample_positions: BTreeMap::from([(1, vec![[128, 128]])]),
+        features: offered(flags, features, max_size),
+        // WebGPU gives them (Rasterization): no adapter may have others.
+        sample_positions: BTreeMap::from([
+            (1, vec![[128, 128]]),
+            (SAMPLES, vec![[96, 32], [224, 96], [32, 160], [160, 224]]),
+        ]),
     }
+}
+
+/// Takes back that there is more than one sample.
+pub(crate) fn deny_samples(limits: &mut Limits) {
+    for support in limits.formats.values_mut() {
+        support.samples.retain(|count| *count == 1);
+    }
+    limits.sample_positions.remove(&SAMPLES);
 }

@@ -1,9 +1,10 @@
 //! Finding adapters and opening one.
 
 use crate::gpu::Gpu;
-use crate::limits::{Abilities, limits, wanted_features};
+use crate::limits::{Abilities, deny_samples, limits, wanted_features};
 use crate::messages;
 use crate::prepared::Ready;
+use crate::probe;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
 use etalon_case::Scene;
 use etalon_frame::Limits;
@@ -160,8 +161,16 @@ fn device(adapter: &wgpu::Adapter) -> Result<Gpu, String> {
         .map_err(|_| "wgpu panicked".to_owned())?
         .map_err(|error| error.to_string())?;
     let abilities = Abilities::of(adapter);
-    let limits = limits(adapter, features, abilities.copies);
-    Gpu::new(device, queue, limits, abilities).map_err(|error| error.to_string())
+    let limits = limits(adapter, features, abilities);
+    let mut gpu = Gpu::new(device, queue, limits, abilities).map_err(|error| error.to_string())?;
+    let has_samples = probe::samples_work(&gpu).map_err(|error| error.to_string())?;
+    if !has_samples {
+        deny_samples(&mut gpu.limits);
+        // What a driver said of samples that nobody will ask for is no scene's matter.
+        gpu.forget();
+        drop(messages::take());
+    }
+    Ok(gpu)
 }
 
 fn backends(via: Via) -> Backends {

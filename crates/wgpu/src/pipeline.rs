@@ -1,10 +1,11 @@
 //! Shaders and pipelines, kept by their state.
 
 use crate::error::Errors;
-use crate::format;
+use crate::fetch::{self, FetchKey};
+use crate::format::{self, Shape};
 use etalon_backend::BackendError;
 use etalon_case::scene::{ColorTarget, Draw, StencilState};
-use etalon_case::state::{CullMode, DepthState, FrontFace, PrimitiveTopology, Shader};
+use etalon_case::state::{DepthBias, DepthState, Multisample, Shader};
 use etalon_frame::TextureFormat;
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -16,22 +17,38 @@ const MOST_PIPELINES: usize = 1024;
 pub(crate) const VERTEX_BYTES: u64 = 40;
 /// The size of [`etalon_case::scene::Params`].
 pub(crate) const PARAMS_BYTES: u64 = 32;
-const FETCH: &str = include_str!("fetch.wgsl");
 
 /// A bind group layout and the pipeline layout made of it.
 pub(crate) struct Layout {
     pub(crate) bindings: wgpu::BindGroupLayout,
-    pipeline: wgpu::PipelineLayout,
+    pub(crate) pipeline: wgpu::PipelineLayout,
 }
 
 /// What a shader can be given, by kind.
 pub(crate) struct Layouts {
     /// Nothing.
-    none: Layout,
+    pub(crate) none: Layout,
     /// The parameter block.
     pub(crate) params: Layout,
     /// One texture.
     pub(crate) texture: Layout,
+    /// Two textures.
+    pub(crate) textures: Layout,
+    /// One texture of several samples of floats.
+    pub(crate) samples: Layout,
+    /// One texture of several samples of integers.
+    pub(crate) integers: Layout,
+}
+
+impl Layouts {
+    /// The layout for a shader that fetches from so many textures.
+    pub(crate) fn textures(&self, count: usize) -> &Layout {
+        match count {
+            0 => &self.none,
+            1 => &self.texture,
+            _ => &self.textures,
+        }
+    }
 }
 
 /// Pipelines and what they are made of.
@@ -47,28 +64,32 @@ pub(crate) struct Pipelines {
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub(crate) struct DrawKey {
     shader: Shader,
-    topology: PrimitiveTopology,
-    cull: CullMode,
-    front_face: FrontFace,
+    shape: Shape,
     depth: Option<DepthState>,
     stencil: Option<StencilState>,
+    bias: Bias,
     targets: Vec<(TextureFormat, ColorTarget)>,
     depth_stencil: Option<TextureFormat>,
+    samples: u32,
+    multisample: Multisample,
 }
 
-/// A pipeline that brings depth or stencil into a colour texture.
+/// A depth bias by the bits of its floats.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum FetchKey {
-    /// Depth, as a float's bits, into `r32uint`.
-    Depth,
-    /// One bit of the stencil value, as 0 or 1, into one channel of `rgba8unorm`: bits 0 to 3 and
-    /// 4 to 7 into red to alpha.
-    StencilBit {
-        /// The attachment's format.
-        format: TextureFormat,
-        /// The bit.
-        bit: u8,
-    },
+struct Bias {
+    constant: i32,
+    slope: u32,
+    clamp: u32,
+}
+
+impl Bias {
+    fn get(self) -> DepthBias {
+        DepthBias {
+            constant: self.constant,
+            slope: f32::from_bits(self.slope),
+            clamp: f32::from_bits(self.clamp),
+        }
+    }
 }
 
 impl DrawKey {
@@ -76,33 +97,43 @@ impl DrawKey {
         draw: &Draw,
         colors: impl Iterator<Item = TextureFormat>,
         depth_stencil: Option<TextureFormat>,
+        samples: u32,
     ) -> Self {
-        let mut targets: Vec<_> = colors.zip(draw.targets.iter().copied()).collect();
-        // All shaders write location 0 alone. What the others would take is undefined in OpenGL and
-        // Vulkan; WebGPU wants it said that they take nothing (10.3.6, fragment state).
-        for (_, target) in targets.iter_mut().skip(1) {
-            target.write_mask = 0;
-        }
         let mut shader = draw.shader;
         // WebGPU refuses a shader that writes depth where there is none (10.3.6). There the depth
-        // is lost, and the two shaders' colours are the same.
-        if shader == Shader::FlatColorDepth && !depth_stencil.is_some_and(TextureFormat::has_depth)
-        {
-            shader = Shader::UniformColor;
+        // is lost, and another shader gives the same colours.
+        if !depth_stencil.is_some_and(TextureFormat::has_depth) {
+            shader = match shader {
+                Shader::FlatColorDepth => Shader::UniformColor,
+                Shader::FragCoordDepth => Shader::FlatColor,
+                other => other,
+            };
         }
         Self {
             shader,
-            topology: draw.topology,
-            cull: draw.cull,
-            front_face: draw.front_face,
+            shape: Shape {
+                topology: draw.topology,
+                indexed: draw.mesh.indices.is_some(),
+                cull: draw.cull,
+                front_face: draw.front_face,
+                polygon_mode: draw.polygon_mode,
+                depth_clamp: draw.depth_clamp,
+            },
             depth: draw.depth,
             stencil: draw.stencil.map(|mut s| {
                 s.front.reference = 0;
                 s.back.reference = 0;
                 s
             }),
-            targets,
+            bias: Bias {
+                constant: draw.depth_bias.constant,
+                slope: draw.depth_bias.slope.to_bits(),
+                clamp: draw.depth_bias.clamp.to_bits(),
+            },
+            targets: colors.zip(draw.targets.iter().copied()).collect(),
             depth_stencil,
+            samples,
+            multisample: draw.multisample,
         }
     }
 }
@@ -119,21 +150,29 @@ impl Pipelines {
             },
             count: None,
         };
-        let texture = wgpu::BindGroupLayoutEntry {
-            binding: 1,
+        let texture = |binding, sample_type, multisampled| wgpu::BindGroupLayoutEntry {
+            binding,
             visibility: wgpu::ShaderStages::FRAGMENT,
             ty: wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                sample_type,
                 view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
+                multisampled,
             },
             count: None,
         };
+        let float = wgpu::TextureSampleType::Float { filterable: false };
+        let integer = wgpu::TextureSampleType::Uint;
         Self {
             layouts: Layouts {
                 none: layout(device, &[]),
                 params: layout(device, &[params]),
-                texture: layout(device, &[texture]),
+                texture: layout(device, &[texture(1, float, false)]),
+                textures: layout(
+                    device,
+                    &[texture(1, float, false), texture(2, float, false)],
+                ),
+                samples: layout(device, &[texture(1, float, true)]),
+                integers: layout(device, &[texture(1, integer, true)]),
             },
             shaders: Kept::default(),
             draws: Kept::default(),
@@ -161,17 +200,22 @@ impl Pipelines {
             let module = self.shaders.get(shader, |shader| {
                 compiled(device, errors, shader.name(), shader.wgsl())
             })?;
-            let layout = match (shader.uses_params(), shader.textures()) {
-                (true, _) => &self.layouts.params,
-                (false, 0) => &self.layouts.none,
-                (false, _) => &self.layouts.texture,
+            let layout = if shader.uses_params() {
+                &self.layouts.params
+            } else {
+                self.layouts.textures(shader.textures())
             };
             let vertices = wgpu::VertexBufferLayout {
                 array_stride: VERTEX_BYTES,
                 step_mode: wgpu::VertexStepMode::Vertex,
                 attributes: attributes(shader),
             };
-            let targets: Vec<_> = key.targets.iter().map(|(f, t)| target(*f, *t)).collect();
+            let targets: Result<Vec<_>, _> =
+                key.targets.iter().map(|(f, t)| target(*f, *t)).collect();
+            let bias = format::bias(key.bias.get(), key.shape.topology);
+            let depth_stencil = key
+                .depth_stencil
+                .map(|f| format::depth_stencil(f, key.depth, key.stencil, bias));
             let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(shader.name()),
                 layout: Some(&layout.pipeline),
@@ -181,16 +225,18 @@ impl Pipelines {
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
                     buffers: &[Some(vertices)],
                 },
-                primitive: format::primitive(key.topology, key.front_face, key.cull),
-                depth_stencil: key
-                    .depth_stencil
-                    .map(|f| format::depth_stencil(f, key.depth, key.stencil)),
-                multisample: wgpu::MultisampleState::default(),
+                primitive: format::primitive(key.shape),
+                depth_stencil: depth_stencil.transpose()?,
+                multisample: wgpu::MultisampleState {
+                    count: key.samples,
+                    mask: key.multisample.mask.into(),
+                    alpha_to_coverage_enabled: key.multisample.alpha_to_coverage,
+                },
                 fragment: Some(wgpu::FragmentState {
                     module: &module,
                     entry_point: Some("fs"),
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    targets: &targets,
+                    targets: &targets?,
                 }),
                 multiview_mask: None,
                 cache: None,
@@ -210,50 +256,8 @@ impl Pipelines {
         self.fetches.get(key, |key| {
             let module = self
                 .fetch
-                .get((), |()| compiled(device, errors, "fetch", FETCH))?;
-            let (layout, entry, color, write_mask, depth_stencil) = match *key {
-                FetchKey::Depth => (
-                    &self.layouts.texture,
-                    "depth",
-                    wgpu::TextureFormat::R32Uint,
-                    wgpu::ColorWrites::ALL,
-                    None,
-                ),
-                FetchKey::StencilBit { format, bit } => (
-                    &self.layouts.none,
-                    "one",
-                    wgpu::TextureFormat::Rgba8Unorm,
-                    wgpu::ColorWrites::from_bits_truncate(1 << (bit % 4)),
-                    Some(stencil_bit(format, bit)),
-                ),
-            };
-            let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(entry),
-                layout: Some(&layout.pipeline),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some("everywhere"),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    buffers: &[],
-                },
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil,
-                multisample: wgpu::MultisampleState::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module: &module,
-                    entry_point: Some(entry),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    targets: &[Some(wgpu::ColorTargetState {
-                        format: color,
-                        blend: None,
-                        write_mask,
-                    })],
-                }),
-                multiview_mask: None,
-                cache: None,
-            });
-            errors.check_pipeline("fetch")?;
-            Ok(pipeline)
+                .get((), |()| compiled(device, errors, "fetch", fetch::WGSL))?;
+            fetch::pipeline(device, errors, &self.layouts, &module, *key)
         })
     }
 }
@@ -264,35 +268,26 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
     const ALL: [wgpu::VertexAttribute; 2] =
         wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4];
     match shader {
-        Shader::FlatColor | Shader::FlatColorDepth => &ALL,
-        Shader::FrontFacing | Shader::TexelColor | Shader::UniformColor => &ALL[..1],
+        Shader::FlatColor | Shader::FlatColorDepth | Shader::FragCoordDepth => &ALL,
+        Shader::FrontFacing
+        | Shader::SampleIndex
+        | Shader::TexelColor
+        | Shader::TexelColorAll
+        | Shader::TexelDualSource
+        | Shader::UniformColor => &ALL[..1],
     }
 }
 
-/// Passes where a bit is set and changes nothing.
-fn stencil_bit(format: TextureFormat, bit: u8) -> wgpu::DepthStencilState {
-    let face = wgpu::StencilFaceState {
-        compare: wgpu::CompareFunction::Equal,
-        ..wgpu::StencilFaceState::default()
-    };
-    wgpu::DepthStencilState {
-        stencil: wgpu::StencilState {
-            front: face,
-            back: face,
-            read_mask: 1 << bit,
-            write_mask: 0,
-        },
-        ..format::depth_stencil(format, None, None)
-    }
-}
-
-fn target(format: TextureFormat, target: ColorTarget) -> Option<wgpu::ColorTargetState> {
-    Some(wgpu::ColorTargetState {
-        format: format::texture(format),
+fn target(
+    format: TextureFormat,
+    target: ColorTarget,
+) -> Result<Option<wgpu::ColorTargetState>, BackendError> {
+    Ok(Some(wgpu::ColorTargetState {
+        format: format::known(format)?,
         blend: target.blend.map(format::blend),
         // Both count from bit 0, red, to bit 3, alpha.
         write_mask: wgpu::ColorWrites::from_bits_truncate(target.write_mask.into()),
-    })
+    }))
 }
 
 fn layout(device: &wgpu::Device, entries: &[wgpu::BindGroupLayoutEntry]) -> Layout {

@@ -1,16 +1,20 @@
 //! A scene, ready to be drawn.
 
 use crate::format;
-use crate::gpu::{BufferLease, Clock, Gpu, TextureLease, extent};
-use crate::limits;
-use crate::pipeline::{DrawKey, PARAMS_BYTES};
+use crate::gpu::{BufferLease, Clock, Gpu};
+use crate::pipeline::{DrawKey, PARAMS_BYTES, VERTEX_BYTES};
 use crate::read::{self, Source};
+use crate::slot::Slot;
 use etalon_backend::{BackendError, FrameTime, Prepared};
-use etalon_case::Scene;
-use etalon_case::scene::{Attachment, Contents, Draw};
-use etalon_frame::{Frame, TextureFormat};
+use etalon_case::scene::{Draw, Pass};
+use etalon_case::state::{PrimitiveTopology, Viewport};
+use etalon_case::{RESTART, Scene};
+use etalon_frame::Frame;
 use std::time::{Duration, Instant};
 use wgpu::BufferUsages;
+
+/// The size of an index.
+const INDEX_BYTES: u64 = 4;
 
 /// Everything that drawing a scene takes.
 pub(crate) struct Ready<'a> {
@@ -19,116 +23,77 @@ pub(crate) struct Ready<'a> {
     passes: Vec<ReadyPass>,
     read: Vec<usize>,
     vertices: Option<BufferLease<'a>>,
+    indices: Option<BufferLease<'a>>,
     params: Option<(BufferLease<'a>, wgpu::BindGroup)>,
     submitted: bool,
 }
 
-/// An attachment.
-struct Slot<'a> {
-    name: String,
-    format: TextureFormat,
-    size: [u32; 2],
-    target: TextureLease<'a>,
-    start: Start<'a>,
-    /// The first pass that draws to it.
-    first_pass: Option<usize>,
-}
-
-/// What an attachment starts from.
-enum Start<'a> {
-    Color(wgpu::Color),
-    DepthStencil(f32, u32),
-    /// Rows that lie so many bytes apart in a buffer.
-    Upload(BufferLease<'a>, u32),
-}
-
 struct ReadyPass {
     color: Vec<usize>,
+    resolve: Vec<Option<usize>>,
     depth_stencil: Option<usize>,
+    read_only: bool,
     draws: Vec<ReadyDraw>,
 }
 
 struct ReadyDraw {
     pipeline: wgpu::RenderPipeline,
     binding: Binding,
+    viewport: Viewport,
+    scissor: [u32; 4],
     blend_constant: wgpu::Color,
     stencil_reference: Option<u32>,
-    first_vertex: u32,
+    first_vertex: u64,
     vertices: u32,
+    /// The first index and how many.
+    indices: Option<(u64, u32)>,
 }
 
 enum Binding {
     None,
     /// The parameter block at this offset.
     Params(u32),
-    /// The texture of this attachment.
-    Texture(wgpu::BindGroup),
+    /// The textures of some attachments.
+    Textures(wgpu::BindGroup),
+}
+
+/// What goes into the buffers of a scene.
+#[derive(Default)]
+struct Data {
+    vertices: Vec<u8>,
+    indices: Vec<u32>,
+    params: Vec<u8>,
 }
 
 impl<'a> Ready<'a> {
     pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> Result<Self, BackendError> {
-        let missing = gpu.limits.missing(&scene.requirements());
-        if let Some(missing) = missing.or_else(|| limits::missing(scene, gpu.abilities)) {
+        if let Some(missing) = gpu.limits.missing(&scene.requirements()) {
             return Err(BackendError::NotSupported(missing));
         }
         gpu.guard("preparing a scene", || Self::build(gpu, scene))
     }
 
     fn build(gpu: &'a Gpu, scene: &Scene) -> Result<Self, BackendError> {
-        let slots: Vec<_> = (0..)
-            .zip(&scene.attachments)
-            .map(|(index, attachment)| {
-                let mut slot = Slot::new(gpu, attachment);
-                slot.first_pass = scene.passes.iter().position(|pass| {
-                    pass.color.contains(&index) || pass.depth_stencil == Some(index)
-                });
-                slot
-            })
-            .collect();
+        let slots = (0..scene.attachments.len())
+            .map(|index| Slot::new(gpu, scene, index))
+            .collect::<Result<Vec<_>, _>>()?;
         gpu.errors.check("making attachments")?;
-        let mut vertices = Vec::new();
-        let mut params = Vec::new();
-        let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
-        let stride = PARAMS_BYTES.next_multiple_of(u64::from(alignment)) as usize;
-        let mut first_vertex = 0;
+        let mut data = Data::default();
         let mut passes = Vec::new();
         for pass in &scene.passes {
-            let formats = || pass.color.iter().map(|i| scene.attachments[*i].format);
-            let depth_stencil = pass.depth_stencil.map(|i| scene.attachments[i].format);
-            let mut draws = Vec::new();
-            for draw in &pass.draws {
-                let key = DrawKey::of(draw, formats(), depth_stencil);
-                let count = draw.mesh.vertices.len() as u32;
-                vertices.extend_from_slice(draw.mesh.bytes());
-                let binding = if let Some(index) = draw.textures.first() {
-                    Binding::Texture(gpu.fetch(&slots[*index].target).clone())
-                } else if draw.shader.uses_params() {
-                    let at = params.len();
-                    params.extend_from_slice(&draw.params.to_bytes());
-                    params.resize(at + stride, 0);
-                    Binding::Params(at as u32)
-                } else {
-                    Binding::None
-                };
-                draws.push(ReadyDraw {
-                    pipeline: gpu.pipelines.draw(&gpu.device, &gpu.errors, key)?,
-                    binding,
-                    blend_constant: format::color(draw.blend_constant),
-                    stencil_reference: reference(draw),
-                    first_vertex,
-                    vertices: count,
-                });
-                first_vertex += count;
-            }
+            let draws = pass.draws.iter();
             passes.push(ReadyPass {
                 color: pass.color.clone(),
+                resolve: pass.resolve.clone(),
                 depth_stencil: pass.depth_stencil,
-                draws,
+                read_only: pass.depth_stencil_read_only,
+                draws: draws
+                    .map(|draw| ReadyDraw::new(gpu, scene, pass, draw, &slots, &mut data))
+                    .collect::<Result<_, _>>()?,
             });
         }
-        let vertices = (!vertices.is_empty()).then(|| gpu.filled(BufferUsages::VERTEX, &vertices));
-        let params = (!params.is_empty()).then(|| {
-            let buffer = gpu.filled(BufferUsages::UNIFORM, &params);
+        let filled = |usage, data: &[u8]| (!data.is_empty()).then(|| gpu.filled(usage, data));
+        let params = filled(BufferUsages::UNIFORM, &data.params).map(|buffer| {
             let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: None,
                 layout: &gpu.pipelines.layouts.params.bindings,
@@ -143,12 +108,14 @@ impl<'a> Ready<'a> {
             });
             (buffer, group)
         });
+        let indices = bytemuck::cast_slice(&data.indices);
         Ok(Self {
             gpu,
             slots,
             passes,
             read: scene.read.clone(),
-            vertices,
+            vertices: filled(BufferUsages::VERTEX, &data.vertices),
+            indices: filled(BufferUsages::INDEX, indices),
             params,
             submitted: false,
         })
@@ -159,26 +126,7 @@ impl<'a> Ready<'a> {
         let device = &self.gpu.device;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         for slot in &self.slots {
-            // An attachment that a pass draws to is cleared by the first such pass.
-            match &slot.start {
-                Start::Upload(buffer, pitch) if slot.first_pass.is_some() || !self.submitted => {
-                    slot.upload(&mut encoder, buffer, *pitch);
-                }
-                Start::Color(_) if slot.first_pass.is_none() => {
-                    let attachment = [Some(slot.as_color(true))];
-                    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                        color_attachments: &attachment,
-                        ..wgpu::RenderPassDescriptor::default()
-                    });
-                }
-                Start::DepthStencil(..) if slot.first_pass.is_none() => {
-                    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                        depth_stencil_attachment: Some(slot.as_depth_stencil(true)),
-                        ..wgpu::RenderPassDescriptor::default()
-                    });
-                }
-                _ => {}
-            }
+            slot.initialise(&mut encoder, !self.submitted);
         }
         for (index, pass) in self.passes.iter().enumerate() {
             self.record_pass(&mut encoder, index, pass);
@@ -191,22 +139,28 @@ impl<'a> Ready<'a> {
     }
 
     fn record_pass(&self, encoder: &mut wgpu::CommandEncoder, index: usize, pass: &ReadyPass) {
-        let slot = |i: &usize| {
-            let slot = &self.slots[*i];
-            (slot, slot.first_pass == Some(index))
-        };
         let colors: Vec<_> = pass
             .color
             .iter()
-            .map(slot)
-            .map(|(slot, first)| Some(slot.as_color(first)))
+            .zip(&pass.resolve)
+            .map(|(color, resolve)| {
+                let resolve = resolve.map(|r| &self.slots[r].target.view);
+                Some(self.slots[*color].as_color(Some(index), resolve))
+            })
             .collect();
-        let depth_stencil = pass.depth_stencil.as_ref().map(slot);
+        let depth_stencil = pass.depth_stencil.map(|i| {
+            let slot = &self.slots[i];
+            if pass.read_only {
+                slot.as_read_only()
+            } else {
+                slot.as_depth_stencil(Some(index))
+            }
+        });
         let last = index + 1 == self.passes.len();
         let timestamps = self.clock().filter(|_| index == 0 || last);
         let mut encoder = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             color_attachments: &colors,
-            depth_stencil_attachment: depth_stencil.map(|(s, first)| s.as_depth_stencil(first)),
+            depth_stencil_attachment: depth_stencil,
             timestamp_writes: timestamps.map(|clock| wgpu::RenderPassTimestampWrites {
                 query_set: &clock.queries,
                 beginning_of_pass_write_index: (index == 0).then_some(0),
@@ -214,23 +168,43 @@ impl<'a> Ready<'a> {
             }),
             ..wgpu::RenderPassDescriptor::default()
         });
-        if let Some(vertices) = &self.vertices {
-            encoder.set_vertex_buffer(0, vertices.slice(..));
-        }
         for draw in &pass.draws {
-            encoder.set_pipeline(&draw.pipeline);
-            match (&draw.binding, &self.params) {
-                (Binding::Params(offset), Some((_, group))) => {
-                    encoder.set_bind_group(0, group, &[*offset]);
-                }
-                (Binding::Texture(group), _) => encoder.set_bind_group(0, group, &[]),
-                (Binding::Params(_) | Binding::None, _) => {}
+            self.record_draw(&mut encoder, draw);
+        }
+    }
+
+    fn record_draw(&self, encoder: &mut wgpu::RenderPass<'_>, draw: &ReadyDraw) {
+        encoder.set_pipeline(&draw.pipeline);
+        match (&draw.binding, &self.params) {
+            (Binding::Params(offset), Some((_, group))) => {
+                encoder.set_bind_group(0, group, &[*offset]);
             }
-            encoder.set_blend_constant(draw.blend_constant);
-            if let Some(reference) = draw.stencil_reference {
-                encoder.set_stencil_reference(reference);
+            (Binding::Textures(group), _) => encoder.set_bind_group(0, group, &[]),
+            (Binding::Params(_) | Binding::None, _) => {}
+        }
+        let ([x, y, w, h], [near, far]) = (draw.viewport.rect, draw.viewport.depth);
+        encoder.set_viewport(x, y, w, h, near, far);
+        let [x, y, w, h] = draw.scissor;
+        encoder.set_scissor_rect(x, y, w, h);
+        encoder.set_blend_constant(draw.blend_constant);
+        if let Some(reference) = draw.stencil_reference {
+            encoder.set_stencil_reference(reference);
+        }
+        if let Some(vertices) = &self.vertices {
+            let first = draw.first_vertex * VERTEX_BYTES;
+            let bytes = u64::from(draw.vertices) * VERTEX_BYTES;
+            encoder.set_vertex_buffer(0, vertices.slice(first..first + bytes));
+        }
+        match (draw.indices, &self.indices) {
+            (Some((first, count)), Some(indices)) => {
+                let (first, bytes) = (first * INDEX_BYTES, u64::from(count) * INDEX_BYTES);
+                let slice = indices.slice(first..first + bytes);
+                encoder.set_index_buffer(slice, wgpu::IndexFormat::Uint32);
+                encoder.draw_indexed(0..count, 0, 0..1);
             }
-            encoder.draw(draw.first_vertex..draw.first_vertex + draw.vertices, 0..1);
+            // All that was indexed was cut off.
+            (Some(_), None) => {}
+            (None, _) => encoder.draw(0..draw.vertices, 0..1),
         }
     }
 
@@ -276,6 +250,7 @@ impl Prepared for Ready<'_> {
                 name: &slot.name,
                 format: slot.format,
                 size: slot.size,
+                samples: slot.samples,
                 target: &slot.target,
             }
         };
@@ -285,103 +260,73 @@ impl Prepared for Ready<'_> {
     }
 }
 
-impl<'a> Slot<'a> {
-    fn new(gpu: &'a Gpu, attachment: &Attachment) -> Self {
-        let format = attachment.format;
-        Self {
-            name: attachment.name.clone(),
-            format,
-            size: attachment.size,
-            target: gpu.attachment(format, attachment.size),
-            start: match &attachment.contents {
-                Contents::Color(color) => Start::Color(format::color(*color)),
-                Contents::DepthStencil { depth, stencil } => {
-                    Start::DepthStencil(*depth, (*stencil).into())
-                }
-                Contents::Texels(codes) => {
-                    let (bytes, pitch) = rows(format, attachment.size[0], codes);
-                    Start::Upload(gpu.filled(BufferUsages::COPY_SRC, &bytes), pitch)
-                }
-            },
-            first_pass: None,
-        }
-    }
-
-    fn upload(&self, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer, pitch: u32) {
-        let source = wgpu::TexelCopyBufferInfo {
-            buffer,
-            layout: wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(pitch),
-                rows_per_image: None,
-            },
+impl ReadyDraw {
+    fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        pass: &Pass,
+        draw: &Draw,
+        slots: &[Slot<'_>],
+        data: &mut Data,
+    ) -> Result<Self, BackendError> {
+        let formats = pass.color.iter().map(|i| scene.attachments[*i].format);
+        let depth_stencil = pass.depth_stencil.map(|i| scene.attachments[i].format);
+        let key = DrawKey::of(draw, formats, depth_stencil, scene.pass_samples(pass));
+        let binding = if !draw.textures.is_empty() {
+            let textures = draw.textures.iter();
+            let views: Vec<_> = textures.map(|i| slots[*i].target.fetch()).collect();
+            let layout = gpu.pipelines.layouts.textures(views.len());
+            Binding::Textures(gpu.bound(layout, &views))
+        } else if draw.shader.uses_params() {
+            let at = data.params.len();
+            let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
+            let stride = PARAMS_BYTES.next_multiple_of(u64::from(alignment)) as usize;
+            data.params.extend_from_slice(&draw.params.to_bytes());
+            data.params.resize(at + stride, 0);
+            Binding::Params(at as u32)
+        } else {
+            Binding::None
         };
-        let target = self.target.texture.as_image_copy();
-        encoder.copy_buffer_to_texture(source, target, extent(self.size));
+        let first_vertex = data.vertices.len() as u64 / VERTEX_BYTES;
+        data.vertices.extend_from_slice(draw.mesh.bytes());
+        let indices = draw.mesh.indices.as_ref().map(|indices| {
+            let first = data.indices.len();
+            data.indices.extend(drawn(indices, draw.topology));
+            (first as u64, (data.indices.len() - first) as u32)
+        });
+        let [width, height] = scene.pass_size(pass);
+        Ok(Self {
+            pipeline: gpu.pipelines.draw(&gpu.device, &gpu.errors, key)?,
+            binding,
+            viewport: draw.viewport,
+            scissor: draw.scissor.unwrap_or([0, 0, width, height]),
+            blend_constant: format::color(draw.blend_constant),
+            stencil_reference: reference(draw),
+            first_vertex,
+            vertices: draw.mesh.vertices.len() as u32,
+            indices,
+        })
     }
+}
 
-    fn as_color(&self, first: bool) -> wgpu::RenderPassColorAttachment<'_> {
-        let load = match self.start {
-            Start::Color(color) if first => wgpu::LoadOp::Clear(color),
-            _ => wgpu::LoadOp::Load,
-        };
-        wgpu::RenderPassColorAttachment {
-            view: &self.target.view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load,
-                store: wgpu::StoreOp::Store,
-            },
-        }
-    }
-
-    fn as_depth_stencil(&self, first: bool) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-        let (depth, stencil) = match self.start {
-            Start::DepthStencil(depth, stencil) if first => {
-                (wgpu::LoadOp::Clear(depth), wgpu::LoadOp::Clear(stencil))
-            }
-            _ => (wgpu::LoadOp::Load, wgpu::LoadOp::Load),
-        };
-        let store = wgpu::StoreOp::Store;
-        wgpu::RenderPassDepthStencilAttachment {
-            view: &self.target.view,
-            depth_ops: self
-                .format
-                .has_depth()
-                .then_some(wgpu::Operations { load: depth, store }),
-            stencil_ops: self.format.has_stencil().then_some(wgpu::Operations {
-                load: stencil,
-                store,
-            }),
-        }
-    }
+/// The indices to draw. WebGPU ends only strips; of a list, what is ended before a primitive is
+/// whole is left out here.
+fn drawn(indices: &[u32], topology: PrimitiveTopology) -> Vec<u32> {
+    let size = match topology {
+        PrimitiveTopology::LineStrip | PrimitiveTopology::TriangleStrip => return indices.to_vec(),
+        PrimitiveTopology::PointList => 1,
+        PrimitiveTopology::LineList => 2,
+        PrimitiveTopology::TriangleList | PrimitiveTopology::TriangleFan => 3,
+    };
+    let runs = indices.split(|i| *i == RESTART);
+    runs.flat_map(|run| &run[..run.len() / size * size])
+        .copied()
+        .collect()
 }
 
 /// WebGPU has one reference for both faces; `SeparateStencilMasks` is denied, so they agree.
 fn reference(draw: &Draw) -> Option<u32> {
     draw.stencil.map(|s| s.front.reference.into())
-}
-
-/// Uploaded codes as bytes, each row at a multiple of the pitch, which comes with them.
-fn rows(format: TextureFormat, width: u32, codes: &[u32]) -> (Vec<u8>, u32) {
-    let bytes: Vec<u8> = match format {
-        TextureFormat::Rgba32Float => codes.iter().flat_map(|c| c.to_le_bytes()).collect(),
-        _ => codes.iter().map(|c| *c as u8).collect(),
-    };
-    let texel = if format == TextureFormat::Rgba32Float {
-        16
-    } else {
-        4
-    };
-    let row = width * texel;
-    let pitch = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-    let mut padded = Vec::new();
-    for row in bytes.chunks(row as usize) {
-        padded.extend_from_slice(row);
-        padded.resize(padded.len().next_multiple_of(pitch as usize), 0);
-    }
-    (padded, pitch)
 }
 
 /// The time between the two timestamps, which are mapped by now; then they are unmapped.

@@ -1,17 +1,22 @@
 //! From attachments to a frame.
 
+use crate::fetch::FetchKey;
 use crate::gpu::{Gpu, Target, TextureLease, extent};
-use crate::limits::read_path;
-use crate::pipeline::FetchKey;
+use crate::limits::{Abilities, read_path};
+use crate::texel;
 use etalon_backend::BackendError;
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, ReadPath, TextureFormat};
 use wgpu::BufferUsages;
+
+/// Bytes of an `rgba32uint` texel.
+const SAMPLE_BYTES: usize = 16;
 
 /// An attachment to read.
 pub(crate) struct Source<'a> {
     pub(crate) name: &'a str,
     pub(crate) format: TextureFormat,
     pub(crate) size: [u32; 2],
+    pub(crate) samples: u32,
     pub(crate) target: &'a Target,
 }
 
@@ -20,9 +25,10 @@ struct Piece<'a> {
     source: &'a Source<'a>,
     aspect: Aspect,
     how: How,
+    /// How it counts as read. Several samples are offered only where a shader finds the codes that a
+    /// copy would, or where one sample is read by a shader too; a stencil value is exact either way.
+    read: ReadPath,
     channels: Vec<ChannelEncoding>,
-    /// Bytes per code in the buffer.
-    unit: usize,
     /// Where it starts in the buffer, and how far apart its rows lie there.
     offset: u64,
     pitch: u32,
@@ -34,6 +40,8 @@ enum How {
     Copy,
     /// Fetched by a shader, which stores a float's bits.
     FetchDepth,
+    /// Fetched by a shader, sample by sample, an image of four values each.
+    FetchSamples,
     /// Found out by stencil tests bit by bit, four bits to an image. A stencil aspect can be
     /// fetched by a shader only where OpenGL has the texture mode for it, since 4.3 and ES 3.1.
     StencilBits,
@@ -45,7 +53,7 @@ pub(crate) fn frame(gpu: &Gpu, sources: &[Source<'_>]) -> Result<Frame, BackendE
     let mut pieces = Vec::new();
     for source in sources {
         for aspect in source.format.aspects() {
-            let piece = Piece::new(source, *aspect, gpu.abilities.copies, size);
+            let piece = Piece::new(source, *aspect, gpu.abilities, size);
             size += piece.bytes();
             pieces.push(piece);
         }
@@ -72,44 +80,54 @@ pub(crate) fn frame(gpu: &Gpu, sources: &[Source<'_>]) -> Result<Frame, BackendE
 }
 
 impl<'a> Piece<'a> {
-    fn new(source: &'a Source<'a>, aspect: Aspect, copies: bool, offset: u64) -> Self {
+    fn new(source: &'a Source<'a>, aspect: Aspect, abilities: Abilities, offset: u64) -> Self {
         let format = source.format;
-        let float = vec![ChannelEncoding::Float32];
-        let (how, channels, unit) = match aspect {
-            Aspect::Color => {
-                let channels = format.color_channels().to_vec();
-                let unit = if channels.first() == Some(&ChannelEncoding::Float32) {
-                    4
-                } else {
-                    1
-                };
-                (How::Copy, channels, unit)
+        let path = read_path(format, abilities);
+        let channels = match (aspect, format) {
+            (Aspect::Color, _) => format.color_channels().to_vec(),
+            (Aspect::Stencil, _) => vec![ChannelEncoding::Uint(8)],
+            (Aspect::Depth, TextureFormat::Depth16Unorm) if path == ReadPath::Copy => {
+                vec![ChannelEncoding::Unorm(16)]
             }
-            Aspect::Depth => match (read_path(format, copies), format) {
-                (ReadPath::Shader, _) => (How::FetchDepth, float, 4),
-                (ReadPath::Copy, TextureFormat::Depth16Unorm) => {
-                    (How::Copy, vec![ChannelEncoding::Unorm(16)], 2)
-                }
-                (ReadPath::Copy, _) => (How::Copy, float, 4),
-            },
-            Aspect::Stencil => {
-                let channels = vec![ChannelEncoding::Uint(8)];
-                if copies {
-                    (How::Copy, channels, 1)
-                } else {
-                    (How::StencilBits, channels, 4)
-                }
-            }
+            (Aspect::Depth, _) => vec![ChannelEncoding::Float32],
         };
-        let row = source.size[0] * (unit * channels.len()) as u32;
-        Self {
+        let how = match aspect {
+            _ if source.samples > 1 => How::FetchSamples,
+            Aspect::Depth if path == ReadPath::Shader => How::FetchDepth,
+            Aspect::Stencil if !abilities.copies => How::StencilBits,
+            Aspect::Color | Aspect::Depth | Aspect::Stencil => How::Copy,
+        };
+        let piece = Self {
             source,
             aspect,
             how,
+            read: if aspect == Aspect::Depth {
+                path
+            } else {
+                ReadPath::Copy
+            },
             channels,
-            unit,
             offset,
+            pitch: 0,
+        };
+        let row = source.size[0] * piece.texel_bytes() as u32;
+        Self {
             pitch: row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT),
+            ..piece
+        }
+    }
+
+    /// Bytes of a texel in the buffer.
+    fn texel_bytes(&self) -> usize {
+        match (self.how, self.aspect) {
+            (How::FetchSamples, _) => SAMPLE_BYTES,
+            (How::FetchDepth | How::StencilBits, _) => 4,
+            (How::Copy, Aspect::Color) => texel::bytes(self.source.format),
+            (How::Copy, Aspect::Stencil) => 1,
+            (How::Copy, Aspect::Depth) => match self.channels.as_slice() {
+                [ChannelEncoding::Unorm(16)] => 2,
+                _ => 4,
+            },
         }
     }
 
@@ -120,6 +138,7 @@ impl<'a> Piece<'a> {
     fn bytes(&self) -> u64 {
         match self.how {
             How::Copy | How::FetchDepth => self.image_bytes(),
+            How::FetchSamples => u64::from(self.source.samples) * self.image_bytes(),
             How::StencilBits => 2 * self.image_bytes(),
         }
     }
@@ -144,20 +163,25 @@ impl<'a> Piece<'a> {
                 self.copy(encoder, &self.source.target.texture, aspect, buffer, 0);
             }
             How::FetchDepth => {
-                let target = gpu.scratch(wgpu::TextureFormat::R32Uint, size);
-                let key = FetchKey::Depth;
-                let pipeline = gpu.pipelines.fetch(&gpu.device, &gpu.errors, key)?;
-                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                    color_attachments: &[Some(blank(&target))],
-                    ..wgpu::RenderPassDescriptor::default()
-                });
-                pass.set_pipeline(&pipeline);
-                pass.set_bind_group(0, gpu.fetch(self.source.target), &[]);
-                pass.draw(0..3, 0..1);
-                drop(pass);
-                let all = wgpu::TextureAspect::All;
-                self.copy(encoder, &target.texture, all, buffer, 0);
-                scratch.push(target);
+                let layout = &gpu.pipelines.layouts.texture;
+                let bindings = gpu.bound(layout, &[self.source.target.fetch()]);
+                let format = wgpu::TextureFormat::R32Uint;
+                let fetched = (FetchKey::Depth, &bindings, format, 0);
+                scratch.push(self.fetch(gpu, encoder, buffer, fetched)?);
+            }
+            How::FetchSamples => {
+                let (layouts, target) = (&gpu.pipelines.layouts, self.source.target);
+                let (key, layout, view) = if self.aspect == Aspect::Stencil {
+                    (FetchKey::StencilSample, &layouts.integers, target.stencil())
+                } else {
+                    (FetchKey::Sample, &layouts.samples, target.fetch())
+                };
+                let bindings = gpu.bound(layout, &[view]);
+                let format = wgpu::TextureFormat::Rgba32Uint;
+                for sample in 0..self.source.samples {
+                    let fetched = (key, &bindings, format, sample);
+                    scratch.push(self.fetch(gpu, encoder, buffer, fetched)?);
+                }
             }
             How::StencilBits => {
                 for half in [0_u8, 1] {
@@ -171,6 +195,31 @@ impl<'a> Piece<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Records a shader's fetch of one sample on its way to the buffer, and returns the texture
+    /// between.
+    fn fetch<'g>(
+        &self,
+        gpu: &'g Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        buffer: &wgpu::Buffer,
+        (key, bindings, format, sample): (FetchKey, &wgpu::BindGroup, wgpu::TextureFormat, u32),
+    ) -> Result<TextureLease<'g>, BackendError> {
+        let target = gpu.scratch(format, self.source.size);
+        let pipeline = gpu.pipelines.fetch(&gpu.device, &gpu.errors, key)?;
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            color_attachments: &[Some(blank(&target))],
+            ..wgpu::RenderPassDescriptor::default()
+        });
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, bindings, &[]);
+        pass.draw(3 * sample..3 * sample + 3, 0..1);
+        drop(pass);
+        let offset = u64::from(sample) * self.image_bytes();
+        let all = wgpu::TextureAspect::All;
+        self.copy(encoder, &target.texture, all, buffer, offset);
+        Ok(target)
     }
 
     fn record_bits(
@@ -226,14 +275,11 @@ impl<'a> Piece<'a> {
     /// The image out of the mapped buffer.
     fn image(&self, bytes: &[u8]) -> Image {
         let codes = match self.how {
-            How::Copy | How::FetchDepth => {
-                self.codes(bytes, self.offset, self.unit, self.channels.len())
-            }
+            How::Copy | How::FetchDepth => self.copied(bytes),
+            How::FetchSamples => self.samples(bytes),
             How::StencilBits => {
-                let low = self.codes(bytes, self.offset, 1, 4);
-                let high = self.codes(bytes, self.offset + self.image_bytes(), 1, 4);
-                low.chunks(4)
-                    .zip(high.chunks(4))
+                let (low, high) = (self.texels(bytes, 0), self.texels(bytes, 1));
+                low.zip(high)
                     .map(|(low, high)| {
                         let bits = low.iter().chain(high).rev();
                         bits.fold(0, |value, bit| value << 1 | u32::from(*bit != 0))
@@ -241,35 +287,60 @@ impl<'a> Piece<'a> {
                     .collect()
             }
         };
-        let by_shader = self.how == How::FetchDepth;
         Image {
             attachment: self.source.name.to_owned(),
             aspect: self.aspect,
             size: self.source.size,
-            samples: 1,
+            samples: self.source.samples,
             channels: self.channels.clone(),
-            // A stencil value is an integer, exact whichever way it took.
-            read: if by_shader {
-                ReadPath::Shader
-            } else {
-                ReadPath::Copy
-            },
+            read: self.read,
             codes,
         }
     }
 
-    /// The little-endian codes of an image in the buffer, without what pads its rows.
-    fn codes(&self, bytes: &[u8], offset: u64, unit: usize, channels: usize) -> Vec<u32> {
-        let row = self.source.size[0] as usize * unit * channels;
-        let image = &bytes[offset as usize..(offset + self.image_bytes()) as usize];
-        image
+    /// The texels of the image that is so many images behind the first, row by row.
+    fn texels<'b>(&self, bytes: &'b [u8], image: u64) -> impl Iterator<Item = &'b [u8]> + use<'b> {
+        let texel = self.texel_bytes();
+        let row = self.source.size[0] as usize * texel;
+        let start = self.offset + image * self.image_bytes();
+        bytes[start as usize..(start + self.image_bytes()) as usize]
             .chunks(self.pitch as usize)
-            .flat_map(|padded| padded[..row].chunks(unit))
-            .map(|code| {
-                let bytes = code.iter().rev();
-                bytes.fold(0, |value, byte| value << 8 | u32::from(*byte))
-            })
-            .collect()
+            .flat_map(move |padded| padded[..row].chunks(texel))
+    }
+
+    fn copied(&self, bytes: &[u8]) -> Vec<u32> {
+        let mut codes = Vec::new();
+        for texel in self.texels(bytes, 0) {
+            if self.aspect == Aspect::Color {
+                texel::unpack(self.source.format, texel, &mut codes);
+            } else {
+                let bytes = texel.iter().rev();
+                codes.push(bytes.fold(0, |value, byte| value << 8 | u32::from(*byte)));
+            }
+        }
+        codes
+    }
+
+    fn samples(&self, bytes: &[u8]) -> Vec<u32> {
+        let mut images: Vec<_> = (0..self.source.samples)
+            .map(|sample| self.texels(bytes, sample.into()))
+            .collect();
+        let texels = self.source.size[0] as usize * self.source.size[1] as usize;
+        let mut codes = Vec::with_capacity(texels * images.len() * self.channels.len());
+        for _ in 0..texels {
+            for texel in images.iter_mut().filter_map(Iterator::next) {
+                let seen = texel
+                    .chunks(4)
+                    .zip(&self.channels)
+                    .map(|(bytes, encoding)| {
+                        let bytes = bytes.iter().rev();
+                        let seen = bytes.fold(0, |value, byte| value << 8 | u32::from(*byte));
+                        texel::code(*encoding, seen)
+                    });
+                codes.extend(seen);
+            }
+        }
+        codes
     }
 }
 

@@ -1,11 +1,11 @@
 //! A simulation of scenes that shares no code with the pipeline.
 
-use etalon_case::Scene;
 use etalon_case::scene::{Contents, Draw, StencilFace};
 use etalon_case::state::{
-    BlendComponent, BlendFactor, BlendOperation, CompareFunction, CullMode, FrontFace, Shader,
-    StencilOperation,
+    BlendComponent, BlendFactor, BlendOperation, CompareFunction, CullMode, FrontFace, PolygonMode,
+    Shader, StencilOperation,
 };
+use etalon_case::{Primitive, Scene};
 use etalon_frame::{ChannelEncoding, TextureFormat};
 
 /// One attachment's contents; what the format lacks stays empty.
@@ -44,8 +44,68 @@ pub(crate) fn triangles(draw: &Draw, size: [u32; 2]) -> Vec<[[f64; 2]; 3]> {
         let [width, height] = size.map(f64::from);
         [(x / w + 1.0) / 2.0 * width, (1.0 - y / w) / 2.0 * height]
     };
-    let triangles = draw.mesh.triangles(draw.topology);
-    triangles.into_iter().map(|t| t.map(corner)).collect()
+    let triangles = indices(draw).into_iter();
+    triangles.map(|t| t.map(corner)).collect()
+}
+
+/// The vertices of each triangle.
+fn indices(draw: &Draw) -> Vec<[usize; 3]> {
+    let primitives = draw.mesh.primitives(draw.topology).into_iter();
+    let triangles = primitives.filter_map(|p| match p {
+        Primitive::Triangle(t) => Some(t),
+        _ => None,
+    });
+    triangles.collect()
+}
+
+/// Whether the simulation has everything that a scene uses: one sample, 8-bit colour, flat
+/// triangles over the whole attachment.
+pub(crate) fn knows(scene: &Scene) -> bool {
+    let formats = scene.attachments.iter().enumerate().all(|(i, a)| {
+        // A float is only fetched from.
+        let fetched = a.format == TextureFormat::Rgba32Float
+            && matches!(a.contents, Contents::Texels(_))
+            && scene.passes.iter().all(|p| !p.color.contains(&i));
+        let color = a.format == TextureFormat::Rgba8Unorm || fetched;
+        a.samples == 1 && (!a.format.is_color() || color)
+    });
+    let shaders = [
+        Shader::FlatColor,
+        Shader::FlatColorDepth,
+        Shader::FrontFacing,
+        Shader::TexelColor,
+        Shader::UniformColor,
+    ];
+    formats
+        && draws(scene).all(|(pass, draw)| {
+            let size = scene.pass_size(pass).map(|s| s as f32);
+            let factors = draw.targets.iter().filter_map(|t| t.blend).flat_map(|b| {
+                let [color, alpha] = [b.color, b.alpha];
+                [
+                    color.src_factor,
+                    color.dst_factor,
+                    alpha.src_factor,
+                    alpha.dst_factor,
+                ]
+            });
+            pass.color.len() == 1
+                && shaders.contains(&draw.shader)
+                && draw.mesh.primitives(draw.topology).len() == indices(draw).len()
+                && draw
+                    .mesh
+                    .vertices
+                    .iter()
+                    .all(|v| (0.0..=1.0).contains(&v.position[2]))
+                && draw.viewport.rect == [0.0, 0.0, size[0], size[1]]
+                && draw.viewport.depth == [0.0, 1.0]
+                && draw.scissor.is_none()
+                && draw.logic.is_none()
+                && draw.depth_bounds.is_none()
+                && draw.depth_bias == Default::default()
+                && !draw.rasterizer_discard
+                && draw.polygon_mode == PolygonMode::Fill
+                && factors.into_iter().all(|f| !f.is_second_source())
+        })
 }
 
 pub(crate) fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
@@ -95,7 +155,7 @@ pub(crate) fn simulate(scene: &Scene, observe: &mut dyn FnMut(Event<'_>)) -> Vec
         let target = pass.color[0];
         let attachment = &scene.attachments[target];
         let corners = triangles(draw, attachment.size);
-        for (t, p) in draw.mesh.triangles(draw.topology).iter().zip(corners) {
+        for (t, p) in indices(draw).iter().zip(corners) {
             // With y down, a counter-clockwise triangle has a negative cross product.
             let area = cross(p[0], p[1], p[2]);
             let front = (area < 0.0) == (draw.front_face == FrontFace::Ccw);
@@ -128,6 +188,7 @@ pub(crate) fn simulate(scene: &Scene, observe: &mut dyn FnMut(Event<'_>)) -> Vec
                         Shader::FrontFacing => draw.params.back_color.map(f64::from),
                         Shader::TexelColor => frame[draw.textures[0]].color[at],
                         Shader::UniformColor => draw.params.color.map(f64::from),
+                        other => panic!("the plain simulation lacks {other:?}"),
                     };
                     let path = match pass.depth_stencil {
                         None => Path::Pass,
@@ -250,6 +311,7 @@ pub(crate) fn factor(f: BlendFactor, s: [f64; 4], d: [f64; 4], k: [f64; 4], chan
         BlendFactor::OneMinusConstant => 1.0 - k[channel],
         BlendFactor::ConstantAlpha => k[3],
         BlendFactor::OneMinusConstantAlpha => 1.0 - k[3],
+        other => panic!("the plain simulation lacks {other:?}"),
     }
 }
 

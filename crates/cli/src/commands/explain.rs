@@ -6,7 +6,7 @@ use crate::commands::library;
 use crate::failure::{Failure, UNEXPECTED};
 use crate::output::print;
 use etalon_backend::Backend;
-use etalon_case::Case;
+use etalon_case::{Case, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Frame, LegalSet, Limits};
 use etalon_reference::{Rules, Sample, explain, judge};
@@ -16,7 +16,10 @@ use std::fmt::Write;
 /// back and whether it is legal.
 pub(crate) fn run(arguments: &ExplainArguments) -> Result<u8, Failure> {
     let library = library(arguments.cases.as_ref())?;
-    let Some(found) = library.cases().find(|c| c.id() == arguments.case) else {
+    let Some(found) = library
+        .cases(Profile::Full)
+        .find(|c| c.id() == arguments.case)
+    else {
         return Err(Failure::usage(format!(
             "there is no case `{}`; `etalon list` names them all",
             arguments.case

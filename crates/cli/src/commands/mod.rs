@@ -25,7 +25,8 @@ pub(crate) fn library(folder: Option<&PathBuf>) -> Result<Library, Failure> {
 pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
     let library = library(arguments.cases.as_ref())?;
     let globs = &arguments.globs;
-    let selection = etalon_runner::select(&library, globs).map_err(Failure::usage)?;
+    let selection =
+        etalon_runner::select(&library, arguments.profile.into(), globs).map_err(Failure::usage)?;
     if selection.cases.is_empty() {
         return Err(Failure::nothing(if globs.is_empty() {
             "there are no cases".to_owned()

@@ -6,7 +6,7 @@ use crate::commands::run::{machine, progress};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::output::{color, print, print_json, width};
 use etalon_backend::Backend;
-use etalon_case::Case;
+use etalon_case::{Case, Profile};
 use etalon_cpu::{MutantBackend, mutants};
 use etalon_record::{HUNT_FORMAT, Hunt, MutantInfo};
 use etalon_report::TableOptions;
@@ -20,8 +20,8 @@ pub(crate) fn run(arguments: &MutantsArguments) -> Result<u8, Failure> {
         return list(&chosen, arguments.format);
     }
     let library = library(arguments.cases.as_ref())?;
-    let selection =
-        etalon_runner::select(&library, &arguments.case_globs).map_err(Failure::usage)?;
+    let selection = etalon_runner::select(&library, Profile::Full, &arguments.case_globs)
+        .map_err(Failure::usage)?;
     let cases: Vec<Case> = selection
         .cases
         .iter()

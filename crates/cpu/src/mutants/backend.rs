@@ -4,7 +4,7 @@ use super::plant::Plant;
 use super::{Mutant, mutants};
 use crate::{CpuBackend, PreparedScene};
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
-use etalon_case::Scene;
+use etalon_case::{RESTART, Scene};
 use etalon_frame::{Frame, Limits};
 use std::cell::RefCell;
 
@@ -45,7 +45,8 @@ impl MutantBackend {
     }
 }
 
-/// Takes back tests of aspects that a pass does not have: no bug can make a driver test them.
+/// Takes back tests of aspects that a pass does not have, since no bug can make a driver test them,
+/// and indices of vertices that a bug left out.
 fn keep_possible(asked: &Scene, believed: &mut Scene) {
     for (pass, original) in believed.passes.iter_mut().zip(&asked.passes) {
         let format = pass.depth_stencil.map(|i| asked.attachments[i].format);
@@ -55,6 +56,10 @@ fn keep_possible(asked: &Scene, believed: &mut Scene) {
             }
             if !format.is_some_and(|f| f.has_stencil()) {
                 draw.stencil = original.stencil;
+            }
+            let count = draw.mesh.vertices.len() as u32;
+            if let Some(indices) = &mut draw.mesh.indices {
+                indices.retain(|i| *i == RESTART || *i < count);
             }
         }
     }

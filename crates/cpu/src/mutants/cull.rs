@@ -2,6 +2,7 @@
 
 use super::plant::{Plant, draws};
 use super::{CONFUSION, List};
+use etalon_case::Primitive;
 use etalon_case::scene::Draw;
 use etalon_case::state::{CullMode, FrontFace, PrimitiveTopology, Shader};
 
@@ -17,9 +18,13 @@ fn unstripped(draw: &mut Draw, order: impl Fn(usize, [usize; 3]) -> Option<[usiz
     if draw.topology != PrimitiveTopology::TriangleStrip {
         return;
     }
-    let triangles = draw.mesh.triangles(draw.topology);
+    let primitives = draw.mesh.primitives(draw.topology);
     let old = std::mem::take(&mut draw.mesh.vertices);
-    for (number, triangle) in triangles.into_iter().enumerate() {
+    draw.mesh.indices = None;
+    for (number, primitive) in primitives.into_iter().enumerate() {
+        let Primitive::Triangle(triangle) = primitive else {
+            continue;
+        };
         if let Some(corners) = order(number, triangle) {
             draw.mesh.vertices.extend(corners.map(|i| old[i]));
         }

@@ -157,15 +157,9 @@ impl Steps for &Hooks {
         }
     }
 
-    fn fetch(
-        &self,
-        surface: &Surface,
-        encodings: [ChannelEncoding; 4],
-        x: usize,
-        y: usize,
-    ) -> [Real; 4] {
+    fn fetch(&self, surface: &Surface, x: usize, y: usize) -> [Real; 4] {
         let Some(bug) = &self.fetch else {
-            return Faithful.fetch(surface, encodings, x, y);
+            return Faithful.fetch(surface, x, y);
         };
         let size = [surface.width as u32, surface.height as u32];
         let from: [usize; LANES] = std::array::from_fn(|i| {
@@ -173,9 +167,12 @@ impl Steps for &Hooks {
             let (x, y) = (x.min(size[0] - 1), y.min(size[1] - 1));
             y as usize * surface.stride + x as usize
         });
-        std::array::from_fn(|c| {
-            let codes = from.map(|at| surface.planes[c][at]);
-            Plain::<LANES>.decode(encodings[c], codes)
+        std::array::from_fn(|c| match surface.encodings.get(c) {
+            Some(encoding) => {
+                let plane = surface.plane(c, 0);
+                Plain::<LANES>.decode(*encoding, from.map(|at| plane[at]))
+            }
+            None => [if c == 3 { 1.0 } else { 0.0 }; LANES],
         })
     }
 
@@ -232,6 +229,7 @@ impl Steps for &Hooks {
         for lane in 0..LANES {
             let one = BlendInput {
                 src: input.src.map(|v| [v[lane]]),
+                src1: input.src1.map(|v| [v[lane]]),
                 dst: input.dst.map(|v| [v[lane]]),
                 constant: input.constant.map(|v| [v[lane]]),
             };

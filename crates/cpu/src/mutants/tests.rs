@@ -1,7 +1,7 @@
 use super::*;
 use crate::CpuBackend;
 use etalon_backend::Backend;
-use etalon_case::{Case, Library};
+use etalon_case::{Case, Library, Profile};
 use etalon_frame::Frame;
 use std::collections::HashSet;
 
@@ -33,7 +33,7 @@ fn every_mutant_is_named_explained_and_sourced() {
 fn every_mutant_changes_the_frame_of_some_case() {
     let library = Library::built_in().expect("built-in files parse");
     let cases: Vec<Case> = library
-        .cases()
+        .cases(Profile::Full)
         .map(|c| c.build().expect("built-in cases build"))
         .filter(|c| c.judged_as.is_none())
         .collect();

@@ -2,6 +2,11 @@
 //! chooses it before libEGL is loaded.
 
 mod checks;
+mod formats;
+mod help;
+mod raster;
+mod samples;
+mod targets;
 
 use crate::{GlBackend, Options, Platform, Profile, Tuning, open_with};
 use etalon_backend::Backend;
@@ -79,8 +84,18 @@ fn adapter(profile: Profile, driver: &str, clip_control: bool) -> GlBackend {
     backend
 }
 
-fn everything(backend: &GlBackend) {
+/// What every check asks for, debug-clean.
+fn all(backend: &GlBackend) {
     checks::all(backend);
+    formats::all(backend);
+    raster::all(backend);
+    targets::all(backend);
+    samples::all(backend);
+    assert_eq!(backend.messages(), Vec::<String>::new());
+}
+
+fn everything(backend: &GlBackend) {
+    all(backend);
     checks::every_built_in_case_is_drawn(backend);
 }
 
@@ -101,8 +116,8 @@ fn llvmpipe_es() {
 #[test]
 fn llvmpipe_without_clip_control() {
     in_child("llvmpipe_without_clip_control", LLVMPIPE, || {
-        checks::all(&adapter(Profile::Core, "llvmpipe", false));
-        checks::all(&adapter(Profile::Es, "llvmpipe", false));
+        all(&adapter(Profile::Core, "llvmpipe", false));
+        all(&adapter(Profile::Es, "llvmpipe", false));
     });
 }
 
@@ -123,8 +138,8 @@ fn softpipe_es() {
 #[test]
 fn softpipe_without_clip_control() {
     in_child("softpipe_without_clip_control", SOFTPIPE, || {
-        checks::all(&adapter(Profile::Core, "softpipe", false));
-        checks::all(&adapter(Profile::Es, "softpipe", false));
+        all(&adapter(Profile::Core, "softpipe", false));
+        all(&adapter(Profile::Es, "softpipe", false));
     });
 }
 

@@ -8,6 +8,7 @@ pub(super) fn fragment<A: Arithmetic>(
 ) -> FragmentOutput<A::Real> {
     FragmentOutput {
         color: input.color,
+        second: None,
         depth: None,
     }
 }

@@ -9,6 +9,7 @@ pub(super) fn fragment<A: Arithmetic>(
 ) -> FragmentOutput<A::Real> {
     FragmentOutput {
         color: input.params.color.map(|v| a.constant(v)),
+        second: None,
         depth: Some(input.color[0]),
     }
 }

@@ -14,6 +14,7 @@ pub(super) fn fragment<A: Arithmetic>(
     };
     FragmentOutput {
         color: color.map(|v| a.constant(v)),
+        second: None,
         depth: None,
     }
 }

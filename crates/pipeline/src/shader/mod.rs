@@ -4,8 +4,12 @@
 
 mod flat_color;
 mod flat_color_depth;
+mod frag_coord_depth;
 mod front_facing;
+mod sample_index;
 mod texel_color;
+mod texel_color_all;
+mod texel_dual_source;
 mod uniform_color;
 
 use crate::arithmetic::Arithmetic;
@@ -19,8 +23,12 @@ pub struct FragmentInput<'a, R> {
     pub color: [R; 4],
     /// Whether the primitive faces front.
     pub front: bool,
-    /// The texel of texture 0 under the fragment; zeros where the shader fetches none.
-    pub texel: [R; 4],
+    /// The fragment's window depth.
+    pub depth: R,
+    /// The sample being shaded.
+    pub sample: u32,
+    /// The texels of textures 0 and 1 under the fragment; zeros where the shader fetches none.
+    pub texels: [[R; 4]; 2],
     /// The parameter block.
     pub params: &'a Params,
 }
@@ -28,8 +36,10 @@ pub struct FragmentInput<'a, R> {
 /// What a fragment shader gives.
 #[derive(Clone, Copy, Debug)]
 pub struct FragmentOutput<R> {
-    /// The colour at location 0.
+    /// The colour at location 0, and at all others that the shader writes.
     pub color: [R; 4],
+    /// The second source for blending, where the shader gives one.
+    pub second: Option<[R; 4]>,
     /// The depth, where the shader writes one.
     pub depth: Option<R>,
 }
@@ -44,8 +54,12 @@ pub fn fragment<A: Arithmetic>(
     match shader {
         Shader::FlatColor => flat_color::fragment::<A>(input),
         Shader::FlatColorDepth => flat_color_depth::fragment(a, input),
+        Shader::FragCoordDepth => frag_coord_depth::fragment::<A>(input),
         Shader::FrontFacing => front_facing::fragment(a, input),
+        Shader::SampleIndex => sample_index::fragment(a, input),
         Shader::TexelColor => texel_color::fragment::<A>(input),
+        Shader::TexelColorAll => texel_color_all::fragment::<A>(input),
+        Shader::TexelDualSource => texel_dual_source::fragment::<A>(input),
         Shader::UniformColor => uniform_color::fragment(a, input),
     }
 }

@@ -7,7 +7,8 @@ pub(super) fn fragment<A: Arithmetic>(
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
     FragmentOutput {
-        color: input.texel,
+        color: input.texels[0],
+        second: None,
         depth: None,
     }
 }

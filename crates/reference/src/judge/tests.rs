@@ -1,5 +1,5 @@
 use super::*;
-use etalon_case::{Case, CaseFile};
+use etalon_case::{Case, CaseFile, Profile};
 use etalon_frame::{Api, Feature, FormatSupport, TextureFormat};
 
 /// Limits of an adapter that has everything, copies everything, and has 8 sub-pixel bits.
@@ -9,6 +9,7 @@ pub(crate) fn limits(api: Api) -> Limits {
         .map(|format| {
             let support = FormatSupport {
                 samples: vec![1],
+                blendable: true,
                 depth: format.depth_encodings().iter().copied().take(1).collect(),
                 read: ReadPath::Copy,
             };
@@ -19,6 +20,7 @@ pub(crate) fn limits(api: Api) -> Limits {
         api,
         sub_pixel_bits: 8,
         max_size: 4096,
+        max_color_attachments: 8,
         formats,
         features: Feature::ALL.into_iter().collect(),
         sample_positions: [(1, vec![[128, 128]])].into_iter().collect(),
@@ -27,7 +29,7 @@ pub(crate) fn limits(api: Api) -> Limits {
 
 fn case(text: &str) -> Case {
     let file = CaseFile::parse("t.json", text).expect("parses");
-    file.cases()
+    file.cases(Profile::Full)
         .next()
         .expect("one case")
         .build()
@@ -129,7 +131,7 @@ fn a_shared_diagonal_is_counted_exactly_once_where_the_rules_say_so() {
 #[test]
 fn a_scene_without_decisions_costs_no_second_world() {
     let library = etalon_case::Library::built_in().expect("built in");
-    let reference = library.cases().next().expect("a case");
+    let reference = library.cases(Profile::Full).next().expect("a case");
     let case = reference.build().expect("builds");
     let limits = limits(Api::Vulkan);
     let set = judge(&case.scene, &limits, &Rules::yardstick(&limits));

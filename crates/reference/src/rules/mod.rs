@@ -74,6 +74,46 @@ pub enum DepthOrder {
     ConvertedFirst,
 }
 
+/// The least step of depth that a bias counts in, in multiples of `2^-bits` for normalized depth
+/// and of `2^(exponent - 23)` for float depth: at least, at most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BiasUnit {
+    /// For normalized depth of so many bits.
+    pub unorm: (f64, f64),
+    /// For float depth, by the exponent of the primitive's greatest depth.
+    pub float: (f64, f64),
+}
+
+/// Whether blend factors of normalized formats are clamped to what the format can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FactorClamp {
+    /// They are.
+    Clamped,
+    /// They are or they are not.
+    Either,
+}
+
+/// What becomes of a depth outside of the viewport's range that a shader or a bias made, where the
+/// draw does not clamp.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthRange {
+    /// Anything from 0 to 1.
+    Undefined,
+    /// It is held to the viewport's range.
+    Viewport,
+    /// It is held to the viewport's range or to 0 and 1.
+    Either,
+}
+
+/// What a resolve makes of a texel's samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Resolve {
+    /// Anything between the least and the greatest of them.
+    Between,
+    /// Their average.
+    Average,
+}
+
 /// One specification's permissions, or the yardstick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rules {
@@ -93,6 +133,21 @@ pub struct Rules {
     pub blend: Permission<BlendPrecision>,
     /// What a depth test compares.
     pub depth_order: Permission<DepthOrder>,
+    /// What a depth bias counts in.
+    pub depth_bias_unit: Permission<BiasUnit>,
+    /// Depths outside of the viewport's range.
+    pub depth_range: Permission<DepthRange>,
+    /// Blend factors beyond a normalized format's range.
+    pub factor_clamp: Permission<FactorClamp>,
+    /// Averaging samples.
+    pub resolve: Permission<Resolve>,
+    /// Whether points and lines face front; where not, either is legal.
+    pub points_face_front: Permission<bool>,
+    /// Whether the edges of a polygon, drawn as lines, face as the polygon does; where not, either is
+    /// legal. Culling goes by the polygon in any case.
+    pub outlines_face_as_polygons: Permission<bool>,
+    /// Alpha to coverage: alpha 0 gives no sample, alpha 1 all, anything between any.
+    pub alpha_to_coverage: &'static str,
     /// What is said of zero-area and reversed triangles.
     pub facing: &'static str,
     /// What makes stencil values exact.
@@ -135,6 +190,13 @@ mod tests {
                 rules.store.citation,
                 rules.blend.citation,
                 rules.depth_order.citation,
+                rules.depth_bias_unit.citation,
+                rules.depth_range.citation,
+                rules.factor_clamp.citation,
+                rules.resolve.citation,
+                rules.points_face_front.citation,
+                rules.outlines_face_as_polygons.citation,
+                rules.alpha_to_coverage,
                 rules.facing,
                 rules.stencil,
                 rules.write_mask,

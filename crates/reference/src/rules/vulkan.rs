@@ -1,6 +1,9 @@
 //! Vulkan's permissions.
 
-use super::{BlendPrecision, DepthOrder, Rounding, Rules, SharedEdge, Snap, permit};
+use super::{
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
+    SharedEdge, Snap, permit,
+};
 
 pub(super) fn rules() -> Rules {
     Rules {
@@ -37,6 +40,31 @@ pub(super) fn rules() -> Rules {
             DepthOrder::Either,
             "Vulkan: Depth Comparison: whether the incoming depth is converted first is not stated",
         ),
+        depth_bias_unit: permit(
+            BiasUnit {
+                unorm: (0.999, 2.001),
+                float: (0.499, 1.001),
+            },
+            "Vulkan: Depth Bias: r at most 2 * 2^-n for fixed point, 2^(e-n) for floats, whose n may count the hidden bit",
+        ),
+        depth_range: permit(
+            DepthRange::Undefined,
+            "Vulkan: Depth Clamping and Range Adjustment: outside of the range of minDepth and maxDepth it is undefined",
+        ),
+        factor_clamp: permit(
+            FactorClamp::Clamped,
+            "Vulkan: Blending: factors are clamped for fixed-point attachments",
+        ),
+        resolve: permit(
+            Resolve::Between,
+            "Vulkan: Multisample Resolve: the average's precision is not stated",
+        ),
+        points_face_front: permit(true, "Vulkan: Points, Line Segments: always front-facing"),
+        outlines_face_as_polygons: permit(
+            false,
+            "Vulkan: Polygon Mode: affects the final rasterization alone, yet lines face front; what a shader sees is not stated",
+        ),
+        alpha_to_coverage: "Vulkan: Multisample Coverage: alpha 0 gives no sample and alpha 1 all; dEQP-VK.pipeline.*.alpha_to_coverage demands the ends",
         facing: "Vulkan: Basic Polygon Rasterization: front by the sign of the area; zero area is \
                  not front",
         stencil: "Vulkan: Stencil Test: integer operations",

@@ -1,6 +1,9 @@
 //! WebGPU's permissions. Where the text is silent, what the APIs under it permit.
 
-use super::{BlendPrecision, DepthOrder, Rounding, Rules, SharedEdge, Snap, permit};
+use super::{
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
+    SharedEdge, Snap, permit,
+};
 
 pub(super) fn rules() -> Rules {
     Rules {
@@ -36,6 +39,31 @@ pub(super) fn rules() -> Rules {
             DepthOrder::Either,
             "WebGPU: 23.2.7 Output Merging is silent on the order of conversion and comparison",
         ),
+        depth_bias_unit: permit(
+            BiasUnit {
+                unorm: (0.999, 1e9),
+                float: (0.499, 1e9),
+            },
+            "WebGPU: depth bias as the API under it; OpenGL: the least r that is sure to be resolved; how much more is open",
+        ),
+        depth_range: permit(
+            DepthRange::Undefined,
+            "WebGPU: 23.2.7 Output Merging holds it to the viewport, which implementations over Vulkan cannot promise",
+        ),
+        factor_clamp: permit(
+            FactorClamp::Either,
+            "WebGPU: silent on clamping of blend factors; Vulkan clamps, Direct3D 11.3 does not for SNORM",
+        ),
+        resolve: permit(
+            Resolve::Between,
+            "WebGPU: 23.2.8: no resolve algorithm is stated",
+        ),
+        points_face_front: permit(
+            false,
+            "WebGPU: 23.2.5: facing of points and lines is not asserted",
+        ),
+        outlines_face_as_polygons: permit(false, "WebGPU: has no polygon modes"),
+        alpha_to_coverage: "WebGPU: 23.2.7 Output Merging: alpha 0 gives no sample and alpha 1 all",
         facing: "WebGPU: 23.2.5.3 Polygon Rasterization: front by the sign of the area; zero area \
                  is back",
         stencil: "WebGPU: 23.2.7 Output Merging: integer operations",

@@ -1,6 +1,9 @@
 //! The quality band, in the spirit of the Direct3D 11.3 functional specification.
 
-use super::{BlendPrecision, DepthOrder, Rounding, Rules, SharedEdge, Snap, permit};
+use super::{
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
+    SharedEdge, Snap, permit,
+};
 use etalon_frame::Api;
 
 pub(super) fn rules(api: Api) -> Rules {
@@ -34,6 +37,31 @@ pub(super) fn rules(api: Api) -> Rules {
             DepthOrder::ConvertedFirst,
             "Direct3D 11.3: 17.11 Depth Comparison: convert, then compare",
         ),
+        depth_bias_unit: permit(
+            BiasUnit {
+                unorm: (0.999, 1.001),
+                float: (0.999, 1.001),
+            },
+            "Direct3D 11.3: 15.10 Depth Bias: 1/2^n, for floats 2^(e-23)",
+        ),
+        depth_range: permit(
+            DepthRange::Either,
+            "Direct3D 11.3: 16.9 Depth Clamp: held to the viewport; OpenGL: to 0 and 1",
+        ),
+        factor_clamp: permit(
+            match api {
+                Api::WebGpu => FactorClamp::Either,
+                _ => FactorClamp::Clamped,
+            },
+            "Direct3D 11.3: 17.6 Blending: as the API says",
+        ),
+        resolve: permit(Resolve::Average, "Direct3D 11.3: 19.2 Resolve: the average"),
+        points_face_front: permit(
+            api != Api::WebGpu,
+            "Direct3D 11.3: 15.10: points and lines are front-facing",
+        ),
+        outlines_face_as_polygons: permit(true, "Direct3D 11.3: 15.10 Facing: of the triangle"),
+        alpha_to_coverage: "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",
         facing: "Direct3D 11.3: 15.10 Facing: after snapping, zero area is back",
         stencil: "Direct3D 11.3: 17.12 Stencil: integer operations",
         write_mask: "Direct3D 11.3: 17.8 Write Masks",

@@ -1,9 +1,9 @@
 //! Plain results lie inside judging ones, and wider rules give wider intervals.
 
 use crate::common::{all_rules, config};
-use etalon_case::state::{BlendComponent, BlendFactor, BlendOperation, BlendState};
+use etalon_case::state::{BlendComponent, BlendFactor, BlendOperation, BlendState, Viewport};
 use etalon_frame::{ChannelEncoding, CodeInterval};
-use etalon_pipeline::{Arithmetic, BlendInput, Plain, blend, nearest_order, window_position};
+use etalon_pipeline::{Arithmetic, BlendInput, Plain, blend, window_position};
 use etalon_reference::rules::{BlendPrecision, Rounding};
 use etalon_reference::{Judging, Rules};
 use proptest::prelude::*;
@@ -53,8 +53,8 @@ fn code() -> impl Strategy<Value = u32> {
     prop_oneof![select(vec![0_u32, 1, 127, 128, 254, 255]), 0_u32..=255]
 }
 
-/// One blend: state, source, destination codes, constant.
-type Blend = (BlendState, [f32; 4], [u32; 4], [f32; 4]);
+/// One blend: state, source, destination codes, constant, second source.
+type Blend = (BlendState, [f32; 4], [u32; 4], [f32; 4], [f32; 4]);
 
 fn blends() -> impl Strategy<Value = Blend> {
     (
@@ -62,13 +62,15 @@ fn blends() -> impl Strategy<Value = Blend> {
         [value(), value(), value(), value()],
         [code(), code(), code(), code()],
         [value(), value(), value(), value()],
+        [value(), value(), value(), value()],
     )
 }
 
-fn plain(encoding: ChannelEncoding, (state, src, dst, constant): &Blend) -> [i64; 4] {
+fn plain(encoding: ChannelEncoding, (state, src, dst, constant, src1): &Blend) -> [i64; 4] {
     let mut a = Plain::<1>;
     let input = BlendInput {
         src: src.map(|v| [v]),
+        src1: src1.map(|v| [v]),
         dst: dst.map(|c| a.decode(encoding, [c])),
         constant: constant.map(|v| [v]),
     };
@@ -79,11 +81,12 @@ fn plain(encoding: ChannelEncoding, (state, src, dst, constant): &Blend) -> [i64
 fn judged(
     rules: &Rules,
     encoding: ChannelEncoding,
-    (state, src, dst, constant): &Blend,
+    (state, src, dst, constant, src1): &Blend,
 ) -> [CodeInterval; 4] {
     let mut a = Judging::new(rules);
     let input = BlendInput {
         src: src.map(|v| a.constant(v)),
+        src1: src1.map(|v| a.constant(v)),
         dst: dst.map(|c| a.decode(encoding, CodeInterval::exact(encoding.order_of_code(c)))),
         constant: constant.map(|v| a.constant(v)),
     };
@@ -125,10 +128,24 @@ pub(crate) fn wider() -> Vec<(Rules, Rules)> {
     pairs
 }
 
-fn check_window_position([x, y, z]: [f32; 3], size: [u32; 2]) -> Result<(), TestCaseError> {
-    let plain = window_position(&mut Plain::<1>, [x, y, z, 1.0], size);
+fn viewport() -> impl Strategy<Value = Viewport> {
+    let length = || (1_u32..=4096).prop_map(|n| n as f32);
+    let start = || prop_oneof![Just(0.0_f32), -64.0_f32..64.0, 0.0_f32..2048.0];
+    let depth = prop_oneof![
+        2 => Just([0.0, 1.0]),
+        1 => Just([1.0, 0.0]),
+        3 => [0.0_f32..=1.0, 0.0_f32..=1.0],
+    ];
+    (start(), start(), length(), length(), depth).prop_map(|(x, y, w, h, depth)| Viewport {
+        rect: [x, y, w, h],
+        depth,
+    })
+}
+
+fn check_window_position([x, y, z]: [f32; 3], viewport: Viewport) -> Result<(), TestCaseError> {
+    let plain = window_position(&mut Plain::<1>, [x, y, z, 1.0], &viewport);
     for rules in all_rules() {
-        let judged = window_position(&mut Judging::new(&rules), [x, y, z, 1.0], size);
+        let judged = window_position(&mut Judging::new(&rules), [x, y, z, 1.0], &viewport);
         for axis in 0..3 {
             prop_assert!(
                 judged[axis].float.contains(f64::from(plain[axis][0])),
@@ -162,12 +179,12 @@ proptest! {
 
     #[test]
     fn a_plain_blend_into_floats_lies_inside_every_judged_one(
-        (state, src, constant, dst) in
+        (state, src, constant, dst, src1) in
             (state(), [value(), value(), value(), value()], [value(), value(), value(), value()],
-             [value(), value(), value(), value()])
+             [value(), value(), value(), value()], [value(), value(), value(), value()])
     ) {
         let encoding = ChannelEncoding::Float32;
-        let blend = (state, src, dst.map(f32::to_bits), constant);
+        let blend = (state, src, dst.map(f32::to_bits), constant, src1);
         let codes = plain(encoding, &blend);
         for rules in all_rules() {
             let intervals = judged(&rules, encoding, &blend);
@@ -212,7 +229,7 @@ proptest! {
                 let v = a.constant(depth);
                 let allowed = a.encode(encoding, v);
                 prop_assert!(allowed.contains(order), "{} {encoding}: {order} not in {allowed:?}", rules.name);
-                prop_assert!(allowed.contains(nearest_order(encoding, depth)), "{} {encoding}", rules.name);
+                prop_assert!(allowed.contains(encoding.order_of_code(encoding.nearest_code(f64::from(depth)))), "{} {encoding}", rules.name);
                 prop_assert!(allowed.count() <= 2, "{} {encoding}: {allowed:?}", rules.name);
             }
         }
@@ -243,16 +260,16 @@ proptest! {
     #[test]
     fn a_plain_window_position_in_the_viewport_lies_inside_every_judged_one(
         position in [-1.0_f32..=1.0, -1.0_f32..=1.0, 0.0_f32..=1.0],
-        size in [1_u32..=4096, 1_u32..=4096],
+        viewport in viewport(),
     ) {
-        check_window_position(position, size)?;
+        check_window_position(position, viewport)?;
     }
 
     #[test]
     fn a_plain_window_position_anywhere_lies_inside_every_judged_one(
         position in [-64.0_f32..=64.0, -64.0_f32..=64.0, 0.0_f32..=1.0],
-        size in [1_u32..=4096, 1_u32..=4096],
+        viewport in viewport(),
     ) {
-        check_window_position(position, size)?;
+        check_window_position(position, viewport)?;
     }
 }

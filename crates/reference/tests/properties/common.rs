@@ -1,7 +1,7 @@
 //! Rules, limits, and scenes from JSON.
 
 use etalon_backend::Backend;
-use etalon_case::{CaseFile, Scene};
+use etalon_case::{CaseFile, Profile, Scene};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Api, Frame, Limits};
 use etalon_reference::Rules;
@@ -28,7 +28,7 @@ pub(crate) fn all_rules() -> Vec<Rules> {
 pub(crate) fn scene(body: &str) -> Scene {
     let text = format!(r#"{{"about":"t","spec":["t"],"scene":{body}}}"#);
     let file = CaseFile::parse("t.json", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
-    let case = file.cases().next().expect("one case");
+    let case = file.cases(Profile::Full).next().expect("one case");
     case.build().unwrap_or_else(|e| panic!("{e}\n{text}")).scene
 }
 

@@ -4,6 +4,7 @@
 use crate::arithmetic::wider;
 use crate::common::{APIS, config, draw, limits, scene};
 use crate::scenes::{Inputs, body};
+use crate::wide;
 use etalon_case::Scene;
 use etalon_frame::{
     Api, Aspect, ChannelEncoding, Frame, LegalSet, ReadPath, TexelSet, TextureFormat, compare,
@@ -131,6 +132,26 @@ proptest! {
                     let found = compare(&frame, set, set, 2).expect("the same images");
                     prop_assert_eq!(found.texels.wrong, 0, "{} {:?}", api, found.wrong);
                 }
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(config(1500))]
+
+    #[test]
+    fn the_rasterizers_frames_of_the_whole_model_are_legal_and_precise(body in wide::body()) {
+        let scene = scene(&body);
+        let frame = draw(&scene);
+        for api in APIS {
+            for judgement in judgements(&scene, &limits(api)) {
+                let found = compare(&frame, &judgement.legal, &judgement.yardstick, 2);
+                let found = found.expect("the images are those of the legal set");
+                prop_assert_eq!(
+                    (found.texels.wrong, found.texels.imprecise), (0, 0),
+                    "{} {:?}", api, found.wrong
+                );
             }
         }
     }

@@ -6,4 +6,5 @@ mod common;
 mod frames;
 mod golden;
 mod scenes;
+mod wide;
 mod worlds;

@@ -16,7 +16,7 @@ pub(crate) enum Inputs {
     Pinned,
 }
 
-fn number(inputs: Inputs, wild: bool) -> BoxedStrategy<String> {
+pub(crate) fn number(inputs: Inputs, wild: bool) -> BoxedStrategy<String> {
     let sharp = select(vec![0.0_f32, 1.0]);
     match inputs {
         Inputs::Pinned => sharp.prop_map(|v| format!("{v:?}")).boxed(),
@@ -35,14 +35,14 @@ fn number(inputs: Inputs, wild: bool) -> BoxedStrategy<String> {
     }
 }
 
-fn four(inputs: Inputs, wild: bool) -> BoxedStrategy<String> {
+pub(crate) fn four(inputs: Inputs, wild: bool) -> BoxedStrategy<String> {
     let n = || number(inputs, wild);
     [n(), n(), n(), n()]
         .prop_map(|v| format!("[{}]", v.join(",")))
         .boxed()
 }
 
-fn list(
+pub(crate) fn list(
     item: BoxedStrategy<String>,
     count: std::ops::RangeInclusive<usize>,
 ) -> BoxedStrategy<String> {
@@ -51,7 +51,7 @@ fn list(
         .boxed()
 }
 
-fn winding() -> impl Strategy<Value = String> {
+pub(crate) fn winding() -> impl Strategy<Value = String> {
     select(FrontFace::ALL).prop_map(|f| format!("\"{}\"", f.name()))
 }
 
@@ -104,7 +104,7 @@ fn mesh(inputs: Inputs, size: [u32; 2]) -> BoxedStrategy<String> {
     prop_oneof![1 => full, 2 => rect, 2 => bands, 2 => loose].boxed()
 }
 
-fn blend(inputs: Inputs) -> BoxedStrategy<String> {
+pub(crate) fn blend(inputs: Inputs) -> BoxedStrategy<String> {
     let operations = match inputs {
         Inputs::Any => BlendOperation::ALL.to_vec(),
         // The error of 1 - 1 is relative to its sides, so no rule pins it to 0.
@@ -114,12 +114,13 @@ fn blend(inputs: Inputs) -> BoxedStrategy<String> {
             BlendOperation::Max,
         ],
     };
-    let part = (
-        select(operations),
-        select(BlendFactor::ALL),
-        select(BlendFactor::ALL),
-    )
-        .prop_map(|(o, s, d)| {
+    let factors: Vec<BlendFactor> = BlendFactor::ALL
+        .iter()
+        .copied()
+        .filter(|f| !f.is_second_source())
+        .collect();
+    let part =
+        (select(operations), select(factors.clone()), select(factors)).prop_map(|(o, s, d)| {
             format!(
                 r#"{{"operation":"{}","src_factor":"{}","dst_factor":"{}"}}"#,
                 o.name(),
@@ -134,7 +135,7 @@ fn blend(inputs: Inputs) -> BoxedStrategy<String> {
         .boxed()
 }
 
-fn stencil() -> BoxedStrategy<String> {
+pub(crate) fn stencil() -> BoxedStrategy<String> {
     let op = || select(StencilOperation::ALL).prop_map(StencilOperation::name);
     let face = (
         select(CompareFunction::ALL),
@@ -167,7 +168,7 @@ fn stencil() -> BoxedStrategy<String> {
 }
 
 /// Either nothing or what the strategy gives, as a piece of JSON.
-fn maybe(enabled: bool, some: BoxedStrategy<String>) -> BoxedStrategy<String> {
+pub(crate) fn maybe(enabled: bool, some: BoxedStrategy<String>) -> BoxedStrategy<String> {
     if enabled {
         prop_oneof![1 => Just(String::new()), 2 => some].boxed()
     } else {
@@ -180,15 +181,20 @@ fn draw(
     size: [u32; 2],
     has_depth: bool,
     has_stencil: bool,
+    several: bool,
 ) -> BoxedStrategy<String> {
-    let shaders = vec![
-        ("flat_color", ""),
-        ("flat_color_depth", ""),
-        ("flat_color_depth", ""),
-        ("front_facing", ""),
-        ("texel_color", r#","textures":["source"]"#),
-        ("uniform_color", ""),
-    ];
+    let shaders = if several {
+        vec![("texel_color_all", r#","textures":["source"]"#)]
+    } else {
+        vec![
+            ("flat_color", ""),
+            ("flat_color_depth", ""),
+            ("flat_color_depth", ""),
+            ("front_facing", ""),
+            ("texel_color", r#","textures":["source"]"#),
+            ("uniform_color", ""),
+        ]
+    };
     let depth = (select(CompareFunction::ALL), any::<bool>())
         .prop_map(|(c, w)| format!(r#","depth":{{"compare":"{}","write":{w}}}"#, c.name()))
         .boxed();
@@ -259,7 +265,7 @@ pub(crate) fn body(inputs: Inputs) -> BoxedStrategy<String> {
                 }
             });
             let source = list(four(inputs, true), w as usize..=w as usize);
-            let draws = list(draw(inputs, size, has_depth, has_stencil), 1..=4);
+            let draws = list(draw(inputs, size, has_depth, has_stencil, floats), 1..=4);
             (start, depth_clear, source, draws).prop_map(move |(start, clear, source, draws)| {
                 let extra = if floats {
                     r#","floats":{"format":"rgba32float"}"#

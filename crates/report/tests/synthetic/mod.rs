@@ -46,6 +46,7 @@ const TOPICS: [(&str, &[(&str, usize)]); 9] = [
 pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
     let depth = |encodings: &[ChannelEncoding]| FormatSupport {
         samples: vec![1, 4],
+        blendable: true,
         depth: encodings.to_vec(),
         read: ReadPath::Copy,
     };
@@ -61,6 +62,7 @@ pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
             api,
             sub_pixel_bits: 8,
             max_size: 16384,
+            max_color_attachments: 8,
             formats: [
                 (TextureFormat::Rgba8Unorm, depth(&[])),
                 (

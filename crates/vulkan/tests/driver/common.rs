@@ -1,9 +1,13 @@
 //! What the tests share: an adapter, scenes from JSON, frames.
 
 use etalon_backend::Backend;
-use etalon_case::{CaseFile, Scene};
+use etalon_case::{CaseFile, Profile, Scene};
 use etalon_frame::{Aspect, Frame, Image};
 use etalon_vulkan::{Options, VulkanBackend, enumerate, open};
+
+pub(crate) const RED: [u32; 4] = [255, 0, 0, 255];
+pub(crate) const GREEN: [u32; 4] = [0, 255, 0, 255];
+pub(crate) const BLACK: [u32; 4] = [0; 4];
 
 /// Opens lavapipe, or the adapter that `ETALON_VULKAN_ADAPTER` names, with the validation layer
 /// watching where asked for.
@@ -26,16 +30,48 @@ pub(crate) fn backend(validate: bool) -> VulkanBackend {
 pub(crate) fn scene(json: &str) -> Scene {
     let text = format!(r#"{{ "about": "A test.", "spec": [], "scene": {json} }}"#);
     let file = CaseFile::parse("t.json", &text).unwrap();
-    let case = file.cases().next().unwrap();
+    let case = file.cases(Profile::Full).next().unwrap();
     case.build().unwrap().scene
 }
 
-/// Draws a scene once.
+/// A scene of attachments and passes, as the insides of their JSON, with everything named read back.
+pub(crate) fn scene_of(attachments: &str, passes: &str, read: &[&str]) -> Scene {
+    scene(&format!(
+        r#"{{ "attachments": {{ {attachments} }}, "passes": [ {passes} ], "read": {read:?} }}"#
+    ))
+}
+
+/// A scene of one draw, which may have more keys, into an `rgba8unorm` attachment `color` of 16 by
+/// 16 texels, cleared to 0.
+pub(crate) fn one_draw(draw: &str) -> Scene {
+    scene_of(
+        r#""color": { "format": "rgba8unorm", "clear": [0, 0, 0, 0] }"#,
+        &format!(r#"{{ "color": ["color"], "draws": [ {{ {draw} }} ] }}"#),
+        &["color"],
+    )
+}
+
+/// Draws a scene once. What the adapter lacks is skipped with a word, except on lavapipe, which has
+/// everything that these tests need but depth bounds: there it is a failure.
+pub(crate) fn draw_if_there(backend: &VulkanBackend, scene: &Scene) -> Option<Frame> {
+    if let Some(missing) = backend.limits().missing(&scene.requirements()) {
+        let name = &backend.adapter().name;
+        assert_ne!(name, "vulkan:lavapipe", "it lacks {missing}");
+        eprintln!("not tested: {name} lacks {missing}");
+        return None;
+    }
+    Some(draw(backend, scene))
+}
+
+/// Draws a scene once, and holds the validation layer, where it watches, to have said nothing.
+#[track_caller]
 pub(crate) fn draw(backend: &VulkanBackend, scene: &Scene) -> Frame {
     let mut prepared = backend.prepare(scene).unwrap();
     prepared.submit().unwrap();
     let frame = prepared.read_back().unwrap();
     check_shape(scene, &frame);
+    drop(prepared);
+    assert_eq!(backend.messages(), Vec::<String>::new());
     frame
 }
 

@@ -1,12 +1,8 @@
 //! Small scenes whose outcome no rounding touches, on a real driver.
 
-use crate::common::{backend, check, draw, image, scene};
+use crate::common::{BLACK, GREEN, RED, backend, check, draw, image, scene};
 use etalon_backend::Backend;
 use etalon_frame::{Aspect, ChannelEncoding, TextureFormat};
-
-const RED: [u32; 4] = [255, 0, 0, 255];
-const GREEN: [u32; 4] = [0, 255, 0, 255];
-const BLACK: [u32; 4] = [0, 0, 0, 0];
 
 #[test]
 fn a_rectangle_in_the_top_left_corner_stays_there() {

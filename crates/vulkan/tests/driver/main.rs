@@ -3,5 +3,9 @@
 
 mod common;
 mod drawing;
+mod formats;
 mod living;
+mod multisample;
+mod raster;
+mod targets;
 mod timing;

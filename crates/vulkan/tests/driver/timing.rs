@@ -2,7 +2,7 @@
 
 use crate::common::backend;
 use etalon_backend::Backend;
-use etalon_case::Library;
+use etalon_case::{Library, Profile};
 use std::time::{Duration, Instant};
 
 #[test]
@@ -11,7 +11,7 @@ fn what_a_case_costs() {
     let backend = backend(false);
     let library = Library::built_in().unwrap();
     let scenes: Vec<_> = library
-        .cases()
+        .cases(Profile::Full)
         .map(|c| c.build().unwrap().scene)
         .filter(|s| backend.limits().missing(&s.requirements()).is_none())
         .collect();

@@ -1,7 +1,7 @@
 //! Child processes with a driver's environment, and scenes out of JSON.
 
 use etalon_backend::Backend;
-use etalon_case::{CaseFile, Scene};
+use etalon_case::{CaseFile, Profile, Scene};
 use etalon_frame::{Aspect, Frame, Image};
 use etalon_wgpu::{Options, Via, WgpuBackend, enumerate, open};
 use std::fs;
@@ -122,7 +122,7 @@ fn opened(driver: Driver, validate: bool) -> WgpuBackend {
 pub(crate) fn scene(json: &str) -> Scene {
     let text = format!(r#"{{"about": "A test.", "spec": ["none"], "scene": {json}}}"#);
     let file = CaseFile::parse("t.json", &text).expect("the scene parses");
-    let case = file.cases().next().expect("there is one case");
+    let case = file.cases(Profile::Full).next().expect("there is one case");
     case.build().expect("the scene is possible").scene
 }
 

@@ -1,14 +1,17 @@
 //! Scenes drawn by real drivers. The environment that chooses a driver must stand before the
 //! process starts, so each test runs its body in a child process. A missing driver is a failure.
 
+mod capabilities;
 mod harness;
+mod samples;
 mod scenes;
+mod whole;
 
 /// The same tests for each driver.
 macro_rules! tests {
     ($($driver:ident: $choice:expr;)+) => {
         $(mod $driver {
-            tests!(@ $driver, $choice,
+            tests!(@ scenes $driver, $choice,
                 a_rectangle_lands_where_it_belongs
                 columns_of_flat_colors
                 depth_formats_store_what_is_written
@@ -22,27 +25,52 @@ macro_rules! tests {
                 blend_constant_and_its_alpha
                 write_masks
                 passes_keep_contents
-                targets_beyond_the_first_are_left_alone
                 written_depth_without_a_depth_attachment
                 floats_are_exact_or_refused
                 written_depth_is_exact_in_floats
                 sizes_that_are_no_multiples
                 several_scenes_live_at_once
                 what_is_denied_is_not_supported
+            );
+            tests!(@ whole $driver, $choice,
                 every_built_in_case_runs
+            );
+            tests!(@ capabilities $driver, $choice,
+                what_is_offered
+                two_sources
+                targets_blend_apart
+                formats_keep_their_codes
+                a_viewport_in_a_corner
+                a_viewport_that_reaches_outside
+                a_scissor_of_one_texel
+                depth_bias_and_its_clamp
+                depth_is_clamped
+                strips_begin_again
+                lists_leave_out_what_is_not_whole
+                points_and_lines
+                edges_of_a_triangle
+                depth_that_is_only_read
+            );
+            tests!(@ samples $driver, $choice,
+                samples_are_truthful
+                a_mask_lets_samples_through
+                every_format_has_its_samples
+                the_shader_knows_its_sample
+                samples_are_averaged
+                alpha_takes_samples_away
             );
             #[test]
             fn validation_is_clean() {
                 let name = concat!(stringify!($driver), "::validation_is_clean");
-                crate::harness::in_child(name, $choice, true, crate::scenes::validation_is_clean);
+                crate::harness::in_child(name, $choice, true, crate::whole::validation_is_clean);
             }
         })+
     };
-    (@ $driver:ident, $choice:expr, $($test:ident)+) => {
+    (@ $module:ident $driver:ident, $choice:expr, $($test:ident)+) => {
         $(#[test]
         fn $test() {
             let name = concat!(stringify!($driver), "::", stringify!($test));
-            crate::harness::in_child(name, $choice, false, crate::scenes::$test);
+            crate::harness::in_child(name, $choice, false, crate::$module::$test);
         })+
     };
 }

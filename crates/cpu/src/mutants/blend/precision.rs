@@ -112,6 +112,7 @@ fn constants(list: &mut List) {
             let clamp = |v: [[f32; 1]; 4]| v.map(|[v]| [v.clamp(0.0, 1.0)]);
             let input = BlendInput {
                 src: clamp(input.src),
+                src1: clamp(input.src1),
                 dst: input.dst,
                 constant: input.constant,
             };
@@ -125,6 +126,7 @@ fn constants(list: &mut List) {
         blending(|state, _, input| {
             let input = BlendInput {
                 src: input.src,
+                src1: input.src1,
                 dst: input.dst,
                 constant: input.constant.map(|[v]| [v.clamp(0.0, 1.0)]),
             };
@@ -139,6 +141,7 @@ fn constants(list: &mut List) {
             let clamp = |v: [[f32; 1]; 4]| v.map(|[v]| [v.clamp(0.0, 1.0)]);
             let input = BlendInput {
                 src: clamp(input.src),
+                src1: clamp(input.src1),
                 dst: input.dst,
                 constant: input.constant.map(|[v]| [v.max(0.0)]),
             };
@@ -167,6 +170,7 @@ fn integer(product: fn(u32, u32) -> u32) -> Plant {
         let codes = |v: [[f32; 1]; 4]| v.map(|[v]| code(ChannelEncoding::Unorm(8), v));
         let (src, dst) = (codes(input.src), codes(input.dst));
         let constant = codes(input.constant);
+        let src1 = codes(input.src1);
         let factor = |f: BlendFactor, c: usize| match f {
             BlendFactor::Zero => 0,
             BlendFactor::One => 255,
@@ -184,6 +188,10 @@ fn integer(product: fn(u32, u32) -> u32) -> Plant {
             BlendFactor::OneMinusConstant => 255 - constant[c],
             BlendFactor::ConstantAlpha => constant[3],
             BlendFactor::OneMinusConstantAlpha => 255 - constant[3],
+            BlendFactor::Src1 => src1[c],
+            BlendFactor::OneMinusSrc1 => 255 - src1[c],
+            BlendFactor::Src1Alpha => src1[3],
+            BlendFactor::OneMinusSrc1Alpha => 255 - src1[3],
         };
         std::array::from_fn(|c| {
             let component = component(state, c);

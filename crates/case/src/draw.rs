@@ -1,0 +1,250 @@
+//! Draws: defaults, names to indices, impossible states refused.
+
+use crate::error::{At, Step};
+use crate::mesh::Mesh;
+use crate::resolve::{MAX_SIZE, find};
+use crate::scene::{Attachment, ColorTarget, Contents, Draw, Params, StencilFace, StencilState};
+use crate::state::{Multisample, Shader, StencilOperation, Viewport};
+use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
+use etalon_frame::TextureFormat;
+
+/// The most vertices of one mesh.
+const MAX_VERTICES: usize = 4 << 20;
+
+pub(crate) fn draw(
+    wire: &DrawWire,
+    size: [u32; 2],
+    samples: u32,
+    targets: usize,
+    depth_stencil: Option<TextureFormat>,
+    attachments: &[Attachment],
+) -> Result<Draw, At> {
+    let viewport = viewport(wire, size)?;
+    let mesh = wire
+        .mesh
+        .expand(viewport_texels(&viewport))
+        .map_err(|message| At::new(message).key("mesh"))?;
+    if mesh.vertices.is_empty() || mesh.vertices.len() > MAX_VERTICES {
+        return Err(At::new(format!("a mesh has 1 to {MAX_VERTICES} vertices")).key("mesh"));
+    }
+    check_vertices(&mesh, wire.shader).map_err(|e| e.key("mesh"))?;
+    if wire.depth.is_some() && !depth_stencil.is_some_and(TextureFormat::has_depth) {
+        return Err(At::new("a depth test needs a depth attachment").key("depth"));
+    }
+    if wire.stencil.is_some() && !depth_stencil.is_some_and(TextureFormat::has_stencil) {
+        return Err(At::new("a stencil test needs a stencil attachment").key("stencil"));
+    }
+    let mut textures = Vec::new();
+    for (i, name) in wire.textures.iter().enumerate() {
+        let check = || -> Result<usize, At> {
+            let index = find(name, attachments)?;
+            let attachment = &attachments[index];
+            if !matches!(attachment.contents, Contents::Texels(_)) {
+                return Err(At::new(format!("`{name}` is not uploaded from `texels`")));
+            }
+            if attachment.size != size {
+                return Err(At::new(format!(
+                    "`{name}` differs in size from the pass's attachments"
+                )));
+            }
+            Ok(index)
+        };
+        textures.push(check().map_err(|e| e.index(i).key("textures"))?);
+    }
+    if textures.len() != wire.shader.textures() {
+        return Err(At::new(format!(
+            "shader {} fetches from {} textures, {} are given",
+            wire.shader.name(),
+            wire.shader.textures(),
+            textures.len()
+        ))
+        .key("textures"));
+    }
+    if samples == 1 && wire.multisample != Multisample::default() {
+        let message = "with one sample, OpenGL ignores what Vulkan obeys; give the pass several";
+        return Err(At::new(message).key("multisample"));
+    }
+    let color_targets = color_targets(wire, targets)?;
+    check_shader(wire, &color_targets)?;
+    if let Some([low, high]) = wire.depth_bounds
+        && !(0.0 <= low && low <= high && high <= 1.0)
+    {
+        return Err(At::new("bounds lie between 0 and 1, the lower first").key("depth_bounds"));
+    }
+    let numbers = [
+        wire.params.color,
+        wire.params.back_color,
+        wire.blend_constant,
+    ];
+    if numbers.iter().any(|s| s.0.iter().any(|v| !v.is_finite())) {
+        return Err(At::new("a parameter does not fit into a 32-bit float")
+            .below(Step::Key("params".to_owned())));
+    }
+    Ok(Draw {
+        mesh,
+        topology: wire.topology,
+        shader: wire.shader,
+        params: Params {
+            color: wire.params.color.0,
+            back_color: wire.params.back_color.0,
+        },
+        textures,
+        cull: wire.cull,
+        front_face: wire.front_face,
+        polygon_mode: wire.polygon_mode,
+        rasterizer_discard: wire.rasterizer_discard,
+        viewport,
+        scissor: wire.scissor,
+        depth_bias: wire.depth_bias,
+        depth_clamp: wire.depth_clamp,
+        depth_bounds: wire.depth_bounds,
+        depth: wire.depth,
+        stencil: wire.stencil.as_ref().map(stencil),
+        targets: color_targets,
+        logic: wire.logic,
+        multisample: wire.multisample,
+        blend_constant: wire.blend_constant.0,
+    })
+}
+
+/// The farthest that a vertex may lie from the middle of clip space.
+const FARTHEST: f32 = 64.0;
+
+/// Refuses what no specification pins: vertices far out, and written depths out of range.
+fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
+    for vertex in &mesh.vertices {
+        let far = |v: &f32| v.abs() > FARTHEST;
+        if vertex.position[..3].iter().any(far) {
+            return Err(At::new(format!(
+                "a vertex lies within {FARTHEST} of the middle of clip space"
+            )));
+        }
+        let written = shader == Shader::FlatColorDepth;
+        if written && !(0.0..=1.0).contains(&vertex.color[0]) {
+            return Err(At::new("a written depth lies between 0 and 1"));
+        }
+    }
+    Ok(())
+}
+
+/// Whether a draw can change depth or stencil.
+pub(crate) fn writes_depth_stencil(draw: &Draw) -> bool {
+    let changes = |face: &StencilFace| {
+        let operations = [face.fail_op, face.depth_fail_op, face.pass_op];
+        face.write_mask != 0 && operations.iter().any(|o| *o != StencilOperation::Keep)
+    };
+    draw.depth.is_some_and(|d| d.write)
+        || draw
+            .stencil
+            .is_some_and(|s| changes(&s.front) || changes(&s.back))
+}
+
+fn write_mask(letters: &str) -> Result<u8, At> {
+    let mut mask = 0;
+    for letter in letters.chars() {
+        match "rgba".find(letter) {
+            Some(bit) if mask & (1 << bit) == 0 => mask |= 1 << bit,
+            _ => {
+                return Err(At::new(
+                    "a write mask is made of the letters r, g, b, a, each at most once",
+                )
+                .key("write_mask"));
+            }
+        }
+    }
+    Ok(mask)
+}
+
+fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> {
+    let one = |blend, letters: &str| -> Result<ColorTarget, At> {
+        Ok(ColorTarget {
+            blend,
+            write_mask: write_mask(letters)?,
+        })
+    };
+    let Some(list) = &wire.targets else {
+        return Ok(vec![one(wire.blend, &wire.write_mask)?; count]);
+    };
+    if wire.blend.is_some() || wire.write_mask != "rgba" {
+        return Err(At::new("`targets` stands instead of `blend` and `write_mask`").key("targets"));
+    }
+    if list.len() != count {
+        return Err(At::new(format!(
+            "{} targets are given where the pass has {count} colour attachments",
+            list.len()
+        ))
+        .key("targets"));
+    }
+    let each = list.iter().enumerate();
+    each.map(|(i, t)| one(t.blend, &t.write_mask).map_err(|e| e.index(i).key("targets")))
+        .collect()
+}
+
+fn check_shader(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
+    if targets.len() > wire.shader.outputs() {
+        return Err(At::new(format!(
+            "shader {} writes {} colours, the pass has {} colour attachments",
+            wire.shader.name(),
+            wire.shader.outputs(),
+            targets.len()
+        ))
+        .key("shader"));
+    }
+    let second = targets.iter().filter_map(|t| t.blend).any(|b| {
+        [b.color, b.alpha]
+            .iter()
+            .any(|c| c.src_factor.is_second_source() || c.dst_factor.is_second_source())
+    });
+    if second && !wire.shader.has_second_source() {
+        let message = "a factor of the second source needs a shader that gives one";
+        return Err(At::new(message).key("shader"));
+    }
+    if wire.logic.is_some() && targets.iter().any(|t| t.blend.is_some()) {
+        return Err(At::new("a logic operation stands instead of blending").key("logic"));
+    }
+    Ok(())
+}
+
+/// The viewport's width and height: what meshes that are given in texels measure themselves by.
+fn viewport_texels(viewport: &Viewport) -> [u32; 2] {
+    let [_, _, width, height] = viewport.rect;
+    [width, height].map(|v| v.round().max(1.0) as u32)
+}
+
+/// The viewport, or the whole attachments.
+fn viewport(wire: &DrawWire, size: [u32; 2]) -> Result<Viewport, At> {
+    let whole = Viewport {
+        rect: [0.0, 0.0, size[0] as f32, size[1] as f32],
+        depth: [0.0, 1.0],
+    };
+    let viewport = wire.viewport.unwrap_or(whole);
+    let [x, y, w, h] = viewport.rect;
+    let far = MAX_SIZE as f32;
+    let fits = |v: f32| v.abs() <= far;
+    if !(w > 0.0 && h > 0.0 && [x, y, w, h].into_iter().all(fits)) {
+        let message = format!("a viewport has a width and a height, none above {MAX_SIZE}");
+        return Err(At::new(message).key("rect").key("viewport"));
+    }
+    if viewport.depth.iter().any(|d| !(0.0..=1.0).contains(d)) {
+        return Err(At::new("window depths lie between 0 and 1")
+            .key("depth")
+            .key("viewport"));
+    }
+    Ok(viewport)
+}
+
+fn stencil(wire: &StencilWire) -> StencilState {
+    let face = |face: &StencilFaceWire| StencilFace {
+        compare: face.compare,
+        fail_op: face.fail_op,
+        depth_fail_op: face.depth_fail_op,
+        pass_op: face.pass_op,
+        read_mask: face.read_mask.unwrap_or(wire.read_mask),
+        write_mask: face.write_mask.unwrap_or(wire.write_mask),
+        reference: face.reference.unwrap_or(wire.reference),
+    };
+    StencilState {
+        front: face(&wire.front),
+        back: face(wire.back.as_ref().unwrap_or(&wire.front)),
+    }
+}

@@ -1,0 +1,137 @@
+//! What the families promise that the plain simulation cannot follow: which states they try.
+
+use etalon_case::scene::Contents;
+use etalon_case::state::LogicOperation;
+use etalon_case::{Case, Library, Profile};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The built-in cases below a path, all of them.
+fn all_cases(prefix: &str) -> Vec<Case> {
+    let library = Library::built_in().expect("built-in files parse");
+    let named = library
+        .cases(Profile::Full)
+        .filter(|c| c.id().starts_with(prefix));
+    named
+        .map(|c| c.build().expect("built-in cases build"))
+        .collect()
+}
+
+#[test]
+fn every_selftest_is_judged_as_something_else() {
+    for case in all_cases("selftest/") {
+        assert!(&case.scene != case.judged_scene(), "{}", case.id);
+    }
+}
+
+#[test]
+fn families_over_formats_leave_none_out() {
+    let families = [
+        ("blend/formats-clear/", 13),
+        ("blend/formats-store/", 13),
+        ("multisample/formats/", 13),
+        // Existing families blend and mask rgba8unorm.
+        ("blend/formats/", 12),
+        ("blend/write-mask-formats/", 12),
+        ("selftest/format-clear/", 12),
+    ];
+    for (family, due) in families {
+        let mut formats = BTreeSet::new();
+        for case in all_cases(family) {
+            let target = case.scene.passes[0].color[0];
+            formats.insert(case.scene.attachments[target].format);
+        }
+        assert_eq!(formats.len(), due, "{family}");
+    }
+}
+
+#[test]
+fn multisample_cases_read_every_sample_of_every_count() {
+    let mut seen: BTreeMap<String, BTreeSet<u32>> = BTreeMap::new();
+    for case in all_cases("multisample/") {
+        let read = case.scene.read.iter().map(|i| &case.scene.attachments[*i]);
+        let most = read.map(|a| a.samples).max().unwrap_or(1);
+        assert!(most > 1, "{} reads no samples", case.id);
+        let family = case.id.split('/').nth(1).expect("an id has a family");
+        seen.entry(family.to_owned()).or_default().insert(most);
+    }
+    for (family, counts) in seen {
+        let due: &[u32] = match family.as_str() {
+            "formats" => &[4, 8],
+            _ => &[2, 4, 8, 16],
+        };
+        assert!(counts.iter().eq(due), "{family}: {counts:?}");
+    }
+}
+
+#[test]
+fn the_second_source_weighs_alpha_by_other_factors_than_colour() {
+    let cases = all_cases("blend/dual-source/");
+    let mut factors = BTreeSet::new();
+    for case in &cases {
+        let draw = &case.scene.passes[0].draws[0];
+        let blend = draw.targets[0].blend.expect("the family blends");
+        let (color, alpha) = (blend.color, blend.alpha);
+        assert_ne!(color.operation, alpha.operation, "{}", case.id);
+        assert_ne!(color.src_factor, alpha.src_factor, "{}", case.id);
+        assert_ne!(color.dst_factor, alpha.dst_factor, "{}", case.id);
+        factors.extend([color.src_factor, color.dst_factor]);
+    }
+    let second = factors.iter().filter(|f| f.is_second_source()).count();
+    assert_eq!(second, 4);
+}
+
+#[test]
+fn every_logic_operation_is_told_from_every_other() {
+    for family in ["rgba8unorm", "rgb10a2unorm"] {
+        let cases = all_cases(&format!("blend/logic/format={family}/"));
+        let operations: BTreeSet<_> = cases.iter().filter_map(target_logic).collect();
+        assert_eq!(operations.len(), LogicOperation::ALL.len());
+        for case in cases {
+            // Two operations differ in some bit of source and destination: each pair of bits occurs.
+            let codes = |name: &str| {
+                let attachment = case.scene.attachments.iter().find(|a| a.name == name);
+                match &attachment.expect("it is there").contents {
+                    Contents::Texels(codes) => codes.clone(),
+                    other => panic!("{other:?}"),
+                }
+            };
+            let (color, source) = (codes("color"), codes("source"));
+            let mut pairs = BTreeSet::new();
+            for (i, code) in color.iter().enumerate() {
+                pairs.insert((source[i], code & 1));
+            }
+            let due = [0, 1.0_f32.to_bits()].map(|s| [(s, 0), (s, 1)]);
+            assert!(pairs.iter().eq(due.iter().flatten()), "{}", case.id);
+        }
+    }
+}
+
+fn target_logic(case: &Case) -> Option<LogicOperation> {
+    case.scene.passes[0].draws[0].logic
+}
+
+#[test]
+fn biases_go_both_ways() {
+    for family in all_families("depth/bias-") {
+        let biases = all_cases(&family).into_iter().map(|c| {
+            let draws = c.scene.passes.into_iter().flat_map(|p| p.draws);
+            draws.map(|d| f64::from(d.depth_bias.constant) + f64::from(d.depth_bias.slope))
+        });
+        let biases: Vec<f64> = biases.flatten().collect();
+        assert!(biases.iter().any(|b| *b > 0.0), "{family}");
+        assert!(biases.iter().any(|b| *b < 0.0), "{family}");
+    }
+}
+
+/// The files below a path, as prefixes of their cases' ids.
+fn all_families(prefix: &str) -> Vec<String> {
+    let library = Library::built_in().expect("built-in files parse");
+    let names = library.files().iter().map(|f| f.name());
+    let stems = names.filter_map(|n| n.strip_suffix(".json"));
+    let found: Vec<String> = stems
+        .filter(|s| s.starts_with(prefix))
+        .map(|s| format!("{s}/"))
+        .collect();
+    assert!(!found.is_empty(), "{prefix}");
+    found
+}

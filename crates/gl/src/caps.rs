@@ -1,0 +1,135 @@
+//! What a context can do, by its version and extensions.
+
+use crate::context::Context;
+use etalon_frame::Feature;
+use glow::HasContext;
+use naga::back::glsl;
+use std::collections::BTreeSet;
+
+const VIEWPORT_SUBPIXEL_BITS: u32 = 0x825C;
+
+/// What the context can do, as far as it matters here.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Caps {
+    pub(crate) es: bool,
+    pub(crate) version: (u32, u32),
+    pub(crate) glsl: glsl::Version,
+    /// `glClipControl` is set to WebGPU's conventions; else the shaders adapt.
+    pub(crate) clip_control: bool,
+    /// Blend functions and write masks may differ between colour targets.
+    pub(crate) indexed_blend: bool,
+    /// Factors may name the fragment shader's second source.
+    pub(crate) dual_source: bool,
+    /// 32-bit floats can be blended into.
+    pub(crate) float_blend: bool,
+    /// Depths can be clamped instead of clipped.
+    pub(crate) depth_clamp: bool,
+    /// Alpha can be set to one after alpha to coverage.
+    pub(crate) alpha_to_one: bool,
+    /// Shaders can ask for the sample that they run for.
+    pub(crate) sample_variables: bool,
+    /// Textures may have several samples.
+    pub(crate) multisample_textures: bool,
+    /// `GL_PRIMITIVE_RESTART_FIXED_INDEX` is known.
+    pub(crate) fixed_restart: bool,
+    /// A shader can fetch the stencil of a depth-stencil texture.
+    pub(crate) stencil_texturing: bool,
+    /// Textures may hold stencil alone.
+    pub(crate) stencil_textures: bool,
+    /// `GL_TIME_ELAPSED` queries count.
+    pub(crate) timer: bool,
+    pub(crate) max_color_targets: usize,
+    /// Bits below the texel that viewports keep; `None` where only integers can be given.
+    pub(crate) viewport_bits: Option<u32>,
+    pub(crate) max_viewport: [i32; 2],
+}
+
+impl Caps {
+    /// Asks the current context. `clip_control` is the caller's to set, and `timer` only says that
+    /// queries exist.
+    pub(crate) fn query(gl: &glow::Context, es: bool, version: (u32, u32)) -> Self {
+        let known = gl.supported_extensions();
+        let has = |name: &str| known.contains(name);
+        let since =
+            |core: (u32, u32), embedded: (u32, u32)| version >= if es { embedded } else { core };
+        const NEVER: (u32, u32) = (u32::MAX, 0);
+        const ALWAYS: (u32, u32) = (0, 0);
+        let viewports = since((4, 1), NEVER)
+            || has("GL_ARB_viewport_array")
+            || (es && has("GL_OES_viewport_array"));
+        let dual_source = since(ALWAYS, NEVER) || has("GL_EXT_blend_func_extended");
+        let integer = |name| {
+            // SAFETY: the context is current, and the limit is asked for only where it is known.
+            unsafe { gl.get_parameter_i32(name) }
+        };
+        let targets = integer(glow::MAX_DRAW_BUFFERS).min(integer(glow::MAX_COLOR_ATTACHMENTS));
+        let dual_targets =
+            dual_source.then(|| integer(glow::MAX_DUAL_SOURCE_DRAW_BUFFERS)) >= Some(1);
+        let viewport_bits =
+            viewports.then(|| u32::try_from(integer(VIEWPORT_SUBPIXEL_BITS)).unwrap_or(0));
+        let mut max_viewport = [0; 2];
+        // SAFETY: the context is current and the pair has room.
+        unsafe { gl.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut max_viewport) };
+        Self {
+            es,
+            version,
+            glsl: glsl_version(es, version),
+            clip_control: false,
+            indexed_blend: since((4, 0), (3, 2)) || (!es && has("GL_ARB_draw_buffers_blend")),
+            dual_source: dual_source && dual_targets,
+            float_blend: since(ALWAYS, NEVER) || has("GL_EXT_float_blend"),
+            depth_clamp: since(ALWAYS, NEVER) || has("GL_EXT_depth_clamp"),
+            alpha_to_one: since(ALWAYS, NEVER) || has("GL_EXT_multisample_compatibility"),
+            // naga asks for the ES extension by name, which version 3.2 need not list.
+            sample_variables: since((4, 0), NEVER) || (es && has("GL_OES_sample_variables")),
+            multisample_textures: since(ALWAYS, (3, 1)),
+            fixed_restart: since((4, 3), ALWAYS) || has("GL_ARB_ES3_compatibility"),
+            stencil_texturing: since((4, 3), (3, 1)) || has("GL_ARB_stencil_texturing"),
+            stencil_textures: since((4, 4), (3, 2))
+                || has("GL_ARB_texture_stencil8")
+                || has("GL_OES_texture_stencil8"),
+            timer: since(ALWAYS, NEVER) || has("GL_EXT_disjoint_timer_query"),
+            max_color_targets: usize::try_from(targets).unwrap_or(0),
+            viewport_bits,
+            max_viewport,
+        }
+    }
+}
+
+/// The features of a context.
+pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
+    let (caps, extra) = (&context.caps, &context.extra);
+    let known = |feature: &Feature| match feature {
+        // Versions from 3 on have these.
+        Feature::ConstantAlphaBlendFactor
+        | Feature::FrontAndBackCulling
+        | Feature::MinMaxBlendFactors
+        | Feature::RasterizerDiscard
+        | Feature::ReversedDepthRange
+        | Feature::ScissorOutside
+        | Feature::SeparateStencilMasks
+        | Feature::TriangleFans
+        | Feature::ViewportOutside => true,
+        Feature::AlphaToOne => caps.alpha_to_one,
+        Feature::DepthBiasClamp => extra.polygon_offset_clamp.is_some(),
+        Feature::DepthBounds => extra.depth_bounds.is_some(),
+        Feature::DepthClamp => caps.depth_clamp,
+        Feature::DualSourceBlending => caps.dual_source,
+        Feature::IndependentBlend => caps.indexed_blend,
+        Feature::LogicOperations => extra.logic_op.is_some(),
+        // ES has no `glPolygonMode`.
+        Feature::PolygonModeLine => !caps.es,
+        Feature::SampleShading => caps.sample_variables,
+    };
+    Feature::ALL.into_iter().filter(known).collect()
+}
+
+/// The shading language of a context; of a future one, the newest that naga knows.
+fn glsl_version(es: bool, (major, minor): (u32, u32)) -> glsl::Version {
+    let number = (major * 100 + minor * 10) as u16;
+    if es {
+        glsl::Version::new_gles(number.min(320))
+    } else {
+        glsl::Version::Desktop(number.min(460))
+    }
+}

@@ -1,0 +1,181 @@
+//! Colour codes in client memory, and codes from the floats that a shader or a driver makes of
+//! them.
+
+use etalon_frame::{ChannelEncoding, TextureFormat};
+
+/// How the channels of a texel lie in client memory.
+enum Layout {
+    /// One integer of so many bytes per channel.
+    Each(usize),
+    /// One integer of so many bytes per texel, channels at these bits.
+    Packed(usize, &'static [u32]),
+}
+
+/// The layout of the client format that `gl_format` names.
+fn layout(format: TextureFormat) -> Layout {
+    match format {
+        TextureFormat::Rgb10a2Unorm => Layout::Packed(4, &[0, 10, 20, 30]),
+        TextureFormat::Rg11b10Ufloat => Layout::Packed(4, &[0, 11, 22]),
+        TextureFormat::B5g6r5Unorm => Layout::Packed(2, &[11, 5, 0]),
+        TextureFormat::Bgr5a1Unorm => Layout::Packed(2, &[11, 6, 1, 0]),
+        TextureFormat::Bgra4Unorm => Layout::Packed(2, &[12, 8, 4, 0]),
+        TextureFormat::Rgba16Float => Layout::Each(2),
+        TextureFormat::Rgba32Float => Layout::Each(4),
+        _ => Layout::Each(1),
+    }
+}
+
+/// The size of a texel in client memory in bytes.
+pub(crate) fn texel_bytes(format: TextureFormat) -> usize {
+    match layout(format) {
+        Layout::Each(size) => size * format.color_channels().len(),
+        Layout::Packed(size, _) => size,
+    }
+}
+
+/// Codes as a client image, texel after texel.
+pub(crate) fn pack(format: TextureFormat, codes: &[u32]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    match layout(format) {
+        Layout::Each(size) => {
+            for code in codes {
+                put(&mut bytes, *code, size);
+            }
+        }
+        Layout::Packed(size, shifts) => {
+            for texel in codes.chunks_exact(shifts.len()) {
+                let word = texel.iter().zip(shifts).fold(0, |w, (c, s)| w | c << s);
+                put(&mut bytes, word, size);
+            }
+        }
+    }
+    bytes
+}
+
+/// The codes of a client image.
+pub(crate) fn unpack(format: TextureFormat, bytes: &[u8]) -> Vec<u32> {
+    match layout(format) {
+        Layout::Each(size) => bytes.chunks_exact(size).map(get).collect(),
+        Layout::Packed(size, shifts) => {
+            let mask = |e: &ChannelEncoding| u32::MAX >> (32 - bits(*e));
+            let masks: Vec<u32> = format.color_channels().iter().map(mask).collect();
+            let texels = bytes.chunks_exact(size).map(get);
+            texels
+                .flat_map(|word| shifts.iter().zip(&masks).map(move |(s, m)| word >> s & m))
+                .collect()
+        }
+    }
+}
+
+/// GL's client integers have the processor's byte order.
+fn put(bytes: &mut Vec<u8>, word: u32, size: usize) {
+    match size {
+        1 => bytes.push(word as u8),
+        2 => bytes.extend_from_slice(&(word as u16).to_ne_bytes()),
+        _ => bytes.extend_from_slice(&word.to_ne_bytes()),
+    }
+}
+
+fn get(bytes: &[u8]) -> u32 {
+    match *bytes {
+        [a] => u32::from(a),
+        [a, b] => u32::from(u16::from_ne_bytes([a, b])),
+        [a, b, c, d] => u32::from_ne_bytes([a, b, c, d]),
+        _ => 0,
+    }
+}
+
+/// The width of a code in bits.
+pub(crate) fn bits(encoding: ChannelEncoding) -> u32 {
+    match encoding {
+        ChannelEncoding::Unorm(bits)
+        | ChannelEncoding::Snorm(bits)
+        | ChannelEncoding::Uint(bits) => u32::from(bits),
+        ChannelEncoding::Srgb8 => 8,
+        ChannelEncoding::Float16 => 16,
+        ChannelEncoding::Float32 => 32,
+        ChannelEncoding::Ufloat(mantissa) => u32::from(mantissa) + 5,
+    }
+}
+
+/// The code whose value a 32-bit float, given by its bits, holds exactly or as nearly as a float
+/// can: this undoes a conversion and makes none.
+pub(crate) fn of_float(encoding: ChannelEncoding, float: u32) -> u32 {
+    let value = f64::from(f32::from_bits(float));
+    match encoding {
+        ChannelEncoding::Float32 => float,
+        ChannelEncoding::Float16 => short_float(float, 10),
+        ChannelEncoding::Ufloat(mantissa) => short_float(float, u32::from(mantissa)),
+        ChannelEncoding::Unorm(_)
+        | ChannelEncoding::Snorm(_)
+        | ChannelEncoding::Srgb8
+        | ChannelEncoding::Uint(_) => encoding.nearest_code(value),
+    }
+}
+
+/// A float of 5 exponent bits from a 32-bit one that holds the same value.
+fn short_float(float: u32, mantissa: u32) -> u32 {
+    let exponent = (float >> 23 & 0xff) as i32 - 127;
+    let fraction = float & 0x7f_ffff;
+    let shift = 23 - mantissa;
+    let infinity = 31 << mantissa;
+    let magnitude = match exponent {
+        128 if fraction != 0 => infinity | (fraction >> shift).max(1),
+        16.. => infinity,
+        -14..=15 => ((exponent + 15) as u32) << mantissa | fraction >> shift,
+        _ => (0x80_0000 | fraction)
+            .checked_shr(shift + (-14 - exponent) as u32)
+            .unwrap_or(0),
+    };
+    (float >> 31) << (5 + mantissa) | magnitude
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packing_and_unpacking_are_inverse() {
+        for format in TextureFormat::ALL.into_iter().filter(|f| f.is_color()) {
+            let channels = format.color_channels();
+            let repeated = channels.iter().cycle().take(channels.len() * 3);
+            let codes: Vec<u32> = (0..)
+                .zip(repeated)
+                .map(|(i, e)| 0x9e37_79b9_u32.rotate_left(i * 7) >> (32 - bits(*e)))
+                .collect();
+            let bytes = pack(format, &codes);
+            assert_eq!(bytes.len(), texel_bytes(format) * 3, "{format}");
+            assert_eq!(unpack(format, &bytes), codes, "{format}");
+        }
+    }
+
+    #[test]
+    fn codes_come_back_from_floats() {
+        for encoding in [
+            ChannelEncoding::Unorm(16),
+            ChannelEncoding::Unorm(10),
+            ChannelEncoding::Snorm(8),
+            ChannelEncoding::Srgb8,
+            ChannelEncoding::Float16,
+            ChannelEncoding::Ufloat(6),
+            ChannelEncoding::Ufloat(5),
+        ] {
+            for order in encoding.min_order()..=encoding.max_order() {
+                let code = encoding.code_of_order(order);
+                let float = (encoding.value_of_order(order) as f32).to_bits();
+                let back = of_float(encoding, float);
+                // -1 has two codes.
+                let same = encoding.value_of_order(encoding.order_of_code(back));
+                assert_eq!(same, encoding.value_of_order(order), "{encoding} {code}");
+            }
+        }
+        assert_eq!(of_float(ChannelEncoding::Float16, 0x8000_0000), 0x8000);
+        let infinity = f32::INFINITY.to_bits();
+        assert_eq!(of_float(ChannelEncoding::Float16, infinity), 0x7c00);
+        assert_eq!(of_float(ChannelEncoding::Ufloat(6), infinity), 0x7c0);
+        assert_eq!(
+            of_float(ChannelEncoding::Float16, f32::NAN.to_bits()),
+            0x7e00
+        );
+    }
+}

@@ -1,0 +1,187 @@
+//! Drawing a prepared scene.
+
+use crate::context::Context;
+use crate::pool::Target;
+use crate::prepared::Attachment;
+use crate::program::PARAMS_BINDING;
+use crate::state::{self, DrawState};
+use crate::surface::{Surface, upload};
+use etalon_case::{Vertex, scene};
+use etalon_frame::TextureFormat;
+use glow::HasContext;
+use std::mem::offset_of;
+
+/// Buffers that all draws share, with their sizes in bytes.
+#[derive(Default)]
+pub(crate) struct Inputs {
+    pub(crate) vertices: Option<(glow::Buffer, usize)>,
+    pub(crate) indices: Option<(glow::Buffer, usize)>,
+    pub(crate) params: Option<(glow::Buffer, usize)>,
+}
+
+impl Inputs {
+    /// The buffers that there are.
+    pub(crate) fn into_buffers(self) -> impl Iterator<Item = (glow::Buffer, usize)> {
+        let all = [self.vertices, self.indices, self.params];
+        all.into_iter().flatten()
+    }
+}
+
+/// How an attachment gets its first contents at each submit.
+pub(crate) enum Start {
+    /// Uploaded once: no pass draws to it.
+    Uploaded,
+    Upload(Vec<u8>),
+    Color([f32; 4]),
+    DepthStencil(f32, u8),
+}
+
+pub(crate) struct Pass {
+    pub(crate) target: Target,
+    /// A colour attachment is sRGB.
+    pub(crate) srgb: bool,
+    pub(crate) draws: Vec<DrawCall>,
+    /// Attachments with several samples and those that they are averaged to.
+    pub(crate) resolves: Vec<(usize, usize)>,
+}
+
+pub(crate) struct DrawCall {
+    pub(crate) program: glow::Program,
+    pub(crate) state: DrawState,
+    pub(crate) textures: Vec<glow::Texture>,
+    /// Where the parameter block lies, if the shader has one.
+    pub(crate) params: Option<i32>,
+    pub(crate) mode: u32,
+    /// Vertices are named by indices.
+    pub(crate) indexed: bool,
+    /// The first vertex or index.
+    pub(crate) first: i32,
+    pub(crate) count: i32,
+}
+
+/// Gives all attachments their first contents. Masks and scissor are open (`state::reset`).
+pub(crate) fn initialise(context: &Context, attachments: &[Attachment]) {
+    let gl = &context.gl;
+    for attachment in attachments {
+        let surface = &attachment.surface;
+        let format = attachment.format;
+        // SAFETY: the context is current and all objects are its own.
+        unsafe {
+            match &attachment.start {
+                Start::Uploaded => {}
+                Start::Upload(bytes) => upload(context, format, surface, bytes),
+                Start::Color(color) => {
+                    state::set_srgb(context, format == TextureFormat::Rgba8UnormSrgb);
+                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+                    gl.clear_buffer_f32_slice(glow::COLOR, 0, color);
+                }
+                Start::DepthStencil(depth, stencil) => {
+                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+                    let stencil = i32::from(*stencil);
+                    match (format.has_depth(), format.has_stencil()) {
+                        (true, true) => {
+                            gl.clear_buffer_depth_stencil(glow::DEPTH_STENCIL, 0, *depth, stencil);
+                        }
+                        (true, false) => gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[*depth]),
+                        _ => gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[stencil]),
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Draws all passes.
+pub(crate) fn draw_all(
+    context: &Context,
+    vertex_array: glow::VertexArray,
+    inputs: &Inputs,
+    passes: &[Pass],
+    attachments: &[Attachment],
+) {
+    let gl = &context.gl;
+    // SAFETY: the context is current and all objects are its own.
+    unsafe {
+        gl.bind_vertex_array(Some(vertex_array));
+        gl.bind_buffer(
+            glow::ARRAY_BUFFER,
+            inputs.vertices.map(|(buffer, _)| buffer),
+        );
+        // The vertex array keeps this one.
+        let indices = inputs.indices.map(|(buffer, _)| buffer);
+        gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, indices);
+        let attributes = [
+            (0, 4, offset_of!(Vertex, position)),
+            (1, 4, offset_of!(Vertex, color)),
+            (2, 2, offset_of!(Vertex, uv)),
+        ];
+        if inputs.vertices.is_some() {
+            let stride = size_of::<Vertex>() as i32;
+            for (index, size, offset) in attributes {
+                let offset = offset as i32;
+                gl.vertex_attrib_pointer_f32(index, size, glow::FLOAT, false, stride, offset);
+            }
+        }
+    }
+    let mut closed = false;
+    for pass in passes {
+        if std::mem::take(&mut closed) {
+            state::reset(context);
+        }
+        if inputs.indices.is_some() {
+            state::set_restart(context);
+        }
+        state::set_srgb(context, pass.srgb);
+        // SAFETY: the framebuffer is the context's own.
+        unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(pass.target.framebuffer)) };
+        for draw in &pass.draws {
+            draw_one(context, inputs, draw);
+        }
+        for (from, to) in &pass.resolves {
+            if let (Some(from), Some(to)) = (attachments.get(*from), attachments.get(*to)) {
+                // Copies obey the scissor.
+                state::reset(context);
+                state::set_srgb(context, to.format == TextureFormat::Rgba8UnormSrgb);
+                resolve(context, &from.surface, &to.surface);
+                closed = true;
+            }
+        }
+    }
+}
+
+fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
+    let gl = &context.gl;
+    draw.state.apply(context);
+    // SAFETY: the context is current and all objects are its own; vertices, indices and blocks
+    // were counted when the buffers were filled.
+    unsafe {
+        gl.use_program(Some(draw.program));
+        if let (Some(offset), Some((buffer, _))) = (draw.params, inputs.params) {
+            let (point, size) = (PARAMS_BINDING, size_of::<scene::Params>() as i32);
+            gl.bind_buffer_range(glow::UNIFORM_BUFFER, point, Some(buffer), offset, size);
+        }
+        for (unit, texture) in (0..).zip(&draw.textures) {
+            gl.active_texture(glow::TEXTURE0 + unit);
+            gl.bind_texture(glow::TEXTURE_2D, Some(*texture));
+        }
+        if draw.indexed {
+            let offset = draw.first * size_of::<u32>() as i32;
+            gl.draw_elements(draw.mode, draw.count, glow::UNSIGNED_INT, offset);
+        } else {
+            gl.draw_arrays(draw.mode, draw.first, draw.count);
+        }
+    }
+}
+
+/// Averages the samples of one colour surface into another of the same size and format.
+fn resolve(context: &Context, from: &Surface, to: &Surface) {
+    let gl = &context.gl;
+    let [w, h] = from.size().map(|side| side as i32);
+    // SAFETY: the context is current and the framebuffers are its own.
+    unsafe {
+        gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(from.framebuffer));
+        gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(to.framebuffer));
+        let (mask, filter) = (glow::COLOR_BUFFER_BIT, glow::NEAREST);
+        gl.blit_framebuffer(0, 0, w, h, 0, 0, w, h, mask, filter);
+    }
+}

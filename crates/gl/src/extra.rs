@@ -1,0 +1,121 @@
+//! Entry points that glow lacks.
+
+use crate::egl::EglContext;
+use std::collections::HashSet;
+use std::ffi::{c_char, c_void};
+
+type DebugCallback =
+    unsafe extern "system" fn(u32, u32, u32, u32, i32, *const c_char, *const c_void);
+
+macro_rules! extra {
+    ($($field:ident: fn($($arg:ty),*) $(-> $ret:ty)?;)*) => {
+        /// Entry points that glow lacks, or chooses by address alone; `None` where neither the
+        /// version nor an extension promises them.
+        #[derive(Default)]
+        pub(crate) struct Extra {
+            $(pub(crate) $field: Option<unsafe extern "system" fn($($arg),*) $(-> $ret)?>,)*
+        }
+    };
+}
+
+extra! {
+    clip_control: fn(u32, u32);
+    get_query: fn(u32, u32, *mut i32);
+    get_query_result: fn(u32, u32, *mut u64);
+    get_reset_status: fn() -> u32;
+    debug_callback: fn(Option<DebugCallback>, *const c_void);
+    get_multisample: fn(u32, u32, *mut f32);
+    sample_mask: fn(u32, u32);
+    logic_op: fn(u32);
+    clamp_color: fn(u32, u32);
+    polygon_offset_clamp: fn(f32, f32, f32);
+    depth_bounds: fn(f64, f64);
+    viewport_indexed: fn(u32, f32, f32, f32, f32);
+    primitive_restart_index: fn(u32);
+}
+
+impl Extra {
+    /// Loads what the version and the extensions promise.
+    pub(crate) fn load(
+        egl: &EglContext,
+        es: bool,
+        version: (u32, u32),
+        known: &HashSet<String>,
+    ) -> Self {
+        let has = |name: &str| known.contains(name);
+        let mut extra = Self::default();
+        macro_rules! load {
+            ($field:ident, $name:literal) => {
+                // SAFETY: the specification gives this name the field's type, and the version or
+                // extension that promises it has been seen.
+                extra.$field = unsafe { entry_point(egl.proc_address($name)) };
+            };
+        }
+        if es {
+            if has("GL_EXT_clip_control") {
+                load!(clip_control, c"glClipControlEXT");
+            }
+            if has("GL_EXT_disjoint_timer_query") {
+                load!(get_query, c"glGetQueryivEXT");
+                load!(get_query_result, c"glGetQueryObjectui64vEXT");
+            }
+            if version >= (3, 2) {
+                load!(debug_callback, c"glDebugMessageCallback");
+                load!(get_reset_status, c"glGetGraphicsResetStatus");
+            } else {
+                if has("GL_KHR_debug") {
+                    load!(debug_callback, c"glDebugMessageCallbackKHR");
+                }
+                if has("GL_KHR_robustness") {
+                    load!(get_reset_status, c"glGetGraphicsResetStatusKHR");
+                }
+            }
+            if version >= (3, 1) {
+                load!(get_multisample, c"glGetMultisamplefv");
+                load!(sample_mask, c"glSampleMaski");
+            }
+            if has("GL_OES_viewport_array") {
+                load!(viewport_indexed, c"glViewportIndexedfOES");
+            }
+        } else {
+            if version >= (4, 5) || has("GL_ARB_clip_control") {
+                load!(clip_control, c"glClipControl");
+            }
+            load!(get_query, c"glGetQueryiv");
+            load!(get_query_result, c"glGetQueryObjectui64v");
+            load!(get_multisample, c"glGetMultisamplefv");
+            load!(sample_mask, c"glSampleMaski");
+            load!(logic_op, c"glLogicOp");
+            load!(clamp_color, c"glClampColor");
+            load!(primitive_restart_index, c"glPrimitiveRestartIndex");
+            if version >= (4, 3) || has("GL_KHR_debug") {
+                load!(debug_callback, c"glDebugMessageCallback");
+            }
+            if version >= (4, 5) || has("GL_KHR_robustness") {
+                load!(get_reset_status, c"glGetGraphicsResetStatus");
+            }
+            if version >= (4, 1) || has("GL_ARB_viewport_array") {
+                load!(viewport_indexed, c"glViewportIndexedf");
+            }
+        }
+        if !es && (version >= (4, 6) || has("GL_ARB_polygon_offset_clamp")) {
+            load!(polygon_offset_clamp, c"glPolygonOffsetClamp");
+        } else if has("GL_EXT_polygon_offset_clamp") {
+            load!(polygon_offset_clamp, c"glPolygonOffsetClampEXT");
+        }
+        if !es && has("GL_EXT_depth_bounds_test") {
+            load!(depth_bounds, c"glDepthBoundsEXT");
+        }
+        extra
+    }
+}
+
+/// The function at an address, if it is one.
+///
+/// # Safety
+/// `F` is the type of the function there.
+unsafe fn entry_point<F: Copy>(address: *const c_void) -> Option<F> {
+    const { assert!(size_of::<F>() == size_of::<*const c_void>()) };
+    // SAFETY: function pointers have the size of an address, and the caller vouches for the type.
+    (!address.is_null()).then(|| unsafe { std::mem::transmute_copy(&address) })
+}

@@ -1,0 +1,158 @@
+//! Surfaces, framebuffers and buffers, kept from scene to scene.
+
+use crate::context::{Context, refused};
+use crate::surface::{Surface, SurfaceKind, framebuffer};
+use etalon_backend::BackendError;
+use glow::HasContext;
+use std::collections::HashMap;
+
+/// The most free surfaces, framebuffers and buffers, and bytes of free surfaces, that are kept.
+const MAX_FREE: usize = 64;
+const MAX_FREE_BYTES: u64 = 64 << 20;
+/// The largest buffer that is kept.
+const MAX_FREE_BUFFER: usize = 1 << 20;
+
+/// A pass's framebuffer with the surfaces it joins.
+#[derive(Debug)]
+pub(crate) struct Target {
+    pub(crate) framebuffer: glow::Framebuffer,
+    key: TargetKey,
+}
+
+type TargetKey = (Vec<u64>, Option<u64>);
+
+/// Objects that no scene uses now.
+#[derive(Default)]
+pub(crate) struct Pool {
+    surfaces: HashMap<(SurfaceKind, [u32; 2]), Vec<Surface>>,
+    count: usize,
+    bytes: u64,
+    targets: HashMap<TargetKey, Vec<glow::Framebuffer>>,
+    buffers: Vec<glow::Buffer>,
+}
+
+impl Pool {
+    /// A surface of this kind and size with any contents.
+    pub(crate) fn surface(
+        &mut self,
+        context: &Context,
+        kind: SurfaceKind,
+        size: [u32; 2],
+    ) -> Result<Surface, BackendError> {
+        match self.surfaces.get_mut(&(kind, size)).and_then(Vec::pop) {
+            Some(surface) => {
+                self.count -= 1;
+                self.bytes -= surface.bytes();
+                Ok(surface)
+            }
+            None => Surface::new(context, kind, size),
+        }
+    }
+
+    /// Takes a surface back.
+    pub(crate) fn put_surface(&mut self, context: &Context, surface: Surface) {
+        self.count += 1;
+        self.bytes += surface.bytes();
+        let key = (surface.kind, surface.size);
+        self.surfaces.entry(key).or_default().push(surface);
+        if self.count > MAX_FREE || self.bytes > MAX_FREE_BYTES {
+            self.delete_surfaces(context);
+        }
+    }
+
+    /// Frees all free surfaces, and the targets with them: whatever a scene needs next is made
+    /// anew, and targets never name what is gone.
+    pub(crate) fn delete_surfaces(&mut self, context: &Context) {
+        self.delete_targets(context);
+        for surface in self.surfaces.drain().flat_map(|(_, list)| list) {
+            surface.delete(context);
+        }
+        self.count = 0;
+        self.bytes = 0;
+    }
+
+    fn delete_targets(&mut self, context: &Context) {
+        for framebuffer in self.targets.drain().flat_map(|(_, list)| list) {
+            // SAFETY: the context is current and the object is its own.
+            unsafe { context.gl.delete_framebuffer(framebuffer) };
+        }
+    }
+
+    /// A framebuffer of these surfaces; `None` where the driver does not draw to them together.
+    pub(crate) fn target(
+        &mut self,
+        context: &Context,
+        color: &[&Surface],
+        depth_stencil: Option<&Surface>,
+    ) -> Result<Option<Target>, BackendError> {
+        let key = (
+            color.iter().map(|s| s.id).collect::<Vec<_>>(),
+            depth_stencil.map(|s| s.id),
+        );
+        if let Some(framebuffer) = self.targets.get_mut(&key).and_then(Vec::pop) {
+            return Ok(Some(Target { framebuffer, key }));
+        }
+        let mut attachments = Vec::new();
+        for (i, surface) in color.iter().enumerate() {
+            attachments.push((surface.storage, glow::COLOR_ATTACHMENT0 + i as u32));
+        }
+        if let Some(surface) = depth_stencil {
+            attachments.push((surface.storage, surface.attachment));
+        }
+        let (framebuffer, status) = framebuffer(context, &attachments)?;
+        if status == glow::FRAMEBUFFER_COMPLETE {
+            return Ok(Some(Target { framebuffer, key }));
+        }
+        // SAFETY: the context is current and the object is its own.
+        unsafe { context.gl.delete_framebuffer(framebuffer) };
+        Ok(None)
+    }
+
+    /// Takes a target back, before its surfaces.
+    pub(crate) fn put_target(&mut self, context: &Context, target: Target) {
+        if self.targets.values().map(Vec::len).sum::<usize>() >= MAX_FREE {
+            self.delete_targets(context);
+        }
+        self.targets
+            .entry(target.key)
+            .or_default()
+            .push(target.framebuffer);
+    }
+
+    /// A buffer with these contents, for any use.
+    pub(crate) fn buffer(
+        &mut self,
+        context: &Context,
+        data: &[u8],
+    ) -> Result<glow::Buffer, BackendError> {
+        let gl = &context.gl;
+        // SAFETY: the context is current.
+        unsafe {
+            let buffer = match self.buffers.pop() {
+                Some(buffer) => buffer,
+                None => gl.create_buffer().map_err(|e| refused("a buffer", e))?,
+            };
+            gl.bind_buffer(glow::ARRAY_BUFFER, Some(buffer));
+            gl.buffer_data_u8_slice(glow::ARRAY_BUFFER, data, glow::STATIC_DRAW);
+            Ok(buffer)
+        }
+    }
+
+    /// Takes a buffer of a size in bytes back.
+    pub(crate) fn put_buffer(&mut self, context: &Context, buffer: glow::Buffer, size: usize) {
+        if self.buffers.len() < MAX_FREE && size <= MAX_FREE_BUFFER {
+            self.buffers.push(buffer);
+        } else {
+            // SAFETY: the context is current and the object is its own.
+            unsafe { context.gl.delete_buffer(buffer) };
+        }
+    }
+}
+
+impl Target {
+    /// Frees the framebuffer.
+    pub(crate) fn delete(self, context: &Context) {
+        // SAFETY: the context is current and the object is its own.
+        unsafe { context.gl.delete_framebuffer(self.framebuffer) };
+    }
+}

@@ -1,0 +1,349 @@
+//! What the driver really makes of each format.
+//!
+//! A driver may take another internal format than the one asked for. A format is offered only where
+//! the framebuffer tells exactly the channels that the format's name promises, and where all codes
+//! survive being uploaded and read.
+
+use crate::codes;
+use crate::context::Context;
+use crate::format::{ReadPlan, ShaderStencil, Support, gl_format};
+use crate::read::{self, Reading};
+use crate::surface::{Surface, SurfaceKind, upload};
+use etalon_frame::{ChannelEncoding, FormatSupport, ReadPath, TextureFormat};
+use glow::HasContext;
+use std::collections::BTreeMap;
+
+const SIGNED_NORMALIZED: u32 = 0x8F9C;
+const SAMPLE_COUNTS: [u32; 4] = [2, 4, 8, 16];
+/// Enough for every code of a 16-bit channel when four channels share them.
+const SIZE: [u32; 2] = [128, 128];
+
+/// Where the samples lie, by their number: 1/256 texel from the top left corner.
+type Positions = BTreeMap<u32, Vec<[u16; 2]>>;
+
+/// What all formats give.
+#[derive(Default)]
+pub(crate) struct Probed {
+    pub(crate) formats: BTreeMap<TextureFormat, Support>,
+    pub(crate) positions: Positions,
+}
+
+/// Tries every format.
+pub(crate) fn probe(reading: &mut Reading<'_>) -> Probed {
+    let mut probed = Probed::default();
+    let context = reading.context;
+    for format in TextureFormat::ALL {
+        let Some(mut support) = with_surface(context, format, 1, |surface| {
+            examine(reading, format, surface)
+        }) else {
+            // A refused format may leave errors behind, which are no news to anybody.
+            context.check("probing formats").ok();
+            continue;
+        };
+        if context.check("probing formats").is_ok() {
+            let more = several_samples(reading, format, &support, &mut probed.positions);
+            support.limits.samples.extend(more);
+            probed.formats.insert(format, support);
+        }
+    }
+    probed
+}
+
+/// Does something with a surface of a format.
+fn with_surface<T>(
+    context: &Context,
+    format: TextureFormat,
+    samples: u32,
+    body: impl FnOnce(&Surface) -> Option<T>,
+) -> Option<T> {
+    gl_format(format)?;
+    let kind = SurfaceKind::Attachment(format, samples);
+    let surface = Surface::new(context, kind, SIZE).ok()?;
+    let result = body(&surface);
+    surface.delete(context);
+    result
+}
+
+fn examine(reading: &mut Reading<'_>, format: TextureFormat, surface: &Surface) -> Option<Support> {
+    let context = reading.context;
+    let done = |samples: &[u32], blendable, depth: &[ChannelEncoding], read| {
+        let path = match read {
+            ReadPlan::Shader { depth: true, .. } => ReadPath::Shader,
+            _ => ReadPath::Copy,
+        };
+        Some(Support {
+            limits: FormatSupport {
+                samples: samples.to_vec(),
+                blendable,
+                depth: depth.to_vec(),
+                read: path,
+            },
+            read,
+        })
+    };
+    if format.is_color() && !surface.is_complete() {
+        // The exact source of values is of use even where nothing can be drawn to it.
+        let useful = format == TextureFormat::Rgba32Float
+            && color_round_trips(reading, surface, format, ReadPlan::Fetched);
+        return if useful {
+            done(&[], false, &[], ReadPlan::Fetched)
+        } else {
+            None
+        };
+    }
+    if !surface.is_complete() || !holds(context, surface, format) {
+        return None;
+    }
+    if format.is_color() {
+        // Mesa's ES reads negative values of `rgba8snorm` as 0, and a shader sees one value for
+        // both codes of -1, so that nothing reads that format exactly there.
+        let plans = [ReadPlan::Packed, ReadPlan::Bytes, ReadPlan::Floats];
+        let read = plans
+            .into_iter()
+            .find(|plan| color_round_trips(reading, surface, format, *plan))?;
+        let blendable = format != TextureFormat::Rgba32Float || context.caps.float_blend;
+        return done(&[1], blendable, &[], read);
+    }
+    if format == TextureFormat::Stencil8 {
+        // In ES nothing but a shader reads stencil.
+        if !context.caps.es {
+            return done(&[1], false, &[], ReadPlan::Stencil);
+        }
+        let shader = ReadPlan::Shader {
+            depth: false,
+            stencil: ShaderStencil::Shader,
+        };
+        let can = context.caps.stencil_textures && context.caps.stencil_texturing;
+        return if can {
+            done(&[1], false, &[], shader)
+        } else {
+            None
+        };
+    }
+    let encoding = depth_encoding(context, surface)?;
+    let read = if context.caps.es {
+        by_shader(context, format)?
+    } else {
+        let plan = copy_plan(format, encoding);
+        if read::round_trips(context, surface, format, plan) {
+            plan
+        } else {
+            by_shader(context, format)?
+        }
+    };
+    done(&[1], false, &[encoding], read)
+}
+
+fn by_shader(context: &Context, format: TextureFormat) -> Option<ReadPlan> {
+    let stencil = match (format.has_stencil(), context.caps.es) {
+        (false, _) => ShaderStencil::None,
+        (true, false) => ShaderStencil::Copy,
+        (true, true) if context.caps.stencil_texturing => ShaderStencil::Shader,
+        (true, true) => return None,
+    };
+    Some(ReadPlan::Shader {
+        depth: true,
+        stencil,
+    })
+}
+
+fn copy_plan(format: TextureFormat, encoding: ChannelEncoding) -> ReadPlan {
+    match (encoding, format.has_stencil()) {
+        (ChannelEncoding::Unorm(16), _) => ReadPlan::Depth16,
+        (ChannelEncoding::Float32, false) => ReadPlan::DepthFloat,
+        (ChannelEncoding::Float32, true) => ReadPlan::DepthFloatStencil8,
+        (_, false) => ReadPlan::Depth24,
+        (_, true) => ReadPlan::Depth24Stencil8,
+    }
+}
+
+/// Whether a complete surface holds the channels that its format promises.
+fn holds(context: &Context, surface: &Surface, format: TextureFormat) -> bool {
+    if format.has_depth() {
+        // A driver may store more bits than it was asked for; then the format is not what its
+        // name says, and no rule speaks of it.
+        return depth_encoding(context, surface)
+            .is_some_and(|encoding| format.depth_encodings().contains(&encoding));
+    }
+    if format.has_stencil() {
+        let bits = query(
+            context,
+            surface,
+            glow::STENCIL_ATTACHMENT,
+            glow::FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE,
+        );
+        return bits == 8;
+    }
+    let of_color = |name| query(context, surface, glow::COLOR_ATTACHMENT0, name);
+    let sizes = [
+        glow::FRAMEBUFFER_ATTACHMENT_RED_SIZE,
+        glow::FRAMEBUFFER_ATTACHMENT_GREEN_SIZE,
+        glow::FRAMEBUFFER_ATTACHMENT_BLUE_SIZE,
+        glow::FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE,
+    ];
+    let channels = format.color_channels();
+    let same = (0..).zip(sizes).all(|(i, name)| {
+        let due = channels.get(i).map_or(0, |e| codes::bits(*e));
+        u32::try_from(of_color(name)) == Ok(due)
+    });
+    let due = match channels.first() {
+        Some(ChannelEncoding::Unorm(_) | ChannelEncoding::Srgb8) => glow::UNSIGNED_NORMALIZED,
+        Some(ChannelEncoding::Snorm(_)) => SIGNED_NORMALIZED,
+        _ => glow::FLOAT,
+    };
+    let kind = of_color(glow::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
+    let encoding = of_color(glow::FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING);
+    let due_encoding = if format == TextureFormat::Rgba8UnormSrgb {
+        glow::SRGB
+    } else {
+        glow::LINEAR
+    };
+    same && u32::try_from(kind) == Ok(due) && u32::try_from(encoding) == Ok(due_encoding)
+}
+
+/// A property of an attachment of a complete surface.
+fn query(context: &Context, surface: &Surface, attachment: u32, name: u32) -> i32 {
+    let gl = &context.gl;
+    // SAFETY: the context is current, the framebuffer lives and has the attachment.
+    unsafe {
+        gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+        gl.get_framebuffer_attachment_parameter_i32(glow::FRAMEBUFFER, attachment, name)
+    }
+}
+
+/// What the driver says it stores.
+fn depth_encoding(context: &Context, surface: &Surface) -> Option<ChannelEncoding> {
+    let of_depth = |name| query(context, surface, glow::DEPTH_ATTACHMENT, name);
+    let bits = of_depth(glow::FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
+    let kind = of_depth(glow::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
+    match (u32::try_from(kind).ok()?, bits) {
+        (glow::UNSIGNED_NORMALIZED, bits) => Some(ChannelEncoding::Unorm(u8::try_from(bits).ok()?)),
+        (glow::FLOAT, 32) => Some(ChannelEncoding::Float32),
+        _ => None,
+    }
+}
+
+/// Whether all codes come back unchanged: every code of channels of up to 16 bits, each channel in
+/// an order of its own; a spread of 32-bit floats. NaNs are left out, whose payload nobody keeps.
+fn color_round_trips(
+    reading: &mut Reading<'_>,
+    surface: &Surface,
+    format: TextureFormat,
+    plan: ReadPlan,
+) -> bool {
+    let channels = format.color_channels();
+    let mut all = Vec::new();
+    for texel in 0..SIZE[0] * SIZE[1] {
+        for (c, encoding) in (0..).zip(channels) {
+            // Odd factors reach every code; those of a 16-bit float are shared by four channels.
+            let code = match codes::bits(*encoding) {
+                32 => (texel * 4 + c).wrapping_mul(0x9e37_79b1),
+                bits => (texel * 4 + c).wrapping_mul(2 * c + 1) >> (2 * u32::from(bits < 16)),
+            };
+            let code = code & (u32::MAX >> (32 - codes::bits(*encoding)));
+            all.push(if encoding.is_nan(code) { c } else { code });
+        }
+    }
+    crate::state::reset(reading.context);
+    upload(reading.context, format, surface, &codes::pack(format, &all));
+    let read = reading.color(surface, format, plan);
+    let clean = reading.context.check("probing a format").is_ok();
+    clean && read.is_ok_and(|codes| codes == all)
+}
+
+/// The sample counts above one that attachments of a format really get, can be drawn to and read.
+fn several_samples(
+    reading: &mut Reading<'_>,
+    format: TextureFormat,
+    support: &Support,
+    positions: &mut Positions,
+) -> Vec<u32> {
+    let context = reading.context;
+    let caps = &context.caps;
+    let stencil_fetched =
+        caps.stencil_texturing && (caps.stencil_textures || format != TextureFormat::Stencil8);
+    let drawn = !support.limits.samples.is_empty();
+    // A shader sees one value for both codes of -1.
+    let told_apart = format != TextureFormat::Rgba8Snorm;
+    let readable = drawn && told_apart && (!format.has_stencil() || stencil_fetched);
+    if !caps.multisample_textures || !readable {
+        return Vec::new();
+    }
+    let mut counts = Vec::new();
+    for count in SAMPLE_COUNTS {
+        let found = with_surface(context, format, count, |surface| {
+            let good = surface.is_complete() && holds(context, surface, format);
+            good.then(|| sample_positions(context, surface, count))?
+        });
+        let clean = context.check("probing samples").is_ok();
+        if let (Some(found), true) = (found, clean) {
+            // One table for all formats.
+            if positions.entry(count).or_insert_with(|| found.clone()) == &found {
+                counts.push(count);
+            }
+        }
+    }
+    if counts.is_empty() || fetch_is_exact(reading, format, support) {
+        counts
+    } else {
+        Vec::new()
+    }
+}
+
+/// Whether a shader's fetch gives the codes that a copy of the same format would give. Short
+/// normalized codes and floats are exact in any float; sRGB and 24-bit depth may not be.
+fn fetch_is_exact(reading: &mut Reading<'_>, format: TextureFormat, support: &Support) -> bool {
+    if format == TextureFormat::Rgba8UnormSrgb {
+        let context = reading.context;
+        return with_surface(context, format, 1, |surface| {
+            Some(color_round_trips(
+                reading,
+                surface,
+                format,
+                ReadPlan::Fetched,
+            ))
+        })
+        .unwrap_or(false);
+    }
+    let copied = support.limits.read == ReadPath::Copy;
+    if copied && support.limits.depth.contains(&ChannelEncoding::Unorm(24)) {
+        let context = reading.context;
+        return with_surface(context, format, 1, |surface| {
+            // The surface then holds a spread of codes.
+            let plan = support.read;
+            let told = read::round_trips(context, surface, format, plan);
+            let (due, _) = read::copy(context, surface, format, plan);
+            let seen = reading.fetched_depth(surface, ChannelEncoding::Unorm(24));
+            Some(told && seen.is_ok_and(|codes| codes == due))
+        })
+        .unwrap_or(false);
+    }
+    true
+}
+
+/// Where a surface's samples lie; `None` where it has another number of them.
+fn sample_positions(context: &Context, surface: &Surface, count: u32) -> Option<Vec<[u16; 2]>> {
+    let get = context.extra.get_multisample?;
+    let gl = &context.gl;
+    // SAFETY: the context is current, the surface lives, and the pair has room. The texture is
+    // bound to the target of its own.
+    unsafe {
+        gl.bind_texture(glow::TEXTURE_2D_MULTISAMPLE, surface.texture());
+        let target = glow::TEXTURE_2D_MULTISAMPLE;
+        let stored = gl.get_tex_level_parameter_i32(target, 0, glow::TEXTURE_SAMPLES);
+        gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+        let drawn = gl.get_parameter_i32(glow::SAMPLES);
+        // Asking for 2 may give 4.
+        if [stored, drawn].map(u32::try_from) != [Ok(count); 2] {
+            return None;
+        }
+        let position = |i| {
+            let mut position = [0.0_f32; 2];
+            get(glow::SAMPLE_POSITION, i, position.as_mut_ptr());
+            // Rows count upwards in window coordinates, and row 0 is the top one here, so that
+            // nothing is mirrored.
+            position.map(|v| (v * 256.0).round() as u16)
+        };
+        Some((0..count).map(position).collect())
+    }
+}

@@ -1,0 +1,117 @@
+//! The model's enumerations in GL's words.
+
+use etalon_case::scene::ColorTarget;
+use etalon_case::state::{
+    BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction, LogicOperation,
+    PrimitiveTopology, StencilOperation,
+};
+
+pub(crate) fn topology(topology: PrimitiveTopology) -> u32 {
+    match topology {
+        PrimitiveTopology::PointList => glow::POINTS,
+        PrimitiveTopology::LineList => glow::LINES,
+        PrimitiveTopology::LineStrip => glow::LINE_STRIP,
+        PrimitiveTopology::TriangleList => glow::TRIANGLES,
+        PrimitiveTopology::TriangleFan => glow::TRIANGLE_FAN,
+        PrimitiveTopology::TriangleStrip => glow::TRIANGLE_STRIP,
+    }
+}
+
+pub(crate) fn mask(target: &ColorTarget) -> [bool; 4] {
+    [0, 1, 2, 3].map(|bit| target.write_mask & (1 << bit) != 0)
+}
+
+/// Operation, source factor and destination factor.
+pub(crate) type Equation = (u32, u32, u32);
+
+pub(crate) fn equations(blend: BlendState) -> (Equation, Equation) {
+    let one = |c: BlendComponent| {
+        (
+            blend_operation(c.operation),
+            factor(c.src_factor),
+            factor(c.dst_factor),
+        )
+    };
+    (one(blend.color), one(blend.alpha))
+}
+
+pub(crate) fn compare(function: CompareFunction) -> u32 {
+    match function {
+        CompareFunction::Never => glow::NEVER,
+        CompareFunction::Less => glow::LESS,
+        CompareFunction::Equal => glow::EQUAL,
+        CompareFunction::LessEqual => glow::LEQUAL,
+        CompareFunction::Greater => glow::GREATER,
+        CompareFunction::NotEqual => glow::NOTEQUAL,
+        CompareFunction::GreaterEqual => glow::GEQUAL,
+        CompareFunction::Always => glow::ALWAYS,
+    }
+}
+
+pub(crate) fn operation(operation: StencilOperation) -> u32 {
+    match operation {
+        StencilOperation::Keep => glow::KEEP,
+        StencilOperation::Zero => glow::ZERO,
+        StencilOperation::Replace => glow::REPLACE,
+        StencilOperation::Invert => glow::INVERT,
+        StencilOperation::IncrementClamp => glow::INCR,
+        StencilOperation::DecrementClamp => glow::DECR,
+        StencilOperation::IncrementWrap => glow::INCR_WRAP,
+        StencilOperation::DecrementWrap => glow::DECR_WRAP,
+    }
+}
+
+pub(crate) fn factor(factor: BlendFactor) -> u32 {
+    match factor {
+        BlendFactor::Zero => glow::ZERO,
+        BlendFactor::One => glow::ONE,
+        BlendFactor::Src => glow::SRC_COLOR,
+        BlendFactor::OneMinusSrc => glow::ONE_MINUS_SRC_COLOR,
+        BlendFactor::SrcAlpha => glow::SRC_ALPHA,
+        BlendFactor::OneMinusSrcAlpha => glow::ONE_MINUS_SRC_ALPHA,
+        BlendFactor::Dst => glow::DST_COLOR,
+        BlendFactor::OneMinusDst => glow::ONE_MINUS_DST_COLOR,
+        BlendFactor::DstAlpha => glow::DST_ALPHA,
+        BlendFactor::OneMinusDstAlpha => glow::ONE_MINUS_DST_ALPHA,
+        BlendFactor::SrcAlphaSaturated => glow::SRC_ALPHA_SATURATE,
+        BlendFactor::Constant => glow::CONSTANT_COLOR,
+        BlendFactor::OneMinusConstant => glow::ONE_MINUS_CONSTANT_COLOR,
+        BlendFactor::ConstantAlpha => glow::CONSTANT_ALPHA,
+        BlendFactor::OneMinusConstantAlpha => glow::ONE_MINUS_CONSTANT_ALPHA,
+        BlendFactor::Src1 => glow::SRC1_COLOR,
+        BlendFactor::OneMinusSrc1 => glow::ONE_MINUS_SRC1_COLOR,
+        BlendFactor::Src1Alpha => glow::SRC1_ALPHA,
+        BlendFactor::OneMinusSrc1Alpha => glow::ONE_MINUS_SRC1_ALPHA,
+    }
+}
+
+pub(crate) fn blend_operation(operation: BlendOperation) -> u32 {
+    match operation {
+        BlendOperation::Add => glow::FUNC_ADD,
+        BlendOperation::Subtract => glow::FUNC_SUBTRACT,
+        BlendOperation::ReverseSubtract => glow::FUNC_REVERSE_SUBTRACT,
+        BlendOperation::Min => glow::MIN,
+        BlendOperation::Max => glow::MAX,
+    }
+}
+
+pub(crate) fn logic_operation(operation: LogicOperation) -> u32 {
+    match operation {
+        LogicOperation::Clear => glow::CLEAR,
+        LogicOperation::And => glow::AND,
+        LogicOperation::AndReverse => glow::AND_REVERSE,
+        LogicOperation::Copy => glow::COPY,
+        LogicOperation::AndInverted => glow::AND_INVERTED,
+        LogicOperation::Noop => glow::NOOP,
+        LogicOperation::Xor => glow::XOR,
+        LogicOperation::Or => glow::OR,
+        LogicOperation::Nor => glow::NOR,
+        LogicOperation::Equivalent => glow::EQUIV,
+        LogicOperation::Invert => glow::INVERT,
+        LogicOperation::OrReverse => glow::OR_REVERSE,
+        LogicOperation::CopyInverted => glow::COPY_INVERTED,
+        LogicOperation::OrInverted => glow::OR_INVERTED,
+        LogicOperation::Nand => glow::NAND,
+        LogicOperation::Set => glow::SET,
+    }
+}

@@ -1,0 +1,71 @@
+//! Depth over a triangle, and what a bias adds to it.
+
+use crate::coverage::{Point, signed_area};
+
+/// Window depth as a linear function of window position, from the vertices' depths and snapped
+/// positions. Units are those of [`Point`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DepthPlane {
+    origin: Point,
+    z: f64,
+    /// Growth per unit to the right.
+    pub dx: f64,
+    /// Growth per unit down.
+    pub dy: f64,
+}
+
+impl DepthPlane {
+    /// The plane through three vertices; flat where they span no area.
+    pub fn new(points: [Point; 3], z: [f64; 3]) -> Self {
+        let [a, b, c] = points;
+        // With y down the determinant is the negated signed area.
+        let determinant = -signed_area(points) as f64;
+        let (bx, by) = ((b.x - a.x) as f64, (b.y - a.y) as f64);
+        let (cx, cy) = ((c.x - a.x) as f64, (c.y - a.y) as f64);
+        let (d1, d2) = (z[1] - z[0], z[2] - z[0]);
+        let per = |numerator: f64| {
+            if determinant == 0.0 {
+                0.0
+            } else {
+                numerator / determinant
+            }
+        };
+        Self {
+            origin: a,
+            z: z[0],
+            dx: per(d1 * cy - d2 * by),
+            dy: per(d2 * bx - d1 * cx),
+        }
+    }
+
+    /// The depth at a point.
+    pub fn at(&self, point: Point) -> f64 {
+        let dx = (point.x - self.origin.x) as f64 * self.dx;
+        let dy = (point.y - self.origin.y) as f64 * self.dy;
+        self.z + dx + dy
+    }
+}
+
+/// The steepest slope of a plane, from its growth per texel: the least and the greatest value that
+/// a specification lets it have, the larger of the two growths and their root of squares (Vulkan,
+/// Depth Bias; OpenGL 4.6, 14.6.5).
+pub fn slope(dx: f64, dy: f64) -> (f64, f64) {
+    (dx.abs().max(dy.abs()), dx.hypot(dy))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plane_goes_through_its_vertices() {
+        let point = |x, y| Point { x, y };
+        let points = [point(3, 5), point(90, 7), point(20, 70)];
+        let z = [0.25, 0.5, 0.125];
+        let plane = DepthPlane::new(points, z);
+        for (point, z) in points.into_iter().zip(z) {
+            assert!((plane.at(point) - z).abs() < 1e-12);
+        }
+        assert_eq!(slope(3.0, -4.0), (4.0, 5.0));
+    }
+}

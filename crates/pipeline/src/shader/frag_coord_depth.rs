@@ -1,0 +1,14 @@
+//! Twin of `shaders/frag_coord_depth.wgsl`.
+
+use super::{FragmentInput, FragmentOutput};
+use crate::arithmetic::Arithmetic;
+
+pub(super) fn fragment<A: Arithmetic>(
+    input: &FragmentInput<'_, A::Real>,
+) -> FragmentOutput<A::Real> {
+    FragmentOutput {
+        color: input.color,
+        second: None,
+        depth: Some(input.depth),
+    }
+}

@@ -1,0 +1,229 @@
+//! Which primitives cover a sample, in which worlds.
+
+use crate::judge::{Notes, Place, Walk, Worlds};
+use crate::rules::SharedEdge;
+use crate::setup::{Primitive, Shape, Side, Triangle};
+use crate::world::{Decision, World};
+use etalon_case::scene::Draw;
+use etalon_pipeline::{Point, front_facing, is_top_left};
+use smallvec::SmallVec;
+
+impl Walk<'_> {
+    /// Whether a sample can and whether it must lie inside a draw's viewport, whose edges are
+    /// clip planes and may be snapped. Points and lines are clipped before they are given a width
+    /// (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): what is left may reach a texel beyond, and a
+    /// clipped end or a point outside may be missing.
+    pub(crate) fn in_viewport(
+        &self,
+        draw: &Draw,
+        primitive: &Primitive,
+        point: Point,
+    ) -> (bool, bool) {
+        let rect = draw.viewport.rect.map(f64::from);
+        let units = self.units as f64;
+        let slack = units / f64::from(1_u32 << self.limits.sub_pixel_bits)
+            + units * self.rules.float_error.value * 16.0;
+        let wide = !matches!(primitive.shape, Shape::Triangle(_));
+        if wide && primitive.inside_rect(rect.map(|v| v * units)) {
+            return (true, true);
+        }
+        let slack = if wide { slack + units } else { slack };
+        let [x, y, w, h] = rect;
+        let axis = |start: f64, length: f64, at: i64| {
+            let (low, high) = (start * units, (start + length) * units);
+            let at = at as f64;
+            (
+                at > low - slack && at < high + slack,
+                at > low + slack && at < high - slack,
+            )
+        };
+        let (x, y) = (axis(x, w, point.x), axis(y, h, point.y));
+        (x.0 && y.0, x.1 && y.1)
+    }
+
+    /// Carries worlds through one primitive.
+    pub(crate) fn primitive(
+        &self,
+        place: Place<'_>,
+        worlds: Worlds,
+        notes: &mut Notes<'_>,
+    ) -> Worlds {
+        let mut result = SmallVec::new();
+        let several = worlds.len() > 1;
+        for (w, world) in worlds.into_iter().enumerate() {
+            let mut place = place;
+            place.world = if several { w + 1 } else { 0 };
+            match &place.primitive.shape {
+                Shape::Triangle(triangle) => {
+                    self.triangle(place, triangle, world, &mut result, notes);
+                }
+                Shape::Outline(triangle) => {
+                    let (least, most) = triangle.area;
+                    for (possible, positive) in [(most > 0, true), (least < 0, false)] {
+                        if possible {
+                            self.repeat(place, world.clone(), positive, &mut result, notes);
+                        }
+                    }
+                    // Without an area it faces back, and its edges may be missing.
+                    if least <= 0 && most >= 0 {
+                        let back = !self.draw_front(place.draw);
+                        self.repeat(place, world.clone(), back, &mut result, notes);
+                        result.push(world);
+                    }
+                }
+                Shape::Line(_) | Shape::Point(_) => {
+                    let front = self.draw_front(place.draw);
+                    self.repeat(place, world.clone(), front, &mut result, notes);
+                    if !self.rules.points_face_front.value {
+                        self.repeat(place, world, !front, &mut result, notes);
+                    }
+                }
+            }
+        }
+        result
+    }
+
+    /// The sign of area that faces front.
+    fn draw_front(&self, draw: &Draw) -> bool {
+        front_facing(1, draw.front_face)
+    }
+
+    /// A point's, line's or outline's fragments at the sample: as often as it may be covered.
+    fn repeat(
+        &self,
+        place: Place<'_>,
+        world: World,
+        positive_area: bool,
+        result: &mut Worlds,
+        notes: &mut Notes<'_>,
+    ) {
+        let (least, most) = place.primitive.times(place.point, self.units);
+        let mut worlds: Worlds = SmallVec::new();
+        worlds.push(world);
+        for time in 0..=most {
+            if time >= least {
+                result.extend(worlds.iter().cloned());
+            }
+            if time == most {
+                break;
+            }
+            let mut next = SmallVec::new();
+            for world in worlds {
+                self.fragment(place, world, positive_area, &mut next, notes);
+            }
+            worlds = next;
+        }
+    }
+
+    fn triangle(
+        &self,
+        place: Place<'_>,
+        triangle: &Triangle,
+        world: World,
+        result: &mut Worlds,
+        notes: &mut Notes<'_>,
+    ) {
+        let (least, most) = triangle.area;
+        for (possible, positive) in [(most > 0, true), (least < 0, false)] {
+            if possible {
+                self.covered(place, triangle, world.clone(), positive, result, notes);
+            }
+        }
+        // A triangle that legal snapping can flatten may also cover nothing.
+        if least <= 0 && most >= 0 {
+            result.push(world);
+        }
+    }
+
+    /// Splits a world by the edges that may or may not hold the sample.
+    fn covered(
+        &self,
+        place: Place<'_>,
+        primitive: &Triangle,
+        world: World,
+        positive_area: bool,
+        result: &mut Worlds,
+        notes: &mut Notes<'_>,
+    ) {
+        let mut pending: Worlds = SmallVec::new();
+        pending.push(world);
+        let inside = inside_of(positive_area);
+        let sides = place.sides;
+        if sides
+            .into_iter()
+            .any(|side| is_outside(side, positive_area))
+        {
+            result.append(&mut pending);
+            return;
+        }
+        for (i, side) in sides.into_iter().enumerate() {
+            if side == inside {
+                continue;
+            }
+            if side == Side::On && self.rules.shared_edge.value == SharedEdge::TopLeft {
+                let (p, q) = primitive.edge(i);
+                let (p, q) = if positive_area { (q, p) } else { (p, q) };
+                if !is_top_left(p, q) {
+                    result.append(&mut pending);
+                    return;
+                }
+                continue;
+            }
+            let (a, b) = (primitive.ids[i], primitive.ids[(i + 1) % 3]);
+            let decision = Decision {
+                draw: place.draw_id,
+                ends: (a.min(b), a.max(b)),
+                owner: (self.rules.shared_edge.value == SharedEdge::Independent)
+                    .then_some(place.primitive_index as u32),
+            };
+            // The side is named by the edge's canonical direction.
+            let wanted = (inside == Side::Positive) == (a < b);
+            let mut inside_worlds = SmallVec::new();
+            for world in pending {
+                match world.decided(decision) {
+                    Some(outcome) if outcome == wanted => inside_worlds.push(world),
+                    Some(_) => result.push(world),
+                    None => {
+                        result.push(world.with(decision, !wanted));
+                        inside_worlds.push(world.with(decision, wanted));
+                    }
+                }
+            }
+            pending = inside_worlds;
+            notes.add(
+                || place.name(),
+                "coverage",
+                || format!("edge {i} is too near to tell: covered and not covered both stand"),
+                Some(match side {
+                    Side::On => self.rules.shared_edge.citation,
+                    _ => self.rules.snap.citation,
+                }),
+            );
+        }
+        for world in pending {
+            self.fragment(place, world, positive_area, result, notes);
+        }
+    }
+}
+
+/// The side of a triangle's edges on which its inside lies. With y down, a triangle of positive area
+/// (y up) has it where edge functions are negative.
+fn inside_of(positive_area: bool) -> Side {
+    if positive_area {
+        Side::Negative
+    } else {
+        Side::Positive
+    }
+}
+
+/// Whether a sample is outside a triangle whichever way it turns: nothing happens in any world.
+pub(crate) fn misses(triangle: &Triangle, sides: [Side; 3]) -> bool {
+    let (least, most) = triangle.area;
+    let outside = |positive: bool| sides.into_iter().any(|side| is_outside(side, positive));
+    least != 0 && most != 0 && (most < 0 || outside(true)) && (least > 0 || outside(false))
+}
+
+/// Whether a side of one edge is certainly outside a triangle.
+fn is_outside(side: Side, positive_area: bool) -> bool {
+    matches!(side, Side::Positive | Side::Negative) && side != inside_of(positive_area)
+}

@@ -1,0 +1,200 @@
+//! The state that is set anew for each draw: everything that Vulkan 1.3 lets change without another
+//! pipeline.
+
+use crate::device::Device;
+use crate::state;
+use ash::vk;
+use etalon_backend::BackendError;
+use etalon_case::scene::{Draw, StencilFace, StencilState};
+use etalon_case::state::{
+    CompareFunction, CullMode, DepthBias, DepthState, FrontFace, PrimitiveTopology,
+    StencilOperation, Viewport,
+};
+
+/// What every pipeline leaves open. The topology stays within the class of the pipeline's own.
+pub(crate) const STATES: [vk::DynamicState; 20] = [
+    vk::DynamicState::VIEWPORT,
+    vk::DynamicState::SCISSOR,
+    vk::DynamicState::PRIMITIVE_TOPOLOGY,
+    vk::DynamicState::PRIMITIVE_RESTART_ENABLE,
+    vk::DynamicState::CULL_MODE,
+    vk::DynamicState::FRONT_FACE,
+    vk::DynamicState::RASTERIZER_DISCARD_ENABLE,
+    vk::DynamicState::DEPTH_BIAS_ENABLE,
+    vk::DynamicState::DEPTH_BIAS,
+    vk::DynamicState::DEPTH_BOUNDS_TEST_ENABLE,
+    vk::DynamicState::DEPTH_BOUNDS,
+    vk::DynamicState::DEPTH_TEST_ENABLE,
+    vk::DynamicState::DEPTH_WRITE_ENABLE,
+    vk::DynamicState::DEPTH_COMPARE_OP,
+    vk::DynamicState::STENCIL_TEST_ENABLE,
+    vk::DynamicState::STENCIL_OP,
+    vk::DynamicState::STENCIL_COMPARE_MASK,
+    vk::DynamicState::STENCIL_WRITE_MASK,
+    vk::DynamicState::STENCIL_REFERENCE,
+    vk::DynamicState::BLEND_CONSTANTS,
+];
+
+/// One draw's part of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Dynamic {
+    viewport: vk::Viewport,
+    scissor: vk::Rect2D,
+    topology: PrimitiveTopology,
+    restart: bool,
+    cull: CullMode,
+    front_face: FrontFace,
+    rasterizer_discard: bool,
+    depth_bias: DepthBias,
+    depth_bounds: Option<[f32; 2]>,
+    depth: Option<DepthState>,
+    stencil: Option<StencilState>,
+    blend_constant: [f32; 4],
+}
+
+impl Dynamic {
+    /// The state of a draw into attachments of a size, its indices restarting primitives or not.
+    ///
+    /// # Errors
+    /// When depth bounds lie outside 0..=1, which Vulkan cannot express (vkCmdSetDepthBounds).
+    pub(crate) fn new(draw: &Draw, size: [u32; 2], restart: bool) -> Result<Self, BackendError> {
+        let bounds = draw.depth_bounds.iter().flatten();
+        if bounds.into_iter().any(|b| !(0.0..=1.0).contains(b)) {
+            let message = "depth bounds lie outside 0 to 1".to_owned();
+            return Err(BackendError::Internal(message));
+        }
+        Ok(Self {
+            viewport: viewport(&draw.viewport),
+            scissor: scissor(draw.scissor.unwrap_or([0, 0, size[0], size[1]])),
+            topology: draw.topology,
+            restart,
+            cull: draw.cull,
+            front_face: draw.front_face,
+            rasterizer_discard: draw.rasterizer_discard,
+            depth_bias: draw.depth_bias,
+            depth_bounds: draw.depth_bounds,
+            depth: draw.depth,
+            stencil: draw.stencil,
+            blend_constant: draw.blend_constant,
+        })
+    }
+
+    /// Records all of [`STATES`].
+    ///
+    /// # Safety
+    /// `commands` is recording, and the device has the features that the draw needs.
+    pub(crate) unsafe fn set(&self, device: &Device, commands: vk::CommandBuffer) {
+        let api = &device.raw;
+        let bias = self.depth_bias;
+        let biased = bias.constant != 0 || bias.slope != 0.0;
+        let [low, high] = self.depth_bounds.unwrap_or([0.0, 1.0]);
+        let depth = self.depth.unwrap_or(DepthState {
+            compare: CompareFunction::Always,
+            write: false,
+        });
+        // SAFETY: the caller's; no call here takes a pointer that outlives it.
+        unsafe {
+            api.cmd_set_viewport(commands, 0, &[self.viewport]);
+            api.cmd_set_scissor(commands, 0, &[self.scissor]);
+            api.cmd_set_primitive_topology(commands, state::topology(self.topology));
+            api.cmd_set_primitive_restart_enable(commands, self.restart);
+            api.cmd_set_cull_mode(commands, state::cull(self.cull));
+            api.cmd_set_front_face(commands, state::front_face(self.front_face));
+            api.cmd_set_rasterizer_discard_enable(commands, self.rasterizer_discard);
+            api.cmd_set_depth_bias_enable(commands, biased);
+            api.cmd_set_depth_bias(commands, bias.constant as f32, bias.clamp, bias.slope);
+            api.cmd_set_depth_bounds_test_enable(commands, self.depth_bounds.is_some());
+            api.cmd_set_depth_bounds(commands, low, high);
+            api.cmd_set_depth_test_enable(commands, self.depth.is_some());
+            api.cmd_set_depth_write_enable(commands, depth.write);
+            api.cmd_set_depth_compare_op(commands, state::compare(depth.compare));
+            api.cmd_set_blend_constants(commands, &self.blend_constant);
+            api.cmd_set_stencil_test_enable(commands, self.stencil.is_some());
+            let stencil = self.stencil.unwrap_or(StencilState {
+                front: IDLE_FACE,
+                back: IDLE_FACE,
+            });
+            for (face, side) in [
+                (vk::StencilFaceFlags::FRONT, &stencil.front),
+                (vk::StencilFaceFlags::BACK, &stencil.back),
+            ] {
+                api.cmd_set_stencil_op(
+                    commands,
+                    face,
+                    state::stencil(side.fail_op),
+                    state::stencil(side.pass_op),
+                    state::stencil(side.depth_fail_op),
+                    state::compare(side.compare),
+                );
+                api.cmd_set_stencil_compare_mask(commands, face, side.read_mask.into());
+                api.cmd_set_stencil_write_mask(commands, face, side.write_mask.into());
+                api.cmd_set_stencil_reference(commands, face, side.reference.into());
+            }
+        }
+    }
+}
+
+/// A face of a stencil test that is off.
+const IDLE_FACE: StencilFace = StencilFace {
+    compare: CompareFunction::Always,
+    fail_op: StencilOperation::Keep,
+    depth_fail_op: StencilOperation::Keep,
+    pass_op: StencilOperation::Keep,
+    read_mask: 0xff,
+    write_mask: 0xff,
+    reference: 0,
+};
+
+/// The negative height turns clip space's y axis up: y = 1 lies at the rectangle's top, which is
+/// nearer to the origin (Vulkan, Controlling the Viewport).
+fn viewport(viewport: &Viewport) -> vk::Viewport {
+    let [x, y, width, height] = viewport.rect;
+    vk::Viewport {
+        x,
+        y: y + height,
+        width,
+        height: -height,
+        min_depth: viewport.depth[0],
+        max_depth: viewport.depth[1],
+    }
+}
+
+/// Offset and extent must add up to no more than the largest `i32`; attachments end long before.
+fn scissor([x, y, width, height]: [u32; 4]) -> vk::Rect2D {
+    let most = i32::MAX.unsigned_abs();
+    let (x, y) = (x.min(most), y.min(most));
+    vk::Rect2D {
+        offset: vk::Offset2D {
+            x: x.cast_signed(),
+            y: y.cast_signed(),
+        },
+        extent: vk::Extent2D {
+            width: width.min(most - x),
+            height: height.min(most - y),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_viewport_is_turned_about_its_own_middle() {
+        let turned = viewport(&Viewport {
+            rect: [2.0, 3.0, 4.0, 6.0],
+            depth: [0.75, 0.25],
+        });
+        assert_eq!((turned.x, turned.width), (2.0, 4.0));
+        assert_eq!((turned.y, turned.height), (9.0, -6.0));
+        assert_eq!((turned.min_depth, turned.max_depth), (0.75, 0.25));
+    }
+
+    #[test]
+    fn a_scissor_keeps_within_what_vulkan_can_add() {
+        let rect = scissor([3_000_000_000, 1, 5, u32::MAX]);
+        assert_eq!(rect.offset.x, i32::MAX);
+        assert_eq!(rect.extent.width, 0);
+        assert_eq!(rect.extent.height, i32::MAX.unsigned_abs() - 1);
+    }
+}

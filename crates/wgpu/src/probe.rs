@@ -1,0 +1,162 @@
+//! Whether several samples are what an adapter says they are.
+//!
+//! wgpu's OpenGL advertises four samples on drivers that have one, and then draws to one; and where
+//! there are four, wgpu 30 makes a texture that a shader can read with the target of a single-sample
+//! one, which OpenGL refuses. So a scene is drawn whose samples must differ, and each of them is
+//! read.
+
+use crate::gpu::Gpu;
+use crate::limits::SAMPLES;
+use crate::prepared::Ready;
+use etalon_backend::{BackendError, Prepared};
+use etalon_case::scene::{
+    Attachment, ColorTarget, Contents, Draw, Params, Pass, StencilFace, StencilState,
+};
+use etalon_case::state::{
+    CompareFunction, CullMode, DepthBias, DepthState, FrontFace, Multisample, PolygonMode,
+    PrimitiveTopology, Shader, StencilOperation, Viewport,
+};
+use etalon_case::{Mesh, Scene, Vertex};
+use etalon_frame::{Frame, TextureFormat};
+
+/// Width and height of the attachments.
+const SIDE: u32 = 4;
+/// The column that is half covered.
+const EDGE: u32 = 2;
+const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
+const DEPTH_STENCIL: TextureFormat = TextureFormat::Depth24PlusStencil8;
+
+/// Whether an edge through a column of texels takes some of their samples, in colour, depth and
+/// stencil alike, all left of it and none right of it.
+///
+/// # Errors
+/// Only when the device is lost: what fails otherwise does not work.
+pub(crate) fn samples_work(gpu: &Gpu) -> Result<bool, BackendError> {
+    let offered = [COLOR, DEPTH_STENCIL].iter().all(|format| {
+        let support = gpu.limits.formats.get(format);
+        support.is_some_and(|s| s.samples.contains(&SAMPLES))
+    });
+    if !offered {
+        return Ok(false);
+    }
+    let drawn = Ready::new(gpu, &scene()).and_then(|mut ready| {
+        ready.submit()?;
+        ready.read_back()
+    });
+    match drawn {
+        Ok(frame) => Ok(has_samples(&frame)),
+        Err(error @ BackendError::DeviceLost(_)) => Err(error),
+        Err(_) => Ok(false),
+    }
+}
+
+fn has_samples(frame: &Frame) -> bool {
+    let [color, depth, stencil] = frame.images.as_slice() else {
+        return false;
+    };
+    let covered = |x, y, sample| {
+        let first = |image: &etalon_frame::Image| image.sample(x, y, sample)[0];
+        match (first(color), first(depth), first(stencil)) {
+            (255, 0, 1) => Some(true),
+            (0, one, 0) if one == 1_f32.to_bits() => Some(false),
+            _ => None,
+        }
+    };
+    let texel_is_right = |x, y| {
+        let samples: Option<Vec<bool>> = (0..SAMPLES).map(|s| covered(x, y, s)).collect();
+        samples.is_some_and(|samples| {
+            let count = samples.iter().filter(|covered| **covered).count() as u32;
+            match x {
+                EDGE => count > 0 && count < SAMPLES,
+                _ if x < EDGE => count == SAMPLES,
+                _ => count == 0,
+            }
+        })
+    };
+    (0..SIDE).all(|y| (0..SIDE).all(|x| texel_is_right(x, y)))
+}
+
+fn scene() -> Scene {
+    let attachment = |name: &str, format, contents| Attachment {
+        name: name.to_owned(),
+        format,
+        size: [SIDE; 2],
+        samples: SAMPLES,
+        contents,
+    };
+    let cleared = Contents::DepthStencil {
+        depth: 1.0,
+        stencil: 0,
+    };
+    Scene {
+        attachments: vec![
+            attachment("color", COLOR, Contents::Color([0.0; 4])),
+            attachment("depth_stencil", DEPTH_STENCIL, cleared),
+        ],
+        passes: vec![Pass {
+            color: vec![0],
+            resolve: vec![None],
+            depth_stencil: Some(1),
+            depth_stencil_read_only: false,
+            draws: vec![draw()],
+        }],
+        read: vec![0, 1],
+    }
+}
+
+/// Everything left of the middle of the edge column, white, with depth 0 and stencil 1.
+fn draw() -> Draw {
+    let edge = (EDGE as f32 + 0.5) / SIDE as f32 * 2.0 - 1.0;
+    let corners = [[-1.0, -1.0], [edge, -1.0], [-1.0, 1.0], [edge, 1.0]];
+    let vertex = |[x, y]: [f32; 2]| Vertex {
+        position: [x, y, 0.0, 1.0],
+        color: [1.0; 4],
+        uv: [0.0; 2],
+    };
+    let face = StencilFace {
+        compare: CompareFunction::Always,
+        fail_op: StencilOperation::Keep,
+        depth_fail_op: StencilOperation::Keep,
+        pass_op: StencilOperation::Replace,
+        read_mask: 0xff,
+        write_mask: 0xff,
+        reference: 1,
+    };
+    Draw {
+        mesh: Mesh {
+            vertices: corners.map(vertex).to_vec(),
+            indices: None,
+        },
+        topology: PrimitiveTopology::TriangleStrip,
+        shader: Shader::FlatColor,
+        params: Params::default(),
+        textures: Vec::new(),
+        cull: CullMode::None,
+        front_face: FrontFace::Ccw,
+        polygon_mode: PolygonMode::Fill,
+        rasterizer_discard: false,
+        viewport: Viewport {
+            rect: [0.0, 0.0, SIDE as f32, SIDE as f32],
+            depth: [0.0, 1.0],
+        },
+        scissor: None,
+        depth_bias: DepthBias::default(),
+        depth_clamp: false,
+        depth_bounds: None,
+        depth: Some(DepthState {
+            compare: CompareFunction::Always,
+            write: true,
+        }),
+        stencil: Some(StencilState {
+            front: face,
+            back: face,
+        }),
+        targets: vec![ColorTarget {
+            blend: None,
+            write_mask: 0xf,
+        }],
+        logic: None,
+        multisample: Multisample::default(),
+        blend_constant: [0.0; 4],
+    }
+}
