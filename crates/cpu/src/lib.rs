@@ -5,7 +5,6 @@
 
 mod mutants;
 mod raster;
-mod samples;
 mod span;
 mod steps;
 mod surface;
@@ -16,7 +15,7 @@ use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_case::Scene;
 use etalon_frame::{
     Api, Aspect, ChannelEncoding, Feature, FormatSupport, Frame, Image, Limits, ReadPath,
-    TextureFormat,
+    TextureFormat, standard_sample_positions,
 };
 use std::time::Instant;
 use steps::{Faithful, Steps};
@@ -69,7 +68,7 @@ impl CpuBackend {
                 features: Feature::ALL.into_iter().collect(),
                 sample_positions: SAMPLES
                     .into_iter()
-                    .map(|n| (n, samples::positions(n)))
+                    .map(|n| (n, standard_sample_positions(n)))
                     .collect(),
             },
         }

@@ -1,14 +1,13 @@
 //! Primitives to spans.
 
 use crate::SUB_PIXEL_BITS;
-use crate::samples::positions;
 use crate::span::{LANES, Span, SpanState};
 use crate::steps::{Mask, Steps};
 use crate::surface::Surface;
 use etalon_case::scene::{Draw, Pass};
 use etalon_case::state::PolygonMode;
 use etalon_case::{Primitive, Scene};
-use etalon_frame::ChannelEncoding;
+use etalon_frame::{ChannelEncoding, standard_sample_positions};
 use etalon_pipeline::{
     DepthPlane, Plain, Point, SnappedTriangle, front_facing, is_culled, signed_area, slope,
     window_position,
@@ -126,7 +125,7 @@ pub(crate) fn draw<S: Steps>(
         return;
     }
     let size = scene.pass_size(pass);
-    let samples: Vec<Point> = positions(scene.pass_samples(pass))
+    let samples: Vec<Point> = standard_sample_positions(scene.pass_samples(pass))
         .into_iter()
         .map(|[x, y]| Point {
             x: i64::from(x) * UNITS / 256,

@@ -10,6 +10,7 @@ mod format;
 mod image;
 mod legal;
 mod limits;
+mod samples;
 mod story;
 
 pub use compare::{Band, ChannelMismatch, Comparison, TexelCounts, WrongTexel, compare};
@@ -20,4 +21,5 @@ pub use legal::{
     WorldBox,
 };
 pub use limits::{Api, Feature, FormatSupport, Limits, Requirement};
+pub use samples::standard_sample_positions;
 pub use story::{Story, StoryLine};

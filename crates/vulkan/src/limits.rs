@@ -4,7 +4,9 @@ use crate::device::Device;
 use crate::format::{self, Native};
 use crate::samples;
 use ash::vk;
-use etalon_frame::{Api, Aspect, Feature, FormatSupport, Limits, ReadPath, TextureFormat};
+use etalon_frame::{
+    Api, Aspect, Feature, FormatSupport, Limits, ReadPath, TextureFormat, standard_sample_positions,
+};
 use std::collections::BTreeMap;
 
 /// The sample counts that a case may ask for beyond 1.
@@ -38,7 +40,7 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
     let mut sample_positions = BTreeMap::new();
     for count in [1].into_iter().chain(COUNTS) {
         if formats.values().any(|f| f.samples.contains(&count)) {
-            sample_positions.insert(count, standard_positions(count));
+            sample_positions.insert(count, standard_sample_positions(count));
         }
     }
     Limits {
@@ -147,45 +149,6 @@ pub(crate) fn attachment_usage(format: TextureFormat) -> vk::ImageUsageFlags {
     }
 }
 
-/// The standard sample locations (Vulkan, Multisampling) in 1/256 texel.
-fn standard_positions(count: u32) -> Vec<[u16; 2]> {
-    // The text gives them in 1/16 texel.
-    let sixteenths: &[[u16; 2]] = match count {
-        2 => &[[12, 12], [4, 4]],
-        4 => &[[6, 2], [14, 6], [2, 10], [10, 14]],
-        8 => &[
-            [9, 5],
-            [7, 11],
-            [13, 9],
-            [5, 3],
-            [3, 13],
-            [1, 7],
-            [11, 15],
-            [15, 1],
-        ],
-        16 => &[
-            [9, 9],
-            [7, 5],
-            [5, 10],
-            [12, 7],
-            [3, 6],
-            [10, 13],
-            [13, 11],
-            [11, 3],
-            [6, 14],
-            [8, 1],
-            [4, 2],
-            [2, 12],
-            [0, 8],
-            [15, 4],
-            [14, 15],
-            [1, 0],
-        ],
-        _ => &[[8, 8]],
-    };
-    sixteenths.iter().map(|p| p.map(|c| c * 16)).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -193,11 +156,11 @@ mod tests {
     #[test]
     fn positions_are_as_many_as_samples_and_differ() {
         for count in [1, 2, 4, 8, 16] {
-            let mut positions = standard_positions(count);
+            let mut positions = standard_sample_positions(count);
             positions.sort_unstable();
             positions.dedup();
             assert_eq!(positions.len(), count as usize);
         }
-        assert_eq!(standard_positions(1), [[128, 128]]);
+        assert_eq!(standard_sample_positions(1), [[128, 128]]);
     }
 }

@@ -1,7 +1,8 @@
-//! Where samples lie: the standard positions (Vulkan, Multisampling; Direct3D 11.3, 19.2.4).
+//! Where samples lie, where the API or the rasterizer keeps to the standard.
 
-/// Positions in 1/256 texel from the top left corner, by sample count.
-pub(crate) fn positions(samples: u32) -> Vec<[u16; 2]> {
+/// The standard sample positions in 1/256 texel from the top left corner; the centre for any count
+/// that the table does not hold (Vulkan, Multisampling; Direct3D 11.3, 19.2.4).
+pub fn standard_sample_positions(samples: u32) -> Vec<[u16; 2]> {
     let sixteenths: &[[u16; 2]] = match samples {
         2 => &[[12, 12], [4, 4]],
         4 => &[[6, 2], [14, 6], [2, 10], [10, 14]],
