@@ -9,7 +9,7 @@ pub(crate) mod run;
 
 use crate::args::CaseArguments;
 use crate::failure::Failure;
-use etalon_case::{Case, Library};
+use etalon_case::{Case, Library, Profile};
 use std::path::PathBuf;
 
 /// The cases of a folder, or those built in.
@@ -25,9 +25,8 @@ pub(crate) fn library(folder: Option<&PathBuf>) -> Result<Library, Failure> {
 pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
     let library = library(arguments.cases.as_ref())?;
     let globs = &arguments.globs;
-    let selection =
-        etalon_runner::select(&library, arguments.profile.into(), globs).map_err(Failure::usage)?;
-    if selection.cases.is_empty() {
+    let cases = build(&library, arguments.profile.into(), globs)?;
+    if cases.is_empty() {
         return Err(Failure::nothing(if globs.is_empty() {
             "there are no cases".to_owned()
         } else {
@@ -37,9 +36,18 @@ pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
             )
         }));
     }
-    selection
-        .cases
-        .iter()
+    Ok(cases)
+}
+
+/// The cases of a library whose ids match, built.
+pub(crate) fn build(
+    library: &Library,
+    profile: Profile,
+    globs: &[String],
+) -> Result<Vec<Case>, Failure> {
+    let selection = etalon_runner::select(library, profile, globs).map_err(Failure::usage)?;
+    let cases = selection.cases.iter();
+    cases
         .map(|case| case.build().map_err(Failure::usage))
         .collect()
 }

@@ -1,8 +1,8 @@
 //! `etalon mutants`.
 
 use crate::args::{Format, MutantsArguments};
-use crate::commands::library;
 use crate::commands::run::{machine, progress};
+use crate::commands::{build, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::output::{color, print, print_json, width};
 use etalon_backend::Backend;
@@ -20,15 +20,7 @@ pub(crate) fn run(arguments: &MutantsArguments) -> Result<u8, Failure> {
         return list(&chosen, arguments.format);
     }
     let library = library(arguments.cases.as_ref())?;
-    let selection = etalon_runner::select(&library, Profile::Full, &arguments.case_globs)
-        .map_err(Failure::usage)?;
-    let cases: Vec<Case> = selection
-        .cases
-        .iter()
-        .map(|case| case.build())
-        .collect::<Result<_, _>>()
-        .map_err(Failure::usage)?;
-    let cases: Vec<Case> = cases
+    let cases: Vec<Case> = build(&library, Profile::Full, &arguments.case_globs)?
         .into_iter()
         .filter(|c| c.judged_as.is_none())
         .collect();
