@@ -3,22 +3,37 @@
 use crate::error::{At, Step};
 use crate::mesh::Mesh;
 use crate::resolve::{MAX_SIZE, find};
-use crate::scene::{Attachment, ColorTarget, Contents, Draw, Params, StencilFace, StencilState};
-use crate::state::{Multisample, Shader, StencilOperation, Viewport};
+use crate::scene::{
+    Attachment, ColorTarget, Contents, Counter, Draw, Params, StencilFace, StencilState,
+};
+use crate::state::{
+    Multisample, PolygonMode, PrimitiveTopology, Shader, StencilOperation, Viewport,
+};
 use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
-use etalon_frame::TextureFormat;
+use etalon_frame::{CounterKind, TextureFormat};
 
 /// The most vertices of one mesh.
 const MAX_VERTICES: usize = 4 << 20;
 
-pub(crate) fn draw(
-    wire: &DrawWire,
-    size: [u32; 2],
-    samples: u32,
-    targets: usize,
-    depth_stencil: Option<TextureFormat>,
-    attachments: &[Attachment],
-) -> Result<Draw, At> {
+/// What a draw draws to, and what it can name.
+pub(crate) struct Target<'a> {
+    pub(crate) size: [u32; 2],
+    pub(crate) samples: u32,
+    /// Indices of the colour attachments.
+    pub(crate) color: &'a [usize],
+    pub(crate) depth_stencil: Option<TextureFormat>,
+    pub(crate) attachments: &'a [Attachment],
+    pub(crate) counters: &'a [Counter],
+}
+
+pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
+    let Target {
+        size,
+        samples,
+        depth_stencil,
+        attachments,
+        ..
+    } = *target;
     let viewport = viewport(wire, size)?;
     let mesh = wire
         .mesh
@@ -42,7 +57,7 @@ pub(crate) fn draw(
             if !matches!(attachment.contents, Contents::Texels(_)) {
                 return Err(At::new(format!("`{name}` is not uploaded from `texels`")));
             }
-            if attachment.size != size {
+            if !wire.shader.samples_texture() && attachment.size != size {
                 return Err(At::new(format!(
                     "`{name}` differs in size from the pass's attachments"
                 )));
@@ -60,12 +75,19 @@ pub(crate) fn draw(
         ))
         .key("textures"));
     }
+    sampler(wire, target, &textures).map_err(|e| e.key("sampler"))?;
+    let counters = counters(wire, target.counters).map_err(|e| e.key("counters"))?;
+    if wire.early_tests.is_conservative() && !wire.shader.writes_depth() {
+        let message = "a promise about the written depth needs a shader that writes one";
+        return Err(At::new(message).key("early_tests"));
+    }
     if samples == 1 && wire.multisample != Multisample::default() {
         let message = "with one sample, OpenGL ignores what Vulkan obeys; give the pass several";
         return Err(At::new(message).key("multisample"));
     }
-    let color_targets = color_targets(wire, targets)?;
+    let color_targets = color_targets(wire, target.color.len())?;
     check_shader(wire, &color_targets)?;
+    check_integers(wire, target, &color_targets)?;
     if let Some([low, high]) = wire.depth_bounds
         && !(0.0 <= low && low <= high && high <= 1.0)
     {
@@ -88,7 +110,10 @@ pub(crate) fn draw(
             color: wire.params.color.0,
             back_color: wire.params.back_color.0,
         },
+        early_tests: wire.early_tests,
         textures,
+        sampler: wire.sampler,
+        counters,
         cull: wire.cull,
         front_face: wire.front_face,
         polygon_mode: wire.polygon_mode,
@@ -110,6 +135,101 @@ pub(crate) fn draw(
 /// The farthest that a vertex may lie from the middle of clip space.
 const FARTHEST: f32 = 64.0;
 
+/// Checks how a texture is sampled.
+fn sampler(wire: &DrawWire, target: &Target<'_>, textures: &[usize]) -> Result<(), At> {
+    match (wire.sampler, wire.shader.samples_texture()) {
+        (None, false) => return Ok(()),
+        (Some(_), false) => {
+            return Err(At::new(format!(
+                "shader {} fetches single texels",
+                wire.shader.name()
+            )));
+        }
+        (None, true) => {
+            return Err(At::new(format!(
+                "shader {} samples its texture: it needs a filter and address modes",
+                wire.shader.name()
+            )));
+        }
+        (Some(_), true) => {}
+    }
+    let triangles = [
+        PrimitiveTopology::TriangleList,
+        PrimitiveTopology::TriangleStrip,
+        PrimitiveTopology::TriangleFan,
+    ];
+    if !triangles.contains(&wire.topology) || wire.polygon_mode != PolygonMode::Fill {
+        return Err(At::new("textures are sampled on filled triangles alone"));
+    }
+    if target.samples > 1 {
+        return Err(At::new(
+            "of several samples, attributes may stand for any point of the texel; give the pass one",
+        ));
+    }
+    let filterable = |format: TextureFormat| !matches!(format, TextureFormat::Rgba32Float);
+    let format = |t: &usize| target.attachments[*t].format;
+    if !textures.iter().map(format).all(filterable) {
+        return Err(At::new("not every driver filters 32-bit floats"));
+    }
+    Ok(())
+}
+
+/// The counters that a draw adds to.
+fn counters(wire: &DrawWire, all: &[Counter]) -> Result<Vec<usize>, At> {
+    let mut result: Vec<usize> = Vec::new();
+    for (i, name) in wire.counters.iter().enumerate() {
+        let check = || -> Result<usize, At> {
+            let found = all.iter().position(|c| &c.name == name);
+            let index = found.ok_or_else(|| At::new(format!("there is no counter `{name}`")))?;
+            let kind = all[index].kind;
+            let clash = |other: &usize| {
+                let other = all[*other].kind;
+                other == kind || (other.is_occlusion() && kind.is_occlusion())
+            };
+            if result.iter().any(clash) {
+                return Err(At::new(
+                    "a draw has one counter of a kind, and one occlusion query",
+                ));
+            }
+            Ok(index)
+        };
+        result.push(check().map_err(|e| e.index(i))?);
+    }
+    let runs = |i: &usize| all[*i].kind == CounterKind::ShaderRuns;
+    if result.iter().any(runs) != wire.shader.counts_runs() {
+        return Err(At::new(format!(
+            "a counter of shader runs belongs to a shader that counts, and such a shader needs one; \
+             {} is asked for",
+            wire.shader.name()
+        )));
+    }
+    Ok(result)
+}
+
+/// Integers are written by shaders that write integers, unblended.
+fn check_integers(wire: &DrawWire, target: &Target<'_>, targets: &[ColorTarget]) -> Result<(), At> {
+    for (index, color) in target.color.iter().zip(targets) {
+        let format = target.attachments[*index].format;
+        if format.is_integer() != wire.shader.writes_integers() {
+            return Err(At::new(format!(
+                "shader {} does not write what {format} holds",
+                wire.shader.name()
+            ))
+            .key("shader"));
+        }
+        if format.is_integer() && color.blend.is_some() {
+            return Err(At::new("integers are not blended").key("blend"));
+        }
+    }
+    let whole = |v: &f32| v.fract() == 0.0 && (0.0..=255.0).contains(v);
+    if wire.shader.writes_integers() && !wire.params.color.0.iter().all(whole) {
+        return Err(At::new("integers from 0 to 255 are written")
+            .key("color")
+            .key("params"));
+    }
+    Ok(())
+}
+
 /// Refuses what no specification pins: vertices far out, and written depths out of range.
 fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
     for vertex in &mesh.vertices {
@@ -119,7 +239,11 @@ fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
                 "a vertex lies within {FARTHEST} of the middle of clip space"
             )));
         }
-        let written = shader == Shader::FlatColorDepth;
+        if shader == Shader::Centroid && vertex.uv[0] < 0.0 {
+            let message = "the shader `centroid` wants a first texture coordinate not below 0";
+            return Err(At::new(message).key("uv"));
+        }
+        let written = shader.depth_from_vertex_color();
         if written && !(0.0..=1.0).contains(&vertex.color[0]) {
             return Err(At::new("a written depth lies between 0 and 1"));
         }
@@ -139,7 +263,8 @@ pub(crate) fn writes_depth_stencil(draw: &Draw) -> bool {
             .is_some_and(|s| changes(&s.front) || changes(&s.back))
 }
 
-fn write_mask(letters: &str) -> Result<u8, At> {
+/// The bits of a write mask's letters: bit 0 red to bit 3 alpha.
+pub(crate) fn write_mask(letters: &str) -> Result<u8, At> {
     let mut mask = 0;
     for letter in letters.chars() {
         match "rgba".find(letter) {
@@ -147,8 +272,7 @@ fn write_mask(letters: &str) -> Result<u8, At> {
             _ => {
                 return Err(At::new(
                     "a write mask is made of the letters r, g, b, a, each at most once",
-                )
-                .key("write_mask"));
+                ));
             }
         }
     }
@@ -159,7 +283,7 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
     let one = |blend, letters: &str| -> Result<ColorTarget, At> {
         Ok(ColorTarget {
             blend,
-            write_mask: write_mask(letters)?,
+            write_mask: write_mask(letters).map_err(|e| e.key("write_mask"))?,
         })
     };
     let Some(list) = &wire.targets else {
@@ -207,7 +331,7 @@ fn check_shader(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
 
 /// The viewport's width and height: what meshes that are given in texels measure themselves by.
 fn viewport_texels(viewport: &Viewport) -> [u32; 2] {
-    let [_, _, width, height] = viewport.rect;
+    let [_, _, width, height] = viewport.area();
     [width, height].map(|v| v.round().max(1.0) as u32)
 }
 
@@ -221,7 +345,7 @@ fn viewport(wire: &DrawWire, size: [u32; 2]) -> Result<Viewport, At> {
     let [x, y, w, h] = viewport.rect;
     let far = MAX_SIZE as f32;
     let fits = |v: f32| v.abs() <= far;
-    if !(w > 0.0 && h > 0.0 && [x, y, w, h].into_iter().all(fits)) {
+    if !(w > 0.0 && h != 0.0 && [x, y, w, h].into_iter().all(fits)) {
         let message = format!("a viewport has a width and a height, none above {MAX_SIZE}");
         return Err(At::new(message).key("rect").key("viewport"));
     }

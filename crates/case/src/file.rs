@@ -1,13 +1,19 @@
 //! One case file: parsing, the product of its axes, and the cases it stands for.
 
+use crate::draw::write_mask;
 use crate::error::{At, CaseError};
 use crate::pairwise;
+use crate::random;
+use crate::relation::Relation;
 use crate::resolve;
 use crate::scene::Scene;
-use crate::wire::{ExpectWire, FileWire, QuickWire, SceneWire};
+use crate::wire::{
+    AxisValue, ExpectWire, FileWire, QuickWire, RandomWire, RelationWire, SceneWire, VariantWire,
+};
+use etalon_frame::Requirement;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The most cases that one file may stand for.
 const MAX_CASES: usize = 1 << 20;
@@ -53,8 +59,21 @@ pub struct Case {
     pub scene: Scene,
     /// Selftests: the scene that the judge believes was drawn; a Fail is due.
     pub judged_as: Option<Scene>,
+    /// The scene with changes, each drawn too.
+    pub variants: Vec<Variant>,
+    /// What the frames of scene and variants have to do with each other.
+    pub relation: Option<Relation>,
     /// Literal values that must come back.
     pub expect: Vec<Expect>,
+}
+
+/// A scene with changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variant {
+    /// Its name in records.
+    pub name: String,
+    /// What adapters draw.
+    pub scene: Scene,
 }
 
 /// One literal colour that must come back.
@@ -72,6 +91,23 @@ impl Case {
     /// The scene that the judge looks at.
     pub fn judged_scene(&self) -> &Scene {
         self.judged_as.as_ref().unwrap_or(&self.scene)
+    }
+
+    /// Everything that adapters draw for the case: the scene, then its variants.
+    pub fn scenes(&self) -> impl Iterator<Item = &Scene> {
+        let variants = self.variants.iter().map(|v| &v.scene);
+        std::iter::once(&self.scene).chain(variants)
+    }
+
+    /// How many scenes are drawn.
+    pub fn scene_count(&self) -> usize {
+        1 + self.variants.len()
+    }
+
+    /// What the case needs of an adapter, without repetition, in ascending order.
+    pub fn requirements(&self) -> Vec<Requirement> {
+        let all: BTreeSet<_> = self.scenes().flat_map(Scene::requirements).collect();
+        all.into_iter().collect()
     }
 
     /// The first part of the id.
@@ -103,6 +139,7 @@ impl CaseFile {
         }
         let mut count = 1_usize;
         for (axis, values) in &wire.axes {
+            let values: &[AxisValue] = values;
             let bad = |message: &str| fail(At::new(message).key(axis).key("axes"));
             if !is_word(axis) {
                 return Err(bad(
@@ -172,7 +209,7 @@ impl CaseFile {
 
     /// Places in the product of a pairwise covering array, ascending.
     fn pairwise(&self) -> Vec<usize> {
-        let lengths: Vec<usize> = self.wire.axes.values().map(Vec::len).collect();
+        let lengths: Vec<usize> = self.wire.axes.values().map(|axis| axis.len()).collect();
         let index = |row: &Vec<usize>| {
             let axes = row.iter().zip(&lengths);
             axes.fold(0, |index, (at, length)| index * length + at)
@@ -217,8 +254,19 @@ impl CaseRef<'_> {
     fn try_build(&self) -> Result<Case, At> {
         let wire = &self.file.wire;
         let values = self.values();
-        let scene_value = substitute(&wire.scene, &values).map_err(|e| e.key("scene"))?;
+        let scene_value = self.scene_value(&values)?;
         let scene = parse_scene(&scene_value).map_err(|e| e.key("scene"))?;
+        let variants = wire
+            .variants
+            .iter()
+            .enumerate()
+            .map(|(i, variant)| {
+                variant_scene(&scene_value, variant, &values)
+                    .map_err(|e| e.index(i).key("variants"))
+            })
+            .collect::<Result<Vec<_>, At>>()?;
+        let relation =
+            relation(&wire.relation, &values, &scene, &variants).map_err(|e| e.key("relation"))?;
         let judged_as = if wire.judged_as.is_empty() {
             None
         } else {
@@ -243,8 +291,27 @@ impl CaseRef<'_> {
             spec: wire.spec.clone(),
             scene,
             judged_as,
+            variants,
+            relation,
             expect,
         })
+    }
+
+    /// The scene with all values in their places.
+    fn scene_value(&self, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
+        let wire = &self.file.wire;
+        match (wire.scene.is_null(), wire.random.is_null()) {
+            (false, true) => substitute(&wire.scene, values).map_err(|e| e.key("scene")),
+            (true, false) => {
+                let made = || -> Result<Value, At> {
+                    let random: RandomWire = typed(&substitute(&wire.random, values)?)?;
+                    Ok(random::scene(random.flavor, random.seed))
+                };
+                made().map_err(|e| e.key("random"))
+            }
+            (false, false) => Err(At::new("`random` stands instead of `scene`").key("random")),
+            (true, true) => Err(At::new("a case file needs a scene").key("scene")),
+        }
     }
 
     fn expect(&self, scene: &Scene, values: &BTreeMap<&str, &Value>) -> Result<Vec<Expect>, At> {
@@ -301,6 +368,108 @@ impl CaseRef<'_> {
         }
         values
     }
+}
+
+/// The scene with a variant's changes.
+fn variant_scene(
+    scene: &Value,
+    wire: &VariantWire,
+    values: &BTreeMap<&str, &Value>,
+) -> Result<Variant, At> {
+    let mut changed = scene.clone();
+    let missing = || At::new("the scene has no value at this JSON pointer");
+    for (pointer, value) in &wire.patch {
+        let mut patch = || -> Result<(), At> {
+            let value = substitute(value, values)?;
+            *changed.pointer_mut(pointer).ok_or_else(missing)? = value;
+            Ok(())
+        };
+        patch().map_err(|e| e.key(pointer).key("patch"))?;
+    }
+    for (pointer, order) in &wire.permute {
+        let mut permute = || -> Result<(), At> {
+            let list = changed.pointer_mut(pointer).ok_or_else(missing)?;
+            let items = list
+                .as_array_mut()
+                .ok_or_else(|| At::new("this is no list"))?;
+            let mut seen = order.clone();
+            seen.sort_unstable();
+            if !seen.into_iter().eq(0..items.len()) {
+                return Err(At::new(format!(
+                    "an order names each of the {} items once, from 0",
+                    items.len()
+                )));
+            }
+            *items = order.iter().map(|i| items[*i].clone()).collect();
+            Ok(())
+        };
+        permute().map_err(|e| e.key(pointer).key("permute"))?;
+    }
+    Ok(Variant {
+        name: wire.name.clone(),
+        scene: parse_scene(&changed)?,
+    })
+}
+
+/// What the frames have to do with each other, checked against the scenes.
+fn relation(
+    value: &Value,
+    values: &BTreeMap<&str, &Value>,
+    scene: &Scene,
+    variants: &[Variant],
+) -> Result<Option<Relation>, At> {
+    if value.is_null() {
+        return match variants {
+            [] => Ok(None),
+            _ => Err(At::new(
+                "variants need a relation, or nothing is asserted of them",
+            )),
+        };
+    }
+    let wire: RelationWire = typed(&substitute(value, values)?)?;
+    let mut attachments = Vec::new();
+    for (i, name) in wire.attachments.iter().enumerate() {
+        let read = scene.read.iter().copied();
+        let mut found = read.filter(|index| &scene.attachments[*index].name == name);
+        let index = found.next().ok_or_else(|| {
+            At::new(format!("`{name}` is not read back"))
+                .index(i)
+                .key("attachments")
+        })?;
+        attachments.push(index);
+    }
+    let key = |index: &usize| {
+        let a = &scene.attachments[*index];
+        (a.format, a.size, a.samples)
+    };
+    if attachments
+        .windows(2)
+        .any(|pair| key(&pair[0]) != key(&pair[1]))
+    {
+        let message = "the attachments differ in format, size or samples";
+        return Err(At::new(message).key("attachments"));
+    }
+    if attachments.len() < 2 && variants.is_empty() {
+        return Err(At::new("a relation needs variants or two attachments"));
+    }
+    let shape = |scene: &Scene| -> Vec<_> {
+        let read = scene.read.iter().map(|i| &scene.attachments[*i]);
+        read.map(|a| (a.name.clone(), a.format, a.size, a.samples))
+            .collect()
+    };
+    if let Some(other) = variants.iter().find(|v| shape(&v.scene) != shape(scene)) {
+        return Err(At::new(format!(
+            "variant `{}` reads other images back than the scene",
+            other.name
+        )));
+    }
+    Ok(Some(Relation {
+        invariance: wire.same,
+        within: wire.within,
+        channels: write_mask(&wire.channels).map_err(|e| e.key("channels"))?,
+        offset: wire.offset,
+        attachments,
+    }))
 }
 
 fn is_word(text: &str) -> bool {

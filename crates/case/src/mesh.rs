@@ -122,6 +122,9 @@ pub enum MeshSource {
         /// The vertex colour.
         #[serde(default)]
         value: Splat,
+        /// Texture coordinates at the viewport's left, top, right and bottom edge.
+        #[serde(default)]
+        uv: [f32; 4],
     },
     /// A rectangle.
     Rect {
@@ -172,6 +175,9 @@ pub enum MeshSource {
         /// Vertex colours, repeated as needed.
         #[serde(default = "one_splat")]
         values: Vec<Splat>,
+        /// Texture coordinates, repeated as needed.
+        #[serde(default = "one_uv")]
+        uv: Vec<[f32; 2]>,
     },
 }
 
@@ -196,6 +202,10 @@ fn one_ccw() -> Vec<FrontFace> {
 
 fn zero() -> Vec<f32> {
     vec![0.0]
+}
+
+fn one_uv() -> Vec<[f32; 2]> {
+    vec![[0.0; 2]]
 }
 
 fn one_splat() -> Vec<Splat> {
@@ -260,12 +270,16 @@ impl MeshSource {
             Self::Full { z, value, winding } => {
                 builder.rect([0, 0, size[0], size[1]], *z, value.0, *winding)?;
             }
-            Self::Cover { z, value } => {
+            Self::Cover { z, value, uv } => {
+                let [left, top, right, bottom] = uv;
                 for [x, y] in [[-2.0, -2.0], [8.0, -2.0], [-2.0, 8.0]] {
                     builder.vertices.push(Vertex {
                         position: [x, y, *z, 1.0],
                         color: value.0,
-                        uv: [0.0; 2],
+                        uv: [
+                            left + (right - left) * (x + 1.0) / 2.0,
+                            top + (bottom - top) * (1.0 - y) / 2.0,
+                        ],
                     });
                 }
             }
@@ -290,11 +304,13 @@ impl MeshSource {
                 units,
                 indices: list,
                 values,
+                uv,
             } => {
-                if values.is_empty() {
-                    return Err("`values` is empty".to_owned());
+                if values.is_empty() || uv.is_empty() {
+                    return Err("`values` and `uv` must not be empty".to_owned());
                 }
-                for (position, value) in positions.iter().zip(values.iter().cycle()) {
+                let attributes = values.iter().cycle().zip(uv.iter().cycle());
+                for (position, (value, uv)) in positions.iter().zip(attributes) {
                     let [x, y, z] = *position;
                     let position = match units {
                         Units::Clip => [x, y, z, 1.0],
@@ -306,7 +322,7 @@ impl MeshSource {
                     builder.vertices.push(Vertex {
                         position,
                         color: value.0,
-                        uv: [0.0; 2],
+                        uv: *uv,
                     });
                 }
                 if let Some(list) = list {
@@ -318,7 +334,10 @@ impl MeshSource {
                 }
             }
         }
-        let finite = |v: &Vertex| v.position.iter().chain(&v.color).all(|c| c.is_finite());
+        let finite = |v: &Vertex| {
+            let all = v.position.iter().chain(&v.color).chain(&v.uv);
+            all.into_iter().all(|c| c.is_finite())
+        };
         if !builder.vertices.iter().all(finite) {
             return Err("a vertex holds a value that is not a finite 32-bit float".to_owned());
         }

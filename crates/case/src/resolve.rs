@@ -1,8 +1,8 @@
 //! From the parsed scene to the domain's: defaults, names to indices, impossible states refused.
 
-use crate::draw::{draw, writes_depth_stencil};
+use crate::draw::{Target, draw, writes_depth_stencil};
 use crate::error::At;
-use crate::scene::{Attachment, Contents, Pass, Scene};
+use crate::scene::{Attachment, Contents, Counter, Pass, Scene};
 use crate::wire::{AttachmentWire, ClearWire, PassWire, SceneWire, TexelsWire};
 use etalon_frame::{ChannelEncoding, TextureFormat};
 
@@ -16,9 +16,17 @@ pub(crate) fn scene(wire: &SceneWire) -> Result<Scene, At> {
         let attachment = attachment(name, a, size).map_err(|e| e.key(name).key("attachments"))?;
         attachments.push(attachment);
     }
+    let counters: Vec<Counter> = wire
+        .counters
+        .iter()
+        .map(|(name, kind)| Counter {
+            name: name.clone(),
+            kind: *kind,
+        })
+        .collect();
     let mut passes = Vec::new();
     for (i, p) in wire.passes.iter().enumerate() {
-        passes.push(pass(p, &attachments).map_err(|e| e.index(i).key("passes"))?);
+        passes.push(pass(p, &attachments, &counters).map_err(|e| e.index(i).key("passes"))?);
     }
     let drawn = |index: usize| {
         passes
@@ -63,6 +71,7 @@ pub(crate) fn scene(wire: &SceneWire) -> Result<Scene, At> {
         attachments,
         passes,
         read,
+        counters,
     })
 }
 
@@ -172,33 +181,41 @@ fn texels(
             "only single-sample colour attachments take texels; use `clear`",
         ));
     }
-    let (values, columns) = match wire {
-        TexelsWire::Columns { values } => (values, true),
-        TexelsWire::Rows { values } => (values, false),
-    };
-    let due = if columns { size[0] } else { size[1] };
-    if values.len() != due as usize {
-        return Err(At::new(format!(
-            "{} texels are given where the attachment has {due}",
-            values.len()
-        ))
-        .key("values"));
-    }
-    let mut codes: Vec<[u32; 4]> = Vec::new();
-    for (i, texel) in values.iter().enumerate() {
-        let mut code = [0; 4];
-        for (c, encoding) in format.color_channels().iter().enumerate() {
-            code[c] = encode(*encoding, texel[c]).map_err(|e| e.index(c).index(i).key("values"))?;
-        }
-        codes.push(code);
-    }
     let channels = format.color_channels().len();
-    let mut all = Vec::with_capacity(size[0] as usize * size[1] as usize * channels);
-    for y in 0..size[1] as usize {
-        for x in 0..size[0] as usize {
-            all.extend_from_slice(&codes[if columns { x } else { y }][..channels]);
+    let code = |texel: &[f64; 4]| -> Result<Vec<u32>, At> {
+        let each = format.color_channels().iter().zip(texel).enumerate();
+        each.map(|(c, (encoding, value))| encode(*encoding, *value).map_err(|e| e.index(c)))
+            .collect()
+    };
+    let [width, height] = size.map(|s| s as usize);
+    let right_length = |length: usize, due: usize| {
+        if length == due {
+            return Ok(());
         }
-    }
+        let message = format!("{length} texels are given where the attachment has {due}");
+        Err(At::new(message))
+    };
+    let list = |values: &[[f64; 4]], due: usize| -> Result<Vec<Vec<u32>>, At> {
+        right_length(values.len(), due)?;
+        let each = values.iter().enumerate();
+        each.map(|(i, texel)| code(texel).map_err(|e| e.index(i)))
+            .collect()
+    };
+    let rows = match wire {
+        TexelsWire::Columns { values } => list(values, width).map(|row| vec![row.concat(); height]),
+        TexelsWire::Rows { values } => list(values, height)
+            .map(|column| column.iter().map(|texel| texel.repeat(width)).collect()),
+        TexelsWire::Grid { values } => right_length(values.len(), height).and_then(|()| {
+            let each = values.iter().enumerate();
+            each.map(|(y, row)| {
+                let row = list(row, width).map_err(|e| e.index(y))?;
+                Ok(row.concat())
+            })
+            .collect::<Result<Vec<_>, At>>()
+        }),
+    };
+    let all = rows.map_err(|e| e.key("values"))?.concat();
+    debug_assert_eq!(all.len(), width * height * channels);
     Ok(Contents::Texels(all))
 }
 
@@ -230,7 +247,7 @@ fn encode(encoding: ChannelEncoding, value: f64) -> Result<u32, At> {
     }
 }
 
-fn pass(wire: &PassWire, attachments: &[Attachment]) -> Result<Pass, At> {
+fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Result<Pass, At> {
     let mut color = Vec::new();
     for (i, name) in wire.color.iter().enumerate() {
         let check = || -> Result<usize, At> {
@@ -277,15 +294,15 @@ fn pass(wire: &PassWire, attachments: &[Attachment]) -> Result<Pass, At> {
     let format = depth_stencil.map(|i| attachments[i].format);
     let mut draws = Vec::new();
     for (i, d) in wire.draws.iter().enumerate() {
-        let draw = draw(
-            d,
-            first.size,
-            first.samples,
-            color.len(),
-            format,
+        let target = Target {
+            size: first.size,
+            samples: first.samples,
+            color: &color,
+            depth_stencil: format,
             attachments,
-        )
-        .map_err(|e| e.index(i).key("draws"))?;
+            counters,
+        };
+        let draw = draw(d, &target).map_err(|e| e.index(i).key("draws"))?;
         if wire.depth_stencil_read_only && writes_depth_stencil(&draw) {
             return Err(
                 At::new("the pass promises to write neither depth nor stencil")
@@ -320,6 +337,9 @@ fn resolve_targets(
             let target_is = &attachments[target];
             if source.samples < 2 || target_is.samples != 1 {
                 return Err(At::new("several samples are averaged to one"));
+            }
+            if resolve.contains(&Some(target)) {
+                return Err(At::new(format!("`{name}` is named twice")));
             }
             if (source.format, source.size) != (target_is.format, target_is.size) {
                 return Err(At::new(format!(

@@ -6,10 +6,10 @@
 use crate::mesh::Mesh;
 use crate::state::{
     BlendFactor, BlendOperation, BlendState, CompareFunction, CullMode, DepthBias, DepthState,
-    FrontFace, LogicOperation, Multisample, PolygonMode, PrimitiveTopology, Shader,
-    StencilOperation, Viewport,
+    EarlyTests, FrontFace, LogicOperation, Multisample, PolygonMode, PrimitiveTopology, Sampler,
+    Shader, StencilOperation, Viewport,
 };
-use etalon_frame::{Feature, Requirement, TextureFormat};
+use etalon_frame::{CounterKind, Feature, Requirement, TextureFormat};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
@@ -22,6 +22,17 @@ pub struct Scene {
     pub passes: Vec<Pass>,
     /// Indices of the attachments to read back at the end: all aspects, depth before stencil.
     pub read: Vec<usize>,
+    /// What is counted, by name in ascending order. All are read back; each starts from 0.
+    pub counters: Vec<Counter>,
+}
+
+/// Something that is counted over one or more draws.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counter {
+    /// Name in the case file.
+    pub name: String,
+    /// What it counts.
+    pub kind: CounterKind,
 }
 
 /// One texture.
@@ -83,8 +94,15 @@ pub struct Draw {
     pub shader: Shader,
     /// The shader's parameters.
     pub params: Params,
-    /// Indices of the attachments that the shader fetches from.
+    /// When the fragment tests happen.
+    pub early_tests: EarlyTests,
+    /// Indices of the attachments that the shader reads.
     pub textures: Vec<usize>,
+    /// How it samples them; `None` where it fetches single texels.
+    pub sampler: Option<Sampler>,
+    /// Indices of the scene's counters that this draw adds to: one of each kind at most, and one
+    /// occlusion query at most.
+    pub counters: Vec<usize>,
     /// Culled faces.
     pub cull: CullMode,
     /// The front face's winding.
@@ -188,6 +206,16 @@ impl Scene {
             let largest = attachment.size[0].max(attachment.size[1]);
             needed.insert(Requirement::Size(largest));
         }
+        for counter in &self.counters {
+            needed.extend(match counter.kind {
+                CounterKind::SamplesPassed => Some(Requirement::Feature(Feature::PreciseOcclusion)),
+                CounterKind::AnySamplesPassed => None,
+                CounterKind::ShaderRuns => Some(Requirement::Feature(Feature::StorageCounters)),
+                CounterKind::FragmentInvocations => {
+                    Some(Requirement::Feature(Feature::FragmentInvocations))
+                }
+            });
+        }
         for pass in &self.passes {
             let size = self.pass_size(pass);
             needed.insert(Requirement::ColorAttachments(pass.color.len() as u32));
@@ -226,6 +254,13 @@ impl Scene {
 }
 
 impl Draw {
+    /// The index of the counter of a kind that this draw adds to.
+    pub fn counter(&self, scene: &Scene, kind: impl Fn(CounterKind) -> bool) -> Option<usize> {
+        let all = self.counters.iter().copied();
+        all.filter(|i| scene.counters.get(*i).is_some_and(|c| kind(c.kind)))
+            .min()
+    }
+
     fn features(&self, size: [u32; 2]) -> Vec<Feature> {
         let mut needed = Vec::new();
         let mut need = |when: bool, feature: Feature| {
@@ -254,13 +289,21 @@ impl Draw {
             self.viewport.depth[0] > self.viewport.depth[1],
             Feature::ReversedDepthRange,
         );
-        let [x, y, w, h] = self.viewport.rect;
+        need(self.viewport.is_mirrored(), Feature::MirroredViewport);
+        let [x, y, w, h] = self.viewport.area();
         let outside = x < 0.0 || y < 0.0 || x + w > size[0] as f32 || y + h > size[1] as f32;
         need(outside, Feature::ViewportOutside);
         if let Some([x, y, w, h]) = self.scissor {
             let outside = x.saturating_add(w) > size[0] || y.saturating_add(h) > size[1];
             need(outside, Feature::ScissorOutside);
         }
+        let early = self.early_tests;
+        need(early == EarlyTests::Forced, Feature::ForcedEarlyTests);
+        need(early.is_conservative(), Feature::ConservativeDepth);
+        need(
+            self.shader == Shader::Centroid,
+            Feature::CentroidInterpolation,
+        );
         need(self.multisample.alpha_to_one, Feature::AlphaToOne);
         need(self.shader.runs_per_sample(), Feature::SampleShading);
         need(self.shader.has_second_source(), Feature::DualSourceBlending);

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 macro_rules! state_enum {
     ($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $variant:ident = $text:literal),+ $(,)? }) => {
@@ -20,6 +21,8 @@ macro_rules! state_enum {
         }
     };
 }
+
+pub(crate) use state_enum;
 
 state_enum! {
     /// A depth or stencil comparison: incoming (reference) value on the left, stored on the right.
@@ -216,8 +219,83 @@ state_enum! {
 }
 
 state_enum! {
+    /// When depth bounds, stencil and depth tests happen: before or after the fragment shader.
+    EarlyTests {
+        /// As the API says of the shader: in effect afterwards.
+        Implicit = "implicit",
+        /// Before, whatever the shader does.
+        Forced = "forced",
+        /// In effect afterwards; the shader promises a depth not below the fragment's own.
+        GreaterEqual = "greater-equal",
+        /// In effect afterwards; the shader promises a depth not above the fragment's own.
+        LessEqual = "less-equal",
+        /// In effect afterwards; the shader promises to write the fragment's own depth.
+        Unchanged = "unchanged",
+    }
+}
+
+impl EarlyTests {
+    /// The word of WGSL's `early_depth_test` attribute; `None` where the shader has none.
+    pub fn attribute(self) -> Option<&'static str> {
+        match self {
+            Self::Implicit => None,
+            Self::Forced => Some("force"),
+            Self::GreaterEqual => Some("greater_equal"),
+            Self::LessEqual => Some("less_equal"),
+            Self::Unchanged => Some("unchanged"),
+        }
+    }
+
+    /// Whether the shader promises something of the depth that it writes.
+    pub fn is_conservative(self) -> bool {
+        !matches!(self, Self::Implicit | Self::Forced)
+    }
+}
+
+state_enum! {
+    /// How a sampler makes a value of the texels around a coordinate.
+    FilterMode {
+        /// The nearest texel.
+        Nearest = "nearest",
+        /// The weighted average of the four texels around it.
+        Linear = "linear",
+    }
+}
+
+state_enum! {
+    /// What a texture coordinate beyond the texture means.
+    AddressMode {
+        /// The outermost texel.
+        ClampToEdge = "clamp-to-edge",
+        /// The texture again.
+        Repeat = "repeat",
+        /// The texture again, every other time mirrored.
+        MirrorRepeat = "mirror-repeat",
+    }
+}
+
+/// How a shader samples its texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sampler {
+    /// The filter, for magnification and minification alike.
+    pub filter: FilterMode,
+    /// Across and down.
+    pub address: [AddressMode; 2],
+}
+
+state_enum! {
     /// The suite's shaders. Each has a WGSL file in `shaders/` and a twin in the reference.
     Shader {
+        /// `params.color` where the first texture coordinate, interpolated inside the primitive, is
+        /// not negative; `params.back_color` where it is.
+        Centroid = "centroid",
+        /// `params.color`; counts its runs.
+        CountedColor = "counted_color",
+        /// As `flat_color_depth`; counts its runs.
+        CountedDepth = "counted_depth",
+        /// As `texel_discard`; counts its runs.
+        CountedDiscard = "counted_discard",
         /// The vertex colour, flat.
         FlatColor = "flat_color",
         /// `params.color`; writes the vertex colour's red as depth.
@@ -226,15 +304,25 @@ state_enum! {
         FragCoordDepth = "frag_coord_depth",
         /// `params.color` on front faces, `params.back_color` on back faces.
         FrontFacing = "front_facing",
+        /// `params.color`; writes the number of the sample being shaded plus 1, in 32nds, as depth. Runs
+        /// once per sample.
+        SampleDepth = "sample_depth",
         /// The number of the sample being shaded in binary: red its lowest bit, alpha 1. Runs once
         /// per sample.
         SampleIndex = "sample_index",
+        /// Texture 0 sampled at the interpolated texture coordinates.
+        SampledColor = "sampled_color",
         /// The texel of texture 0 under the fragment.
         TexelColor = "texel_color",
         /// The texel of texture 0 under the fragment, to colour locations 0 to 3 alike.
         TexelColorAll = "texel_color_all",
+        /// The texel of texture 0 under the fragment; discards where its alpha is below
+        /// `params.color`'s.
+        TexelDiscard = "texel_discard",
         /// The texel of texture 0 under the fragment as source, that of texture 1 as second source.
         TexelDualSource = "texel_dual_source",
+        /// `params.color` as integers.
+        UintColor = "uint_color",
         /// `params.color`.
         UniformColor = "uniform_color",
     }
@@ -242,34 +330,89 @@ state_enum! {
 
 impl Shader {
     /// The WGSL text: a vertex entry point `vs` and a fragment entry point `fs`. Vertex inputs are
-    /// location 0 position, 1 colour, 2 uv; group 0 holds the parameters at binding 0 and the
-    /// textures from binding 1 on.
+    /// location 0 position, 1 colour, 2 uv; group 0 holds the parameters at binding 0, textures at
+    /// bindings 1 and 2, the counter of runs at binding 3 and a sampler at binding 4.
     pub fn wgsl(self) -> &'static str {
         match self {
+            Self::Centroid => include_str!("../../../shaders/centroid.wgsl"),
+            Self::CountedColor => include_str!("../../../shaders/counted_color.wgsl"),
+            Self::CountedDepth => include_str!("../../../shaders/counted_depth.wgsl"),
+            Self::CountedDiscard => include_str!("../../../shaders/counted_discard.wgsl"),
             Self::FlatColor => include_str!("../../../shaders/flat_color.wgsl"),
             Self::FlatColorDepth => include_str!("../../../shaders/flat_color_depth.wgsl"),
             Self::FragCoordDepth => include_str!("../../../shaders/frag_coord_depth.wgsl"),
             Self::FrontFacing => include_str!("../../../shaders/front_facing.wgsl"),
+            Self::SampleDepth => include_str!("../../../shaders/sample_depth.wgsl"),
             Self::SampleIndex => include_str!("../../../shaders/sample_index.wgsl"),
+            Self::SampledColor => include_str!("../../../shaders/sampled_color.wgsl"),
             Self::TexelColor => include_str!("../../../shaders/texel_color.wgsl"),
             Self::TexelColorAll => include_str!("../../../shaders/texel_color_all.wgsl"),
+            Self::TexelDiscard => include_str!("../../../shaders/texel_discard.wgsl"),
             Self::TexelDualSource => include_str!("../../../shaders/texel_dual_source.wgsl"),
+            Self::UintColor => include_str!("../../../shaders/uint_color.wgsl"),
             Self::UniformColor => include_str!("../../../shaders/uniform_color.wgsl"),
         }
     }
 
-    /// How many textures the shader fetches from.
+    /// The WGSL text with the attribute that tells when the fragment tests happen.
+    pub fn wgsl_with(self, tests: EarlyTests) -> Cow<'static, str> {
+        let text = self.wgsl();
+        match tests.attribute() {
+            None => Cow::Borrowed(text),
+            Some(word) => {
+                let attributes = format!("@fragment @early_depth_test({word})");
+                Cow::Owned(text.replacen("@fragment", &attributes, 1))
+            }
+        }
+    }
+
+    /// How many textures the shader reads.
     pub fn textures(self) -> usize {
         match self {
-            Self::TexelColor | Self::TexelColorAll => 1,
+            Self::TexelColor
+            | Self::TexelColorAll
+            | Self::TexelDiscard
+            | Self::CountedDiscard
+            | Self::SampledColor => 1,
             Self::TexelDualSource => 2,
             _ => 0,
         }
     }
 
+    /// Whether the shader samples its texture instead of fetching single texels.
+    pub fn samples_texture(self) -> bool {
+        self == Self::SampledColor
+    }
+
     /// Whether the fragment shader replaces the fragment's depth.
     pub fn writes_depth(self) -> bool {
-        matches!(self, Self::FlatColorDepth | Self::FragCoordDepth)
+        matches!(
+            self,
+            Self::FlatColorDepth | Self::CountedDepth | Self::FragCoordDepth | Self::SampleDepth
+        )
+    }
+
+    /// Whether the depth that the shader writes is the vertex colour's red.
+    pub fn depth_from_vertex_color(self) -> bool {
+        matches!(self, Self::FlatColorDepth | Self::CountedDepth)
+    }
+
+    /// Whether the shader may discard fragments.
+    pub fn discards(self) -> bool {
+        matches!(self, Self::TexelDiscard | Self::CountedDiscard)
+    }
+
+    /// Whether the shader counts its runs in a storage buffer.
+    pub fn counts_runs(self) -> bool {
+        matches!(
+            self,
+            Self::CountedColor | Self::CountedDepth | Self::CountedDiscard
+        )
+    }
+
+    /// Whether the shader writes integers.
+    pub fn writes_integers(self) -> bool {
+        self == Self::UintColor
     }
 
     /// How many colour locations the shader writes.
@@ -284,14 +427,23 @@ impl Shader {
 
     /// Whether the shader runs once per sample.
     pub fn runs_per_sample(self) -> bool {
-        self == Self::SampleIndex
+        matches!(self, Self::SampleIndex | Self::SampleDepth)
     }
 
     /// Whether the shader reads the parameter block.
     pub fn uses_params(self) -> bool {
         matches!(
             self,
-            Self::FlatColorDepth | Self::FrontFacing | Self::UniformColor
+            Self::Centroid
+                | Self::CountedColor
+                | Self::CountedDepth
+                | Self::CountedDiscard
+                | Self::FlatColorDepth
+                | Self::FrontFacing
+                | Self::SampleDepth
+                | Self::TexelDiscard
+                | Self::UintColor
+                | Self::UniformColor
         )
     }
 }
@@ -356,10 +508,24 @@ pub struct DepthBias {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Viewport {
-    /// Left, top, width and height in texels.
+    /// Left, top, width and height in texels. With a height below 0 the picture is turned over and
+    /// the second number is its bottom (Vulkan, Controlling the Viewport).
     pub rect: [f32; 4],
     /// Window depths of clip depths 0 and 1; reversed when the first is larger.
     pub depth: [f32; 2],
+}
+
+impl Viewport {
+    /// Left, top, width and height of what the viewport covers, whichever way the picture stands.
+    pub fn area(&self) -> [f32; 4] {
+        let [x, y, w, h] = self.rect;
+        [x, y.min(y + h), w, h.abs()]
+    }
+
+    /// Whether the picture is turned over.
+    pub fn is_mirrored(&self) -> bool {
+        self.rect[3] < 0.0
+    }
 }
 
 /// Which samples of a fragment are drawn.

@@ -1,11 +1,14 @@
 //! The shape of a case file. These types parse; [`crate::scene`] computes.
 
 use crate::mesh::{MeshSource, Splat};
+use crate::random::Flavor;
+use crate::relation::Invariance;
 use crate::state::{
-    BlendState, CompareFunction, CullMode, DepthBias, DepthState, FrontFace, LogicOperation,
-    Multisample, PolygonMode, PrimitiveTopology, Shader, StencilOperation, Viewport,
+    BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace,
+    LogicOperation, Multisample, PolygonMode, PrimitiveTopology, Sampler, Shader, StencilOperation,
+    Viewport,
 };
-use etalon_frame::TextureFormat;
+use etalon_frame::{CounterKind, TextureFormat};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -24,13 +27,25 @@ pub(crate) struct FileWire {
     pub(crate) quick: Option<QuickWire>,
     /// The axes; the file stands for their whole product.
     #[serde(default)]
-    pub(crate) axes: BTreeMap<String, Vec<AxisValue>>,
+    pub(crate) axes: BTreeMap<String, Axis>,
     /// Values that follow from an axis and are no part of the id.
     #[serde(default)]
     pub(crate) derived: BTreeMap<String, DerivedWire>,
     /// What is drawn.
+    #[serde(default)]
     #[schemars(with = "SceneWire")]
     pub(crate) scene: Value,
+    /// Instead of `scene`: a scene that is made from a seed.
+    #[serde(default)]
+    #[schemars(with = "RandomWire")]
+    pub(crate) random: Value,
+    /// Changes to the scene, each of which is drawn too.
+    #[serde(default)]
+    pub(crate) variants: Vec<VariantWire>,
+    /// What the frames of the variants have to do with the scene's own.
+    #[serde(default)]
+    #[schemars(with = "Option<RelationWire>")]
+    pub(crate) relation: Value,
     /// Selftests only: changes to the scene, as JSON pointers and values, that the judge sees and
     /// the adapter does not. A Fail is then due.
     #[serde(default)]
@@ -41,12 +56,110 @@ pub(crate) struct FileWire {
     pub(crate) expect: Value,
 }
 
+/// A scene that is made from a seed: the same in every run and every release.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RandomWire {
+    /// What the scene is made of.
+    pub(crate) flavor: Flavor,
+    /// The seed.
+    pub(crate) seed: u64,
+}
+
+/// The scene again with some changes.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct VariantWire {
+    /// Its name in records.
+    pub(crate) name: String,
+    /// JSON pointers into the scene and what stands there instead.
+    #[serde(default)]
+    pub(crate) patch: BTreeMap<String, Value>,
+    /// JSON pointers to lists and the order in which their items stand instead.
+    #[serde(default)]
+    pub(crate) permute: BTreeMap<String, Vec<usize>>,
+}
+
+/// Frames, or attachments of one frame, that must be the same.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RelationWire {
+    /// Why they must.
+    pub(crate) same: Invariance,
+    /// Left, top, width and height of the texels that are compared; without it, all.
+    pub(crate) within: Option<[u32; 4]>,
+    /// The colour channels that are compared, as letters of `rgba`.
+    #[serde(default = "all_channels")]
+    pub(crate) channels: String,
+    /// How many texels the variants' pictures are moved to the right and down.
+    #[serde(default)]
+    pub(crate) offset: [i32; 2],
+    /// Attachments of each frame that are compared with each other, instead of frames.
+    #[serde(default)]
+    pub(crate) attachments: Vec<String>,
+}
+
 /// Which cases of a product the quick profile takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum QuickWire {
     /// So many that every two values of every two axes meet.
     Pairwise,
+}
+
+/// The values of an axis: a list, or so many integers from one on.
+#[derive(Clone, Debug)]
+pub(crate) struct Axis(Vec<AxisValue>);
+
+impl std::ops::Deref for Axis {
+    type Target = [AxisValue];
+
+    fn deref(&self) -> &[AxisValue] {
+        &self.0
+    }
+}
+
+/// So many integers from one on.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Count {
+    from: u32,
+    count: u16,
+}
+
+impl<'de> Deserialize<'de> for Axis {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        use serde::de::Error;
+        let value = Value::deserialize(deserializer)?;
+        if value.is_object() {
+            let range: Count = serde_json::from_value(value).map_err(D::Error::custom)?;
+            let all = (0..u64::from(range.count)).map(|i| {
+                let number = u64::from(range.from) + i;
+                AxisValue {
+                    name: number.to_string(),
+                    value: number.into(),
+                }
+            });
+            return Ok(Self(all.collect()));
+        }
+        serde_path_to_error::deserialize(value)
+            .map(Self)
+            .map_err(D::Error::custom)
+    }
+}
+
+impl JsonSchema for Axis {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Axis".into()
+    }
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let value = generator.subschema_for::<AxisValue>();
+        let range = generator.subschema_for::<Count>();
+        schemars::json_schema!({
+            "description": "The values of an axis: a list, or so many integers from one on.",
+            "anyOf": [{ "type": "array", "items": value }, range]
+        })
+    }
 }
 
 /// One value of an axis: a string, number or boolean, or a named value of any kind.
@@ -129,6 +242,9 @@ pub(crate) struct SceneWire {
     pub(crate) passes: Vec<PassWire>,
     /// The attachments to read back.
     pub(crate) read: Vec<String>,
+    /// Counters by name; all are read back.
+    #[serde(default)]
+    pub(crate) counters: BTreeMap<String, CounterKind>,
 }
 
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -212,6 +328,11 @@ pub(crate) enum TexelsWire {
         /// As many texels as the attachment is high.
         values: Vec<[f64; 4]>,
     },
+    /// Every texel, row by row from the top.
+    Grid {
+        /// As many rows as the attachment is high, each of as many texels as it is wide.
+        values: Vec<Vec<[f64; 4]>>,
+    },
 }
 
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -241,9 +362,17 @@ pub(crate) struct DrawWire {
     pub(crate) shader: Shader,
     #[serde(default)]
     pub(crate) params: ParamsWire,
-    /// Names of the attachments that the shader fetches from.
+    /// When the fragment tests happen.
+    #[serde(default = "implicit")]
+    pub(crate) early_tests: EarlyTests,
+    /// Names of the attachments that the shader reads.
     #[serde(default)]
     pub(crate) textures: Vec<String>,
+    /// How the shader samples its texture.
+    pub(crate) sampler: Option<Sampler>,
+    /// Names of the counters that the draw adds to.
+    #[serde(default)]
+    pub(crate) counters: Vec<String>,
     #[serde(default = "cull_none")]
     pub(crate) cull: CullMode,
     #[serde(default = "ccw")]
@@ -289,6 +418,10 @@ pub(crate) struct TargetWire {
     pub(crate) blend: Option<BlendState>,
     #[serde(default = "all_channels")]
     pub(crate) write_mask: String,
+}
+
+fn implicit() -> EarlyTests {
+    EarlyTests::Implicit
 }
 
 fn fill() -> PolygonMode {

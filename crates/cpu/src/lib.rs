@@ -5,6 +5,7 @@
 
 mod mutants;
 mod raster;
+mod sampling;
 mod span;
 mod steps;
 mod surface;
@@ -14,9 +15,10 @@ pub use mutants::{Mutant, MutantBackend, mutants};
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_case::Scene;
 use etalon_frame::{
-    Api, Aspect, ChannelEncoding, Feature, FormatSupport, Frame, Image, Limits, ReadPath,
-    TextureFormat, standard_sample_positions,
+    Api, Aspect, ChannelEncoding, CounterKind, Feature, FormatSupport, Frame, Image, Limits,
+    ReadPath, TextureFormat, standard_sample_positions,
 };
+use span::Counted;
 use std::time::Instant;
 use steps::{Faithful, Steps};
 use surface::Surface;
@@ -42,7 +44,7 @@ impl CpuBackend {
             .map(|format| {
                 let support = FormatSupport {
                     samples: SAMPLES.to_vec(),
-                    blendable: format.is_color(),
+                    blendable: format.is_color() && !format.is_integer(),
                     depth: depth_encoding(format).into_iter().collect(),
                     read: ReadPath::Copy,
                 };
@@ -101,6 +103,7 @@ impl Backend for CpuBackend {
 struct PreparedScene<S> {
     scene: Scene,
     surfaces: Vec<Surface>,
+    counters: Vec<Counted>,
     steps: S,
 }
 
@@ -109,6 +112,7 @@ impl<S> PreparedScene<S> {
         Self {
             scene,
             surfaces: Vec::new(),
+            counters: Vec::new(),
             steps,
         }
     }
@@ -123,9 +127,12 @@ impl<S: Steps> Prepared for PreparedScene<S> {
             .iter()
             .map(|a| Surface::new(a, &self.steps))
             .collect();
+        let counters = self.scene.counters.iter();
+        self.counters = counters.map(|c| (c.kind, 0)).collect();
         for pass in &self.scene.passes {
             for draw in &pass.draws {
-                raster::draw(&self.scene, pass, draw, &mut self.surfaces, &self.steps);
+                let (surfaces, counters) = (&mut self.surfaces, &mut self.counters);
+                raster::draw(&self.scene, pass, draw, surfaces, counters, &self.steps);
             }
             for (source, target) in pass.color.iter().zip(&pass.resolve) {
                 if let Some(target) = target {
@@ -168,6 +175,14 @@ impl<S: Steps> Prepared for PreparedScene<S> {
                 });
             }
         }
+        frame.counters = self
+            .counters
+            .iter()
+            .map(|(kind, count)| match kind {
+                CounterKind::AnySamplesPassed => *count.min(&1),
+                _ => *count,
+            })
+            .collect();
         Ok(frame)
     }
 }

@@ -1,7 +1,7 @@
 //! Primitives to spans.
 
 use crate::SUB_PIXEL_BITS;
-use crate::span::{LANES, Span, SpanState};
+use crate::span::{Counted, LANES, Span, SpanState};
 use crate::steps::{Mask, Steps};
 use crate::surface::Surface;
 use etalon_case::scene::{Draw, Pass};
@@ -22,6 +22,22 @@ struct Vertex {
     z: f32,
     clip_z: f32,
     color: [f32; 4],
+    uv: [f32; 2],
+}
+
+/// A value that grows linearly over the window.
+#[derive(Clone, Copy)]
+pub(crate) struct Linear(DepthPlane);
+
+impl Linear {
+    /// The values at the centres of a span's texels.
+    pub(crate) fn at_centers(&self, x: usize, y: usize) -> [f32; LANES] {
+        let center = Point {
+            x: UNITS / 2,
+            y: UNITS / 2,
+        };
+        std::array::from_fn(|lane| self.0.at(position(x + lane, y, center)) as f32)
+    }
 }
 
 /// Window depth of a primitive, and whether near and far plane leave it.
@@ -42,7 +58,7 @@ impl Depths {
         let z = vertices.map(|v| v.z);
         let clip_z = vertices.map(|v| v.clip_z);
         let [near, far] = draw.viewport.depth;
-        let [x, y, w, h] = draw.viewport.rect;
+        let [x, y, w, h] = draw.viewport.area();
         let out = clip_z.iter().any(|z| !(0.0..=1.0).contains(z));
         Self {
             window: DepthPlane::new(points, z.map(f64::from)),
@@ -119,6 +135,7 @@ pub(crate) fn draw<S: Steps>(
     pass: &Pass,
     draw: &Draw,
     surfaces: &mut [Surface],
+    counters: &mut [Counted],
     steps: &S,
 ) {
     if draw.rasterizer_discard {
@@ -148,10 +165,11 @@ pub(crate) fn draw<S: Steps>(
                 z,
                 clip_z: v.position[2] / v.position[3],
                 color: v.color,
+                uv: v.uv,
             }
         })
         .collect();
-    let mut state = SpanState::new(scene, pass, draw, surfaces, steps);
+    let mut state = SpanState::new(scene, pass, draw, surfaces, counters, steps);
     let encoding = state.depth_encoding();
     for primitive in draw.mesh.primitives(draw.topology) {
         match primitive {
@@ -186,10 +204,19 @@ pub(crate) fn draw<S: Steps>(
                 );
                 match draw.polygon_mode {
                     PolygonMode::Fill => {
-                        let color = corners[0].color;
-                        fill(
-                            &snapped, front, color, &depths, &samples, bounds, &mut state,
-                        );
+                        let inside = Inside {
+                            triangle: &snapped,
+                            front,
+                            color: corners[0].color,
+                            uv: draw.shader.samples_texture().then(|| {
+                                let plane = |axis: usize| {
+                                    let values = corners.map(|v| f64::from(v.uv[axis]));
+                                    Linear(DepthPlane::new(points, values))
+                                };
+                                [plane(0), plane(1)]
+                            }),
+                        };
+                        fill(&inside, &depths, &samples, bounds, &mut state);
                     }
                     PolygonMode::Line => {
                         for (i, j) in [(0, 1), (1, 2), (2, 0)] {
@@ -205,7 +232,7 @@ pub(crate) fn draw<S: Steps>(
 
 /// Scissor rectangle, attachments and the viewport with a texel around it, together.
 fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
-    let [x, y, w, h] = draw.viewport.rect;
+    let [x, y, w, h] = draw.viewport.area();
     let [sx, sy, sw, sh] = draw.scissor.unwrap_or([0, 0, size[0], size[1]]);
     let axis = |start: f32, length: f32, s: u32, l: u32, size: u32| {
         let low = ((start - 1.0).max(0.0).floor() as u32).max(s);
@@ -251,16 +278,23 @@ fn depth_bias(
     }
 }
 
-/// Runs the spans of a triangle's inside.
-fn fill<S: Steps>(
-    triangle: &SnappedTriangle,
+/// A triangle to be filled, and what is the same or linear over it.
+struct Inside<'a> {
+    triangle: &'a SnappedTriangle,
     front: bool,
     color: [f32; 4],
+    uv: Option<[Linear; 2]>,
+}
+
+/// Runs the spans of a triangle's inside.
+fn fill<S: Steps>(
+    inside: &Inside<'_>,
     depths: &Depths,
     samples: &[Point],
     bounds: Bounds,
     state: &mut SpanState<'_, S>,
 ) {
+    let triangle = inside.triangle;
     let vertices = triangle.vertices();
     let bound = |f: fn(&Point) -> i64, low: usize, high: usize| {
         let values = vertices.each_ref().map(f);
@@ -290,9 +324,10 @@ fn fill<S: Steps>(
                     x,
                     y,
                     masks: &masks,
-                    front,
-                    color,
+                    front: inside.front,
+                    color: inside.color,
                     depth: &|sample| depths.at(x, y, samples[sample]),
+                    uv: inside.uv,
                 });
             }
         }
@@ -396,5 +431,6 @@ fn texel<S: Steps>(
         front,
         color,
         depth: &|_| depths.at(start, y, center),
+        uv: None,
     });
 }

@@ -1,11 +1,13 @@
 //! One span of texels through the fragment pipeline, all lanes at once.
 
 use crate::depth_encoding;
+use crate::raster::Linear;
 use crate::steps::{Codes, Mask, Path, Real, Steps, Tests};
 use crate::surface::Surface;
 use etalon_case::Scene;
 use etalon_case::scene::{Draw, Pass, StencilFace};
-use etalon_frame::ChannelEncoding;
+use etalon_case::state::EarlyTests;
+use etalon_frame::{ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, takes_logic};
 
@@ -22,6 +24,8 @@ pub(crate) struct Span<'a> {
     pub(crate) color: [f32; 4],
     /// Window depths at one sample.
     pub(crate) depth: &'a dyn Fn(usize) -> Real,
+    /// Texture coordinates, where the draw samples a texture.
+    pub(crate) uv: Option<[Linear; 2]>,
 }
 
 /// A draw's state and the attachments it works on.
@@ -34,11 +38,19 @@ pub(crate) struct SpanState<'a, S> {
     logic: Vec<bool>,
     size: [u32; 2],
     surfaces: &'a mut [Surface],
+    counters: &'a mut [Counted],
     steps: &'a S,
 }
 
+/// A counter and how far it has come.
+pub(crate) type Counted = (CounterKind, u64);
+
 fn and(a: Mask, b: Mask) -> Mask {
     std::array::from_fn(|i| a[i] & b[i])
+}
+
+fn or(a: Mask, b: Mask) -> Mask {
+    std::array::from_fn(|i| a[i] | b[i])
 }
 
 fn and_not(a: Mask, b: Mask) -> Mask {
@@ -71,6 +83,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         pass: &'a Pass,
         draw: &'a Draw,
         surfaces: &'a mut [Surface],
+        counters: &'a mut [Counted],
         steps: &'a S,
     ) -> Self {
         let format = |index: usize| scene.attachments[index].format;
@@ -90,6 +103,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 .collect(),
             size: scene.pass_size(pass),
             surfaces,
+            counters,
             steps,
         }
     }
@@ -103,7 +117,9 @@ impl<'a, S: Steps> SpanState<'a, S> {
     pub(crate) fn run(&mut self, span: &Span<'_>) {
         let texels = [self.texel(span, 0), self.texel(span, 1)];
         let per_sample = self.draw.shader.runs_per_sample();
+        let early = self.draw.early_tests == EarlyTests::Forced;
         let mut shaded: Option<FragmentOutput<Real>> = None;
+        let mut ran = [false; LANES];
         for sample in 0..span.masks.len() {
             let mut mask = self
                 .steps
@@ -112,6 +128,11 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 continue;
             }
             let own_depth = (span.depth)(sample);
+            if early {
+                mask = self.test_and_store(span, sample, own_depth, mask);
+                self.count_passed(mask);
+            }
+            ran = or(ran, mask);
             // A shader that does not ask for the sample runs once; its depth is a sample's own only
             // where it writes none.
             let output = match shaded {
@@ -129,12 +150,33 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 }
             };
             shaded = Some(output);
+            if let Some([value, limit]) = output.kept {
+                mask = and(mask, self.steps.kept(value, limit));
+            }
             if self.draw.multisample.alpha_to_coverage {
                 mask = and(mask, covers(output.color[3], sample, span.masks.len()));
             }
-            let depth = output.depth.unwrap_or(own_depth);
-            let mask = self.test_and_store(span, sample, depth, mask);
+            if !early {
+                let depth = output.depth.unwrap_or(own_depth);
+                mask = self.test_and_store(span, sample, depth, mask);
+                self.count_passed(mask);
+            }
             self.write_colors(span, sample, &output, mask);
+        }
+        self.count(|kind| !kind.is_occlusion(), ran);
+    }
+
+    fn count_passed(&mut self, passed: Mask) {
+        self.count(CounterKind::is_occlusion, passed);
+    }
+
+    /// Adds the set lanes to the draw's counters of some kinds.
+    fn count(&mut self, kinds: impl Fn(CounterKind) -> bool, mask: Mask) {
+        for index in &self.draw.counters {
+            let (kind, count) = &mut self.counters[*index];
+            if kinds(*kind) {
+                *count += self.steps.counted(*kind, mask);
+            }
         }
     }
 
@@ -146,7 +188,16 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let Some(index) = self.draw.textures.get(t) else {
             return [[0.0; LANES]; 4];
         };
-        self.steps.fetch(&self.surfaces[*index], span.x, span.y)
+        let surface = &self.surfaces[*index];
+        match (self.draw.sampler, &span.uv) {
+            (Some(sampler), Some(planes)) => {
+                let [u, v] = planes
+                    .each_ref()
+                    .map(|plane| plane.at_centers(span.x, span.y));
+                self.steps.sample(surface, sampler, u, v)
+            }
+            _ => self.steps.fetch(surface, span.x, span.y),
+        }
     }
 
     /// Runs depth bounds, stencil and depth test and stores both; where colour is written.

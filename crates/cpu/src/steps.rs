@@ -3,11 +3,12 @@
 //! The rasterizer is generic over [`Steps`]. [`Faithful`] takes every default, so that its calls
 //! vanish; the planted bugs of [`crate::mutants`] override one step each.
 
+use crate::sampling::sample;
 use crate::span::LANES;
 use crate::surface::Surface;
 use etalon_case::scene::StencilFace;
-use etalon_case::state::{BlendState, CompareFunction, StencilOperation};
-use etalon_frame::ChannelEncoding;
+use etalon_case::state::{BlendState, CompareFunction, Sampler, StencilOperation};
+use etalon_frame::{ChannelEncoding, CounterKind};
 use etalon_pipeline::{
     Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
 };
@@ -74,6 +75,24 @@ pub(crate) trait Steps {
             // A format without alpha is fetched with alpha 1.
             None => [if c == 3 { 1.0 } else { 0.0 }; LANES],
         })
+    }
+
+    /// What a sampler makes of a texture.
+    #[inline(always)]
+    fn sample(&self, surface: &Surface, sampler: Sampler, u: Real, v: Real) -> [Real; 4] {
+        sample(surface, sampler, u, v)
+    }
+
+    /// Where a shader that may discard keeps its fragments.
+    #[inline(always)]
+    fn kept(&self, value: Real, limit: Real) -> Mask {
+        std::array::from_fn(|i| value[i] >= limit[i])
+    }
+
+    /// What a counter adds for a span of samples that passed, or of texels whose shader ran.
+    #[inline(always)]
+    fn counted(&self, _kind: CounterKind, mask: Mask) -> u64 {
+        mask.iter().map(|set| u64::from(*set)).sum()
     }
 
     /// Whether a stored value passes the stencil test.

@@ -85,6 +85,11 @@ impl Surface {
     pub(crate) fn resolve_from(&mut self, source: &Self) {
         let share = 1.0 / source.samples as f32;
         for (c, encoding) in source.encodings.iter().enumerate() {
+            if let ChannelEncoding::Uint(_) = encoding {
+                // Of integers one sample stands for all.
+                self.planes[c].clone_from_slice(source.plane(c, 0));
+                continue;
+            }
             for at in 0..self.stride * self.height {
                 let sum: f32 = (0..source.samples)
                     .map(|s| Plain::<1>.decode(*encoding, [source.plane(c, s)[at]])[0])

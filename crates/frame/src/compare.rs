@@ -1,5 +1,6 @@
 //! A frame held against its legal set and the yardstick.
 
+use crate::counter::CounterOutcome;
 use crate::format::{Aspect, ChannelEncoding};
 use crate::image::{Frame, FrameError};
 use crate::legal::{ImageInfo, LegalSet, TexelSet};
@@ -72,6 +73,23 @@ pub struct Comparison {
     pub texels: TexelCounts,
     /// The first wrong samples, failures before imprecise ones, as many as asked for.
     pub wrong: Vec<WrongTexel>,
+    /// Every counter.
+    pub counters: Vec<CounterOutcome>,
+}
+
+impl Comparison {
+    /// The worst band that a sample or a counter fell out of.
+    pub fn worst(&self) -> Option<Band> {
+        let texels = if self.texels.wrong > 0 {
+            Some(Band::Fail)
+        } else if self.texels.imprecise > 0 {
+            Some(Band::Imprecise)
+        } else {
+            None
+        };
+        let counters = self.counters.iter().filter_map(|c| c.band).max();
+        texels.max(counters)
+    }
 }
 
 /// Holds a frame against both bands, keeping the first `keep` samples that leave one.
@@ -134,6 +152,15 @@ pub fn compare(
             }
         }
     }
+    for ((set, tight), actual) in legal
+        .counters
+        .iter()
+        .zip(&yardstick.counters)
+        .zip(&frame.counters)
+    {
+        let outcome = CounterOutcome::new(set, tight.range, *actual);
+        result.counters.push(outcome);
+    }
     imprecise.truncate(keep - result.wrong.len());
     result.wrong.append(&mut imprecise);
     Ok(result)
@@ -144,6 +171,12 @@ fn check_images(frame: &Frame, legal: &LegalSet) -> Result<(), FrameError> {
         return Err(FrameError::ImageCount {
             actual: frame.images.len(),
             expected: legal.images.len(),
+        });
+    }
+    if frame.counters.len() != legal.counters.len() {
+        return Err(FrameError::CounterCount {
+            actual: frame.counters.len(),
+            expected: legal.counters.len(),
         });
     }
     for (index, (image, info)) in frame.images.iter().zip(&legal.images).enumerate() {

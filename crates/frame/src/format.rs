@@ -34,6 +34,8 @@ pub enum TextureFormat {
     Bgra4Unorm,
     /// Unsigned floats of 11, 11 and 10 bits.
     Rg11b10Ufloat,
+    /// Four unsigned integers of 8 bits.
+    Rgba8Uint,
     /// Four 16-bit floats.
     Rgba16Float,
     /// Four 32-bit floats; also the suite's exact source of values.
@@ -56,7 +58,7 @@ pub enum TextureFormat {
 
 impl TextureFormat {
     /// Every format, in declaration order.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::R8Unorm,
         Self::Rg8Unorm,
         Self::Rgba8Unorm,
@@ -68,6 +70,7 @@ impl TextureFormat {
         Self::Bgr5a1Unorm,
         Self::Bgra4Unorm,
         Self::Rg11b10Ufloat,
+        Self::Rgba8Uint,
         Self::Rgba16Float,
         Self::Rgba32Float,
         Self::Depth16Unorm,
@@ -92,6 +95,7 @@ impl TextureFormat {
             Self::Bgr5a1Unorm => "bgr5a1unorm",
             Self::Bgra4Unorm => "bgra4unorm",
             Self::Rg11b10Ufloat => "rg11b10ufloat",
+            Self::Rgba8Uint => "rgba8uint",
             Self::Rgba16Float => "rgba16float",
             Self::Rgba32Float => "rgba32float",
             Self::Depth16Unorm => "depth16unorm",
@@ -106,6 +110,11 @@ impl TextureFormat {
     /// Whether texels are colours.
     pub fn is_color(self) -> bool {
         !self.has_depth() && !self.has_stencil()
+    }
+
+    /// Whether texels are integers, which shaders write as integers and nothing blends.
+    pub fn is_integer(self) -> bool {
+        self == Self::Rgba8Uint
     }
 
     /// Whether the format has a depth aspect.
@@ -141,7 +150,7 @@ impl TextureFormat {
     /// The encodings of a colour format's channels in the order red, green, blue, alpha; empty for
     /// depth and stencil formats, whose depth encoding only the adapter knows.
     pub fn color_channels(self) -> &'static [ChannelEncoding] {
-        use ChannelEncoding::{Float16, Float32, Snorm, Srgb8, Ufloat, Unorm};
+        use ChannelEncoding::{Float16, Float32, Snorm, Srgb8, Ufloat, Uint, Unorm};
         match self {
             Self::R8Unorm => &[Unorm(8)],
             Self::Rg8Unorm => &[Unorm(8); 2],
@@ -153,6 +162,7 @@ impl TextureFormat {
             Self::Bgr5a1Unorm => &[Unorm(5), Unorm(5), Unorm(5), Unorm(1)],
             Self::Bgra4Unorm => &[Unorm(4); 4],
             Self::Rg11b10Ufloat => &[Ufloat(6), Ufloat(6), Ufloat(5)],
+            Self::Rgba8Uint => &[Uint(8); 4],
             Self::Rgba16Float => &[Float16; 4],
             Self::Rgba32Float => &[Float32; 4],
             _ => &[],

@@ -55,6 +55,8 @@ impl Image {
 pub struct Frame {
     /// The images, in the order of the scene's `read` list, depth before stencil.
     pub images: Vec<Image>,
+    /// The counts, in the order of the scene's counters.
+    pub counters: Vec<u64>,
 }
 
 /// A frame that is not the one that was asked for. This is our backend's bug, never the driver's.
@@ -66,6 +68,14 @@ pub enum FrameError {
         /// Images that came.
         actual: usize,
         /// Images that were asked for.
+        expected: usize,
+    },
+    /// The frame has another number of counts than the legal set.
+    #[error("the frame holds {actual} counts where {expected} were asked for")]
+    CounterCount {
+        /// Counts that came.
+        actual: usize,
+        /// Counts that were asked for.
         expected: usize,
     },
     /// An image is not the one asked for at its place.

@@ -1,5 +1,6 @@
 //! Legal sets: what the rules allow at each sample of each image.
 
+use crate::counter::CounterSet;
 use crate::format::{Aspect, ChannelEncoding};
 use crate::image::{Image, ReadPath};
 use smallvec::SmallVec;
@@ -195,6 +196,8 @@ pub struct LegalSet {
     pub images: Vec<ImageInfo>,
     /// The groups they belong to.
     pub groups: Vec<SampleGroup>,
+    /// The counters, in the order of the scene's.
+    pub counters: Vec<CounterSet>,
 }
 
 /// How much a legal set asserts of one aspect.
@@ -272,6 +275,7 @@ pub struct LegalSetBuilder {
     images: Vec<ImageInfo>,
     groups: Vec<SampleGroup>,
     interned: Vec<HashMap<TexelSet, u32>>,
+    counters: Vec<CounterSet>,
 }
 
 impl LegalSetBuilder {
@@ -327,6 +331,11 @@ impl LegalSetBuilder {
         target.index.push(at);
     }
 
+    /// Adds a counter.
+    pub fn counter(&mut self, counter: CounterSet) {
+        self.counters.push(counter);
+    }
+
     /// The finished set.
     ///
     /// # Panics
@@ -339,6 +348,7 @@ impl LegalSetBuilder {
         LegalSet {
             images: self.images,
             groups: self.groups,
+            counters: self.counters,
         }
     }
 }

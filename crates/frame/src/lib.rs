@@ -6,6 +6,7 @@
 //! ([`LegalSet`]) and how the last two are held against each other ([`compare`]).
 
 mod compare;
+mod counter;
 mod format;
 mod image;
 mod legal;
@@ -14,6 +15,7 @@ mod samples;
 mod story;
 
 pub use compare::{Band, ChannelMismatch, Comparison, TexelCounts, WrongTexel, compare};
+pub use counter::{CountRange, CounterKind, CounterOutcome, CounterSet};
 pub use format::{Aspect, ChannelEncoding, TextureFormat, linear_to_srgb, srgb_to_linear};
 pub use image::{Frame, FrameError, Image, ReadPath};
 pub use legal::{

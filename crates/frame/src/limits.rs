@@ -44,6 +44,10 @@ impl fmt::Display for Api {
 pub enum Feature {
     /// Alpha counting as 1 after alpha to coverage.
     AlphaToOne,
+    /// Attributes interpolated inside the part of a texel that a primitive covers.
+    CentroidInterpolation,
+    /// Shaders that promise on which side of the fragment's own depth theirs lies.
+    ConservativeDepth,
     /// The factors `constant-alpha` and `one-minus-constant-alpha` for colour.
     ConstantAlphaBlendFactor,
     /// A limit on depth bias.
@@ -54,6 +58,10 @@ pub enum Feature {
     DepthClamp,
     /// Blending with two sources.
     DualSourceBlending,
+    /// Shaders that run after the depth and stencil tests, whatever they do.
+    ForcedEarlyTests,
+    /// Pipeline statistics of fragment shader runs.
+    FragmentInvocations,
     /// Culling front and back faces together.
     FrontAndBackCulling,
     /// Blending and write masks that differ between colour attachments.
@@ -62,8 +70,12 @@ pub enum Feature {
     LogicOperations,
     /// The operations `min` and `max` with factors other than `one` (which they ignore).
     MinMaxBlendFactors,
+    /// A viewport of negative height, which turns the picture over.
+    MirroredViewport,
     /// Drawing the edges of polygons.
     PolygonModeLine,
+    /// Occlusion queries that count samples exactly.
+    PreciseOcclusion,
     /// Throwing primitives away before rasterization.
     RasterizerDiscard,
     /// A viewport whose near depth is above its far depth.
@@ -74,6 +86,8 @@ pub enum Feature {
     ScissorOutside,
     /// Stencil masks or references that differ between front and back faces.
     SeparateStencilMasks,
+    /// Fragment shaders that count in storage buffers.
+    StorageCounters,
     /// Triangle fans.
     TriangleFans,
     /// A viewport that reaches beyond the attachments.
@@ -82,23 +96,30 @@ pub enum Feature {
 
 impl Feature {
     /// Every feature.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 25] = [
         Self::AlphaToOne,
+        Self::CentroidInterpolation,
+        Self::ConservativeDepth,
         Self::ConstantAlphaBlendFactor,
         Self::DepthBiasClamp,
         Self::DepthBounds,
         Self::DepthClamp,
         Self::DualSourceBlending,
+        Self::ForcedEarlyTests,
+        Self::FragmentInvocations,
         Self::FrontAndBackCulling,
         Self::IndependentBlend,
         Self::LogicOperations,
         Self::MinMaxBlendFactors,
+        Self::MirroredViewport,
         Self::PolygonModeLine,
+        Self::PreciseOcclusion,
         Self::RasterizerDiscard,
         Self::ReversedDepthRange,
         Self::SampleShading,
         Self::ScissorOutside,
         Self::SeparateStencilMasks,
+        Self::StorageCounters,
         Self::TriangleFans,
         Self::ViewportOutside,
     ];
@@ -107,21 +128,28 @@ impl Feature {
     pub fn name(self) -> &'static str {
         match self {
             Self::AlphaToOne => "alpha-to-one",
+            Self::CentroidInterpolation => "centroid-interpolation",
+            Self::ConservativeDepth => "conservative-depth",
             Self::ConstantAlphaBlendFactor => "constant-alpha-blend-factor",
             Self::DepthBiasClamp => "depth-bias-clamp",
             Self::DepthBounds => "depth-bounds",
             Self::DepthClamp => "depth-clamp",
             Self::DualSourceBlending => "dual-source-blending",
+            Self::ForcedEarlyTests => "forced-early-tests",
+            Self::FragmentInvocations => "fragment-invocations",
             Self::FrontAndBackCulling => "front-and-back-culling",
             Self::IndependentBlend => "independent-blend",
             Self::LogicOperations => "logic-operations",
             Self::MinMaxBlendFactors => "min-max-blend-factors",
+            Self::MirroredViewport => "mirrored-viewport",
             Self::PolygonModeLine => "polygon-mode-line",
+            Self::PreciseOcclusion => "precise-occlusion",
             Self::RasterizerDiscard => "rasterizer-discard",
             Self::ReversedDepthRange => "reversed-depth-range",
             Self::SampleShading => "sample-shading",
             Self::ScissorOutside => "scissor-outside",
             Self::SeparateStencilMasks => "separate-stencil-masks",
+            Self::StorageCounters => "storage-counters",
             Self::TriangleFans => "triangle-fans",
             Self::ViewportOutside => "viewport-outside",
         }

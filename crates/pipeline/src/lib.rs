@@ -14,6 +14,7 @@ mod coverage;
 mod depth;
 mod logic;
 mod plain;
+mod sampling;
 pub mod shader;
 mod stencil;
 mod viewport;
@@ -24,5 +25,6 @@ pub use coverage::{Point, SnappedTriangle, edge_value, is_top_left, signed_area}
 pub use depth::{DepthPlane, slope};
 pub use logic::{logic_operation, takes_logic};
 pub use plain::Plain;
+pub use sampling::texel_position;
 pub use stencil::{compare, stencil_operation, stencil_passes, stencil_write};
 pub use viewport::{front_facing, is_culled, window_position};

@@ -30,7 +30,7 @@ pub fn window_position<A: Arithmetic>(
         let scaled = a.mul(unit, size);
         let start_at = a.constant(start);
         let exact = a.add(start_at, scaled);
-        a.window_coordinate(exact, start.abs() + length)
+        a.window_coordinate(exact, start.abs() + length.abs())
     };
     let x = axis(a, ndc[0], left, width, false);
     let y = axis(a, ndc[1], top, height, true);

@@ -3,7 +3,7 @@
 use crate::expectations::{Expectation, Expectations};
 use crate::header::AdapterRecord;
 use crate::verdict::Verdict;
-use etalon_frame::{Aspect, AspectStatistics, Story, TexelCounts, WrongTexel};
+use etalon_frame::{Aspect, AspectStatistics, CounterOutcome, Story, TexelCounts, WrongTexel};
 use serde::{Deserialize, Serialize};
 
 /// The most wrong texels that a record lists.
@@ -35,6 +35,9 @@ pub struct Record {
     pub texels: TexelCounts,
     /// How much was asserted, per aspect.
     pub assertions: Vec<Assertion>,
+    /// Every counter with what is legal of it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub counters: Vec<CounterOutcome>,
     /// The first wrong samples, failures before imprecise ones; at most [`MAX_WRONG_TEXELS`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wrong: Vec<WrongTexel>,
@@ -65,6 +68,7 @@ impl Record {
             message: String::new(),
             texels: TexelCounts::default(),
             assertions: Vec::new(),
+            counters: Vec::new(),
             wrong: Vec::new(),
             story: None,
             frame: None,

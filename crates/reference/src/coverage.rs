@@ -19,7 +19,7 @@ impl Walk<'_> {
         primitive: &Primitive,
         point: Point,
     ) -> (bool, bool) {
-        let rect = draw.viewport.rect.map(f64::from);
+        let rect = draw.viewport.area().map(f64::from);
         let units = self.units as f64;
         let slack = units / f64::from(1_u32 << self.limits.sub_pixel_bits)
             + units * self.rules.float_error.value * 16.0;

@@ -1,18 +1,17 @@
 //! What happens to one fragment in one world: culling, shading, tests, blending, stores.
 
 use crate::interval::Interval;
-use crate::judge::{Notes, Place, Sample, Walk, codes_text};
+use crate::judge::{Notes, Place, Walk};
 use crate::judging::{Judging, Range};
-use crate::rules::{DepthOrder, DepthRange};
+use crate::rules::{DepthOrder, DepthRange, EarlyUpdates, SameDepth};
 use crate::setup::Shape;
-use crate::world::World;
-use etalon_case::scene::{Contents, Draw, StencilFace};
-use etalon_case::state::CompareFunction;
-use etalon_frame::{ChannelEncoding, CodeInterval};
+use crate::world::{Cell, Event, World};
+use etalon_case::scene::StencilFace;
+use etalon_case::state::{CompareFunction, EarlyTests, Shader};
+use etalon_frame::{ChannelEncoding, CodeInterval, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
 use etalon_pipeline::{
-    Arithmetic, BlendInput, blend, front_facing, is_culled, stencil_passes, stencil_write,
-    takes_logic,
+    Arithmetic, compare, front_facing, is_culled, stencil_passes, stencil_write,
 };
 use smallvec::SmallVec;
 
@@ -62,9 +61,58 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) {
         let draw = place.draw;
-        let mut judging = Judging::new(self.rules);
+        let output = self.shader(place, front, notes);
         let own_depth = place.primitive.depth_at(place.point);
-        let texel = |t: usize| self.texel(draw, t, place.at);
+        let covered = self.covered_after_shading(place, &output, notes);
+        let mut world = world;
+        if draw.early_tests == EarlyTests::Forced {
+            let incoming = self.in_range(place, own_depth, Source::Own);
+            for (outcome, passes) in self.tests(place, world.clone(), front, incoming, notes) {
+                if passes {
+                    let worlds = [&world, &outcome];
+                    self.early_fragment(place, worlds, &output, incoming, covered, result, notes);
+                } else {
+                    result.push(outcome);
+                }
+            }
+            return;
+        }
+        // A masked sample asks for no run of the shader.
+        let asked = place.draw.multisample.mask & (1 << place.at.sample) != 0;
+        self.count(place, &mut world, asked, |kind| {
+            kind == CounterKind::ShaderRuns
+        });
+        let (can, must) = covered;
+        if !must {
+            result.push(world.clone());
+            if !can {
+                return;
+            }
+        }
+        let source = match output.depth {
+            Some(_) => Source::Written,
+            None => Source::Own,
+        };
+        let incoming = self.in_range(place, output.depth.unwrap_or(own_depth), source);
+        for (mut outcome, passes) in self.tests(place, world, front, incoming, notes) {
+            if passes {
+                self.count(place, &mut outcome, true, CounterKind::is_occlusion);
+                self.write_depth(place, &mut outcome, incoming, notes);
+                self.write_colors(place, &mut outcome, &output, notes);
+            }
+            result.push(outcome);
+        }
+    }
+
+    /// Runs the fragment shader at the sample.
+    fn shader(
+        &self,
+        place: Place<'_>,
+        front: bool,
+        notes: &mut Notes<'_>,
+    ) -> FragmentOutput<Range> {
+        let draw = place.draw;
+        let mut judging = Judging::new(self.rules);
         let input = FragmentInput {
             color: place.primitive.color,
             front,
@@ -72,7 +120,7 @@ impl Walk<'_> {
                 .primitive
                 .depth_seen(place.point, self.units, place.at.samples),
             sample: place.at.sample,
-            texels: [texel(0), texel(1)],
+            texels: [self.texel(place, 0), self.texel(place, 1)],
             params: &draw.params,
         };
         let output = fragment(&mut judging, draw.shader, &input);
@@ -86,23 +134,135 @@ impl Walk<'_> {
             },
             None,
         );
+        output
+    }
+
+    /// Whether the shader, the sample mask and alpha to coverage can and whether they must let the
+    /// sample through.
+    fn covered_after_shading(
+        &self,
+        place: Place<'_>,
+        output: &FragmentOutput<Range>,
+        notes: &mut Notes<'_>,
+    ) -> (bool, bool) {
+        let word = |can: bool| if can { "may or may not" } else { "does not" };
+        let (kept_can, kept_must) = match output.kept {
+            None => (true, true),
+            Some([value, limit]) => {
+                let (value, limit) = (value.hull(), limit.hull());
+                (value.high >= limit.low, value.low >= limit.high)
+            }
+        };
+        if !kept_must {
+            notes.add(
+                || place.name(),
+                "discard",
+                || format!("the fragment {} survive the shader", word(kept_can)),
+                None,
+            );
+        }
         let (can, must) = self.sample_passes(place, output.color[3]);
         if !must {
             notes.add(
                 || place.name(),
                 "coverage",
                 || {
-                    let word = if can { "may or may not" } else { "does not" };
                     let sample = place.at.sample;
-                    format!("sample {sample} {word} pass mask and alpha to coverage")
+                    format!(
+                        "sample {sample} {} pass mask and alpha to coverage",
+                        word(can)
+                    )
                 },
                 Some(self.rules.alpha_to_coverage),
             );
-            result.push(world.clone());
-            if !can {
-                return;
+        }
+        (kept_can && can, kept_must && must)
+    }
+
+    /// A fragment that forced early tests let through: what the shader then takes away may still have
+    /// changed depth and stencil and have counted.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "a fragment with all that was found out about it"
+    )]
+    fn early_fragment(
+        &self,
+        place: Place<'_>,
+        [before, tested]: [&World; 2],
+        output: &FragmentOutput<Range>,
+        incoming: Incoming,
+        (can, must): (bool, bool),
+        result: &mut SmallVec<[World; 2]>,
+        notes: &mut Notes<'_>,
+    ) {
+        let masked = place.draw.multisample.mask & (1 << place.at.sample) == 0;
+        let mut passed = tested.clone();
+        self.count(place, &mut passed, !masked, |kind| {
+            kind == CounterKind::ShaderRuns
+        });
+        if can {
+            let mut kept = passed.clone();
+            self.count(place, &mut kept, true, CounterKind::is_occlusion);
+            self.write_depth(place, &mut kept, incoming, notes);
+            self.write_colors(place, &mut kept, output, notes);
+            result.push(kept);
+        }
+        if must {
+            return;
+        }
+        notes.add(
+            || place.name(),
+            "early tests",
+            || "the fragment goes away after its tests".to_owned(),
+            Some(self.rules.early_updates.citation),
+        );
+        let counted = self.rules.early_counts.value == EarlyUpdates::Happen && !masked;
+        self.count(place, &mut passed, counted, CounterKind::is_occlusion);
+        // The sample mask comes before all tests; only its order against counting is open.
+        if !masked {
+            let mut updated = passed.clone();
+            self.write_depth(place, &mut updated, incoming, notes);
+            result.push(updated);
+        }
+        if masked || self.rules.early_updates.value == EarlyUpdates::Either {
+            // As if the fragment had never been tested, but for what it counted.
+            let mut untouched = before.clone();
+            untouched.events = passed.events;
+            result.push(untouched);
+        }
+    }
+
+    /// Adds to the draw's counters of some kinds.
+    fn count(
+        &self,
+        place: Place<'_>,
+        world: &mut World,
+        certain: bool,
+        kinds: impl Fn(CounterKind) -> bool,
+    ) {
+        for counter in &place.draw.counters {
+            if kinds(self.scene.counters[*counter].kind) {
+                world.events.push(Event {
+                    counter: *counter as u16,
+                    fragment: (place.draw_id, place.primitive_index as u32),
+                    certain,
+                });
             }
         }
+    }
+
+    /// Depth bounds, stencil and depth test: every way it can end, and whether the fragment passes.
+    /// The stencil value is updated; depth is not yet written.
+    fn tests(
+        &self,
+        place: Place<'_>,
+        world: World,
+        front: bool,
+        incoming: Incoming,
+        notes: &mut Notes<'_>,
+    ) -> SmallVec<[(World, bool); 2]> {
+        let mut result = SmallVec::new();
+        let draw = place.draw;
         let pass = &self.scene.passes[place.pass];
         let depth_stencil = pass.depth_stencil;
         let mut world = world;
@@ -111,10 +271,10 @@ impl Walk<'_> {
         if let (Some(bounds), Some(index)) = (draw.depth_bounds, bounded) {
             let (can, must) = self.depth_bounds(place, &world, bounds, index, notes);
             if !must {
-                result.push(world.clone());
+                result.push((world.clone(), false));
             }
             if !can {
-                return;
+                return result;
             }
         }
         let face = draw
@@ -135,16 +295,14 @@ impl Walk<'_> {
                     notes,
                 );
                 world.cells[index].stencil = new;
-                result.push(world);
-                return;
+                result.push((world, false));
+                return result;
             }
         }
-        let exported = output.depth.is_some() || place.primitive.is_biased();
-        let incoming = self.in_range(place, output.depth.unwrap_or(own_depth), exported);
         let outcomes = match (draw.depth, depth_stencil) {
             (Some(state), Some(index)) => {
                 let encoding = self.depth_encoding(index);
-                let stored = world.cells[index].channels[0];
+                let stored = world.cells[index];
                 self.depth_test(place, state.compare, incoming, stored, encoding, notes)
             }
             _ => [true, false],
@@ -165,17 +323,15 @@ impl Walk<'_> {
                 self.note_stencil(place, &face, stored, word, operation.name(), new, notes);
                 world.cells[index].stencil = new;
             }
-            if passes {
-                self.write(place, &mut world, &output, incoming, notes);
-            }
-            result.push(world);
+            result.push((world, passes));
         }
+        result
     }
 
     /// The depth that is tested and stored: held to the viewport's range where the draw clamps;
     /// where it does not, what lies outside of the range is treated as the rules say. The clipped
     /// fixed-function depth alone lies inside.
-    fn in_range(&self, place: Place<'_>, depth: Range, exported: bool) -> Range {
+    fn in_range(&self, place: Place<'_>, depth: Range, source: Source) -> Incoming {
         let [near, far] = place.draw.viewport.depth.map(f64::from);
         let (near, far) = (near.min(far), near.max(far));
         let held = depth.float.clamp(near, far);
@@ -186,13 +342,26 @@ impl Walk<'_> {
         let unit = depth.float.clamp(0.0, 1.0);
         let slack = self.rules.float_error.value * 4.0;
         let outside = depth.float.low < near - slack || depth.float.high > far + slack;
-        Range::same(match self.rules.depth_range.value {
+        let written = source == Source::Written;
+        let exported = written || place.primitive.is_biased();
+        let depth = match self.rules.depth_range.value {
             _ if place.draw.depth_clamp => held,
             _ if !(exported && outside) => unit,
             DepthRange::Undefined => whole,
             DepthRange::Viewport => held,
-            DepthRange::Either => held.hull(unit),
-        })
+            DepthRange::Unit => unit,
+            DepthRange::ViewportIfWritten if written => held,
+            DepthRange::Either | DepthRange::ViewportIfWritten => held.hull(unit),
+        };
+        let own = !written || place.draw.shader == Shader::FragCoordDepth;
+        let same = match self.rules.same_depth.value {
+            SameDepth::All => own,
+            SameDepth::Written => written && own,
+        };
+        Incoming {
+            depth: Range::same(depth),
+            origin: (same && place.at.samples == 1).then_some(place.primitive.geometry),
+        }
     }
 
     /// Whether mask and alpha to coverage can and whether they must let the sample through.
@@ -255,28 +424,6 @@ impl Walk<'_> {
         (can, must)
     }
 
-    /// The texel of a texture under the sample.
-    fn texel(&self, draw: &Draw, t: usize, at: Sample) -> [Range; 4] {
-        let mut judging = Judging::new(self.rules);
-        let mut texel = [Range::exact(0.0); 4];
-        if let Some(index) = draw.textures.get(t) {
-            let attachment = &self.scene.attachments[*index];
-            if let Contents::Texels(codes) = &attachment.contents {
-                let encodings = attachment.format.color_channels();
-                let start = (at.y as usize * at.size[0] as usize + at.x as usize) * encodings.len();
-                for (c, encoding) in encodings.iter().enumerate() {
-                    let order = encoding.order_of_code(codes[start + c]);
-                    texel[c] = judging.decode(*encoding, CodeInterval::exact(order));
-                }
-                // A format without alpha is fetched with alpha 1.
-                if encodings.len() < 4 {
-                    texel[3] = Range::exact(1.0);
-                }
-            }
-        }
-        texel
-    }
-
     #[expect(
         clippy::too_many_arguments,
         reason = "one line of the story, all of it"
@@ -313,11 +460,22 @@ impl Walk<'_> {
         &self,
         place: Place<'_>,
         function: CompareFunction,
-        incoming: Range,
-        stored: CodeInterval,
+        incoming: Incoming,
+        stored: Cell,
         encoding: ChannelEncoding,
         notes: &mut Notes<'_>,
     ) -> [bool; 2] {
+        if incoming.origin.is_some() && incoming.origin == stored.origin {
+            let passes = compare(function, 0, 0);
+            notes.add(
+                || place.name(),
+                "depth test",
+                || format!("the same depth {} itself is {passes}", function.name()),
+                Some(self.rules.same_depth.citation),
+            );
+            return [passes, !passes];
+        }
+        let (incoming, stored) = (incoming.depth, stored.channels[0]);
         let mut judging = Judging::new(self.rules);
         let codes = judging.encode(encoding, incoming);
         let of_codes = |codes: CodeInterval| Interval {
@@ -347,123 +505,23 @@ impl Walk<'_> {
         );
         outcomes
     }
-
-    /// Stores depth and colours of a fragment that passed all tests.
-    fn write(
-        &self,
-        place: Place<'_>,
-        world: &mut World,
-        output: &FragmentOutput<Range>,
-        depth: Range,
-        notes: &mut Notes<'_>,
-    ) {
-        let mut judging = Judging::new(self.rules);
-        let pass = &self.scene.passes[place.pass];
-        if let (Some(state), Some(index)) = (place.draw.depth, pass.depth_stencil)
-            && state.write
-        {
-            let encoding = self.depth_encoding(index);
-            let codes = judging.encode(encoding, depth);
-            world.cells[index].channels[0] = codes;
-            notes.add(
-                || place.name(),
-                "store depth",
-                || format!("{} as {}", depth.hull(), codes_text(encoding, codes)),
-                Some(self.rules.store.citation),
-            );
-        }
-        let mut color = output.color;
-        let mut second = output.second.unwrap_or([Range::exact(0.0); 4]);
-        if place.draw.multisample.alpha_to_one {
-            color[3] = Range::exact(1.0);
-            second[3] = Range::exact(1.0);
-        }
-        for (target, index) in place.draw.targets.iter().zip(&pass.color) {
-            let attachment = &self.scene.attachments[*index];
-            let encodings = attachment.format.color_channels();
-            let all: [ChannelEncoding; 4] =
-                std::array::from_fn(|c| encodings[c.min(encodings.len() - 1)]);
-            let missing = missing_channels(encodings.len());
-            let cell = &mut world.cells[*index];
-            let value = match &target.blend {
-                None => color,
-                Some(state) => {
-                    let dst = std::array::from_fn(|c| match missing[c] {
-                        Some(value) => Range::exact(value),
-                        None => judging.decode(all[c], cell.channels[c]),
-                    });
-                    let constant = place.draw.blend_constant.map(|v| judging.constant(v));
-                    let input = BlendInput {
-                        src: color,
-                        src1: second,
-                        dst,
-                        constant,
-                    };
-                    let value = blend(&mut judging, state, all, &input);
-                    notes.add(
-                        || place.name(),
-                        "blend",
-                        || {
-                            let side = |c: usize| {
-                                let part = if c == 3 { state.alpha } else { state.color };
-                                format!(
-                                    "{}: {} × {} {} {} × {} = {}",
-                                    ["red", "green", "blue", "alpha"][c],
-                                    color[c].hull(),
-                                    part.src_factor.name(),
-                                    part.operation.name(),
-                                    dst[c].hull(),
-                                    part.dst_factor.name(),
-                                    value[c].hull()
-                                )
-                            };
-                            [0, 1, 2, 3].map(side).join("; ")
-                        },
-                        Some(self.rules.blend.citation),
-                    );
-                    value
-                }
-            };
-            for (c, encoding) in encodings.iter().enumerate() {
-                if target.write_mask & (1 << c) != 0 {
-                    let codes = judging.encode(*encoding, value[c]);
-                    cell.channels[c] = match place.draw.logic {
-                        Some(operation) if takes_logic(attachment.format) => {
-                            judging.logic(*encoding, operation, codes, cell.channels[c])
-                        }
-                        _ => codes,
-                    };
-                }
-            }
-            let cell = *cell;
-            let masked = target.write_mask != 0xf;
-            notes.add(
-                || place.name(),
-                "store color",
-                || {
-                    format!(
-                        "{} holds {}",
-                        attachment.name,
-                        self.cell_text(*index, &cell)
-                    )
-                },
-                Some(if masked {
-                    self.rules.write_mask
-                } else {
-                    self.rules.store.citation
-                }),
-            );
-        }
-    }
 }
 
-/// What a destination's missing channels count as in blending: colours 0, alpha 1 (Vulkan, Blending;
-/// OpenGL 4.6, 17.3.6).
-fn missing_channels(channels: usize) -> [Option<f64>; 4] {
-    std::array::from_fn(|c| {
-        let value = if c == 3 { 1.0 } else { 0.0 };
-        (c >= channels).then_some(value)
-    })
+/// Where a depth comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Source {
+    /// The fragment's own.
+    Own,
+    /// The shader wrote it.
+    Written,
+}
+
+/// A depth that is tested and stored.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Incoming {
+    pub(crate) depth: Range,
+    /// The geometry it is of, where redraws of that geometry have the same depth.
+    pub(crate) origin: Option<u64>,
 }
 
 /// Whether a comparison of some value of `left` with some value of `right` can be true, and whether

@@ -1,13 +1,13 @@
 //! The walk over samples and worlds.
 
+use crate::counting::Tally;
 use crate::coverage::misses;
-use crate::interval::Interval;
 use crate::judging::{Judging, Range};
-use crate::rules::{Resolve, Rules};
+use crate::rules::Rules;
 use crate::setup::{self, DrawSetup, Primitive, Shape, Side, units_per_texel};
 use crate::world::{Cell, World, merge};
 use etalon_case::Scene;
-use etalon_case::scene::{Contents, Draw};
+use etalon_case::scene::Draw;
 use etalon_frame::{
     Aspect, ChannelEncoding, CodeInterval, LegalSet, LegalSetBuilder, Limits, ReadPath, Story,
     StoryLine, TexelSet, WorldBox,
@@ -60,13 +60,23 @@ pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
         }
     }
     let mut shapes: Vec<([u32; 2], u32)> = Vec::new();
-    for index in &scene.read {
-        let attachment = &scene.attachments[*index];
-        let shape = (attachment.size, attachment.samples);
+    let add = |shapes: &mut Vec<([u32; 2], u32)>, shape| {
         if !shapes.contains(&shape) {
             shapes.push(shape);
         }
+    };
+    for index in &scene.read {
+        let attachment = &scene.attachments[*index];
+        add(&mut shapes, (attachment.size, attachment.samples));
     }
+    let read = shapes.len();
+    for pass in &scene.passes {
+        if pass.draws.iter().any(|d| !d.counters.is_empty()) {
+            let shape = (scene.pass_size(pass), scene.pass_samples(pass));
+            add(&mut shapes, shape);
+        }
+    }
+    let mut tally = Tally::new(scene, rules);
     for (group, shape) in shapes.iter().enumerate() {
         for y in 0..shape.0[1] {
             for x in 0..shape.0[0] {
@@ -78,10 +88,25 @@ pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
                         y,
                         sample,
                     };
-                    builder.sample(group, walk.sample(at, None));
+                    let mut notes = Notes(None);
+                    let worlds = walk.worlds(at, scene.passes.len(), &mut notes);
+                    tally.sample(worlds.as_deref());
+                    if group < read {
+                        builder.sample(
+                            group,
+                            match worlds {
+                                Some(worlds) => walk.finish(&worlds, at, &mut notes),
+                                None => TexelSet::default(),
+                            },
+                        );
+                    }
                 }
+                tally.texel(shape.1);
             }
         }
+    }
+    for counter in tally.finish() {
+        builder.counter(counter);
     }
     builder.build()
 }
@@ -146,7 +171,7 @@ pub(crate) struct Place<'a> {
 }
 
 /// A note taker: costs nothing while nobody listens.
-pub(crate) struct Notes<'s>(Option<&'s mut Story>);
+pub(crate) struct Notes<'s>(pub(crate) Option<&'s mut Story>);
 
 impl Notes<'_> {
     pub(crate) fn add(
@@ -246,7 +271,12 @@ impl<'a> Walk<'a> {
     }
 
     /// The worlds of a sample after the first passes; `None` when it is open.
-    fn worlds(&self, at: Sample, passes: usize, notes: &mut Notes<'_>) -> Option<Worlds> {
+    pub(crate) fn worlds(
+        &self,
+        at: Sample,
+        passes: usize,
+        notes: &mut Notes<'_>,
+    ) -> Option<Worlds> {
         let mut worlds: Worlds = SmallVec::new();
         worlds.push(self.initial(at, notes));
         let mut draw_id = 0;
@@ -318,135 +348,24 @@ impl<'a> Walk<'a> {
                 let Some(target) = *target else { continue };
                 let attachment = &self.scene.attachments[target];
                 if (attachment.size, attachment.samples) == (at.size, at.samples) {
-                    let channels = self.resolve(*source, at, p + 1, notes)?;
-                    worlds
-                        .iter_mut()
-                        .for_each(|w| w.cells[target].channels = channels);
-                    merge(&mut worlds);
+                    let outcomes = self.resolve(*source, at, p + 1, notes)?;
+                    worlds = worlds
+                        .iter()
+                        .flat_map(|world| {
+                            outcomes.iter().map(|channels| {
+                                let mut world = world.clone();
+                                world.cells[target].channels = *channels;
+                                world
+                            })
+                        })
+                        .collect();
+                    if !merge(&mut worlds) {
+                        return None;
+                    }
                 }
             }
         }
         Some(worlds)
-    }
-
-    /// What the samples of a texel are averaged to after the first passes; `None` when a sample is
-    /// open. The hull over samples and worlds, never their product.
-    fn resolve(
-        &self,
-        source: usize,
-        at: Sample,
-        passes: usize,
-        notes: &mut Notes<'_>,
-    ) -> Option<[CodeInterval; 4]> {
-        let attachment = &self.scene.attachments[source];
-        let encodings = attachment.format.color_channels();
-        let mut sum = [Interval::exact(0.0); 4];
-        let mut hull: [Option<CodeInterval>; 4] = [None; 4];
-        for sample in 0..attachment.samples {
-            let at = Sample {
-                samples: attachment.samples,
-                sample,
-                ..at
-            };
-            let worlds = self.worlds(at, passes, &mut Notes(None))?;
-            for (c, encoding) in encodings.iter().enumerate() {
-                let all = worlds.iter().map(|w| w.cells[source].channels[c]);
-                let Some(one) = all.reduce(CodeInterval::hull) else {
-                    continue;
-                };
-                hull[c] = Some(hull[c].map_or(one, |h| h.hull(one)));
-                let value = Judging::new(self.rules).decode(*encoding, one).float;
-                sum[c] = sum[c].corners(value, |a, b| a + b);
-            }
-        }
-        let mut judging = Judging::new(self.rules);
-        let mut result = [CodeInterval::exact(0); 4];
-        for (c, encoding) in encodings.iter().enumerate() {
-            let between = hull[c].unwrap_or(CodeInterval::exact(0));
-            let count = f64::from(attachment.samples);
-            // The error is relative to the samples, of which the sum may be a small difference.
-            let values = [between.low, between.high].map(|o| encoding.value_of_order(o).abs());
-            let error = values[0].max(values[1]) * count * self.rules.float_error.value;
-            let average = sum[c].map_increasing(|v| v / count).widen(error);
-            let average = judging.encode(*encoding, Range::same(average));
-            result[c] = match self.rules.resolve.value {
-                _ if between.is_exact() && !encoding.is_float() => between,
-                Resolve::Between if encoding.is_float() => between.hull(average),
-                Resolve::Between => between,
-                Resolve::Average => average,
-            };
-        }
-        notes.add(
-            || format!("after pass {}", passes - 1),
-            "resolve",
-            || {
-                let text = encodings
-                    .iter()
-                    .zip(&result)
-                    .map(|(e, codes)| codes_text(*e, *codes))
-                    .collect::<Vec<_>>();
-                format!("{} gives {}", attachment.name, text.join(", "))
-            },
-            Some(self.rules.resolve.citation),
-        );
-        Some(result)
-    }
-
-    fn initial(&self, at: Sample, notes: &mut Notes<'_>) -> World {
-        let mut judging = Judging::new(self.rules);
-        let cells = self
-            .scene
-            .attachments
-            .iter()
-            .enumerate()
-            .map(|(index, attachment)| {
-                let encodings = attachment.format.color_channels();
-                let mut cell = Cell {
-                    channels: [CodeInterval::exact(0); 4],
-                    stencil: 0,
-                };
-                match &attachment.contents {
-                    Contents::Color(color) => {
-                        for (c, encoding) in encodings.iter().enumerate() {
-                            let value = judging.constant(color[c]);
-                            cell.channels[c] = judging.encode(*encoding, value);
-                        }
-                    }
-                    Contents::DepthStencil { depth, stencil } => {
-                        let value = judging.constant(*depth);
-                        cell.channels[0] = judging.encode(self.depth_encoding(index), value);
-                        cell.stencil = *stencil;
-                    }
-                    Contents::Texels(codes) if attachment.size == at.size => {
-                        let start =
-                            (at.y as usize * at.size[0] as usize + at.x as usize) * encodings.len();
-                        for (c, encoding) in encodings.iter().enumerate() {
-                            let order = encoding.order_of_code(codes[start + c]);
-                            cell.channels[c] = CodeInterval::exact(order);
-                        }
-                    }
-                    Contents::Texels(_) => {}
-                }
-                let text = || self.cell_text(index, &cell);
-                let how = match &attachment.contents {
-                    Contents::Texels(_) => "upload",
-                    _ => "clear",
-                };
-                let citation = match &attachment.contents {
-                    Contents::Texels(_) => None,
-                    _ => Some(self.rules.store.citation),
-                };
-                let name = || format!("attachment {}", attachment.name);
-                if (attachment.size, attachment.samples) == (at.size, at.samples) {
-                    notes.add(name, how, text, citation);
-                }
-                cell
-            })
-            .collect();
-        World {
-            cells,
-            decisions: SmallVec::new(),
-        }
     }
 
     pub(crate) fn cell_text(&self, attachment: usize, cell: &Cell) -> String {

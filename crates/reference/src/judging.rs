@@ -145,14 +145,14 @@ impl<'r> Judging<'r> {
         } else {
             low
         };
-        // Values below the normal ones may be flushed to zero (Vulkan, 16-Bit Floating-Point Numbers;
-        // OpenGL 4.6, 2.3.4.2 to 2.3.4.4).
+        // Where the rules say so, values below the normal ones may be flushed to zero.
         let normal = match encoding {
             ChannelEncoding::Ufloat(mantissa) => 1 << mantissa,
             _ => 1 << 10,
         };
         let (low, high) = (low.min(high), high.max(low));
-        let flush = |order: i64, towards: i64| match order.abs() < normal {
+        let flushes = self.rules.flushes_small_floats.value;
+        let flush = |order: i64, towards: i64| match flushes && order.abs() < normal {
             true => towards,
             false => order,
         };

@@ -4,6 +4,8 @@
 //! gives a [`LegalSet`](etalon_frame::LegalSet) per band; [`explain`] tells the story of one sample.
 //! The permissions it grants stand in [`rules`], with their citations.
 
+mod contents;
+mod counting;
 mod coverage;
 mod depth;
 mod fragment;
@@ -11,7 +13,9 @@ mod interval;
 mod judge;
 mod judging;
 pub mod rules;
+mod sampling;
 mod setup;
+mod store;
 mod world;
 
 pub use interval::Interval;

@@ -9,6 +9,7 @@ use etalon_case::scene::Draw;
 use etalon_case::state::PolygonMode;
 use etalon_frame::{ChannelEncoding, Limits};
 use etalon_pipeline::{Arithmetic, Point, edge_value, signed_area, window_position};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// All positions that legal snapping can give one vertex: x and y each from low to high, in units
 /// of [`units_per_texel`].
@@ -91,6 +92,10 @@ pub(crate) struct Primitive {
     bias: Interval,
     /// All snapped vertices.
     all: SnapBox,
+    /// Texture coordinates, where the draw samples a texture.
+    uv: Option<[Depth; 2]>,
+    /// Tells geometries apart: the same number, the same vertices under the same viewport.
+    pub(crate) geometry: u64,
 }
 
 /// Where a sample lies relative to one edge.
@@ -191,6 +196,12 @@ impl Primitive {
         }
         let biased = depth.corners(self.bias, |a, b| a + b);
         Range::same(depth.hull(biased))
+    }
+
+    /// The texture coordinates at a sample that the primitive covers, where the draw samples.
+    pub(crate) fn uv(&self, at: Point) -> Option<[Interval; 2]> {
+        let both = self.uv.as_ref()?;
+        Some(both.each_ref().map(|one| one.at(at)))
     }
 
     /// Whether a depth bias may move its fragments.
@@ -330,7 +341,8 @@ pub(crate) fn draw(context: &Context<'_>, draw: &Draw) -> DrawSetup {
         let Some(all) = boxes.reduce(SnapBox::hull) else {
             continue;
         };
-        let primitive = primitive(context, draw, one, &vertices, color, all);
+        let mut primitive = primitive(context, draw, one, &vertices, color, all);
+        primitive.uv = texture_coordinates(context, draw, &primitive.shape, one);
         let first = primitive.bounds[1].clamp(0, height) as usize;
         let last = primitive.bounds[3].clamp(0, height) as usize;
         for row in &mut rows[first..last.max(first)] {
@@ -414,7 +426,53 @@ fn primitive(
         clip_depth,
         bias,
         all,
+        uv: None,
+        geometry: geometry(draw, one),
     }
+}
+
+/// A number for the vertices of a primitive in their order and all that its depth comes from.
+fn geometry(draw: &Draw, one: Vertices) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let own = match one {
+        Vertices::Point(i) => [i, i, i],
+        Vertices::Line([a, b]) => [a, b, a],
+        Vertices::Triangle(triangle) => triangle,
+    };
+    for i in own {
+        let position = draw.mesh.vertices[i].position;
+        position.map(f32::to_bits).hash(&mut hasher);
+    }
+    let viewport = &draw.viewport;
+    viewport.rect.map(f32::to_bits).hash(&mut hasher);
+    viewport.depth.map(f32::to_bits).hash(&mut hasher);
+    let bias = draw.depth_bias;
+    (bias.constant, bias.slope.to_bits(), bias.clamp.to_bits()).hash(&mut hasher);
+    (draw.topology, draw.polygon_mode, draw.depth_clamp).hash(&mut hasher);
+    hasher.finish()
+}
+
+/// The texture coordinates over a primitive.
+fn texture_coordinates(
+    context: &Context<'_>,
+    draw: &Draw,
+    shape: &Shape,
+    one: Vertices,
+) -> Option<[Depth; 2]> {
+    if !draw.shader.samples_texture() {
+        return None;
+    }
+    let grid = units_per_texel(context.limits) >> context.limits.sub_pixel_bits;
+    let error = context.rules.float_error.value;
+    let value = |i: usize, axis: usize| Interval::exact(f64::from(draw.mesh.vertices[i].uv[axis]));
+    Some([0, 1].map(|axis| match (shape, one) {
+        (Shape::Triangle(triangle), Vertices::Triangle(own)) => {
+            Depth::over(triangle.vertices, own.map(|i| value(i, axis)), grid, error)
+        }
+        (_, Vertices::Point(i)) => Depth::flat(&[value(i, axis)]),
+        (_, Vertices::Line(own)) => Depth::flat(&own.map(|i| value(i, axis))),
+        (_, Vertices::Triangle(own)) => Depth::flat(&own.map(|i| value(i, axis))),
+    }))
 }
 
 pub(crate) fn area(boxes: [SnapBox; 3]) -> (i64, i64) {

@@ -13,6 +13,19 @@ pub(crate) struct Cell {
     pub(crate) channels: [CodeInterval; 4],
     /// Stencil.
     pub(crate) stencil: u8,
+    /// Which geometry the depth is of, where that pins it: see [`crate::rules::SameDepth`].
+    pub(crate) origin: Option<u64>,
+}
+
+/// Something that counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Event {
+    /// The counter, by its place in the scene.
+    pub(crate) counter: u16,
+    /// The draw and the primitive whose fragment counts.
+    pub(crate) fragment: (u32, u32),
+    /// Whether it counts for certain, or may.
+    pub(crate) certain: bool,
 }
 
 /// A choice that the rules leave open, taken once per world: on which side of the edge between two
@@ -33,6 +46,8 @@ pub(crate) struct Decision {
 pub(crate) struct World {
     pub(crate) cells: SmallVec<[Cell; 2]>,
     pub(crate) decisions: SmallVec<[(Decision, bool); 2]>,
+    /// What counted so far, in the order in which it happened.
+    pub(crate) events: SmallVec<[Event; 1]>,
 }
 
 impl World {

@@ -1,7 +1,7 @@
 //! The hunt for planted bugs: every case drawn by every mutant, in this process, on all cores.
 
 use crate::verdict::Judge;
-use etalon_backend::Backend;
+use etalon_backend::{Backend, BackendError};
 use etalon_case::Case;
 use etalon_frame::{Frame, WrongTexel};
 use etalon_record::{AreaTally, Catch, MutantInfo, MutantRecord, Sighting, Verdict};
@@ -70,7 +70,7 @@ pub fn hunt(
 /// Draws one case with each of a thread's bugs. Most of them give the same few frames, which are
 /// judged once.
 fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Suspect], full: bool) {
-    let mut seen: Vec<(Frame, Sighting)> = Vec::new();
+    let mut seen: Vec<(Vec<Frame>, Sighting)> = Vec::new();
     for suspect in share {
         let area = suspect.area(case.area());
         let tally = &suspect.record.areas[area];
@@ -82,15 +82,15 @@ fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Suspect], fu
         };
         let sighting = match draw(backend.as_ref(), case) {
             Err(message) => broken(case, message),
-            Ok(frame) => match seen.iter().find(|(known, _)| *known == frame) {
+            Ok(frames) => match seen.iter().find(|(known, _)| *known == frames) {
                 Some((_, sighting)) => sighting.clone(),
                 None => {
                     let limits = backend.limits();
-                    let sighting = match judge.glance(number, case, limits, &frame) {
+                    let sighting = match judge.glance(number, case, limits, &frames) {
                         Err(message) => broken(case, message),
                         Ok((verdict, texel)) => sighting(case, verdict, texel),
                     };
-                    seen.push((frame, sighting.clone()));
+                    seen.push((frames, sighting.clone()));
                     sighting
                 }
             },
@@ -115,12 +115,15 @@ fn broken(case: &Case, message: String) -> Sighting {
     }
 }
 
-/// Draws a case once. A panic is a broken mutant, not the end of the hunt.
-fn draw(backend: &dyn Backend, case: &Case) -> Result<Frame, String> {
-    let attempt = || {
-        let mut prepared = backend.prepare(&case.scene)?;
-        prepared.submit()?;
-        prepared.read_back()
+/// Draws a case's scenes once each. A panic is a broken mutant, not the end of the hunt.
+fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
+    let attempt = || -> Result<Vec<Frame>, BackendError> {
+        let draw = |scene| {
+            let mut prepared = backend.prepare(scene)?;
+            prepared.submit()?;
+            prepared.read_back()
+        };
+        case.scenes().map(draw).collect()
     };
     match catch_unwind(AssertUnwindSafe(attempt)) {
         Ok(outcome) => outcome.map_err(|e| e.to_string()),

@@ -9,6 +9,7 @@ mod event;
 mod hunt;
 mod process;
 mod protocol;
+mod relation;
 mod run;
 mod select;
 mod verdict;

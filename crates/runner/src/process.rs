@@ -2,7 +2,7 @@
 
 use crate::protocol::{Hello, Payload, Request, Response, receive, send};
 use etalon_backend::{BackendError, Unavailable};
-use etalon_case::Scene;
+use etalon_case::{Case, Scene};
 use etalon_frame::Frame;
 use std::collections::VecDeque;
 use std::io::{self, BufReader, BufWriter, Read};
@@ -77,15 +77,17 @@ impl Worker {
 }
 
 impl Worker {
-    /// Draws one scene and reads it back.
+    /// Draws the scenes of a case and reads each back.
     ///
     /// # Errors
     /// What the backend says, or how the worker was lost.
-    pub fn draw(&mut self, scene: &Scene) -> Result<Frame, DrawError> {
-        self.link.draw(0, scene);
-        let (drawn, _) = self.link.drawn(DRAW_TIMEOUT);
+    pub fn draw(&mut self, case: &Case) -> Result<Vec<Frame>, DrawError> {
+        for scene in case.scenes() {
+            self.link.draw(0, scene);
+        }
+        let (drawn, _) = self.link.drawn(case.scene_count(), DRAW_TIMEOUT);
         match drawn {
-            Drawn::Frame(frame) => Ok(*frame),
+            Drawn::Frames(frames) => Ok(frames),
             Drawn::Error(error) => Err(DrawError::Backend(error)),
             Drawn::Lost(loss) => Err(DrawError::Lost(self.link.obituary(loss))),
         }
@@ -105,7 +107,7 @@ pub enum DrawError {
 
 /// What drawing a scene came to.
 pub(crate) enum Drawn {
-    Frame(Box<Frame>),
+    Frames(Vec<Frame>),
     Error(BackendError),
     Lost(Loss),
 }
@@ -192,19 +194,19 @@ impl Link {
         self.request(&Request::Drop { slot });
     }
 
-    /// The answers to one [`Link::draw`], and how long the worker took over them.
-    pub(crate) fn drawn(&mut self, timeout: Duration) -> (Drawn, Duration) {
+    /// The answers to so many [`Link::draw`]s, and how long the worker took over them.
+    pub(crate) fn drawn(&mut self, scenes: usize, timeout: Duration) -> (Drawn, Duration) {
         let mut total = Duration::ZERO;
-        let mut frame = None;
+        let mut frames = Vec::new();
         let mut error = None;
-        for _ in 0..4 {
+        for _ in 0..4 * scenes {
             match self.response(timeout) {
                 Ok(Response::Done {
                     outcome, elapsed, ..
                 }) => {
                     total += elapsed;
                     match outcome {
-                        Ok(Payload::Frame(f)) => frame = Some(f),
+                        Ok(Payload::Frame(frame)) => frames.push(*frame),
                         Ok(_) => {}
                         Err(e) => {
                             error.get_or_insert(e);
@@ -218,10 +220,10 @@ impl Link {
                 Err(loss) => return (Drawn::Lost(loss), total),
             }
         }
-        let drawn = match (error, frame) {
-            (Some(error), _) => Drawn::Error(error),
-            (None, Some(frame)) => Drawn::Frame(frame),
-            (None, None) => Drawn::Error(BackendError::Internal("no frame came back".to_owned())),
+        let drawn = match error {
+            Some(error) => Drawn::Error(error),
+            None if frames.len() == scenes => Drawn::Frames(frames),
+            None => Drawn::Error(BackendError::Internal("no frame came back".to_owned())),
         };
         (drawn, total)
     }

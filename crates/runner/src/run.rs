@@ -178,7 +178,7 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
             while waiting.len() < IN_FLIGHT && next < cases.len() {
                 let number = next;
                 next += 1;
-                if let Some(missing) = self.limits().missing(&cases[number].scene.requirements()) {
+                if let Some(missing) = self.limits().missing(&cases[number].requirements()) {
                     self.finish_without_frame(
                         number,
                         Verdict::NotSupported,
@@ -194,9 +194,9 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
                 break;
             };
             let asked = Instant::now();
-            let (drawn, drawing) = self.receive();
+            let (drawn, drawing) = self.receive(cases[number].scene_count());
             match drawn {
-                Drawn::Frame(frame) => self.finish(number, &frame, drawing),
+                Drawn::Frames(frames) => self.finish(number, &frames, drawing),
                 Drawn::Error(error) => {
                     let verdict = match &error {
                         BackendError::NotSupported(_) => Verdict::NotSupported,
@@ -261,7 +261,9 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
     fn send(&mut self, number: usize) {
         self.revive();
         let Some(link) = &mut self.link else { return };
-        link.draw(number as u32, &self.shared.cases[number].scene);
+        for scene in self.shared.cases[number].scenes() {
+            link.draw(number as u32, scene);
+        }
     }
 
     /// What was in flight behind a case that took its worker down.
@@ -271,14 +273,14 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
         }
     }
 
-    fn receive(&mut self) -> (Drawn, Duration) {
+    fn receive(&mut self, scenes: usize) -> (Drawn, Duration) {
         match &mut self.link {
-            Some(link) => link.drawn(DRAW_TIMEOUT),
+            Some(link) => link.drawn(scenes, DRAW_TIMEOUT),
             None => (Drawn::Lost(Loss::Died), Duration::ZERO),
         }
     }
 
-    fn finish(&mut self, number: usize, frame: &Frame, drawing: Duration) {
+    fn finish(&mut self, number: usize, frames: &[Frame], drawing: Duration) {
         let start = Instant::now();
         let case = &self.shared.cases[number];
         let Judged {
@@ -287,7 +289,7 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
         } = self
             .shared
             .judge
-            .judge(number, case, &self.adapter.name, self.limits(), frame);
+            .judge(number, case, &self.adapter.name, self.limits(), frames);
         record.seconds = Seconds {
             draw: drawing.as_secs_f64(),
             judge: start.elapsed().as_secs_f64(),

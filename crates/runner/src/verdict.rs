@@ -1,9 +1,10 @@
 //! From a frame to a verdict.
 
-use etalon_case::Case;
+use crate::relation;
+use etalon_case::{Case, Relation, Scene};
 use etalon_frame::{
-    Aspect, AspectStatistics, Band, ChannelMismatch, Comparison, Frame, LegalSet, Limits,
-    SampleGroup, TexelCounts, WrongTexel, compare,
+    Aspect, AspectStatistics, Band, ChannelMismatch, Comparison, CounterOutcome, Frame, LegalSet,
+    Limits, SampleGroup, WrongTexel, compare,
 };
 use etalon_record::{Assertion, FrameFile, FrameImage, MAX_WRONG_TEXELS, Record, Verdict};
 use etalon_reference::{Judgement, Rules, Sample, explain, judgements};
@@ -13,6 +14,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 /// Bytes of legal sets that are kept for the adapters that come to a case later.
 const CACHE_BYTES: usize = 512 << 20;
 
+/// A case, one of its scenes, and the limits it is judged by.
+type Key = (usize, usize, Limits);
 type Entry = Arc<OnceLock<Arc<Vec<Judgement>>>>;
 
 /// Judges frames; legal sets are cached by case and limits, so that adapters share them.
@@ -23,8 +26,8 @@ pub struct Judge {
 
 #[derive(Debug, Default)]
 struct Cache {
-    entries: HashMap<(usize, Limits), Entry>,
-    order: VecDeque<(usize, Limits)>,
+    entries: HashMap<Key, Entry>,
+    order: VecDeque<Key>,
     bytes: usize,
 }
 
@@ -38,16 +41,52 @@ pub struct Judged {
 }
 
 impl Judge {
-    /// Holds a frame against what the rules allow. `number` tells the case from others.
+    /// Holds the frames of a case, its scene's and its variants', against what the rules allow and
+    /// against each other. `number` tells the case from others.
     pub fn judge(
         &self,
         number: usize,
         case: &Case,
         adapter: &str,
         limits: &Limits,
+        frames: &[Frame],
+    ) -> Judged {
+        let mut judged: Option<Judged> = None;
+        for (index, frame) in frames.iter().enumerate() {
+            let one = self.judge_scene(number, case, index, adapter, limits, frame);
+            judged = Some(match judged {
+                None => one,
+                Some(first) => worse(first, one, case, index),
+            });
+        }
+        let Some(mut judged) = judged else {
+            let mut record = Record::new(&case.id, adapter, Verdict::InternalError);
+            record.message = "no frame came back".to_owned();
+            return Judged {
+                record,
+                frame: None,
+            };
+        };
+        if let Some(relation) = &case.relation
+            && judged.record.verdict != Verdict::InternalError
+        {
+            let found = relation::check(relation, case, frames);
+            note_relation(&mut judged.record, relation, limits, found);
+        }
+        judged
+    }
+
+    /// Holds the frame of one of a case's scenes against what the rules allow.
+    fn judge_scene(
+        &self,
+        number: usize,
+        case: &Case,
+        index: usize,
+        adapter: &str,
+        limits: &Limits,
         frame: &Frame,
     ) -> Judged {
-        let judgements = self.judgements(number, case, limits);
+        let judgements = self.judgements(number, case, index, limits);
         let mut record = Record::new(&case.id, adapter, Verdict::Pass);
         record.due_fail = case.judged_as.is_some();
         let (comparison, judgement) = match best(&judgements, frame) {
@@ -61,20 +100,25 @@ impl Judge {
                 };
             }
         };
+        let worst = comparison.worst();
         record.texels = comparison.texels;
         record.wrong = comparison.wrong;
+        record.counters = comparison.counters;
         record.assertions = assertions(judgement);
-        let asserted: u64 = record.assertions.iter().map(|a| a.asserted).sum();
-        record.verdict = if comparison.texels.wrong > 0 {
-            Verdict::Fail
-        } else if asserted == 0 {
-            Verdict::Open
-        } else if comparison.texels.imprecise > 0 {
-            Verdict::Imprecise
-        } else {
-            Verdict::Pass
+        let texels: u64 = record.assertions.iter().map(|a| a.asserted).sum();
+        let counters = record.counters.iter().filter(|c| c.is_asserted()).count();
+        record.verdict = match worst {
+            Some(Band::Fail) => Verdict::Fail,
+            _ if texels == 0 && counters == 0 => Verdict::Open,
+            Some(Band::Imprecise) => Verdict::Imprecise,
+            None => Verdict::Pass,
         };
-        expected_values(case, frame, &judgement.legal, &mut record);
+        if let Some(message) = counter_message(&record.counters) {
+            record.message = message;
+        }
+        if index == 0 {
+            expected_values(case, frame, &judgement.legal, &mut record);
+        }
         let mut file = None;
         if matches!(record.verdict, Verdict::Fail | Verdict::Imprecise) {
             if let Some(wrong) = record.wrong.first() {
@@ -83,7 +127,7 @@ impl Judge {
                     Band::Imprecise => Rules::yardstick(&judgement.limits),
                 };
                 if let Some(at) = sample_of(case, wrong) {
-                    let scene = case.judged_scene();
+                    let scene = judged_scene(case, index);
                     record.story = Some(explain(scene, &judgement.limits, &rules, at));
                 }
             }
@@ -99,26 +143,48 @@ impl Judge {
     /// literal values. A case that asserts nothing passes.
     ///
     /// # Errors
-    /// When the frame is not one of the case.
+    /// When a frame is not one of the case.
     pub(crate) fn glance(
         &self,
         number: usize,
         case: &Case,
         limits: &Limits,
-        frame: &Frame,
+        frames: &[Frame],
     ) -> Result<(Verdict, Option<WrongTexel>), String> {
-        let judgements = self.judgements(number, case, limits);
-        let (comparison, _) = best(&judgements, frame)?;
-        let verdict = match comparison.texels {
-            TexelCounts { wrong: 1.., .. } => Verdict::Fail,
-            TexelCounts { imprecise: 1.., .. } => Verdict::Imprecise,
-            _ => Verdict::Pass,
+        let mut worst: Option<Band> = None;
+        let mut first = None;
+        for (index, frame) in frames.iter().enumerate() {
+            let judgements = self.judgements(number, case, index, limits);
+            let (comparison, _) = best(&judgements, frame)?;
+            if comparison.worst() > worst {
+                worst = comparison.worst();
+                first = comparison.wrong.into_iter().next();
+            }
+        }
+        if let Some(relation) = &case.relation {
+            let found = relation::check(relation, case, frames);
+            let band = Rules::invariance(limits.api, relation.invariance).value;
+            if found.differences > 0 && band > worst {
+                worst = band;
+                first = found.wrong.into_iter().next();
+            }
+        }
+        let verdict = match worst {
+            Some(Band::Fail) => Verdict::Fail,
+            Some(Band::Imprecise) => Verdict::Imprecise,
+            None => Verdict::Pass,
         };
-        Ok((verdict, comparison.wrong.into_iter().next()))
+        Ok((verdict, first))
     }
 
-    fn judgements(&self, number: usize, case: &Case, limits: &Limits) -> Arc<Vec<Judgement>> {
-        let key = (number, limits_that_matter(limits));
+    fn judgements(
+        &self,
+        number: usize,
+        case: &Case,
+        index: usize,
+        limits: &Limits,
+    ) -> Arc<Vec<Judgement>> {
+        let key = (number, index, limits_that_matter(limits));
         let entry = {
             let mut cache = self.cache.lock().unwrap_or_else(PoisonError::into_inner);
             match cache.entries.get(&key) {
@@ -133,7 +199,7 @@ impl Judge {
         let mut fresh = false;
         let sets = Arc::clone(entry.get_or_init(|| {
             fresh = true;
-            Arc::new(judgements(case.judged_scene(), limits))
+            Arc::new(judgements(judged_scene(case, index), limits))
         }));
         if fresh {
             let weight = |all: &[Judgement]| -> usize {
@@ -156,6 +222,120 @@ impl Judge {
         }
         sets
     }
+}
+
+/// The scene that the judge looks at: the case's own, or that of a variant.
+fn judged_scene(case: &Case, index: usize) -> &Scene {
+    match index.checked_sub(1).and_then(|v| case.variants.get(v)) {
+        Some(variant) => &variant.scene,
+        None => case.judged_scene(),
+    }
+}
+
+/// The record of the worse of two scenes, with the assertions of both.
+fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
+    let badness = |judged: &Judged| match judged.record.verdict {
+        Verdict::InternalError => 4,
+        Verdict::Fail => 3,
+        Verdict::Imprecise => 2,
+        Verdict::Pass => 1,
+        _ => 0,
+    };
+    let takes_second = badness(&second) > badness(&first) && badness(&second) > 1;
+    let (mut kept, other) = if takes_second {
+        let mut second = second;
+        let name = case.variants.get(index - 1).map_or("", |v| v.name.as_str());
+        let message = format!("variant {name}: {}", second.record.message);
+        second.record.message = message.trim_end_matches([':', ' ']).to_owned();
+        (second, first)
+    } else {
+        (first, second)
+    };
+    let record = &mut kept.record;
+    if record.verdict == Verdict::Open {
+        record.verdict = other.record.verdict;
+    }
+    record.texels.total += other.record.texels.total;
+    record.texels.wrong += other.record.texels.wrong;
+    record.texels.imprecise += other.record.texels.imprecise;
+    record.texels.open += other.record.texels.open;
+    for assertion in &other.record.assertions {
+        match record
+            .assertions
+            .iter_mut()
+            .find(|a| a.aspect == assertion.aspect)
+        {
+            Some(own) => own.add(assertion),
+            None => record.assertions.push(*assertion),
+        }
+    }
+    kept
+}
+
+/// What is wrong with the counters, in words.
+fn counter_message(counters: &[CounterOutcome]) -> Option<String> {
+    let wrong: Vec<String> = counters
+        .iter()
+        .filter(|c| c.band.is_some())
+        .map(|c| {
+            let legal = match c.high {
+                Some(high) if high == c.low => format!("{high}"),
+                Some(high) => format!("{} to {high}", c.low),
+                None => format!("{} or more", c.low),
+            };
+            let due = match c.band {
+                Some(Band::Fail) => format!("{legal} is legal"),
+                _ => format!("{legal} is legal, but the yardstick wants another"),
+            };
+            format!(
+                "counter {} ({}) is {}, {due}",
+                c.name,
+                c.kind.name(),
+                c.actual
+            )
+        })
+        .collect();
+    (!wrong.is_empty()).then(|| wrong.join("; "))
+}
+
+/// Adds what a relation found to a record.
+fn note_relation(
+    record: &mut Record,
+    relation: &Relation,
+    limits: &Limits,
+    found: relation::Found,
+) {
+    let permission = Rules::invariance(limits.api, relation.invariance);
+    let Some(band) = permission.value else { return };
+    if record.verdict == Verdict::Open && found.compared > 0 {
+        record.verdict = Verdict::Pass;
+    }
+    if found.differences == 0 {
+        return;
+    }
+    let message = format!(
+        "{} samples differ from {}: {}",
+        found.differences, found.between, permission.citation
+    );
+    let fails = band == Band::Fail;
+    if fails {
+        record.texels.wrong += found.differences;
+        record.verdict = Verdict::Fail;
+    } else {
+        record.texels.imprecise += found.differences;
+        if record.verdict == Verdict::Pass {
+            record.verdict = Verdict::Imprecise;
+        }
+    }
+    record.message = match record.message.as_str() {
+        "" => message,
+        before => format!("{before}; {message}"),
+    };
+    let room = MAX_WRONG_TEXELS.saturating_sub(record.wrong.len());
+    let wrong = found.wrong.into_iter().take(room);
+    record
+        .wrong
+        .extend(wrong.map(|texel| WrongTexel { band, ..texel }));
 }
 
 /// The reading of hidden encodings under which fewer samples are wrong: a format whose encoding the

@@ -10,5 +10,6 @@ pub(super) fn fragment<A: Arithmetic>(
         color: input.color,
         second: None,
         depth: None,
+        kept: None,
     }
 }

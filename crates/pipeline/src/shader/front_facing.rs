@@ -16,5 +16,6 @@ pub(super) fn fragment<A: Arithmetic>(
         color: color.map(|v| a.constant(v)),
         second: None,
         depth: None,
+        kept: None,
     }
 }

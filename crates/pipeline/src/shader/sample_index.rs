@@ -12,5 +12,6 @@ pub(super) fn fragment<A: Arithmetic>(
         color: [bit(0), bit(1), bit(2), 1.0].map(|v| a.constant(v)),
         second: None,
         depth: None,
+        kept: None,
     }
 }

@@ -10,5 +10,6 @@ pub(super) fn fragment<A: Arithmetic>(
         color: input.texels[0],
         second: Some(input.texels[1]),
         depth: None,
+        kept: None,
     }
 }

@@ -11,5 +11,6 @@ pub(super) fn fragment<A: Arithmetic>(
         color: input.params.color.map(|v| a.constant(v)),
         second: None,
         depth: None,
+        kept: None,
     }
 }

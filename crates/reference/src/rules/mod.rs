@@ -5,6 +5,7 @@
 //! exact inputs, one conversion within 0.6 codes at the store, the adapter's own sub-pixel bits,
 //! the top-left rule.
 
+mod invariance;
 mod opengl;
 mod opengl_es;
 mod vulkan;
@@ -101,8 +102,12 @@ pub enum DepthRange {
     Undefined,
     /// It is held to the viewport's range.
     Viewport,
+    /// It is held to 0 and 1.
+    Unit,
     /// It is held to the viewport's range or to 0 and 1.
     Either,
+    /// A shader's is held to the viewport's range; one that a bias made is held to that or to 0 and 1.
+    ViewportIfWritten,
 }
 
 /// What a resolve makes of a texel's samples.
@@ -112,6 +117,34 @@ pub enum Resolve {
     Between,
     /// Their average.
     Average,
+}
+
+/// Whether depth, stencil and counts change for fragments that forced early tests let through and that
+/// the shader discards or alpha to coverage takes away afterwards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EarlyUpdates {
+    /// They do.
+    Happen,
+    /// They do or they do not.
+    Either,
+}
+
+/// What a precise occlusion query adds for a fragment of several samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SamplesCounted {
+    /// Its samples that pass.
+    Passing,
+    /// Those, or all of the texel's samples when any passes.
+    PassingOrAll,
+}
+
+/// Which redraws of the same geometry have the same depths, bit for bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SameDepth {
+    /// Those whose shaders write the fragment's own depth.
+    Written,
+    /// All whose depth is the fragment's own, written or not.
+    All,
 }
 
 /// One specification's permissions, or the yardstick.
@@ -146,6 +179,20 @@ pub struct Rules {
     /// Whether the edges of a polygon, drawn as lines, face as the polygon does; where not, either is
     /// legal. Culling goes by the polygon in any case.
     pub outlines_face_as_polygons: Permission<bool>,
+    /// What forced early tests change for fragments that go away afterwards: depth and stencil.
+    pub early_updates: Permission<EarlyUpdates>,
+    /// What forced early tests count of fragments that go away afterwards.
+    pub early_counts: Permission<EarlyUpdates>,
+    /// Precise occlusion queries over several samples.
+    pub samples_counted: Permission<SamplesCounted>,
+    /// Which redraws have the same depths.
+    pub same_depth: Permission<SameDepth>,
+    /// The coarsest step, in texels, to which coordinates may be rounded in filtering.
+    pub filter_step: Permission<f64>,
+    /// Whether floats below the normal ones may be stored as zero.
+    pub flushes_small_floats: Permission<bool>,
+    /// What makes a shader run for each fragment that it has to run for.
+    pub shader_runs: &'static str,
     /// Alpha to coverage: alpha 0 gives no sample, alpha 1 all, anything between any.
     pub alpha_to_coverage: &'static str,
     /// What is said of zero-area and reversed triangles.
@@ -196,6 +243,13 @@ mod tests {
                 rules.resolve.citation,
                 rules.points_face_front.citation,
                 rules.outlines_face_as_polygons.citation,
+                rules.early_updates.citation,
+                rules.early_counts.citation,
+                rules.samples_counted.citation,
+                rules.same_depth.citation,
+                rules.filter_step.citation,
+                rules.flushes_small_floats.citation,
+                rules.shader_runs,
                 rules.alpha_to_coverage,
                 rules.facing,
                 rules.stencil,

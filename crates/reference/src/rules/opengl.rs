@@ -1,8 +1,8 @@
 //! OpenGL's permissions (4.6 core profile).
 
 use super::{
-    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
-    SharedEdge, Snap, permit,
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
+    Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };
 
 pub(super) fn rules() -> Rules {
@@ -49,8 +49,8 @@ pub(super) fn rules() -> Rules {
             "OpenGL 4.6: 14.6.5 Depth Offset: the least r that is sure to be resolved; how much more is open",
         ),
         depth_range: permit(
-            DepthRange::Either,
-            "OpenGL 4.6: 17.3.4 Depth Buffer Test: held to 0 and 1; the drivers under it may hold it to the depth range",
+            DepthRange::Unit,
+            "OpenGL 4.6: 15.2.3 Shader Outputs, 14.6.5 Depth Offset: a written or offset depth is held to 0 and 1",
         ),
         factor_clamp: permit(
             FactorClamp::Clamped,
@@ -62,9 +62,34 @@ pub(super) fn rules() -> Rules {
         ),
         points_face_front: permit(true, "OpenGL 4.6: 17.3.3: points and lines use front state"),
         outlines_face_as_polygons: permit(
-            false,
-            "OpenGL 4.6: 14.6.4 Polygon Rasterization Modes: what gl_FrontFacing is on edges is not stated",
+            true,
+            "OpenGL 4.6: 17.3.3 Stencil Test: a primitive is still considered a polygon even if it is rasterized as points or lines due to the polygon mode",
         ),
+        early_updates: permit(
+            EarlyUpdates::Either,
+            "OpenGL 4.6: 14.9.4 Early Fragment Tests: depth and stencil may be updated even for fragments discarded afterwards",
+        ),
+        early_counts: permit(
+            EarlyUpdates::Either,
+            "OpenGL 4.6: 14.9.4 Early Fragment Tests: occlusion counts may be updated even for fragments discarded afterwards",
+        ),
+        samples_counted: permit(
+            SamplesCounted::PassingOrAll,
+            "OpenGL 4.6: 17.3.5 Occlusion Queries: the samples whose coverage bit is set, or at the implementation's discretion SAMPLES if any is",
+        ),
+        same_depth: permit(
+            SameDepth::Written,
+            "OpenGL 4.6: Appendix A, Invariance: shaders that assign gl_FragCoord.z to gl_FragDepth are depth-invariant with respect to each other",
+        ),
+        filter_step: permit(
+            1.0 / 16.0,
+            "OpenGL 4.6: silent on the precision of filter weights; Vulkan: at least 4 bits",
+        ),
+        flushes_small_floats: permit(
+            true,
+            "OpenGL 4.6: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
+        ),
+        shader_runs: "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: the fragment shader is invoked for every fragment; tests come after it unless early tests are forced",
         alpha_to_coverage: "OpenGL 4.6: 17.3.1 Multisample Fragment Operations: intended; dEQP-GLES3 multisample.alpha_to_coverage demands the ends",
         facing: "OpenGL 4.6: 14.6.1 Basic Polygon Rasterization: front by the sign of the area",
         stencil: "OpenGL 4.6: 17.3.3 Stencil Test: integer operations",

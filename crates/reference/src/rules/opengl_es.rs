@@ -1,8 +1,8 @@
 //! OpenGL ES's permissions (3.2; the sections read the same in 3.1).
 
 use super::{
-    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
-    SharedEdge, Snap, permit,
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
+    Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };
 
 pub(super) fn rules() -> Rules {
@@ -49,8 +49,8 @@ pub(super) fn rules() -> Rules {
             "OpenGL ES 3.2: 13.7.2 Depth Offset: the least r that is sure to be resolved; how much more is open",
         ),
         depth_range: permit(
-            DepthRange::Either,
-            "OpenGL ES 3.2: 15.1.3 Depth Buffer Test: held to 0 and 1; the drivers under it may hold it to the depth range",
+            DepthRange::Unit,
+            "OpenGL ES 3.2: 14.2.3 Shader Outputs, 13.7.2 Depth Offset: a written or offset depth is held to 0 and 1",
         ),
         factor_clamp: permit(
             FactorClamp::Clamped,
@@ -65,6 +65,31 @@ pub(super) fn rules() -> Rules {
             "OpenGL ES 3.2: 15.1.2: points and lines use front state",
         ),
         outlines_face_as_polygons: permit(false, "OpenGL ES 3.2: has no polygon modes"),
+        early_updates: permit(
+            EarlyUpdates::Either,
+            "OpenGL ES 3.2: 13.8.4 Early Fragment Tests: depth and stencil may be updated even for fragments discarded afterwards",
+        ),
+        early_counts: permit(
+            EarlyUpdates::Either,
+            "OpenGL ES 3.2: 13.8.4 Early Fragment Tests: occlusion counts may be updated even for fragments discarded afterwards",
+        ),
+        samples_counted: permit(
+            SamplesCounted::PassingOrAll,
+            "OpenGL ES 3.2: 15.1.4 Occlusion Queries: the samples whose coverage bit is set, or at the implementation's discretion SAMPLES if any is",
+        ),
+        same_depth: permit(
+            SameDepth::Written,
+            "OpenGL ES 3.2: Appendix A, Invariance: shaders that assign gl_FragCoord.z to gl_FragDepth are depth-invariant with respect to each other",
+        ),
+        filter_step: permit(
+            1.0 / 16.0,
+            "OpenGL ES 3.2: silent on the precision of filter weights; Vulkan: at least 4 bits",
+        ),
+        flushes_small_floats: permit(
+            true,
+            "OpenGL ES 3.2: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
+        ),
+        shader_runs: "OpenGL ES 3.2: 7.13.1 Shader Memory Access Ordering: the fragment shader is invoked for every fragment; tests come after it unless early tests are forced",
         alpha_to_coverage: "OpenGL ES 3.2: 15.1.1: intended; dEQP-GLES3 multisample.alpha_to_coverage demands the ends",
         facing: "OpenGL ES 3.2: 13.7.1 Basic Polygon Rasterization: front by the sign of the area",
         stencil: "OpenGL ES 3.2: 15.1.2 Stencil Test: integer operations",

@@ -1,8 +1,8 @@
 //! Vulkan's permissions.
 
 use super::{
-    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
-    SharedEdge, Snap, permit,
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
+    Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };
 
 pub(super) fn rules() -> Rules {
@@ -61,9 +61,34 @@ pub(super) fn rules() -> Rules {
         ),
         points_face_front: permit(true, "Vulkan: Points, Line Segments: always front-facing"),
         outlines_face_as_polygons: permit(
-            false,
-            "Vulkan: Polygon Mode: affects the final rasterization alone, yet lines face front; what a shader sees is not stated",
+            true,
+            "Vulkan 1.0: Polygon Mode: fragments rasterized from polygons inherit their facingness from the polygon, even if it is rasterized as points or lines",
         ),
+        early_updates: permit(
+            EarlyUpdates::Happen,
+            "Vulkan 1.0: Early Fragment Test Mode: depth and stencil tests and writes are performed even for fragments discarded afterwards; dEQP-VK.fragment_operations.early_fragment.discard_early_fragment_tests_depth demands it",
+        ),
+        early_counts: permit(
+            EarlyUpdates::Either,
+            "Vulkan: Fragment Operations: with EarlyFragmentTests shading and multisample coverage should follow sample counting, but may precede it",
+        ),
+        samples_counted: permit(
+            SamplesCounted::Passing,
+            "Vulkan: Sample Counting: each sample with a coverage of 1 that survives all tests, with VK_QUERY_CONTROL_PRECISE_BIT",
+        ),
+        same_depth: permit(
+            SameDepth::Written,
+            "Vulkan: Invariance, Rule 5: shaders that assign FragCoord.z to FragDepth are depth-invariant with respect to each other",
+        ),
+        filter_step: permit(
+            1.0 / 16.0,
+            "Vulkan: Limits, subTexelPrecisionBits is at least 4; the rounding to its divisions is not stated",
+        ),
+        flushes_small_floats: permit(
+            false,
+            "Vulkan: Fundamentals, Floating-Point Format Conversions: representable finite values are kept",
+        ),
+        shader_runs: "Vulkan: Fragment Shader Execution: at least one run for every fragment that no operation before shading discards, where the shader writes storage",
         alpha_to_coverage: "Vulkan: Multisample Coverage: alpha 0 gives no sample and alpha 1 all; dEQP-VK.pipeline.*.alpha_to_coverage demands the ends",
         facing: "Vulkan: Basic Polygon Rasterization: front by the sign of the area; zero area is \
                  not front",

@@ -1,8 +1,8 @@
 //! WebGPU's permissions. Where the text is silent, what the APIs under it permit.
 
 use super::{
-    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
-    SharedEdge, Snap, permit,
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
+    Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };
 
 pub(super) fn rules() -> Rules {
@@ -47,8 +47,8 @@ pub(super) fn rules() -> Rules {
             "WebGPU: depth bias as the API under it; OpenGL: the least r that is sure to be resolved; how much more is open",
         ),
         depth_range: permit(
-            DepthRange::Undefined,
-            "WebGPU: 23.2.7 Output Merging holds it to the viewport, which implementations over Vulkan cannot promise",
+            DepthRange::ViewportIfWritten,
+            "WebGPU: 23.2.6 Fragment Processing, 23.2.7 Output Merging: held to the viewport's depth range, a biased depth before or after the test",
         ),
         factor_clamp: permit(
             FactorClamp::Either,
@@ -63,6 +63,31 @@ pub(super) fn rules() -> Rules {
             "WebGPU: 23.2.5: facing of points and lines is not asserted",
         ),
         outlines_face_as_polygons: permit(false, "WebGPU: has no polygon modes"),
+        early_updates: permit(
+            EarlyUpdates::Either,
+            "WebGPU: has no forced early tests; OpenGL: depth and stencil may be updated",
+        ),
+        early_counts: permit(
+            EarlyUpdates::Either,
+            "WebGPU: has no forced early tests; Vulkan and OpenGL: counts may be updated",
+        ),
+        samples_counted: permit(
+            SamplesCounted::Passing,
+            "WebGPU: queries tell zero from non-zero; a precise count is no part of it",
+        ),
+        same_depth: permit(
+            SameDepth::Written,
+            "WebGPU: silent on invariance; Vulkan and OpenGL: shaders that write the fragment's own depth agree",
+        ),
+        filter_step: permit(
+            1.0 / 16.0,
+            "WebGPU: silent on the precision of filter weights; Vulkan: at least 4 bits",
+        ),
+        flushes_small_floats: permit(
+            true,
+            "WebGPU: silent on small floats; OpenGL: 16-bit ones may be encoded as zero",
+        ),
+        shader_runs: "WebGPU: 23.2.6 Fragment Processing: skipped only where the shader writes to no storage binding",
         alpha_to_coverage: "WebGPU: 23.2.7 Output Merging: alpha 0 gives no sample and alpha 1 all",
         facing: "WebGPU: 23.2.5.3 Polygon Rasterization: front by the sign of the area; zero area \
                  is back",

@@ -1,8 +1,8 @@
 //! The quality band, in the spirit of the Direct3D 11.3 functional specification.
 
 use super::{
-    BiasUnit, BlendPrecision, DepthOrder, DepthRange, FactorClamp, Resolve, Rounding, Rules,
-    SharedEdge, Snap, permit,
+    BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
+    Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };
 use etalon_frame::Api;
 
@@ -61,6 +61,28 @@ pub(super) fn rules(api: Api) -> Rules {
             "Direct3D 11.3: 15.10: points and lines are front-facing",
         ),
         outlines_face_as_polygons: permit(true, "Direct3D 11.3: 15.10 Facing: of the triangle"),
+        early_updates: permit(
+            EarlyUpdates::Happen,
+            "Yardstick: forced early tests come first, as Direct3D 11.3 has them (17.3)",
+        ),
+        early_counts: permit(
+            EarlyUpdates::Happen,
+            "Yardstick: forced early tests come first, and counting with them",
+        ),
+        samples_counted: permit(
+            SamplesCounted::Passing,
+            "Yardstick: samples that pass, one by one",
+        ),
+        same_depth: permit(
+            SameDepth::All,
+            "Yardstick: the fragment's own depth is the same, written or not (Direct3D 11.3)",
+        ),
+        filter_step: permit(
+            1.0 / 256.0,
+            "Yardstick: 8 bits of fraction (Direct3D 11.3, 7.18.7 and 7.18.8)",
+        ),
+        flushes_small_floats: permit(false, "Yardstick: representable values are kept"),
+        shader_runs: "Yardstick: one run for every fragment",
         alpha_to_coverage: "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",
         facing: "Direct3D 11.3: 15.10 Facing: after snapping, zero area is back",
         stencil: "Direct3D 11.3: 17.12 Stencil: integer operations",

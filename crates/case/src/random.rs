@@ -1,0 +1,375 @@
+//! Scenes made from a seed: several draws with all state different and nothing at its default.
+//!
+//! A scene is made as the JSON that a case file would hold, so that whoever looks at one can copy it
+//! out and change it by hand. Inputs keep to what can be proven: written depths are 0, 1 or far
+//! apart, samples lie clear of edges, alpha is 0 or 1 where it decides on coverage.
+
+use crate::state::{
+    BlendFactor, BlendOperation, CompareFunction, LogicOperation, StencilOperation,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+/// What a random scene is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Flavor {
+    /// Depth, stencil, blending, culling, masks, scissor and viewport, as every API has them.
+    Common,
+    /// The same over four samples, with sample masks and alpha to coverage.
+    Multisample,
+    /// [`Flavor::Common`] with what only some APIs have, one such thing in a scene: separate
+    /// stencil masks, two sources, logic operations, depth bounds, depth clamp, reversed depth.
+    Extended,
+}
+
+/// Something that only some APIs have.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Extra {
+    Nothing,
+    SeparateMasks,
+    DualSource,
+    Logic,
+    DepthBounds,
+    DepthClamp,
+    ReversedDepth,
+    AlphaToOne,
+}
+
+/// The size of all attachments, a side.
+const SIZE: u32 = 16;
+
+/// The scene of a seed. The same seed gives the same scene for ever: ids name it.
+pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
+    // Neighbouring seeds of the flavours share nothing.
+    let mut dice = Dice(seed ^ (0x9e37_79b9 * (flavor as u64 + 1)));
+    let samples = if flavor == Flavor::Multisample { 4 } else { 1 };
+    let extra = match flavor {
+        Flavor::Common => Extra::Nothing,
+        Flavor::Multisample => *dice.of(&[Extra::Nothing, Extra::Nothing, Extra::AlphaToOne]),
+        Flavor::Extended => *dice.of(&[
+            Extra::SeparateMasks,
+            Extra::DualSource,
+            Extra::Logic,
+            Extra::DepthBounds,
+            Extra::DepthClamp,
+            Extra::ReversedDepth,
+        ]),
+    };
+    let color = *dice.of(&[
+        "rgba8unorm",
+        "rgba8unorm",
+        "bgra8unorm",
+        "rgb10a2unorm",
+        "rgba16float",
+    ]);
+    // Of the 10-bit format and of floats not every driver resolves or counts samples alike.
+    let color = if samples > 1 { "rgba8unorm" } else { color };
+    let depth = *dice.of(&["depth24plus-stencil8", "depth32float-stencil8"]);
+    let mut maker = Maker {
+        samples,
+        extra,
+        reference: dice.range(1, 200),
+        dice,
+    };
+    let count = maker.dice.range(3, 5);
+    let draws: Vec<Value> = (0..count).map(|i| maker.draw(i)).collect();
+    let clear = maker.color();
+    let stored = *maker.dice.of(&[0.0, 0.5, 1.0]);
+    let stencil = maker.dice.range(1, 254);
+    json!({
+        "attachments": {
+            "color": { "format": color, "samples": samples, "size": [SIZE, SIZE], "clear": clear },
+            "depth": {
+                "format": depth, "samples": samples, "size": [SIZE, SIZE],
+                "clear": { "depth": stored, "stencil": stencil }
+            },
+            "first": maker.texture(),
+            "second": maker.texture()
+        },
+        "passes": [{ "color": ["color"], "depth_stencil": "depth", "draws": draws }],
+        "read": ["color", "depth"]
+    })
+}
+
+struct Maker {
+    samples: u32,
+    extra: Extra,
+    /// One reference for all draws of a scene or none would ever be equal.
+    reference: u32,
+    dice: Dice,
+}
+
+impl Maker {
+    fn draw(&mut self, index: u32) -> Value {
+        let (shader, textures) = match self.extra {
+            Extra::DualSource => ("texel_dual_source", json!(["first", "second"])),
+            _ => match self.dice.range(0, 3) {
+                0 => ("flat_color", json!([])),
+                1 => ("front_facing", json!([])),
+                2 => ("flat_color_depth", json!([])),
+                _ => ("texel_color", json!(["first"])),
+            },
+        };
+        let mut draw = json!({
+            "mesh": self.mesh(shader, index),
+            "shader": shader,
+            "textures": textures,
+            "params": { "color": self.color(), "back_color": self.color() },
+            "cull": self.dice.of(&["none", "front", "back"]),
+            "front_face": self.dice.of(&["ccw", "cw"]),
+            "viewport": {
+                "rect": self.rect(),
+                "depth": if shader == "flat_color_depth" { json!([0, 1]) } else { self.depth_range() }
+            },
+            "scissor": self.rect(),
+            "depth": { "compare": self.compare(), "write": self.dice.range(0, 3) > 0 },
+            "stencil": self.stencil(),
+            "write_mask": self.dice.of(&["rgba", "rgb", "rga", "gba", "rb", "a"]),
+            "blend_constant": self.color()
+        });
+        match self.extra {
+            Extra::Logic => draw["logic"] = json!(self.dice.of(LogicOperation::ALL)),
+            _ => draw["blend"] = self.blend(),
+        }
+        match self.extra {
+            Extra::DepthBounds => {
+                let bounds = *self.dice.of(&[[0.0, 0.6], [0.3, 1.0], [0.1, 0.9]]);
+                draw["depth_bounds"] = json!(bounds);
+            }
+            Extra::DepthClamp => draw["depth_clamp"] = true.into(),
+            _ => {}
+        }
+        if self.samples > 1 {
+            let covers = self.extra != Extra::AlphaToOne && self.dice.range(0, 2) == 0;
+            draw["multisample"] = json!({
+                "mask": self.dice.range(1, 14),
+                "alpha_to_coverage": covers,
+                "alpha_to_one": self.extra == Extra::AlphaToOne
+            });
+        }
+        draw
+    }
+
+    /// Bands across or down with depths and windings of their own; of several samples the whole, so
+    /// that no sample lies near an edge.
+    fn mesh(&mut self, shader: &str, index: u32) -> Value {
+        let written = shader == "flat_color_depth";
+        if self.samples > 1 {
+            let value = if written {
+                json!(self.depth())
+            } else {
+                self.color()
+            };
+            return json!({ "kind": "cover", "value": value, "z": self.vertex_depth() });
+        }
+        let kind = if index % 2 == 0 { "columns" } else { "rows" };
+        let count = self.dice.range(3, 6);
+        let values: Vec<Value> = (0..count)
+            .map(|_| {
+                if written {
+                    json!(self.depth())
+                } else {
+                    self.color()
+                }
+            })
+            .collect();
+        let z: Vec<f64> = (0..count).map(|_| self.vertex_depth()).collect();
+        let windings: Vec<&str> = (0..count).map(|_| *self.dice.of(&["ccw", "cw"])).collect();
+        json!({ "kind": kind, "values": values, "z": z, "windings": windings })
+    }
+
+    /// A written depth: two of them are the same or far apart.
+    fn depth(&mut self) -> f64 {
+        *self.dice.of(&[0.0, 0.0, 0.21, 0.4, 0.62, 0.83, 1.0, 1.0])
+    }
+
+    /// A clip-space depth, never near a plane that clips.
+    fn vertex_depth(&mut self) -> f64 {
+        if self.extra == Extra::DepthClamp {
+            return *self.dice.of(&[-0.75, 0.0, 0.3, 0.7, 1.0, 1.75]);
+        }
+        *self.dice.of(&[0.0, 0.17, 0.37, 0.57, 0.77, 0.97])
+    }
+
+    fn depth_range(&mut self) -> Value {
+        let range = *self
+            .dice
+            .of(&[[0.0, 1.0], [0.125, 0.875], [0.25, 1.0], [0.0, 0.75]]);
+        match self.extra {
+            Extra::ReversedDepth => json!([range[1], range[0]]),
+            _ => json!(range),
+        }
+    }
+
+    /// A rectangle of at least 11 texels a side that is not the whole.
+    fn rect(&mut self) -> [u32; 4] {
+        let (x, y) = (self.dice.range(0, 4), self.dice.range(0, 4));
+        let side = |dice: &mut Dice, start| dice.range(11, SIZE - start - u32::from(start == 0));
+        let (w, h) = (side(&mut self.dice, x), side(&mut self.dice, y));
+        [x, y, w, h]
+    }
+
+    /// Channels of 0, 1 and values between; alpha 0 or 1 where several samples hang on it.
+    fn color(&mut self) -> Value {
+        let mut color = [0, 0, 0, 0].map(|_| *self.dice.of(&[0.0, 0.25, 0.4, 0.6, 0.75, 1.0]));
+        if self.samples > 1 {
+            color[3] = *self.dice.of(&[0.0, 1.0, 1.0]);
+        }
+        json!(color)
+    }
+
+    fn texture(&mut self) -> Value {
+        let one_sample = self.samples == 1;
+        let values: Vec<[u32; 4]> = (0..SIZE)
+            .map(|_| {
+                let mut texel = [0; 4].map(|_: u32| self.dice.range(0, 255));
+                if !one_sample {
+                    texel[3] = *self.dice.of(&[0, 255]);
+                }
+                texel
+            })
+            .collect();
+        let kind = *self.dice.of(&["columns", "rows"]);
+        json!({ "format": "rgba8unorm", "size": [SIZE, SIZE], "texels": { "kind": kind, "values": values } })
+    }
+
+    fn compare(&mut self) -> CompareFunction {
+        use CompareFunction as Is;
+        // What draws something stands more than once, or pictures would stay empty.
+        *self.dice.of(&[
+            Is::Less,
+            Is::LessEqual,
+            Is::LessEqual,
+            Is::Greater,
+            Is::GreaterEqual,
+            Is::GreaterEqual,
+            Is::NotEqual,
+            Is::NotEqual,
+            Is::Equal,
+            Is::Always,
+            Is::Never,
+        ])
+    }
+
+    fn stencil(&mut self) -> Value {
+        let masks = [0xff, 0x0f, 0xf0, 0x55, 0xaa, 0x3c, 0x81];
+        let face = |dice: &mut Dice, compare: CompareFunction| {
+            json!({
+                "compare": compare,
+                "fail_op": dice.of(StencilOperation::ALL),
+                "depth_fail_op": dice.of(StencilOperation::ALL),
+                "pass_op": dice.of(StencilOperation::ALL)
+            })
+        };
+        let compares = [self.compare(), self.compare()];
+        let mut front = face(&mut self.dice, compares[0]);
+        let mut back = face(&mut self.dice, compares[1]);
+        if self.extra == Extra::SeparateMasks {
+            for one in [&mut front, &mut back] {
+                one["read_mask"] = json!(self.dice.of(&masks));
+                one["write_mask"] = json!(self.dice.of(&masks));
+                one["reference"] = json!(self.dice.range(1, 254));
+            }
+        }
+        json!({
+            "front": front,
+            "back": back,
+            "read_mask": self.dice.of(&masks),
+            "write_mask": self.dice.of(&masks),
+            "reference": self.reference
+        })
+    }
+
+    fn blend(&mut self) -> Value {
+        let operation = |dice: &mut Dice| {
+            *dice.of(&[
+                BlendOperation::Add,
+                BlendOperation::Add,
+                BlendOperation::Subtract,
+                BlendOperation::ReverseSubtract,
+            ])
+        };
+        let second = self.extra == Extra::DualSource;
+        // Constant alpha as a colour's factor is not every API's.
+        let usable = |factor: &BlendFactor, is_color: bool| {
+            (second || !factor.is_second_source())
+                && !(is_color
+                    && matches!(
+                        factor,
+                        BlendFactor::ConstantAlpha | BlendFactor::OneMinusConstantAlpha
+                    ))
+        };
+        let part = |dice: &mut Dice, is_color: bool| {
+            let factors: Vec<BlendFactor> = BlendFactor::ALL
+                .iter()
+                .copied()
+                .filter(|f| usable(f, is_color))
+                .collect();
+            let min_max = dice.range(0, 7) == 0;
+            if min_max {
+                let operation = *dice.of(&[BlendOperation::Min, BlendOperation::Max]);
+                return json!({ "operation": operation, "src_factor": "one", "dst_factor": "one" });
+            }
+            json!({
+                "operation": operation(dice),
+                "src_factor": dice.of(&factors),
+                "dst_factor": dice.of(&factors)
+            })
+        };
+        let color = part(&mut self.dice, true);
+        let alpha = part(&mut self.dice, false);
+        json!({ "color": color, "alpha": alpha })
+    }
+}
+
+/// SplitMix64 (Steele, Lea, Flood 2014): small, and written out here because what it rolls may never
+/// change.
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number from `low` to `high`, both included.
+    fn range(&mut self, low: u32, high: u32) -> u32 {
+        let span = u64::from(high.saturating_sub(low)) + 1;
+        low + (self.roll() % span) as u32
+    }
+
+    /// One of a list.
+    fn of<'l, T>(&mut self, list: &'l [T]) -> &'l T {
+        &list[(self.roll() % list.len() as u64) as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_seed_gives_the_same_scene_and_another_another() {
+        for flavor in [Flavor::Common, Flavor::Multisample, Flavor::Extended] {
+            assert_eq!(scene(flavor, 7), scene(flavor, 7));
+            assert_ne!(scene(flavor, 7), scene(flavor, 8));
+        }
+    }
+
+    #[test]
+    fn the_dice_roll_what_the_paper_gives() {
+        let mut dice = Dice(1_234_567);
+        let rolls = [(); 3].map(|()| dice.roll());
+        let known = [
+            6_457_827_717_110_365_317,
+            3_203_168_211_198_807_973,
+            9_817_491_932_198_370_423,
+        ];
+        assert_eq!(rolls, known);
+    }
+}

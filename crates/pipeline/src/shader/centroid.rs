@@ -1,0 +1,17 @@
+//! Twin of `shaders/centroid.wgsl`. Inside a primitive whose first texture
+//! coordinates are not negative, neither is what is interpolated from them.
+
+use super::{FragmentInput, FragmentOutput};
+use crate::arithmetic::Arithmetic;
+
+pub(super) fn fragment<A: Arithmetic>(
+    a: &mut A,
+    input: &FragmentInput<'_, A::Real>,
+) -> FragmentOutput<A::Real> {
+    FragmentOutput {
+        color: input.params.color.map(|v| a.constant(v)),
+        second: None,
+        depth: None,
+        kept: None,
+    }
+}

@@ -1,0 +1,16 @@
+//! Twin of `shaders/counted_color.wgsl`. What it counts is the walker's business.
+
+use super::{FragmentInput, FragmentOutput};
+use crate::arithmetic::Arithmetic;
+
+pub(super) fn fragment<A: Arithmetic>(
+    a: &mut A,
+    input: &FragmentInput<'_, A::Real>,
+) -> FragmentOutput<A::Real> {
+    FragmentOutput {
+        color: input.params.color.map(|v| a.constant(v)),
+        second: None,
+        depth: None,
+        kept: None,
+    }
+}

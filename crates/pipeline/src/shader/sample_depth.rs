@@ -1,0 +1,17 @@
+//! Twin of `shaders/sample_depth.wgsl`.
+
+use super::{FragmentInput, FragmentOutput};
+use crate::arithmetic::Arithmetic;
+
+pub(super) fn fragment<A: Arithmetic>(
+    a: &mut A,
+    input: &FragmentInput<'_, A::Real>,
+) -> FragmentOutput<A::Real> {
+    let depth = (input.sample + 1) as f32 / 32.0;
+    FragmentOutput {
+        color: input.params.color.map(|v| a.constant(v)),
+        second: None,
+        depth: Some(a.constant(depth)),
+        kept: None,
+    }
+}

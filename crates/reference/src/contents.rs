@@ -1,0 +1,149 @@
+//! What attachments hold besides what is drawn: their first contents, and what is resolved to them.
+
+use crate::interval::Interval;
+use crate::judge::{Notes, Sample, Walk, codes_text};
+use crate::judging::{Judging, Range};
+use crate::rules::Resolve;
+use crate::world::{Cell, World};
+use etalon_case::scene::Contents;
+use etalon_frame::CodeInterval;
+use etalon_pipeline::Arithmetic;
+use smallvec::SmallVec;
+
+impl Walk<'_> {
+    /// What the samples of a texel can become after the first passes; `None` when a sample is open. An
+    /// average is the hull over samples and worlds, never their product; of integers one sample stands
+    /// for all (Vulkan, Resolving Multisample Images; OpenGL 4.6, 18.3.1).
+    pub(crate) fn resolve(
+        &self,
+        source: usize,
+        at: Sample,
+        passes: usize,
+        notes: &mut Notes<'_>,
+    ) -> Option<Vec<[CodeInterval; 4]>> {
+        let attachment = &self.scene.attachments[source];
+        let mut single: Vec<[CodeInterval; 4]> = Vec::new();
+        let encodings = attachment.format.color_channels();
+        let mut sum = [Interval::exact(0.0); 4];
+        let mut hull: [Option<CodeInterval>; 4] = [None; 4];
+        for sample in 0..attachment.samples {
+            let at = Sample {
+                samples: attachment.samples,
+                sample,
+                ..at
+            };
+            let worlds = self.worlds(at, passes, &mut Notes(None))?;
+            single.extend(worlds.iter().map(|w| w.cells[source].channels));
+            for (c, encoding) in encodings.iter().enumerate() {
+                let all = worlds.iter().map(|w| w.cells[source].channels[c]);
+                let Some(one) = all.reduce(CodeInterval::hull) else {
+                    continue;
+                };
+                hull[c] = Some(hull[c].map_or(one, |h| h.hull(one)));
+                let value = Judging::new(self.rules).decode(*encoding, one).float;
+                sum[c] = sum[c].corners(value, |a, b| a + b);
+            }
+        }
+        if attachment.format.is_integer() {
+            single.sort_unstable();
+            single.dedup();
+            notes.add(
+                || format!("after pass {}", passes - 1),
+                "resolve",
+                || format!("{} keeps one of its samples", attachment.name),
+                Some(self.rules.resolve.citation),
+            );
+            return Some(single);
+        }
+        let mut judging = Judging::new(self.rules);
+        let mut result = [CodeInterval::exact(0); 4];
+        for (c, encoding) in encodings.iter().enumerate() {
+            let between = hull[c].unwrap_or(CodeInterval::exact(0));
+            let count = f64::from(attachment.samples);
+            // The error is relative to the samples, of which the sum may be a small difference.
+            let values = [between.low, between.high].map(|o| encoding.value_of_order(o).abs());
+            let error = values[0].max(values[1]) * count * self.rules.float_error.value;
+            let average = sum[c].map_increasing(|v| v / count).widen(error);
+            let average = judging.encode(*encoding, Range::same(average));
+            result[c] = match self.rules.resolve.value {
+                _ if between.is_exact() && !encoding.is_float() => between,
+                Resolve::Between if encoding.is_float() => between.hull(average),
+                Resolve::Between => between,
+                Resolve::Average => average,
+            };
+        }
+        notes.add(
+            || format!("after pass {}", passes - 1),
+            "resolve",
+            || {
+                let text = encodings
+                    .iter()
+                    .zip(&result)
+                    .map(|(e, codes)| codes_text(*e, *codes))
+                    .collect::<Vec<_>>();
+                format!("{} gives {}", attachment.name, text.join(", "))
+            },
+            Some(self.rules.resolve.citation),
+        );
+        Some(vec![result])
+    }
+
+    pub(crate) fn initial(&self, at: Sample, notes: &mut Notes<'_>) -> World {
+        let mut judging = Judging::new(self.rules);
+        let cells = self
+            .scene
+            .attachments
+            .iter()
+            .enumerate()
+            .map(|(index, attachment)| {
+                let encodings = attachment.format.color_channels();
+                let mut cell = Cell {
+                    channels: [CodeInterval::exact(0); 4],
+                    stencil: 0,
+                    origin: None,
+                };
+                match &attachment.contents {
+                    Contents::Color(color) => {
+                        for (c, encoding) in encodings.iter().enumerate() {
+                            let value = judging.constant(color[c]);
+                            cell.channels[c] = judging.encode(*encoding, value);
+                        }
+                    }
+                    Contents::DepthStencil { depth, stencil } => {
+                        let value = judging.constant(*depth);
+                        cell.channels[0] = judging.encode(self.depth_encoding(index), value);
+                        cell.stencil = *stencil;
+                    }
+                    Contents::Texels(codes) if attachment.size == at.size => {
+                        let start =
+                            (at.y as usize * at.size[0] as usize + at.x as usize) * encodings.len();
+                        for (c, encoding) in encodings.iter().enumerate() {
+                            let order = encoding.order_of_code(codes[start + c]);
+                            cell.channels[c] = CodeInterval::exact(order);
+                        }
+                    }
+                    Contents::Texels(_) => {}
+                }
+                let text = || self.cell_text(index, &cell);
+                let how = match &attachment.contents {
+                    Contents::Texels(_) => "upload",
+                    _ => "clear",
+                };
+                let citation = match &attachment.contents {
+                    Contents::Texels(_) => None,
+                    _ => Some(self.rules.store.citation),
+                };
+                let name = || format!("attachment {}", attachment.name);
+                if (attachment.size, attachment.samples) == (at.size, at.samples) {
+                    notes.add(name, how, text, citation);
+                }
+                cell
+            })
+            .collect();
+        World {
+            cells,
+            decisions: SmallVec::new(),
+            events: SmallVec::new(),
+        }
+    }
+}

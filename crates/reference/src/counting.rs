@@ -1,0 +1,128 @@
+//! Counters: what the worlds of all samples leave of their values.
+
+use crate::rules::{Rules, SamplesCounted};
+use crate::world::{Event, World};
+use etalon_case::Scene;
+use etalon_frame::{CountRange, CounterKind, CounterSet};
+
+/// One counter over the texels walked so far, and over the samples of the texel at hand.
+#[derive(Clone, Debug)]
+struct Count {
+    low: u64,
+    /// `None` where nothing limits it.
+    high: Option<u64>,
+    /// Of this texel: certain events, summed over samples.
+    certain: u64,
+    /// Of this texel: possible events, summed over samples; `None` where a sample is open.
+    possible: Option<u64>,
+    /// Fragments of this texel of which some sample counts for certain, and for which any may.
+    must: Vec<(u32, u32)>,
+    may: Vec<(u32, u32)>,
+}
+
+/// Adds up what counts, texel by texel.
+pub(crate) struct Tally<'a> {
+    scene: &'a Scene,
+    rules: &'a Rules,
+    counts: Vec<Count>,
+}
+
+impl<'a> Tally<'a> {
+    pub(crate) fn new(scene: &'a Scene, rules: &'a Rules) -> Self {
+        let count = Count {
+            low: 0,
+            high: Some(0),
+            certain: 0,
+            possible: Some(0),
+            must: Vec::new(),
+            may: Vec::new(),
+        };
+        Self {
+            scene,
+            rules,
+            counts: vec![count; scene.counters.len()],
+        }
+    }
+
+    /// Adds the worlds of the next sample of the texel; none when it is open.
+    pub(crate) fn sample(&mut self, worlds: Option<&[World]>) {
+        for (index, count) in self.counts.iter_mut().enumerate() {
+            let Some(worlds) = worlds else {
+                count.possible = None;
+                continue;
+            };
+            let own = |world: &World| -> Vec<Event> {
+                let all = world.events.iter().copied();
+                all.filter(|e| usize::from(e.counter) == index).collect()
+            };
+            let each: Vec<Vec<Event>> = worlds.iter().map(own).collect();
+            let certain = |events: &Vec<Event>| events.iter().filter(|e| e.certain).count() as u64;
+            count.certain += each.iter().map(certain).min().unwrap_or(0);
+            let most = each.iter().map(|events| events.len() as u64).max();
+            count.possible = count.possible.map(|p| p + most.unwrap_or(0));
+            for event in each.iter().flatten() {
+                if !count.may.contains(&event.fragment) {
+                    count.may.push(event.fragment);
+                }
+                let sure = |events: &Vec<Event>| {
+                    let same = |e: &Event| e.certain && e.fragment == event.fragment;
+                    events.iter().any(same)
+                };
+                if !count.must.contains(&event.fragment) && each.iter().all(sure) {
+                    count.must.push(event.fragment);
+                }
+            }
+        }
+    }
+
+    /// Ends a texel of so many samples.
+    pub(crate) fn texel(&mut self, samples: u32) {
+        for (counter, count) in self.scene.counters.iter().zip(&mut self.counts) {
+            let (low, high) = match counter.kind {
+                CounterKind::SamplesPassed | CounterKind::AnySamplesPassed => {
+                    let all = count.may.len() as u64 * u64::from(samples);
+                    let high = match self.rules.samples_counted.value {
+                        SamplesCounted::Passing => count.possible,
+                        SamplesCounted::PassingOrAll => count.possible.map(|p| p.max(all)),
+                    };
+                    (count.certain, high)
+                }
+                // A shader may run more often than its fragments ask for, but not without one.
+                CounterKind::ShaderRuns => {
+                    let none = count.possible == Some(0);
+                    (count.must.len() as u64, none.then_some(0))
+                }
+                // Statistics are for comparing drivers with themselves (Vulkan, Pipeline Statistics
+                // Queries).
+                CounterKind::FragmentInvocations => (0, None),
+            };
+            count.low += low;
+            count.high = count.high.zip(high).map(|(a, b)| a + b);
+            (count.certain, count.possible) = (0, Some(0));
+            count.must.clear();
+            count.may.clear();
+        }
+    }
+
+    /// What is legal of each counter.
+    pub(crate) fn finish(self) -> impl Iterator<Item = CounterSet> + use<'a> {
+        let each = self.scene.counters.iter().zip(self.counts);
+        each.map(|(counter, count)| {
+            let range = CountRange {
+                low: count.low,
+                high: count.high,
+            };
+            CounterSet {
+                name: counter.name.clone(),
+                kind: counter.kind,
+                range: match counter.kind {
+                    CounterKind::AnySamplesPassed => CountRange {
+                        low: range.low.min(1),
+                        high: range.high.map(|high| high.min(1)),
+                    },
+                    _ => range,
+                },
+            }
+        })
+    }
+}

@@ -1,0 +1,66 @@
+//! Which pictures must be the same although the rules leave each of them open.
+
+use super::{Permission, Rules, permit};
+use etalon_case::Invariance;
+use etalon_frame::{Api, Band};
+
+impl Rules {
+    /// What a difference between two pictures means that only this change tells apart: a Fail where
+    /// the text requires them to be the same, Imprecise where it suggests it, nothing where it does
+    /// not. WebGPU is silent on all of it, so what both other texts require is required.
+    pub fn invariance(api: Api, change: Invariance) -> Permission<Option<Band>> {
+        use Invariance as By;
+        match (api, change) {
+            (Api::Vulkan, By::Repeat) => permit(
+                Some(Band::Fail),
+                "Vulkan: Invariance, Rule 1: the same commands on the same state give the same",
+            ),
+            (Api::Vulkan, By::Scissor | By::WriteMask | By::Contents) => permit(
+                Some(Band::Fail),
+                "Vulkan: Invariance, Rule 2: scissor parameters, write masks and attachment contents \
+                 have no side effects",
+            ),
+            (Api::Vulkan, By::Attachments) => permit(
+                Some(Band::Fail),
+                "Vulkan: Invariance, Corollary 2: images in different colour attachments of one \
+                 framebuffer are pixel identical",
+            ),
+            (Api::Vulkan, By::Translation) => permit(
+                None,
+                "Vulkan: Invariance: the translation rule of OpenGL does not apply",
+            ),
+            (Api::OpenGl | Api::OpenGlEs, By::Repeat) => permit(
+                Some(Band::Fail),
+                "OpenGL: Appendix A, Repeatability: the same command on the same state gives the same",
+            ),
+            (Api::OpenGl | Api::OpenGlEs, By::Scissor | By::WriteMask | By::Contents) => permit(
+                Some(Band::Fail),
+                "OpenGL: Appendix A, Rule 2: scissor parameters, write masks and framebuffer contents \
+                 have no side effects",
+            ),
+            (Api::OpenGl | Api::OpenGlEs, By::Attachments) => permit(
+                Some(Band::Fail),
+                "OpenGL: Appendix A, corollary: images rendered into different colour buffers are \
+                 pixel identical",
+            ),
+            (Api::OpenGl | Api::OpenGlEs, By::Translation) => permit(
+                Some(Band::Fail),
+                "OpenGL: 14.2 Invariance (ES 13.3): a primitive moved by whole window units gives the \
+                 same fragments, moved",
+            ),
+            (_, By::Parameters) => permit(
+                Some(Band::Imprecise),
+                "Vulkan: Invariance, Rule 2; OpenGL: Appendix A, Rule 2: strongly suggested for \
+                 stencil, depth and blend parameters",
+            ),
+            (Api::WebGpu, By::Translation) => permit(
+                None,
+                "WebGPU: silent on invariance; Vulkan does not promise it",
+            ),
+            (Api::WebGpu, _) => permit(
+                Some(Band::Fail),
+                "WebGPU: silent on invariance; Vulkan and OpenGL both require it",
+            ),
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Frames, or attachments of one frame, held against each other.
+
+use etalon_case::{Case, Relation};
+use etalon_frame::{Aspect, Band, ChannelMismatch, Frame, Image, WrongTexel};
+use etalon_record::MAX_WRONG_TEXELS;
+
+/// What a comparison found.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Found {
+    /// Samples compared.
+    pub(crate) compared: u64,
+    /// Samples that differ.
+    pub(crate) differences: u64,
+    /// What the first difference is a difference from.
+    pub(crate) between: String,
+    /// The first differing samples: the one side as what is due, the other as what came. Their band
+    /// is the worst until someone says otherwise.
+    pub(crate) wrong: Vec<WrongTexel>,
+}
+
+/// Holds a case's frames against each other as its relation asks.
+pub(crate) fn check(relation: &Relation, case: &Case, frames: &[Frame]) -> Found {
+    let mut found = Found::default();
+    if relation.attachments.is_empty() {
+        let Some((first, others)) = frames.split_first() else {
+            return found;
+        };
+        for (variant, frame) in case.variants.iter().zip(others) {
+            let between = format!("the scene in variant {}", variant.name);
+            for (due, came) in first.images.iter().zip(&frame.images) {
+                found.compare(relation, due, came, relation.offset, &between);
+            }
+        }
+        return found;
+    }
+    for frame in frames {
+        let names: Vec<&str> = relation
+            .attachments
+            .iter()
+            .map(|index| case.scene.attachments[*index].name.as_str())
+            .collect();
+        let of = |name: &str| -> Vec<&Image> {
+            let all = frame.images.iter();
+            all.filter(|image| image.attachment == name).collect()
+        };
+        let Some((first, others)) = names.split_first() else {
+            continue;
+        };
+        for other in others {
+            let between = format!("attachment {first} in attachment {other}");
+            for (due, came) in of(first).into_iter().zip(of(other)) {
+                found.compare(relation, due, came, [0, 0], &between);
+            }
+        }
+    }
+    found
+}
+
+impl Found {
+    fn compare(
+        &mut self,
+        relation: &Relation,
+        due: &Image,
+        came: &Image,
+        offset: [i32; 2],
+        between: &str,
+    ) {
+        let [left, top, width, height] =
+            relation.within.unwrap_or([0, 0, due.size[0], due.size[1]]);
+        let right = left.saturating_add(width).min(due.size[0]);
+        let bottom = top.saturating_add(height).min(due.size[1]);
+        for y in top..bottom {
+            for x in left..right {
+                let moved = [(x, offset[0]), (y, offset[1])].map(|(v, o)| v.checked_add_signed(o));
+                let [Some(to_x), Some(to_y)] = moved else {
+                    continue;
+                };
+                if to_x >= came.size[0] || to_y >= came.size[1] {
+                    continue;
+                }
+                for sample in 0..due.samples.min(came.samples) {
+                    self.compared += 1;
+                    let pair = (due.sample(x, y, sample), came.sample(to_x, to_y, sample));
+                    let channels = differing(relation, came, pair);
+                    if channels.is_empty() {
+                        continue;
+                    }
+                    self.differences += 1;
+                    if self.between.is_empty() {
+                        between.clone_into(&mut self.between);
+                    }
+                    if self.wrong.len() < MAX_WRONG_TEXELS {
+                        self.wrong.push(WrongTexel {
+                            x: to_x,
+                            y: to_y,
+                            sample,
+                            band: Band::Fail,
+                            channels,
+                        });
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The channels in which two samples differ, zeros of either sign being the same.
+fn differing(relation: &Relation, came: &Image, pair: (&[u32], &[u32])) -> Vec<ChannelMismatch> {
+    let mut result = Vec::new();
+    for (c, encoding) in came.channels.iter().enumerate() {
+        if came.aspect == Aspect::Color && relation.channels & (1 << c) == 0 {
+            continue;
+        }
+        let (due, actual) = (pair.0[c], pair.1[c]);
+        if encoding.order_of_code(due) != encoding.order_of_code(actual) {
+            result.push(ChannelMismatch {
+                attachment: came.attachment.clone(),
+                aspect: came.aspect,
+                channel: c as u8,
+                encoding: *encoding,
+                low: due,
+                high: due,
+                actual,
+            });
+        }
+    }
+    result
+}
