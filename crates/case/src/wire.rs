@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
 
 /// A case file. In `scene`, `judged_as` and `expect`, the string `"$name"` stands for the value of
 /// the axis or derived value of that name.
@@ -41,12 +42,15 @@ pub(crate) struct FileWire {
     pub(crate) expect: Value,
 }
 
-/// Which cases of a product the quick profile takes.
+/// Which cases of a product the quick profile takes: `"pairwise"` or `{ "each": n }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum QuickWire {
     /// So many that every two values of every two axes meet.
     Pairwise,
+    /// So many that every value of every axis stands in this many, beside different others: for
+    /// products of two long axes, of which pairs leave nothing out.
+    Each(NonZeroUsize),
 }
 
 /// One value of an axis: a string, number or boolean, or a named value of any kind.
