@@ -2,7 +2,7 @@
 
 use crate::draw::write_mask;
 use crate::error::{At, CaseError};
-use crate::pairwise;
+use crate::pairwise::{self, Cover};
 use crate::random;
 use crate::relation::Relation;
 use crate::resolve;
@@ -22,7 +22,8 @@ const MAX_CASES: usize = 1 << 20;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Profile {
     /// Of files that say `"quick": "pairwise"` so many cases that every two values of every two axes
-    /// meet; of all others everything.
+    /// meet, of those that say `"quick": { "each": 2 }` so many that every value stands in two; of
+    /// all others everything.
     #[default]
     Quick,
     /// Everything.
@@ -200,21 +201,22 @@ impl CaseFile {
     /// The cases of a profile, the last axis (in alphabetical order) varying fastest.
     pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
         let indices: Vec<usize> = match (profile, self.wire.quick) {
-            (Profile::Quick, Some(QuickWire::Pairwise)) => self.pairwise(),
+            (Profile::Quick, Some(QuickWire::Pairwise)) => self.covering(Cover::Pairs),
+            (Profile::Quick, Some(QuickWire::Each(n))) => self.covering(Cover::Each(n.get())),
             _ => (0..self.count).collect(),
         };
         let one = move |index| CaseRef { file: self, index };
         indices.into_iter().map(one)
     }
 
-    /// Places in the product of a pairwise covering array, ascending.
-    fn pairwise(&self) -> Vec<usize> {
+    /// Places in the product of a covering array's rows, ascending.
+    fn covering(&self, cover: Cover) -> Vec<usize> {
         let lengths: Vec<usize> = self.wire.axes.values().map(|axis| axis.len()).collect();
         let index = |row: &Vec<usize>| {
             let axes = row.iter().zip(&lengths);
             axes.fold(0, |index, (at, length)| index * length + at)
         };
-        let mut all: Vec<usize> = pairwise::rows(&lengths).iter().map(index).collect();
+        let mut all: Vec<usize> = pairwise::rows(&lengths, cover).iter().map(index).collect();
         all.sort_unstable();
         all
     }

@@ -1,105 +1,192 @@
-//! A pairwise covering array: few rows of a product in which every two values of every two axes
-//! meet.
+//! Covering arrays: few rows of a product in which every two values of every two axes meet, or in
+//! which every value stands a number of times.
 
 use std::collections::HashSet;
 
 /// Two values that meet: axis and position of the one, axis and position of the other.
 type Pair = (usize, usize, usize, usize);
 
-/// Rows over axes of these lengths, in which each pair of values of each two axes stands at least
-/// once: greedy and the same in every run. Two axes or fewer leave nothing out.
-pub(crate) fn rows(lengths: &[usize]) -> Vec<Vec<usize>> {
-    let mut open: HashSet<Pair> = HashSet::new();
-    let mut order: Vec<Pair> = Vec::new();
+/// What rows have to cover.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Cover {
+    /// Each pair of values of each two axes, at least once.
+    Pairs,
+    /// Each value this many times, or as often as the product allows.
+    Each(usize),
+}
+
+/// Rows over axes of these lengths that cover what is asked for, none of them twice: greedy and the
+/// same in every run. Values that follow from no pair are those used least, so that all stand
+/// about equally often and beside different others.
+pub(crate) fn rows(lengths: &[usize], cover: Cover) -> Vec<Vec<usize>> {
+    let mut state = State::new(lengths);
+    match cover {
+        Cover::Pairs if lengths.len() > 1 => {
+            for pair in pairs(lengths) {
+                if state.open.contains(&pair) {
+                    let (a, i, b, j) = pair;
+                    let row = state.row(&[(a, i), (b, j)]);
+                    state.take(row);
+                }
+            }
+        }
+        Cover::Pairs => state.each(1),
+        Cover::Each(times) => state.each(times),
+    }
+    state.rows
+}
+
+fn pairs(lengths: &[usize]) -> Vec<Pair> {
+    let mut all = Vec::new();
     for a in 0..lengths.len() {
         for b in a + 1..lengths.len() {
             for i in 0..lengths[a] {
-                order.extend((0..lengths[b]).map(|j| (a, i, b, j)));
+                all.extend((0..lengths[b]).map(|j| (a, i, b, j)));
             }
         }
     }
-    if order.is_empty() {
-        let alone = lengths.first().copied().unwrap_or(1);
-        return (0..alone).map(|i| vec![i; lengths.len()]).collect();
-    }
-    open.extend(&order);
-    let mut rows = Vec::new();
-    for pair in &order {
-        if !open.contains(pair) {
-            continue;
-        }
-        let row = row(lengths, &open, *pair);
-        for a in 0..lengths.len() {
-            for b in a + 1..lengths.len() {
-                open.remove(&(a, row[a], b, row[b]));
-            }
-        }
-        rows.push(row);
-    }
-    rows
+    all
 }
 
-/// A row that holds one pair and, axis by axis, the value that meets most open pairs; of equals the
-/// first.
-fn row(lengths: &[usize], open: &HashSet<Pair>, (a, i, b, j): Pair) -> Vec<usize> {
-    let mut row: Vec<Option<usize>> = vec![None; lengths.len()];
-    row[a] = Some(i);
-    row[b] = Some(j);
-    for axis in 0..lengths.len() {
-        if row[axis].is_some() {
-            continue;
+struct State<'a> {
+    lengths: &'a [usize],
+    open: HashSet<Pair>,
+    /// How often each value of each axis stands in a row.
+    used: Vec<Vec<usize>>,
+    rows: Vec<Vec<usize>>,
+}
+
+impl<'a> State<'a> {
+    fn new(lengths: &'a [usize]) -> Self {
+        Self {
+            lengths,
+            open: pairs(lengths).into_iter().collect(),
+            used: lengths.iter().map(|n| vec![0; *n]).collect(),
+            rows: Vec::new(),
         }
-        let met = |value: usize| {
-            let others = row.iter().enumerate();
-            others
-                .filter(|(other, at)| match at {
-                    Some(at) if *other < axis => open.contains(&(*other, *at, axis, value)),
-                    Some(at) => open.contains(&(axis, value, *other, *at)),
-                    None => false,
-                })
-                .count()
-        };
-        let (mut best, mut most) = (0, 0);
-        for value in 0..lengths[axis] {
-            let count = met(value);
-            if count > most {
-                (best, most) = (value, count);
+    }
+
+    /// Takes rows until each value stands in so many, or in all that there are.
+    fn each(&mut self, times: usize) {
+        if self.lengths.is_empty() {
+            self.rows.push(Vec::new());
+        }
+        for round in 1..=times {
+            for axis in 0..self.lengths.len() {
+                for value in 0..self.lengths[axis] {
+                    if self.used[axis][value] < round {
+                        let row = self.row(&[(axis, value)]);
+                        if !self.rows.contains(&row) {
+                            self.take(row);
+                        }
+                    }
+                }
             }
         }
-        row[axis] = Some(best);
     }
-    row.into_iter().map(|at| at.unwrap_or(0)).collect()
+
+    fn take(&mut self, row: Vec<usize>) {
+        for a in 0..row.len() {
+            self.used[a][row[a]] += 1;
+            for b in a + 1..row.len() {
+                self.open.remove(&(a, row[a], b, row[b]));
+            }
+        }
+        self.rows.push(row);
+    }
+
+    /// A row that holds these values and, axis by axis, the value that meets most open pairs; of
+    /// equals the one used least, of these the first from a place that differs by axis, so that two
+    /// axes with the same values do not always show the same one.
+    fn row(&self, fixed: &[(usize, usize)]) -> Vec<usize> {
+        let mut row: Vec<Option<usize>> = vec![None; self.lengths.len()];
+        for (axis, value) in fixed {
+            row[*axis] = Some(*value);
+        }
+        for axis in 0..self.lengths.len() {
+            if row[axis].is_some() {
+                continue;
+            }
+            let met = |value: usize| {
+                let others = row.iter().enumerate();
+                let open = others.filter(|(other, at)| match at {
+                    Some(at) if *other < axis => self.open.contains(&(*other, *at, axis, value)),
+                    Some(at) => self.open.contains(&(axis, value, *other, *at)),
+                    None => false,
+                });
+                open.count()
+            };
+            let length = self.lengths[axis];
+            let values = (0..length).map(|i| (i + axis) % length);
+            let best = values.min_by_key(|v| (usize::MAX - met(*v), self.used[axis][*v]));
+            row[axis] = best;
+        }
+        row.into_iter().map(|at| at.unwrap_or(0)).collect()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn every_two_values_of_every_two_axes_meet() {
-        for lengths in [
+    fn shapes() -> Vec<Vec<usize>> {
+        vec![
             vec![],
             vec![7],
             vec![3, 4],
             vec![2, 2, 2],
             vec![5, 1, 19, 19],
             vec![8, 3, 2, 6, 4],
-        ] {
-            let rows = rows(&lengths);
-            assert_eq!(rows, super::rows(&lengths), "the same in every run");
+        ]
+    }
+
+    #[test]
+    fn every_two_values_of_every_two_axes_meet() {
+        for lengths in shapes() {
+            let rows = rows(&lengths, Cover::Pairs);
+            assert_eq!(rows, super::rows(&lengths, Cover::Pairs), "always the same");
             for a in 0..lengths.len() {
                 assert!((0..lengths[a]).all(|i| rows.iter().any(|r| r[a] == i)));
-                for b in a + 1..lengths.len() {
-                    for (i, j) in (0..lengths[a]).flat_map(|i| (0..lengths[b]).map(move |j| (i, j)))
-                    {
-                        let found = rows.iter().any(|r| r[a] == i && r[b] == j);
-                        assert!(found, "{lengths:?}: {i} and {j} of axes {a} and {b}");
-                    }
-                }
+            }
+            for (a, i, b, j) in pairs(&lengths) {
+                let found = rows.iter().any(|r| r[a] == i && r[b] == j);
+                assert!(found, "{lengths:?}: {i} and {j} of axes {a} and {b}");
             }
             let all: usize = lengths.iter().product();
             assert!(rows.len() <= all, "{lengths:?}: {} of {all}", rows.len());
         }
-        assert!(rows(&[8, 3, 2, 6, 4]).len() < 100, "of 1152");
+        assert!(rows(&[8, 3, 2, 6, 4], Cover::Pairs).len() < 100, "of 1152");
+    }
+
+    #[test]
+    fn every_value_stands_as_often_as_is_asked() {
+        for lengths in shapes() {
+            let all: usize = lengths.iter().product();
+            for times in [1, 2, 3, 100] {
+                let rows = rows(&lengths, Cover::Each(times));
+                let distinct: HashSet<_> = rows.iter().collect();
+                assert_eq!(distinct.len(), rows.len(), "{lengths:?}: a row comes twice");
+                for (axis, length) in lengths.iter().enumerate() {
+                    for value in 0..*length {
+                        let found = rows.iter().filter(|r| r[axis] == value).count();
+                        // A value of one axis meets no more than all of the others.
+                        let due = times.min(all / length).min(3);
+                        assert!(
+                            found >= due,
+                            "{lengths:?}: value {value} of axis {axis} stands {found} times"
+                        );
+                    }
+                }
+            }
+            let longest = lengths.iter().max().copied().unwrap_or(1);
+            assert!(rows(&lengths, Cover::Each(1)).len() <= longest + 1);
+        }
+    }
+
+    #[test]
+    fn axes_of_one_length_do_not_go_in_step() {
+        let rows = rows(&[8, 8], Cover::Each(1));
+        assert_eq!(rows.len(), 8);
+        assert!(rows.iter().all(|r| r[0] != r[1]), "{rows:?}");
     }
 }

@@ -13,6 +13,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
 
 /// A case file. In `scene`, `judged_as` and `expect`, the string `"$name"` stands for the value of
 /// the axis or derived value of that name.
@@ -99,12 +100,15 @@ pub(crate) struct RelationWire {
     pub(crate) attachments: Vec<String>,
 }
 
-/// Which cases of a product the quick profile takes.
+/// Which cases of a product the quick profile takes: `"pairwise"` or `{ "each": n }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum QuickWire {
     /// So many that every two values of every two axes meet.
     Pairwise,
+    /// So many that every value of every axis stands in this many, beside different others: for
+    /// products of two long axes, of which pairs leave nothing out.
+    Each(NonZeroUsize),
 }
 
 /// The values of an axis: a list, or so many integers from one on.

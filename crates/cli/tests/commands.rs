@@ -5,6 +5,7 @@ use assert_cmd::Command;
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty, starts_with};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -41,8 +42,8 @@ fn cases_folder() -> PathBuf {
 
 #[test]
 fn list_names_every_case_once_and_readably() {
-    let ids = lines(&["list"]);
-    assert!(ids.len() >= 1500, "{}", ids.len());
+    let ids = lines(&["list", "--profile", "full"]);
+    assert!(ids.len() >= 8000, "{}", ids.len());
     for id in &ids {
         let fine = |b: u8| b.is_ascii_alphanumeric() || b"/=-_.+".contains(&b);
         assert!(id.bytes().all(fine), "`{id}`");
@@ -52,7 +53,30 @@ fn list_names_every_case_once_and_readably() {
     unique.dedup();
     assert_eq!(unique.len(), ids.len());
     let folder = cases_folder();
-    assert_eq!(lines(&["list", "--cases", folder.to_str().unwrap()]), ids);
+    let folder = folder.to_str().unwrap();
+    let read = lines(&["list", "--profile", "full", "--cases", folder]);
+    assert_eq!(read, ids);
+}
+
+#[test]
+fn the_quick_profile_is_a_small_part_of_every_area() {
+    let quick = lines(&["list"]);
+    assert_eq!(lines(&["list", "--profile", "quick"]), quick);
+    assert!(quick.len() <= 1500, "{}", quick.len());
+    let full = lines(&["list", "--profile", "full"]);
+    assert!(
+        quick.len() * 5 < full.len(),
+        "{} of {}",
+        quick.len(),
+        full.len()
+    );
+    let known: BTreeSet<&String> = full.iter().collect();
+    assert!(quick.iter().all(|id| known.contains(id)));
+    let areas = |ids: &[String]| -> BTreeSet<String> {
+        let first = ids.iter().filter_map(|id| id.split('/').next());
+        first.map(str::to_owned).collect()
+    };
+    assert_eq!(areas(&quick), areas(&full));
 }
 
 #[test]

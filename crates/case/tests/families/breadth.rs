@@ -32,6 +32,8 @@ fn families_over_formats_leave_none_out() {
         // Existing families blend and mask rgba8unorm.
         ("blend/formats/", 12),
         ("blend/write-mask-formats/", 12),
+        ("blend/factors-formats/", 12),
+        ("blend/order-formats/", 12),
         ("selftest/format-clear/", 12),
     ];
     for (family, due) in families {
@@ -65,7 +67,12 @@ fn multisample_cases_read_every_sample_of_every_count() {
 
 #[test]
 fn the_second_source_weighs_alpha_by_other_factors_than_colour() {
-    let cases = all_cases("blend/dual-source/");
+    let mut cases = all_cases("blend/dual-source/");
+    // Both sides of the equation by a factor of the second source, and each side beside all others.
+    let source = all_cases("blend/dual-source-weighs-source/");
+    let destination = all_cases("blend/dual-source-weighs-destination/");
+    assert_eq!((source.len(), destination.len()), (4 * 19 * 5, 15 * 4 * 5));
+    cases.extend(source.into_iter().chain(destination));
     let mut factors = BTreeSet::new();
     for case in &cases {
         let draw = &case.scene.passes[0].draws[0];

@@ -4,7 +4,7 @@
 
 use etalon_case::scene::{Draw, StencilFace};
 use etalon_case::state::{
-    BlendComponent, BlendFactor, CompareFunction, CullMode, StencilOperation,
+    BlendComponent, BlendFactor, CompareFunction, CullMode, Shader, StencilOperation,
 };
 use etalon_case::{Case, Library, Profile};
 use etalon_frame::TextureFormat;
@@ -38,11 +38,13 @@ fn every_area_holds_its_cases() {
         *counts.entry(area).or_insert(0) += 1;
     }
     let due = [
-        ("depth", 230),
-        ("stencil", 876),
-        ("blend", 1363),
-        ("cull", 41),
-        ("selftest", 48),
+        ("depth", 1000),
+        ("stencil", 3300),
+        ("blend", 2900),
+        ("cull", 190),
+        ("multisample", 1200),
+        ("scissor", 130),
+        ("selftest", 86),
     ];
     for (area, least) in due {
         let count = counts.get(area).copied().unwrap_or(0);
@@ -51,7 +53,26 @@ fn every_area_holds_its_cases() {
             "{area}: {count} cases, {least} are promised"
         );
     }
-    assert!(counts.values().sum::<i32>() >= 3750);
+    assert!(counts.values().sum::<i32>() >= 8900);
+}
+
+#[test]
+fn the_quick_profile_takes_some_of_every_file() {
+    let library = Library::built_in().expect("built-in files parse");
+    let mut all = 0;
+    for file in library.files() {
+        let full: BTreeSet<String> = file.cases(Profile::Full).map(|c| c.id()).collect();
+        let quick: Vec<String> = file.cases(Profile::Quick).map(|c| c.id()).collect();
+        assert!(!quick.is_empty(), "{}", file.name());
+        assert!(quick.iter().all(|id| full.contains(id)), "{}", file.name());
+        // Each value of each axis stands in one of them.
+        let parts = |id: &str| -> Vec<String> { id.split('/').map(str::to_owned).collect() };
+        let due: BTreeSet<String> = full.iter().flat_map(|id| parts(id)).collect();
+        let met: BTreeSet<String> = quick.iter().flat_map(|id| parts(id)).collect();
+        assert_eq!(met, due, "{}", file.name());
+        all += quick.len();
+    }
+    assert!(all <= 1500, "{all} cases are not quick");
 }
 
 #[test]
@@ -154,12 +175,25 @@ fn alpha_is_never_blended_as_colour_is() {
 
 #[test]
 fn stencil_operations_take_every_path_from_every_stored_value() {
-    let cases = cases("stencil/operations/");
-    assert_eq!(cases.len(), 512);
+    every_triple_takes_every_path(&cases("stencil/operations/"), 512);
+    let both = cases("stencil/two-sided/");
+    for winding in ["ccw", "cw"] {
+        let part = format!("/front_face={winding}/");
+        let half: Vec<Case> = both
+            .iter()
+            .filter(|c| c.id.contains(&part))
+            .cloned()
+            .collect();
+        every_triple_takes_every_path(&half, 512);
+    }
+}
+
+fn every_triple_takes_every_path(cases: &[Case], due: usize) {
+    assert_eq!(cases.len(), due);
     let key = |f: &StencilFace| (f.fail_op, f.depth_fail_op, f.pass_op);
     let mut front = BTreeSet::new();
     let mut back = BTreeSet::new();
-    for case in &cases {
+    for case in cases {
         let tested = case.scene.passes[0].draws.last().expect("draws");
         let stencil = tested.stencil.expect("the family tests stencil");
         let (f, b) = (key(&stencil.front), key(&stencil.back));
@@ -196,8 +230,8 @@ fn stencil_operations_take_every_path_from_every_stored_value() {
             }
         }
     }
-    assert_eq!(front.len(), 512);
-    assert_eq!(back.len(), 512);
+    assert_eq!(front.len(), due);
+    assert_eq!(back.len(), due);
 }
 
 #[test]
@@ -245,7 +279,11 @@ fn every_other_compare_shows(case: &Case, compare: fn(&mut Draw) -> &mut Compare
 
 #[test]
 fn a_wrong_bit_of_a_stencil_write_mask_shows() {
-    for case in cases("stencil/write-mask/") {
+    let families = ["stencil/write-mask/", "stencil/two-sided/"];
+    for case in families.into_iter().flat_map(cases) {
+        if case.id.starts_with("stencil/two-sided/") && case.id.contains("keep") {
+            continue;
+        }
         let right = plain(&case.scene);
         for bit in 0..8 {
             let mut wrong = case.scene.clone();
@@ -313,7 +351,13 @@ fn most_codes(a: &Plain, b: &Plain) -> f64 {
 
 #[test]
 fn exchanged_stencil_faces_show() {
-    for family in ["operations", "faces", "separate-faces"] {
+    for family in [
+        "operations",
+        "operations-without-depth",
+        "two-sided",
+        "faces",
+        "separate-faces",
+    ] {
         for case in cases(&format!("stencil/{family}/")) {
             let mut exchanged = case.scene.clone();
             for draw in &mut exchanged.passes[0].draws {
@@ -349,7 +393,9 @@ fn textbook_values_are_what_the_equations_give() {
 #[test]
 fn culling_shows_each_face_alone() {
     for case in cases("cull/") {
-        let draw = &case.scene.passes[0].draws[0];
+        let drawn = case.scene.passes[0].draws.iter();
+        let mut tested = drawn.filter(|d| d.shader == Shader::FrontFacing);
+        let draw = tested.next().expect("the area shows faces");
         let frame = plain(&case.scene);
         let colors = &frame[case.scene.passes[0].color[0]].color;
         let shows = |color: [f32; 4]| colors.contains(&color.map(f64::from));

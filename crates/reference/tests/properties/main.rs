@@ -3,6 +3,7 @@
 
 mod arithmetic;
 mod common;
+mod families;
 mod frames;
 mod golden;
 mod scenes;
