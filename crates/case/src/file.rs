@@ -203,6 +203,7 @@ impl CaseFile {
         let indices: Vec<usize> = match (profile, self.wire.quick) {
             (Profile::Quick, Some(QuickWire::Pairwise)) => self.covering(Cover::Pairs),
             (Profile::Quick, Some(QuickWire::Each(n))) => self.covering(Cover::Each(n.get())),
+            (Profile::Quick, Some(QuickWire::First(n))) => (0..self.count.min(n.get())).collect(),
             _ => (0..self.count).collect(),
         };
         let one = move |index| CaseRef { file: self, index };

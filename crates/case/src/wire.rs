@@ -100,7 +100,7 @@ pub(crate) struct RelationWire {
     pub(crate) attachments: Vec<String>,
 }
 
-/// Which cases of a product the quick profile takes: `"pairwise"` or `{ "each": n }`.
+/// Which cases of a product the quick profile takes: `"pairwise"`, `{ "each": n }` or `{ "first": n }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum QuickWire {
@@ -109,6 +109,8 @@ pub(crate) enum QuickWire {
     /// So many that every value of every axis stands in this many, beside different others: for
     /// products of two long axes, of which pairs leave nothing out.
     Each(NonZeroUsize),
+    /// So many from the first on: for seeds, of which one is as good as another.
+    First(NonZeroUsize),
 }
 
 /// The values of an axis: a list, or so many integers from one on.

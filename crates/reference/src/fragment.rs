@@ -65,8 +65,19 @@ impl Walk<'_> {
         let own_depth = place.primitive.depth_at(place.point);
         let covered = self.covered_after_shading(place, &output, notes);
         let mut world = world;
+        // A masked sample asks for no run of the shader.
+        let masked = draw.multisample.mask & (1 << place.at.sample) == 0;
         if draw.early_tests == EarlyTests::Forced {
             let incoming = self.in_range(place, own_depth, Source::Own);
+            if masked {
+                // The sample mask comes before all tests; its order against counting alone is open.
+                let outcomes = self.tests(place, world.clone(), front, incoming, notes);
+                if outcomes.iter().any(|(_, passes)| *passes) {
+                    self.count(place, &mut world, false, |_| true);
+                }
+                result.push(world);
+                return;
+            }
             for (outcome, passes) in self.tests(place, world.clone(), front, incoming, notes) {
                 if passes {
                     let worlds = [&world, &outcome];
@@ -77,9 +88,7 @@ impl Walk<'_> {
             }
             return;
         }
-        // A masked sample asks for no run of the shader.
-        let asked = place.draw.multisample.mask & (1 << place.at.sample) != 0;
-        self.count(place, &mut world, asked, |kind| {
+        self.count(place, &mut world, !masked, |kind| {
             kind == CounterKind::ShaderRuns
         });
         let (can, must) = covered;
@@ -195,9 +204,8 @@ impl Walk<'_> {
         result: &mut SmallVec<[World; 2]>,
         notes: &mut Notes<'_>,
     ) {
-        let masked = place.draw.multisample.mask & (1 << place.at.sample) == 0;
         let mut passed = tested.clone();
-        self.count(place, &mut passed, !masked, |kind| {
+        self.count(place, &mut passed, true, |kind| {
             kind == CounterKind::ShaderRuns
         });
         if can {
@@ -216,15 +224,12 @@ impl Walk<'_> {
             || "the fragment goes away after its tests".to_owned(),
             Some(self.rules.early_updates.citation),
         );
-        let counted = self.rules.early_counts.value == EarlyUpdates::Happen && !masked;
+        let counted = self.rules.early_counts.value == EarlyUpdates::Happen;
         self.count(place, &mut passed, counted, CounterKind::is_occlusion);
-        // The sample mask comes before all tests; only its order against counting is open.
-        if !masked {
-            let mut updated = passed.clone();
-            self.write_depth(place, &mut updated, incoming, notes);
-            result.push(updated);
-        }
-        if masked || self.rules.early_updates.value == EarlyUpdates::Either {
+        let mut updated = passed.clone();
+        self.write_depth(place, &mut updated, incoming, notes);
+        result.push(updated);
+        if self.rules.early_updates.value == EarlyUpdates::Either {
             // As if the fragment had never been tested, but for what it counted.
             let mut untouched = before.clone();
             untouched.events = passed.events;
