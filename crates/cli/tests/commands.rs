@@ -64,7 +64,12 @@ fn the_quick_profile_is_a_small_part_of_every_area() {
     assert_eq!(lines(&["list", "--profile", "quick"]), quick);
     assert!(quick.len() <= 1500, "{}", quick.len());
     let full = lines(&["list", "--profile", "full"]);
-    assert!(quick.len() * 5 < full.len(), "{} of {}", quick.len(), full.len());
+    assert!(
+        quick.len() * 5 < full.len(),
+        "{} of {}",
+        quick.len(),
+        full.len()
+    );
     let known: BTreeSet<&String> = full.iter().collect();
     assert!(quick.iter().all(|id| known.contains(id)));
     let areas = |ids: &[String]| -> BTreeSet<String> {

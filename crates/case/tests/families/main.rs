@@ -179,7 +179,11 @@ fn stencil_operations_take_every_path_from_every_stored_value() {
     let both = cases("stencil/two-sided/");
     for winding in ["ccw", "cw"] {
         let part = format!("/front_face={winding}/");
-        let half: Vec<Case> = both.iter().filter(|c| c.id.contains(&part)).cloned().collect();
+        let half: Vec<Case> = both
+            .iter()
+            .filter(|c| c.id.contains(&part))
+            .cloned()
+            .collect();
         every_triple_takes_every_path(&half, 512);
     }
 }
