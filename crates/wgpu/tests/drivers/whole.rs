@@ -1,4 +1,4 @@
-//! Every case, and what validation says of all that is drawn here.
+//! Every quick case, and what validation says of all that is drawn here.
 
 use crate::scenes::{
     depth_formats_store_what_is_written, passes_keep_contents, stencil_without_depth,
@@ -12,7 +12,7 @@ use etalon_wgpu::WgpuBackend;
 fn run_all(backend: &WgpuBackend) {
     let library = Library::built_in().expect("the built-in cases parse");
     let mut ran = 0;
-    for case in library.cases(Profile::Full) {
+    for case in library.cases(Profile::Quick) {
         let case = case.build().expect("a built-in case builds");
         let requirements = case.scene.requirements();
         if backend.limits().missing(&requirements).is_some() {
