@@ -152,6 +152,10 @@ proptest! {
                     (found.texels.wrong, found.texels.imprecise), (0, 0),
                     "{} {:?}", api, found.wrong
                 );
+                prop_assert!(
+                    found.counters.iter().all(|c| c.band.is_none()),
+                    "{} {:?}", api, found.counters
+                );
             }
         }
     }

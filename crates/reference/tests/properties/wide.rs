@@ -234,6 +234,16 @@ fn draw(ground: Ground) -> BoxedStrategy<String> {
             ("flat_color_depth", ""),
             ("frag_coord_depth", ""),
             ("sample_index", ""),
+            ("sample_depth", ""),
+            ("counted_color", r#","counters":["runs","passed"]"#),
+            (
+                "counted_discard",
+                r#","textures":["source"],"counters":["passed","runs"]"#,
+            ),
+            (
+                "texel_discard",
+                r#","textures":["source"],"counters":["any"]"#,
+            ),
             ("front_facing", ""),
             ("texel_color", r#","textures":["source"]"#),
             ("texel_dual_source", r#","textures":["source","second"]"#),
@@ -250,6 +260,10 @@ fn draw(ground: Ground) -> BoxedStrategy<String> {
                 9 => Just(""),
                 1 => Just(r#","rasterizer_discard":true"#)
             ];
+            let early = prop_oneof![
+                3 => Just(""),
+                1 => Just(r#","early_tests":"forced""#)
+            ];
             let cull = prop_oneof![3 => Just(CullMode::None), 2 => select(CullMode::ALL)];
             (
                 mesh(),
@@ -259,16 +273,16 @@ fn draw(ground: Ground) -> BoxedStrategy<String> {
                 maybe(true, colors(ground, shader == "texel_dual_source")),
                 raster(ground, written),
                 maybe(ground.samples > 1, multisample()),
-                (cull, select(FrontFace::ALL), outline, thrown),
+                (cull, select(FrontFace::ALL), outline, thrown, early),
             )
                 .prop_map(
                     move |((topology, mesh), [color, back], depth, stencil, colors, raster, samples, state)| {
-                        let (cull, front, outline, thrown) = state;
+                        let (cull, front, outline, thrown, early) = state;
                         // Edges that are drawn twice are blended twice, or not: opaque only.
                         let opaque = outline.is_empty() || !colors.contains("blend");
                         let outline = if opaque { outline } else { "" };
                         format!(
-                            r#"{{"mesh":{mesh},"topology":"{topology}","shader":"{shader}"{textures},"params":{{"color":{color},"back_color":{back}}},"cull":"{}","front_face":"{}"{outline}{thrown}{depth}{stencil}{colors}{raster}{samples}}}"#,
+                            r#"{{"mesh":{mesh},"topology":"{topology}","shader":"{shader}"{textures},"params":{{"color":{color},"back_color":{back}}},"cull":"{}","front_face":"{}"{outline}{thrown}{early}{depth}{stencil}{colors}{raster}{samples}}}"#,
                             cull.name(),
                             front.name()
                         )
@@ -341,6 +355,7 @@ pub(crate) fn body() -> BoxedStrategy<String> {
 "second":{{"format":"rgba32float","size":[{w},{h}],"texels":{{"kind":"columns","values":{second}}}}},
 "source":{{"format":"rgba32float","size":[{w},{h}],"texels":{{"kind":"columns","values":{first}}}}}}},
 "passes":[{{"color":[{names}],"resolve":[{resolved}],"depth_stencil":"depth","draws":{draws}}}],
+"counters":{{"any":"any-samples-passed","passed":"samples-passed","runs":"shader-runs"}},
 "read":[{},"depth"]}}"#,
                         read.join(",")
                     )

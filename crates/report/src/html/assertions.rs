@@ -2,7 +2,7 @@
 
 use super::percent;
 use crate::grid::Grid;
-use etalon_frame::Aspect;
+use etalon_frame::{Aspect, CounterKind};
 use etalon_record::Assertion;
 use maud::{Markup, html};
 use std::collections::BTreeMap;
@@ -48,7 +48,45 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
                         }
                     }
                 } }
+                (counters(grid))
             }
+        }
+    }
+}
+
+/// How many counters were read back, of how many something was asserted, and of how many exactly one
+/// value was legal: per area and kind, over all adapters.
+fn counters(grid: &Grid<'_>) -> Markup {
+    let mut rows: BTreeMap<(usize, CounterKind), [u64; 3]> = BTreeMap::new();
+    for area in 0..grid.areas.len() {
+        for column in 0..grid.adapters.len() {
+            for index in grid.areas[area].on(column) {
+                for counter in &grid.record(index).counters {
+                    let row = rows.entry((area, counter.kind)).or_default();
+                    row[0] += 1;
+                    row[1] += u64::from(counter.is_asserted());
+                    row[2] += u64::from(counter.range().is_exact());
+                }
+            }
+        }
+    }
+    html! {
+        @if !rows.is_empty() {
+            div.wide { table.figures {
+                caption { "Counters, over all adapters" }
+                thead { tr { th { "Area" } th { "Counts" } th { "Read back" } th { "Asserted" } th { "Exact" } } }
+                tbody {
+                    @for ((area, kind), [all, asserted, exact]) in &rows {
+                        tr {
+                            th scope="row" { (grid.areas[*area].name) }
+                            td { (kind.name()) }
+                            td.num { (thousands(*all)) }
+                            td.num { (percent(*asserted as f64 / (*all).max(1) as f64)) }
+                            td.num { (percent(*exact as f64 / (*all).max(1) as f64)) }
+                        }
+                    }
+                }
+            } }
         }
     }
 }

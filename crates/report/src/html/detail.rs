@@ -4,7 +4,7 @@ use crate::picture;
 use crate::words::{
     allowed, channel_of, code_and_value, code_text, count, multisampled, place, value_text,
 };
-use etalon_frame::{Band, ChannelMismatch, Story, WrongTexel};
+use etalon_frame::{Band, ChannelMismatch, CounterOutcome, Story, WrongTexel};
 use etalon_record::{FrameFile, Record, Run};
 use maud::{Markup, html};
 use std::path::Path;
@@ -38,6 +38,7 @@ pub(crate) fn body(folder: &Path, record: &Record, budget: &mut Budget) -> Marku
             Some((path, Err(error))) => p.note { "No pictures: " (path) ": " (error) },
             None => {},
         }
+        @if !record.counters.is_empty() { (counters(record)) }
         @if !record.wrong.is_empty() { (texels(record)) }
         @if let Some(story) = &record.story { (tell(story, record)) }
         p.again {
@@ -64,6 +65,41 @@ fn counts(record: &Record) -> String {
         t.imprecise,
         t.open
     )
+}
+
+fn counters(record: &Record) -> Markup {
+    html! {
+        div.wide { table.figures {
+            caption { "Counters" }
+            thead { tr { th { "Counter" } th { "Counts" } th { "Legal" } th { "Came" } th { "Verdict" } } }
+            tbody {
+                @for counter in &record.counters {
+                    tr {
+                        th scope="row" { (counter.name) }
+                        td { (counter.kind.name()) }
+                        td.num { (legal(counter)) }
+                        td.num { (counter.actual) }
+                        td {
+                            @match counter.band {
+                                Some(Band::Fail) => "✗ illegal",
+                                Some(Band::Imprecise) => "• outside the yardstick",
+                                None if counter.is_asserted() => "legal",
+                                None => "nothing is asserted",
+                            }
+                        }
+                    }
+                }
+            }
+        } }
+    }
+}
+
+fn legal(counter: &CounterOutcome) -> String {
+    match counter.high {
+        Some(high) if high == counter.low => high.to_string(),
+        Some(high) => format!("{} to {high}", counter.low),
+        None => format!("{} or more", counter.low),
+    }
 }
 
 fn pictures(frame: &FrameFile, budget: &mut Budget) -> Markup {
