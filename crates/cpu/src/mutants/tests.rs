@@ -13,7 +13,14 @@ fn draw(backend: &dyn Backend, case: &Case) -> Frame {
 
 #[test]
 fn every_mutant_is_named_explained_and_sourced() {
-    let areas = ["depth", "stencil", "blend", "cull"];
+    let areas = [
+        "depth",
+        "stencil",
+        "blend",
+        "cull",
+        "multisample",
+        "scissor",
+    ];
     let mut names = HashSet::new();
     assert!(mutants().len() >= 150, "{}", mutants().len());
     for mutant in mutants() {
