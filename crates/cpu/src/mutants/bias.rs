@@ -3,6 +3,7 @@
 use super::hooks::{bias, bias_unit, biases_lines, bounds_fail_as_depth, held_to_range, in_bounds};
 use super::plant::{Plant, draws, in_bits, scene};
 use super::{CONFUSION, List, Row, SMALL};
+use crate::steps::{Faithful, Steps};
 use etalon_case::scene::{Draw, Pass};
 use etalon_case::state::{DepthBias, PolygonMode, StencilOperation};
 use etalon_frame::ChannelEncoding;
@@ -92,19 +93,19 @@ fn biases(list: &mut List) {
         "negative-lost",
         CONFUSION,
         "Biases below 0 count nothing.",
-        bias(|state, unit, slope| right(state, unit, slope).max(0.0)),
+        bias(|state, unit, slope| Faithful.bias(state, unit, slope).max(0.0)),
     );
     list.add(
         "sign-lost",
         CONFUSION,
         "Biases below 0 count upwards.",
-        bias(|state, unit, slope| right(state, unit, slope).abs()),
+        bias(|state, unit, slope| Faithful.bias(state, unit, slope).abs()),
     );
     list.add(
         "constant-in-whole-depths",
         CONFUSION,
         "The constant is moved by 1 of the depth's range and not by its least step.",
-        bias(|state, _, slope| right(state, 1.0, slope)),
+        bias(|state, _, slope| Faithful.bias(state, 1.0, slope)),
     );
     list.add(
         "applied-to-lines",
@@ -124,72 +125,75 @@ fn biases(list: &mut List) {
     );
 }
 
-/// The bias as it should be.
-fn right(state: &DepthBias, unit: f64, slope: f64) -> f64 {
-    let sum = f64::from(state.constant) * unit + f64::from(state.slope) * slope;
-    match f64::from(state.clamp) {
-        clamp if clamp > 0.0 => sum.min(clamp),
-        clamp if clamp < 0.0 => sum.max(clamp),
-        _ => sum,
-    }
-}
+/// Steps that the text allows: twice as large on fixed-point depth, half as large on floats.
+const LEGAL_STEPS: [&str; 3] = [
+    "d16-step-of-15-bits",
+    "d24-step-of-23-bits",
+    "float-step-halved",
+];
+const STEP: &str = "Vulkan: Depth Bias: r is at most 2 * 2^-n for fixed point, and 2^(e-n) for floats, \
+                    whose n may count the hidden bit";
 
 fn units(list: &mut List) {
-    let of = |encoding: ChannelEncoding, largest: f64| match encoding {
-        ChannelEncoding::Unorm(bits) => 2_f64.powi(-i32::from(bits)),
-        _ => 2_f64.powi(largest.max(f64::from(f32::MIN_POSITIVE)).log2().floor() as i32 - 23),
-    };
-    for bits in [15, 17, 24] {
-        list.add(
-            &format!("d16-step-of-{bits}-bits"),
-            "v3d: D16 units",
-            format!("On 16-bit depth, a step is that of {bits} bits."),
-            bias_unit(move |encoding, largest| match encoding {
-                ChannelEncoding::Unorm(16) => 2_f64.powi(-bits),
-                _ => of(encoding, largest),
-            }),
-        );
-    }
-    for bits in [16, 23, 25, 32] {
-        list.add(
-            &format!("d24-step-of-{bits}-bits"),
-            "v3d: D16 units",
-            format!("On 24-bit depth, a step is that of {bits} bits."),
-            bias_unit(move |encoding, largest| match encoding {
-                ChannelEncoding::Unorm(24) => 2_f64.powi(-bits),
-                _ => of(encoding, largest),
-            }),
-        );
-    }
-    for (name, about, exponent) in [
-        ("of-24-bits", "that of 24 bits", -24),
-        ("of-1", "that of depth 1", -23),
-        ("of-16-bits", "that of 16 bits", -16),
-    ] {
-        list.add(
-            &format!("float-step-{name}"),
-            "SwiftShader: bias unscaled by exponent",
-            format!("On float depth, a step is {about} for every depth."),
-            bias_unit(move |encoding, largest| match encoding {
-                ChannelEncoding::Float32 => 2_f64.powi(exponent),
-                _ => of(encoding, largest),
-            }),
-        );
-    }
-    for (name, about, factor) in [
-        ("halved", "half as large", 0.5),
-        ("doubled", "twice as large", 2.0),
-        ("quadrupled", "four times as large", 4.0),
-    ] {
-        list.add(
-            &format!("float-step-{name}"),
-            "SwiftShader: bias unscaled by exponent",
-            format!("On float depth, a step is {about}."),
-            bias_unit(move |encoding, largest| match encoding {
-                ChannelEncoding::Float32 => of(encoding, largest) * factor,
-                _ => of(encoding, largest),
-            }),
-        );
+    use ChannelEncoding::{Float32, Unorm};
+    // The bug gets the right step. The powers of two are those of 15, 16, 17, 23, 24 and 32 bits.
+    type Step = (&'static str, ChannelEncoding, &'static str, fn(f64) -> f64);
+    let steps: [Step; 13] = [
+        ("d16-step-of-15-bits", Unorm(16), "that of 15 bits", |r| {
+            r * 2.0
+        }),
+        ("d16-step-of-14-bits", Unorm(16), "that of 14 bits", |r| {
+            r * 4.0
+        }),
+        ("d16-step-of-17-bits", Unorm(16), "that of 17 bits", |r| {
+            r / 2.0
+        }),
+        ("d16-step-of-24-bits", Unorm(16), "that of 24 bits", |r| {
+            r / 256.0
+        }),
+        ("d24-step-of-23-bits", Unorm(24), "that of 23 bits", |r| {
+            r * 2.0
+        }),
+        ("d24-step-of-16-bits", Unorm(24), "that of 16 bits", |r| {
+            r * 256.0
+        }),
+        ("d24-step-of-25-bits", Unorm(24), "that of 25 bits", |r| {
+            r / 2.0
+        }),
+        ("float-step-of-24-bits", Float32, "that of 24 bits", |_| {
+            2_f64.powi(-24)
+        }),
+        ("float-step-of-1", Float32, "that of depth 1", |_| {
+            2_f64.powi(-23)
+        }),
+        ("float-step-of-16-bits", Float32, "that of 16 bits", |_| {
+            2_f64.powi(-16)
+        }),
+        ("float-step-halved", Float32, "half as large", |r| r / 2.0),
+        ("float-step-doubled", Float32, "twice as large", |r| r * 2.0),
+        ("float-step-quartered", Float32, "a quarter as large", |r| {
+            r / 4.0
+        }),
+    ];
+    for (name, format, about, bug) in steps {
+        let source = if format == Float32 {
+            "SwiftShader: bias unscaled by exponent"
+        } else {
+            "v3d: D16 units"
+        };
+        let about = format!("On {format} depth, a step is {about}.");
+        let plant = bias_unit(move |encoding, largest| {
+            let right = Faithful.bias_unit(encoding, largest);
+            if encoding == format {
+                bug(right)
+            } else {
+                right
+            }
+        });
+        let mutant = list.add(name, source, about, plant);
+        if LEGAL_STEPS.contains(&name) {
+            mutant.legal(STEP);
+        }
     }
 }
 
