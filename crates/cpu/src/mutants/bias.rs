@@ -198,10 +198,11 @@ fn units(list: &mut List) {
 }
 
 fn ranges(list: &mut List) {
-    fn range(bug: fn([f32; 2]) -> [f32; 2]) -> Plant {
+    type RangeBug = fn([f32; 2]) -> [f32; 2];
+    fn range(bug: RangeBug) -> Plant {
         draws(move |draw| draw.viewport.depth = bug(draw.viewport.depth))
     }
-    let rows: [Row<fn([f32; 2]) -> [f32; 2]>; 8] = [
+    let rows: [Row<RangeBug>; 8] = [
         ("ignored", "The range is 0 to 1.", |_| [0.0, 1.0]),
         ("reversed", "Near and far are exchanged.", |[n, f]| [f, n]),
         (
@@ -226,7 +227,8 @@ fn ranges(list: &mut List) {
         }),
     ];
     list.rows("llvmpipe: reversed depth range", range, &rows);
-    let held: [Row<fn(f32, [f32; 2]) -> f32>; 3] = [
+    type HeldBug = fn(f32, [f32; 2]) -> f32;
+    let held: [Row<HeldBug>; 3] = [
         (
             "reversed-held-to-near",
             "Depths of a reversed range become near.",
@@ -249,7 +251,7 @@ fn ranges(list: &mut List) {
     ];
     list.rows(
         "llvmpipe: reversed range clamped to near",
-        |bug| held_to_range(bug),
+        held_to_range,
         &held,
     );
     let clamps: [Row<fn(&mut Draw)>; 4] = [
@@ -282,11 +284,12 @@ fn ranges(list: &mut List) {
             },
         ),
     ];
-    list.rows(CONFUSION, |bug| draws(bug), &clamps);
+    list.rows(CONFUSION, draws, &clamps);
 }
 
 fn bounds(list: &mut List) {
-    let rows: [Row<fn([f32; 2], f32, f32) -> bool>; 9] = [
+    type Bug = fn([f32; 2], f32, f32) -> bool;
+    let rows: [Row<Bug>; 9] = [
         ("ignored", "Every stored depth passes.", |_, _, _| true),
         (
             "of-the-incoming-depth",
@@ -327,7 +330,7 @@ fn bounds(list: &mut List) {
             h <= s && s <= l
         }),
     ];
-    list.rows(CONFUSION, |bug| in_bounds(bug), &rows);
+    list.rows(CONFUSION, in_bounds, &rows);
     list.add(
         "rejected-as-failed-depth",
         "a bounds test behind the stencil test",

@@ -38,7 +38,8 @@ fn draws(bug: fn(&mut Draw, u32)) -> Plant {
 }
 
 fn masks(list: &mut List) {
-    fn masks(bug: fn(u32, u32) -> u32) -> Plant {
+    type Bug = fn(u32, u32) -> u32;
+    fn masks(bug: Bug) -> Plant {
         scene(move |scene| {
             for at in 0..scene.passes.len() {
                 let samples = scene.pass_samples(&scene.passes[at]);
@@ -50,7 +51,7 @@ fn masks(list: &mut List) {
             }
         })
     }
-    let rows: [Row<fn(u32, u32) -> u32>; 15] = [
+    let rows: [Row<Bug>; 15] = [
         ("mask-ignored", "All samples are drawn.", |_, _| u32::MAX),
         (
             "mask-zero-as-all",
@@ -244,7 +245,7 @@ fn alpha(list: &mut List) {
         ),
     ];
     let source = "dEQP sees alpha to coverage ignored in 2 of 32 cases";
-    list.rows(source, |bug| alpha_covers(bug), &rows[..5]);
+    list.rows(source, alpha_covers, &rows[..5]);
     const OPEN: &str = "Vulkan: Multisample Coverage: between 0 and 1 the algorithm is \
                         implementation-dependent; only fewer samples for less alpha is intended";
     let (name, about, bug) = rows[5];
@@ -262,7 +263,8 @@ fn alpha(list: &mut List) {
         alpha_covers(|a, s, n| n - 1 - s < share(a, n)),
     )
     .legal(OPEN);
-    let states: [Row<fn(&mut Draw, u32)>; 5] = [
+    type DrawBug = fn(&mut Draw, u32);
+    let states: [Row<DrawBug>; 5] = [
         (
             "alpha-to-coverage-always",
             "Alpha takes samples away without being asked.",
@@ -400,7 +402,7 @@ fn resolves(list: &mut List) {
     ];
     let first = list.mutants.len();
     let source = "SwiftShader: sRGB resolved non-linearly, and other averages";
-    list.rows(source, |bug| resolve(bug), &legal);
+    list.rows(source, resolve, &legal);
     for mutant in &mut list.mutants[first..] {
         mutant.legal(IMPLICIT_RESOLVE);
     }
@@ -428,7 +430,7 @@ fn resolves(list: &mut List) {
         ),
         ("zero", "A resolve gives 0.", |_, _| 0),
     ];
-    list.rows(SMALL, |bug| resolve(bug), &wrong);
+    list.rows(SMALL, resolve, &wrong);
     list.add(
         "lost",
         CONFUSION,

@@ -170,7 +170,8 @@ fn plane(aspect: Aspect, which: fn(u32) -> u32, from: fn([u32; 2], [u32; 2]) -> 
 /// Bugs of images with several samples per texel.
 fn multisampled(list: &mut List, aspect: Aspect) {
     let name = aspect.name();
-    let orders: [Row<fn(usize, usize) -> usize>; 4] = [
+    type Order = fn(usize, usize) -> usize;
+    let orders: [Row<Order>; 4] = [
         (
             "neighbouring-samples-swapped",
             "with every two samples exchanged",

@@ -179,7 +179,8 @@ fn without_stencil(draw: &mut Draw) {
 /// The scissor test is not done for one kind of attachment: the draw is repeated around the
 /// rectangle with the other two kinds kept from writing.
 fn kinds(list: &mut List) {
-    fn beyond(others: [fn(&mut Draw); 2]) -> Plant {
+    type Others = [fn(&mut Draw); 2];
+    fn beyond(others: Others) -> Plant {
         scene(move |scene| {
             for at in 0..scene.passes.len() {
                 let size = scene.pass_size(&scene.passes[at]);
@@ -199,7 +200,7 @@ fn kinds(list: &mut List) {
             }
         })
     }
-    let rows: [Row<[fn(&mut Draw); 2]>; 3] = [
+    let rows: [Row<Others>; 3] = [
         (
             "ignored-for-color",
             "Colour is written outside the rectangle.",

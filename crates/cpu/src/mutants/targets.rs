@@ -30,7 +30,8 @@ fn independent(list: &mut List) {
         src_factor: BlendFactor::SrcAlpha,
         dst_factor: BlendFactor::OneMinusSrcAlpha,
     };
-    let rows: [Row<fn(&mut [ColorTarget])>; 13] = [
+    type Bug = fn(&mut [ColorTarget]);
+    let rows: [Row<Bug>; 13] = [
         ("all-from-the-first", "All take the first's state.", |t| {
             t.fill(t[0]);
         }),
@@ -206,7 +207,8 @@ fn second_sources(list: &mut List) {
             );
         }
     }
-    let rows: [Row<fn(&mut BlendInput<[f32; 1]>)>; 7] = [
+    type Bug = fn(&mut BlendInput<[f32; 1]>);
+    let rows: [Row<Bug>; 7] = [
         (
             "second-is-the-first",
             "The first source stands for both.",
@@ -239,7 +241,7 @@ fn second_sources(list: &mut List) {
             },
         ),
     ];
-    fn sources(bug: fn(&mut BlendInput<[f32; 1]>)) -> Plant {
+    fn sources(bug: Bug) -> Plant {
         blending(move |state, encodings, input| {
             let factors = [state.color, state.alpha].map(|c| [c.src_factor, c.dst_factor]);
             let mut changed = *input;

@@ -144,7 +144,7 @@ pub(super) fn add(list: &mut List) {
             },
         ),
     ];
-    list.rows(CONFUSION, |bug| draws(bug), &rows);
+    list.rows(CONFUSION, draws, &rows);
     list.add(
         "lines-and-points-face-back",
         CONFUSION,
