@@ -144,6 +144,9 @@ pub(crate) struct MutantsArguments {
     /// Hunt with these cases alone: a glob over ids (repeat for several)
     #[arg(long = "case", value_name = "GLOB")]
     pub(crate) case_globs: Vec<String>,
+    /// How much of each family of cases
+    #[arg(long, value_enum, default_value = "quick")]
+    pub(crate) profile: CaseProfile,
     /// Read case files from this folder instead of those built in
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,

@@ -137,7 +137,7 @@ impl<S: Steps> Prepared for PreparedScene<S> {
             for (source, target) in pass.color.iter().zip(&pass.resolve) {
                 if let Some(target) = target {
                     let source = self.surfaces[*source].clone();
-                    self.surfaces[*target].resolve_from(&source);
+                    self.surfaces[*target].resolve_from(&source, &self.steps);
                 }
             }
         }

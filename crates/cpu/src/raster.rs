@@ -142,7 +142,9 @@ pub(crate) fn draw<S: Steps>(
         return;
     }
     let size = scene.pass_size(pass);
-    let samples: Vec<Point> = standard_sample_positions(scene.pass_samples(pass))
+    let standard = standard_sample_positions(scene.pass_samples(pass));
+    let samples: Vec<Point> = steps
+        .sample_positions(standard)
         .into_iter()
         .map(|[x, y]| Point {
             x: i64::from(x) * UNITS / 256,
@@ -171,18 +173,22 @@ pub(crate) fn draw<S: Steps>(
         .collect();
     let mut state = SpanState::new(scene, pass, draw, surfaces, counters, steps);
     let encoding = state.depth_encoding();
+    let front = steps.lines_face_front();
     for primitive in draw.mesh.primitives(draw.topology) {
         match primitive {
             Primitive::Point(i) => {
                 let v = vertices[i];
-                let depths = Depths::new(draw, [v.at; 3], [v; 3], 0.0, true);
-                point(v, &depths, &samples, bounds, &mut state);
+                let bias = line_bias(draw, [v.at; 3], [v.z; 3], encoding, steps);
+                let depths = Depths::new(draw, [v.at; 3], [v; 3], bias, true);
+                point(v, front, &depths, &samples, bounds, &mut state);
             }
             Primitive::Line(ends) => {
                 let ends = ends.map(|i| vertices[i]);
                 let [a, b] = ends;
-                let depths = Depths::new(draw, [a.at, b.at, a.at], [a, b, a], 0.0, true);
-                line(ends, true, &depths, samples.len(), bounds, &mut state);
+                let points = [a.at, b.at, a.at];
+                let bias = line_bias(draw, points, [a.z, b.z, a.z], encoding, steps);
+                let depths = Depths::new(draw, points, [a, b, a], bias, true);
+                line(ends, front, &depths, samples.len(), bounds, &mut state);
             }
             Primitive::Triangle(triangle) => {
                 let corners = triangle.map(|i| vertices[i]);
@@ -194,7 +200,7 @@ pub(crate) fn draw<S: Steps>(
                 let Some(snapped) = SnappedTriangle::new(points) else {
                     continue;
                 };
-                let bias = depth_bias(draw, points, corners.map(|v| v.z), encoding);
+                let bias = depth_bias(draw, points, corners.map(|v| v.z), encoding, steps);
                 let depths = Depths::new(
                     draw,
                     points,
@@ -246,35 +252,37 @@ fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
     [left, top, right, bottom]
 }
 
-/// `constant * r + slope * m`, held to the clamp (Vulkan, Depth Bias; Direct3D 11.3, 15.10).
+/// What is added to a polygon's depths.
 fn depth_bias(
     draw: &Draw,
     points: [Point; 3],
     z: [f32; 3],
     encoding: Option<ChannelEncoding>,
+    steps: &impl Steps,
 ) -> f64 {
-    let state = draw.depth_bias;
+    let state = &draw.depth_bias;
     let Some(encoding) = encoding else { return 0.0 };
     if state.constant == 0 && state.slope == 0.0 {
         return 0.0;
     }
-    let unit = match encoding {
-        ChannelEncoding::Unorm(bits) => 2_f64.powi(-i32::from(bits)),
-        _ => {
-            let largest = f64::from(z[0].max(z[1]).max(z[2])).max(f64::from(f32::MIN_POSITIVE));
-            2_f64.powi(largest.log2().floor() as i32 - 23)
-        }
-    };
+    let unit = steps.bias_unit(encoding, f64::from(z[0].max(z[1]).max(z[2])));
     let plane = DepthPlane::new(points, z.map(f64::from));
     let (steepest, _) = slope(plane.dx * UNITS as f64, plane.dy * UNITS as f64);
-    let sum = f64::from(state.constant) * unit + f64::from(state.slope) * steepest;
-    let clamp = f64::from(state.clamp);
-    if clamp > 0.0 {
-        sum.min(clamp)
-    } else if clamp < 0.0 {
-        sum.max(clamp)
+    steps.bias(state, unit, steepest)
+}
+
+/// What is added to the depths of a point or line: nothing.
+fn line_bias(
+    draw: &Draw,
+    points: [Point; 3],
+    z: [f32; 3],
+    encoding: Option<ChannelEncoding>,
+    steps: &impl Steps,
+) -> f64 {
+    if steps.biases_lines() {
+        depth_bias(draw, points, z, encoding, steps)
     } else {
-        sum
+        0.0
     }
 }
 
@@ -337,6 +345,7 @@ fn fill<S: Steps>(
 /// Runs the one texel, or the samples of up to four, that a point covers.
 fn point<S: Steps>(
     vertex: Vertex,
+    front: bool,
     depths: &Depths,
     samples: &[Point],
     bounds: Bounds,
@@ -355,7 +364,7 @@ fn point<S: Steps>(
                 inside(vertex.at.x, at.x) && inside(vertex.at.y, at.y)
             };
             let masks: Vec<bool> = samples.iter().map(covered).collect();
-            texel((x, y), &masks, true, vertex.color, depths, bounds, state);
+            texel((x, y), &masks, front, vertex.color, depths, bounds, state);
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::surface::Surface;
 use etalon_case::Scene;
 use etalon_case::scene::{Draw, Pass, StencilFace};
 use etalon_case::state::EarlyTests;
-use etalon_frame::{ChannelEncoding, CounterKind};
+use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, takes_logic};
 
@@ -116,7 +116,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
     /// Shades, tests, blends and stores a span.
     pub(crate) fn run(&mut self, span: &Span<'_>) {
         let texels = [self.texel(span, 0), self.texel(span, 1)];
-        let per_sample = self.draw.shader.runs_per_sample();
+        let per_sample = self.steps.runs_per_sample(self.draw.shader);
         let early = self.draw.early_tests == EarlyTests::Forced;
         let mut shaded: Option<FragmentOutput<Real>> = None;
         let mut ran = [false; LANES];
@@ -127,7 +127,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
             if self.draw.multisample.mask & (1 << sample) == 0 || !mask.contains(&true) {
                 continue;
             }
-            let own_depth = (span.depth)(sample);
+            let own_depth = (span.depth)(self.steps.depth_sample(sample, span.masks.len()));
             if early {
                 mask = self.test_and_store(span, sample, own_depth, mask);
                 self.count_passed(mask);
@@ -154,7 +154,10 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 mask = and(mask, self.steps.kept(value, limit));
             }
             if self.draw.multisample.alpha_to_coverage {
-                mask = and(mask, covers(output.color[3], sample, span.masks.len()));
+                let covers = self
+                    .steps
+                    .alpha_covers(output.color[3], sample, span.masks.len());
+                mask = and(mask, covers);
             }
             if !early {
                 let depth = output.depth.unwrap_or(own_depth);
@@ -202,8 +205,9 @@ impl<'a, S: Steps> SpanState<'a, S> {
 
     /// Runs depth bounds, stencil and depth test and stores both; where colour is written.
     fn test_and_store(&mut self, span: &Span<'_>, sample: usize, depth: Real, mask: Mask) -> Mask {
+        let bounded = self.depth_bounds(span, sample, depth, mask);
         let mut tests = Tests {
-            covered: self.depth_bounds(span, sample, mask),
+            covered: bounded,
             stencil: [true; LANES],
             depth: [true; LANES],
         };
@@ -215,6 +219,10 @@ impl<'a, S: Steps> SpanState<'a, S> {
             tests.stencil = self.stencil_test(span, sample, face);
         }
         let codes = self.depth_test(span, sample, depth, &mut tests.depth);
+        if self.steps.bounds_fail_as_depth() {
+            tests.covered = mask;
+            tests.depth = and(tests.depth, bounded);
+        }
         let written = self.steps.written(&tests);
         if let Some(codes) = codes {
             self.depth_write(span, sample, codes, written.depth);
@@ -230,8 +238,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
         written.color
     }
 
-    fn depth_bounds(&self, span: &Span<'_>, sample: usize, mask: Mask) -> Mask {
-        let (Some([low, high]), Some(index), Some(encoding)) =
+    fn depth_bounds(&self, span: &Span<'_>, sample: usize, incoming: Real, mask: Mask) -> Mask {
+        let (Some(bounds), Some(index), Some(encoding)) =
             (self.draw.depth_bounds, self.pass.depth_stencil, self.depth)
         else {
             return mask;
@@ -239,7 +247,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let at = self.at(index, span);
         let stored = load(self.surfaces[index].plane(0, sample), at);
         let stored = Plain::<LANES>.decode(encoding, stored);
-        and(mask, stored.map(|v| low <= v && v <= high))
+        let inside = std::array::from_fn(|i| self.steps.in_bounds(bounds, stored[i], incoming[i]));
+        and(mask, inside)
     }
 
     fn stencil_test(&self, span: &Span<'_>, sample: usize, face: &StencilFace) -> Mask {
@@ -247,7 +256,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
             return [true; LANES];
         };
         let at = self.at(index, span);
-        let stored = &self.surfaces[index].stencil[sample];
+        let seen = self.steps.stored_sample(Aspect::Stencil, sample);
+        let stored = &self.surfaces[index].stencil[seen];
         std::array::from_fn(|i| self.steps.stencil_passes(face, stored[at + i]))
     }
 
@@ -280,10 +290,11 @@ impl<'a, S: Steps> SpanState<'a, S> {
     ) -> Option<Codes> {
         let (state, index, encoding) = (self.draw.depth?, self.pass.depth_stencil?, self.depth?);
         // Depths of shaders and biases too are held to the viewport's range.
-        let [near, far] = self.draw.viewport.depth;
-        let depth = depth.map(|v| v.clamp(near.min(far), near.max(far)));
+        let range = self.draw.viewport.depth;
+        let depth = depth.map(|v| self.steps.held_to_range(v, range));
         let codes = self.steps.depth_codes(encoding, depth);
-        let stored = load(self.surfaces[index].plane(0, sample), self.at(index, span));
+        let seen = self.steps.stored_sample(Aspect::Depth, sample);
+        let stored = load(self.surfaces[index].plane(0, seen), self.at(index, span));
         *passes =
             std::array::from_fn(|i| self.steps.depth_passes(state.compare, codes[i], stored[i]));
         state.write.then_some(codes)
@@ -303,13 +314,13 @@ impl<'a, S: Steps> SpanState<'a, S> {
         output: &FragmentOutput<Real>,
         mask: Mask,
     ) {
-        let mut plain = Plain::<LANES>;
         let mut color = output.color;
-        let mut second = output.second.unwrap_or([[0.0; LANES]; 4]);
+        let second = output.second.unwrap_or([[0.0; LANES]; 4]);
+        let second = self.steps.second_source(&self.draw.multisample, second);
         if self.draw.multisample.alpha_to_one {
             color[3] = [1.0; LANES];
-            second[3] = [1.0; LANES];
         }
+        let seen = self.steps.stored_sample(Aspect::Color, sample);
         for (t, index) in self.pass.color.iter().enumerate() {
             let target = &self.draw.targets[t];
             let encodings = self.encodings[t];
@@ -322,9 +333,10 @@ impl<'a, S: Steps> SpanState<'a, S> {
                     // A destination's missing colours count as 0, its missing alpha as 1.
                     let dst = std::array::from_fn(|c| match c {
                         _ if c < channels => {
-                            plain.decode(encodings[c], load(surface.plane(c, sample), at))
+                            let stored = load(surface.plane(c, seen), at);
+                            self.steps.color_value(encodings[c], stored)
                         }
-                        3 => [1.0; LANES],
+                        3 => [self.steps.missing_alpha(state); LANES],
                         _ => [0.0; LANES],
                     });
                     let input = BlendInput {
@@ -342,17 +354,15 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 }
                 let plane = surface.plane_mut(c, sample);
                 let mut codes = self.steps.color_codes(encodings[c], value[c]);
-                if let Some(operation) = self.draw.logic.filter(|_| self.logic[t]) {
-                    codes = plain.logic(encodings[c], operation, codes, load(plane, at));
+                if let Some(operation) = self.draw.logic {
+                    let stored = load(plane, at);
+                    let obeys = self.logic[t];
+                    codes = self
+                        .steps
+                        .logic(obeys, encodings[c], operation, codes, stored);
                 }
                 store(plane, at, codes, mask);
             }
         }
     }
-}
-
-/// Alpha to coverage: the first samples, as many as alpha's share.
-fn covers(alpha: Real, sample: usize, samples: usize) -> Mask {
-    let count = samples as f32;
-    alpha.map(|a| (sample as f32) < (a.clamp(0.0, 1.0) * count).round())
 }

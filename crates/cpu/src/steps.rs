@@ -7,8 +7,11 @@ use crate::sampling::sample;
 use crate::span::LANES;
 use crate::surface::Surface;
 use etalon_case::scene::StencilFace;
-use etalon_case::state::{BlendState, CompareFunction, Sampler, StencilOperation};
-use etalon_frame::{ChannelEncoding, CounterKind};
+use etalon_case::state::{
+    BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Sampler, Shader,
+    StencilOperation,
+};
+use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::{
     Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
 };
@@ -154,6 +157,140 @@ pub(crate) trait Steps {
     fn clear_code(&self, encoding: ChannelEncoding, value: f32) -> u32 {
         let [code] = Plain::<1>.encode(encoding, [value]);
         code
+    }
+
+    /// A stored colour as it enters a blend.
+    #[inline(always)]
+    fn color_value(&self, encoding: ChannelEncoding, codes: Codes) -> Real {
+        Plain::<LANES>.decode(encoding, codes)
+    }
+
+    /// What a blend takes for the alpha of a format without one.
+    #[inline(always)]
+    fn missing_alpha(&self, _state: &BlendState) -> f32 {
+        1.0
+    }
+
+    /// The second source, alpha to one applied.
+    #[inline(always)]
+    fn second_source(&self, multisample: &Multisample, mut second: [Real; 4]) -> [Real; 4] {
+        if multisample.alpha_to_one {
+            second[3] = [1.0; LANES];
+        }
+        second
+    }
+
+    /// What a logic operation leaves; `obeys` tells whether the attachment takes any.
+    #[inline(always)]
+    fn logic(
+        &self,
+        obeys: bool,
+        encoding: ChannelEncoding,
+        operation: LogicOperation,
+        src: Codes,
+        dst: Codes,
+    ) -> Codes {
+        if obeys {
+            Plain::<LANES>.logic(encoding, operation, src, dst)
+        } else {
+            src
+        }
+    }
+
+    /// The least step of a depth bias on a primitive whose largest depth is this.
+    #[inline(always)]
+    fn bias_unit(&self, encoding: ChannelEncoding, largest: f64) -> f64 {
+        match encoding {
+            ChannelEncoding::Unorm(bits) => 2_f64.powi(-i32::from(bits)),
+            _ => {
+                let largest = largest.max(f64::from(f32::MIN_POSITIVE));
+                2_f64.powi(largest.log2().floor() as i32 - 23)
+            }
+        }
+    }
+
+    /// `constant * r + slope * m`, held to the clamp (Vulkan, Depth Bias; Direct3D 11.3, 15.10).
+    #[inline(always)]
+    fn bias(&self, state: &DepthBias, unit: f64, slope: f64) -> f64 {
+        let sum = f64::from(state.constant) * unit + f64::from(state.slope) * slope;
+        let clamp = f64::from(state.clamp);
+        if clamp > 0.0 {
+            sum.min(clamp)
+        } else if clamp < 0.0 {
+            sum.max(clamp)
+        } else {
+            sum
+        }
+    }
+
+    /// Whether points and lines are biased as polygons are.
+    #[inline(always)]
+    fn biases_lines(&self) -> bool {
+        false
+    }
+
+    /// Whether points and lines face front.
+    #[inline(always)]
+    fn lines_face_front(&self) -> bool {
+        true
+    }
+
+    /// Holds a depth to the viewport's range.
+    #[inline(always)]
+    fn held_to_range(&self, depth: f32, [near, far]: [f32; 2]) -> f32 {
+        depth.clamp(near.min(far), near.max(far))
+    }
+
+    /// Whether the depth bounds let a fragment through.
+    #[inline(always)]
+    fn in_bounds(&self, [low, high]: [f32; 2], stored: f32, _incoming: f32) -> bool {
+        low <= stored && stored <= high
+    }
+
+    /// Whether fragments that the depth bounds reject count as failing the depth test.
+    #[inline(always)]
+    fn bounds_fail_as_depth(&self) -> bool {
+        false
+    }
+
+    /// Where samples lie in a texel, in 1/256 of it.
+    #[inline(always)]
+    fn sample_positions(&self, standard: Vec<[u16; 2]>) -> Vec<[u16; 2]> {
+        standard
+    }
+
+    /// Which texels' sample alpha to coverage draws: the first samples, as many as alpha's share.
+    #[inline(always)]
+    fn alpha_covers(&self, alpha: Real, sample: usize, samples: usize) -> Mask {
+        let count = samples as f32;
+        alpha.map(|a| (sample as f32) < (a.clamp(0.0, 1.0) * count).round())
+    }
+
+    /// Whether a shader runs once per sample.
+    #[inline(always)]
+    fn runs_per_sample(&self, shader: Shader) -> bool {
+        shader.runs_per_sample()
+    }
+
+    /// Whose stored value a sample's test or blend sees.
+    #[inline(always)]
+    fn stored_sample(&self, _aspect: Aspect, sample: usize) -> usize {
+        sample
+    }
+
+    /// At whose position, of so many samples, a sample's depth is taken.
+    #[inline(always)]
+    fn depth_sample(&self, sample: usize, _samples: usize) -> usize {
+        sample
+    }
+
+    /// One channel of a resolved texel: the average of its samples, rounded to the nearest code.
+    #[inline(always)]
+    fn resolve(&self, encoding: ChannelEncoding, codes: &[u32]) -> u32 {
+        let share = 1.0 / codes.len() as f32;
+        let values = codes.iter().map(|c| Plain::<1>.decode(encoding, [*c])[0]);
+        let sum: f32 = values.sum();
+        Plain::<1>.encode(encoding, [sum * share])[0]
     }
 }
 

@@ -5,7 +5,6 @@ use crate::span::LANES;
 use crate::steps::Steps;
 use etalon_case::scene::{Attachment, Contents};
 use etalon_frame::{Aspect, ChannelEncoding};
-use etalon_pipeline::{Arithmetic, Plain};
 
 /// One attachment.
 #[derive(Clone, Debug)]
@@ -81,9 +80,9 @@ impl Surface {
         &mut self.planes[channel * self.samples + sample]
     }
 
-    /// Becomes the average of another surface's samples, rounded to the nearest code.
-    pub(crate) fn resolve_from(&mut self, source: &Self) {
-        let share = 1.0 / source.samples as f32;
+    /// Becomes what another surface's samples are resolved to.
+    pub(crate) fn resolve_from(&mut self, source: &Self, steps: &impl Steps) {
+        let mut codes = vec![0; source.samples];
         for (c, encoding) in source.encodings.iter().enumerate() {
             if let ChannelEncoding::Uint(_) = encoding {
                 // Of integers one sample stands for all.
@@ -91,10 +90,10 @@ impl Surface {
                 continue;
             }
             for at in 0..self.stride * self.height {
-                let sum: f32 = (0..source.samples)
-                    .map(|s| Plain::<1>.decode(*encoding, [source.plane(c, s)[at]])[0])
-                    .sum();
-                self.planes[c][at] = Plain::<1>.encode(*encoding, [sum * share])[0];
+                for (s, code) in codes.iter_mut().enumerate() {
+                    *code = source.plane(c, s)[at];
+                }
+                self.planes[c][at] = steps.resolve(*encoding, &codes);
             }
         }
     }

@@ -36,6 +36,16 @@ pub(crate) struct Caps {
     pub(crate) stencil_texturing: bool,
     /// Textures may hold stencil alone.
     pub(crate) stencil_textures: bool,
+    /// Shaders can have the fragment tests before them.
+    pub(crate) early_tests: bool,
+    /// Shaders can promise on which side of the fragment's depth theirs lies.
+    pub(crate) conservative_depth: bool,
+    /// Where storage buffers may be bound; `None` where fragment shaders have none.
+    pub(crate) storage_alignment: Option<usize>,
+    /// `GL_SAMPLES_PASSED` queries count.
+    pub(crate) samples_passed: bool,
+    /// `GL_FRAGMENT_SHADER_INVOCATIONS` queries count.
+    pub(crate) fragment_invocations: bool,
     /// `GL_TIME_ELAPSED` queries count.
     pub(crate) timer: bool,
     pub(crate) max_color_targets: usize,
@@ -45,8 +55,8 @@ pub(crate) struct Caps {
 }
 
 impl Caps {
-    /// Asks the current context. `clip_control` is the caller's to set, and `timer` only says that
-    /// queries exist.
+    /// Asks the current context. `clip_control` is the caller's to set, and of queries it says only
+    /// that they exist.
     pub(crate) fn query(gl: &glow::Context, es: bool, version: (u32, u32)) -> Self {
         let known = gl.supported_extensions();
         let has = |name: &str| known.contains(name);
@@ -67,6 +77,13 @@ impl Caps {
             dual_source.then(|| integer(glow::MAX_DUAL_SOURCE_DRAW_BUFFERS)) >= Some(1);
         let viewport_bits =
             viewports.then(|| u32::try_from(integer(VIEWPORT_SUBPIXEL_BITS)).unwrap_or(0));
+        // naga writes bindings from GLSL 4.20 on, and asks for the extension by name.
+        let storage = since((4, 2), (3, 1)) && (es || has("GL_ARB_shader_storage_buffer_object"));
+        let storage = storage && integer(glow::MAX_FRAGMENT_SHADER_STORAGE_BLOCKS) > 0;
+        let storage_alignment = storage.then(|| {
+            let alignment = integer(glow::SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
+            usize::try_from(alignment).unwrap_or(0).max(1)
+        });
         let mut max_viewport = [0; 2];
         // SAFETY: the context is current and the pair has room.
         unsafe { gl.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut max_viewport) };
@@ -88,6 +105,16 @@ impl Caps {
             stencil_textures: since((4, 4), (3, 2))
                 || has("GL_ARB_texture_stencil8")
                 || has("GL_OES_texture_stencil8"),
+            early_tests: since((4, 2), (3, 1)) || has("GL_ARB_shader_image_load_store"),
+            // naga asks for the extension of ES by name.
+            conservative_depth: since((4, 2), NEVER)
+                || has("GL_ARB_conservative_depth")
+                || (es && has("GL_EXT_conservative_depth")),
+            storage_alignment,
+            // ES counts no samples, it tells whether there were any.
+            samples_passed: !es,
+            fragment_invocations: since((4, 6), NEVER)
+                || (!es && has("GL_ARB_pipeline_statistics_query")),
             timer: since(ALWAYS, NEVER) || has("GL_EXT_disjoint_timer_query"),
             max_color_targets: usize::try_from(targets).unwrap_or(0),
             viewport_bits,
@@ -96,12 +123,13 @@ impl Caps {
     }
 }
 
-/// The features of a context.
+/// The features of a context, as far as its version and extensions tell.
 pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
     let (caps, extra) = (&context.caps, &context.extra);
     let known = |feature: &Feature| match feature {
         // Versions from 3 on have these.
-        Feature::ConstantAlphaBlendFactor
+        Feature::CentroidInterpolation
+        | Feature::ConstantAlphaBlendFactor
         | Feature::FrontAndBackCulling
         | Feature::MinMaxBlendFactors
         | Feature::RasterizerDiscard
@@ -111,15 +139,22 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         | Feature::TriangleFans
         | Feature::ViewportOutside => true,
         Feature::AlphaToOne => caps.alpha_to_one,
+        Feature::ConservativeDepth => caps.conservative_depth,
         Feature::DepthBiasClamp => extra.polygon_offset_clamp.is_some(),
         Feature::DepthBounds => extra.depth_bounds.is_some(),
         Feature::DepthClamp => caps.depth_clamp,
         Feature::DualSourceBlending => caps.dual_source,
+        Feature::ForcedEarlyTests => caps.early_tests,
+        Feature::FragmentInvocations => caps.fragment_invocations,
         Feature::IndependentBlend => caps.indexed_blend,
         Feature::LogicOperations => extra.logic_op.is_some(),
+        // Heights of viewports are positive.
+        Feature::MirroredViewport => false,
         // ES has no `glPolygonMode`.
         Feature::PolygonModeLine => !caps.es,
+        Feature::PreciseOcclusion => caps.samples_passed,
         Feature::SampleShading => caps.sample_variables,
+        Feature::StorageCounters => caps.storage_alignment.is_some(),
     };
     Feature::ALL.into_iter().filter(known).collect()
 }

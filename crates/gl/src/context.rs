@@ -67,7 +67,17 @@ impl Context {
             egl,
             log: Box::default(),
         };
-        context.caps.timer &= context.timer_counts();
+        // Asking for a target that the context does not know would be an error.
+        let Caps {
+            timer,
+            samples_passed,
+            fragment_invocations,
+            ..
+        } = context.caps;
+        context.caps.timer = timer && context.counts(glow::TIME_ELAPSED);
+        context.caps.samples_passed = samples_passed && context.counts(glow::SAMPLES_PASSED);
+        context.caps.fragment_invocations =
+            fragment_invocations && context.counts(glow::FRAGMENT_SHADER_INVOCATIONS);
         if debug {
             context.start_debug_output();
         }
@@ -119,13 +129,29 @@ impl Context {
         }
     }
 
-    fn timer_counts(&self) -> bool {
+    /// The result of a finished query that counts.
+    pub(crate) fn query_result(&self, query: glow::Query) -> u64 {
+        // ES without timer queries has 32-bit results only, which are enough for a yes or no.
+        let Some(get) = self.extra.get_query_result else {
+            // SAFETY: the context is current and the query has ended.
+            return u64::from(unsafe {
+                self.gl.get_query_parameter_u32(query, glow::QUERY_RESULT)
+            });
+        };
+        let mut count = 0;
+        // SAFETY: the context is current, the query has ended and the result has room.
+        unsafe { get(query.0.get(), glow::QUERY_RESULT, &mut count) };
+        count
+    }
+
+    /// Whether queries of a target, which the version or an extension must promise, count at all.
+    fn counts(&self, target: u32) -> bool {
         let (Some(get), Some(_)) = (self.extra.get_query, self.extra.get_query_result) else {
             return false;
         };
         let mut bits = 0;
-        // SAFETY: the context is current, has timer queries, and the result has room.
-        unsafe { get(glow::TIME_ELAPSED, QUERY_COUNTER_BITS, &mut bits) };
+        // SAFETY: the context is current and the result has room.
+        unsafe { get(target, QUERY_COUNTER_BITS, &mut bits) };
         bits > 0
     }
 

@@ -1,9 +1,10 @@
 //! Drawing a prepared scene.
 
 use crate::context::Context;
+use crate::counters::Query;
 use crate::pool::Target;
 use crate::prepared::Attachment;
-use crate::program::PARAMS_BINDING;
+use crate::program::{PARAMS_BINDING, RUNS_BINDING};
 use crate::state::{self, DrawState};
 use crate::surface::{Surface, upload};
 use etalon_case::{Vertex, scene};
@@ -17,12 +18,14 @@ pub(crate) struct Inputs {
     pub(crate) vertices: Option<(glow::Buffer, usize)>,
     pub(crate) indices: Option<(glow::Buffer, usize)>,
     pub(crate) params: Option<(glow::Buffer, usize)>,
+    /// Where shaders count their runs.
+    pub(crate) runs: Option<(glow::Buffer, usize)>,
 }
 
 impl Inputs {
     /// The buffers that there are.
     pub(crate) fn into_buffers(self) -> impl Iterator<Item = (glow::Buffer, usize)> {
-        let all = [self.vertices, self.indices, self.params];
+        let all = [self.vertices, self.indices, self.params, self.runs];
         all.into_iter().flatten()
     }
 }
@@ -33,6 +36,7 @@ pub(crate) enum Start {
     Uploaded,
     Upload(Vec<u8>),
     Color([f32; 4]),
+    Integers([u32; 4]),
     DepthStencil(f32, u8),
 }
 
@@ -49,6 +53,12 @@ pub(crate) struct DrawCall {
     pub(crate) program: glow::Program,
     pub(crate) state: DrawState,
     pub(crate) textures: Vec<glow::Texture>,
+    /// How they are sampled; `None` where texels are fetched.
+    pub(crate) sampler: Option<glow::Sampler>,
+    /// What is counted around the draw.
+    pub(crate) queries: Vec<Query>,
+    /// Where the shader's runs are counted, if it counts them.
+    pub(crate) runs: Option<i32>,
     /// Where the parameter block lies, if the shader has one.
     pub(crate) params: Option<i32>,
     pub(crate) mode: u32,
@@ -74,6 +84,10 @@ pub(crate) fn initialise(context: &Context, attachments: &[Attachment]) {
                     state::set_srgb(context, format == TextureFormat::Rgba8UnormSrgb);
                     gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
                     gl.clear_buffer_f32_slice(glow::COLOR, 0, color);
+                }
+                Start::Integers(color) => {
+                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+                    gl.clear_buffer_u32_slice(glow::COLOR, 0, color);
                 }
                 Start::DepthStencil(depth, stencil) => {
                     gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
@@ -163,12 +177,33 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
         for (unit, texture) in (0..).zip(&draw.textures) {
             gl.active_texture(glow::TEXTURE0 + unit);
             gl.bind_texture(glow::TEXTURE_2D, Some(*texture));
+            gl.bind_sampler(unit, draw.sampler);
+        }
+        if let (Some(offset), Some((buffer, _))) = (draw.runs, inputs.runs) {
+            let (point, size) = (RUNS_BINDING, size_of::<u32>() as i32);
+            gl.bind_buffer_range(
+                glow::SHADER_STORAGE_BUFFER,
+                u32::from(point),
+                Some(buffer),
+                offset,
+                size,
+            );
+        }
+        for query in &draw.queries {
+            gl.begin_query(query.target, query.object);
         }
         if draw.indexed {
             let offset = draw.first * size_of::<u32>() as i32;
             gl.draw_elements(draw.mode, draw.count, glow::UNSIGNED_INT, offset);
         } else {
             gl.draw_arrays(draw.mode, draw.first, draw.count);
+        }
+        for query in &draw.queries {
+            gl.end_query(query.target);
+        }
+        if draw.runs.is_some() {
+            // The next draw may count on.
+            gl.memory_barrier(glow::SHADER_STORAGE_BARRIER_BIT);
         }
     }
 }

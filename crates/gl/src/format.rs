@@ -19,8 +19,8 @@ pub(crate) struct GlFormat {
 pub(crate) fn gl_format(format: TextureFormat) -> Option<GlFormat> {
     use glow::{
         BYTE, DEPTH_ATTACHMENT, DEPTH_COMPONENT, DEPTH_STENCIL, DEPTH_STENCIL_ATTACHMENT, FLOAT,
-        HALF_FLOAT, RED, RG, RGB, RGBA, STENCIL_ATTACHMENT, UNSIGNED_BYTE, UNSIGNED_INT,
-        UNSIGNED_INT_2_10_10_10_REV, UNSIGNED_INT_10F_11F_11F_REV, UNSIGNED_SHORT,
+        HALF_FLOAT, RED, RG, RGB, RGBA, RGBA_INTEGER, STENCIL_ATTACHMENT, UNSIGNED_BYTE,
+        UNSIGNED_INT, UNSIGNED_INT_2_10_10_10_REV, UNSIGNED_INT_10F_11F_11F_REV, UNSIGNED_SHORT,
         UNSIGNED_SHORT_4_4_4_4, UNSIGNED_SHORT_5_5_5_1, UNSIGNED_SHORT_5_6_5,
     };
     let packed_float_stencil = glow::FLOAT_32_UNSIGNED_INT_24_8_REV;
@@ -38,6 +38,7 @@ pub(crate) fn gl_format(format: TextureFormat) -> Option<GlFormat> {
         TextureFormat::Rg11b10Ufloat => {
             color(glow::R11F_G11F_B10F, RGB, UNSIGNED_INT_10F_11F_11F_REV)
         }
+        TextureFormat::Rgba8Uint => color(glow::RGBA8UI, RGBA_INTEGER, UNSIGNED_BYTE),
         TextureFormat::Rgba16Float => color(glow::RGBA16F, RGBA, HALF_FLOAT),
         TextureFormat::Rgba32Float => color(glow::RGBA32F, RGBA, FLOAT),
         TextureFormat::Depth16Unorm => (
@@ -98,6 +99,8 @@ pub(crate) enum ReadPlan {
     Bytes,
     /// `glReadPixels` of four floats a texel.
     Floats,
+    /// `glReadPixels` of four unsigned integers a texel.
+    Integers,
     /// A shader fetches four floats a texel.
     Fetched,
     /// `glReadPixels` of 16-bit codes.

@@ -13,6 +13,7 @@
 mod caps;
 mod codes;
 mod context;
+mod counters;
 mod draw;
 mod egl;
 mod extra;
@@ -224,7 +225,7 @@ fn limits(context: &Context, probed: &Probed) -> Limits {
             .iter()
             .map(|(format, support)| (*format, support.limits.clone()))
             .collect(),
-        features: caps::features(context),
+        features: probed.features.clone(),
         sample_positions,
     }
 }

@@ -1,12 +1,15 @@
-//! Surfaces, framebuffers and buffers, kept from scene to scene.
+//! Surfaces, framebuffers, buffers, queries and samplers, kept from scene to scene.
 
 use crate::context::{Context, refused};
+use crate::counters::Query;
 use crate::surface::{Surface, SurfaceKind, framebuffer};
+use crate::words::address;
 use etalon_backend::BackendError;
+use etalon_case::state::{FilterMode, Sampler};
 use glow::HasContext;
 use std::collections::HashMap;
 
-/// The most free surfaces, framebuffers and buffers, and bytes of free surfaces, that are kept.
+/// The most free surfaces, framebuffers, buffers and queries, and bytes of free surfaces, that are kept.
 const MAX_FREE: usize = 64;
 const MAX_FREE_BYTES: u64 = 64 << 20;
 /// The largest buffer that is kept.
@@ -29,6 +32,9 @@ pub(crate) struct Pool {
     bytes: u64,
     targets: HashMap<TargetKey, Vec<glow::Framebuffer>>,
     buffers: Vec<glow::Buffer>,
+    queries: Vec<Query>,
+    /// All that were ever asked for, in use or not.
+    samplers: HashMap<Sampler, glow::Sampler>,
 }
 
 impl Pool {
@@ -136,6 +142,56 @@ impl Pool {
             gl.buffer_data_u8_slice(glow::ARRAY_BUFFER, data, glow::STATIC_DRAW);
             Ok(buffer)
         }
+    }
+
+    /// A query of a target.
+    pub(crate) fn query(&mut self, context: &Context, target: u32) -> Result<Query, BackendError> {
+        if let Some(at) = self.queries.iter().position(|q| q.target == target) {
+            return Ok(self.queries.swap_remove(at));
+        }
+        // SAFETY: the context is current.
+        let object = unsafe { context.gl.create_query() }.map_err(|e| refused("a query", e))?;
+        Ok(Query { target, object })
+    }
+
+    /// Takes a query back that is not active.
+    pub(crate) fn put_query(&mut self, context: &Context, query: Query) {
+        if self.queries.len() < MAX_FREE {
+            self.queries.push(query);
+        } else {
+            // SAFETY: the context is current and the object is its own.
+            unsafe { context.gl.delete_query(query.object) };
+        }
+    }
+
+    /// The sampler object of a sampler.
+    pub(crate) fn sampler(
+        &mut self,
+        context: &Context,
+        sampler: Sampler,
+    ) -> Result<glow::Sampler, BackendError> {
+        if let Some(object) = self.samplers.get(&sampler) {
+            return Ok(*object);
+        }
+        let gl = &context.gl;
+        // SAFETY: the context is current.
+        let object = unsafe { gl.create_sampler() }.map_err(|e| refused("a sampler", e))?;
+        let filter = match sampler.filter {
+            FilterMode::Nearest => glow::NEAREST,
+            FilterMode::Linear => glow::LINEAR,
+        };
+        let [across, down] = sampler.address.map(address);
+        for (name, value) in [
+            (glow::TEXTURE_MIN_FILTER, filter),
+            (glow::TEXTURE_MAG_FILTER, filter),
+            (glow::TEXTURE_WRAP_S, across),
+            (glow::TEXTURE_WRAP_T, down),
+        ] {
+            // SAFETY: the context is current and the object is its own.
+            unsafe { gl.sampler_parameter_i32(object, name, value as i32) };
+        }
+        self.samplers.insert(sampler, object);
+        Ok(object)
     }
 
     /// Takes a buffer of a size in bytes back.

@@ -3,6 +3,7 @@
 use crate::GlBackend;
 use crate::codes;
 use crate::context::refused;
+use crate::counters::Counters;
 use crate::draw::{self, DrawCall, Inputs, Pass, Start};
 use crate::pool::Pool;
 use crate::read::{Reading, Source};
@@ -23,6 +24,7 @@ pub(crate) struct GlPrepared<'a> {
     passes: Vec<Pass>,
     read: Vec<usize>,
     inputs: Inputs,
+    counters: Counters,
     submitted: bool,
     /// Nothing has failed, so that the objects may serve another scene.
     sound: bool,
@@ -54,6 +56,7 @@ impl<'a> GlPrepared<'a> {
             passes: Vec::new(),
             read: scene.read.clone(),
             inputs: Inputs::default(),
+            counters: Counters::new(&backend.context, &scene.counters),
             submitted: false,
             sound: false,
         };
@@ -100,6 +103,9 @@ impl<'a> GlPrepared<'a> {
             // Only `rgba32float` is offered where nothing can be drawn to it.
             Contents::Color(color) if !complete => {
                 Start::Upload(codes::pack(format, &color.map(f32::to_bits).repeat(texels)))
+            }
+            Contents::Color(color) if format.is_integer() => {
+                Start::Integers(color.map(|value| value as u32))
             }
             Contents::Color(color) => Start::Color(*color),
             Contents::DepthStencil { depth, stencil } => Start::DepthStencil(*depth, *stencil),
@@ -164,6 +170,7 @@ impl<'a> GlPrepared<'a> {
             vertices: buffer(&vertices)?,
             indices: buffer(bytemuck::cast_slice(&indices))?,
             params: buffer(&params)?,
+            runs: buffer(&vec![0; self.counters.storage_size()])?,
         };
         Ok(())
     }
@@ -208,7 +215,7 @@ impl<'a> GlPrepared<'a> {
         let mut draws = Vec::new();
         for draw in &pass.draws {
             // On error the target is lost to the pool; it goes with the context.
-            draws.push(self.draw(draw, pass.depth_stencil_read_only, used)?);
+            draws.push(self.draw(pool, draw, pass.depth_stencil_read_only, used)?);
         }
         self.passes.push(Pass {
             target,
@@ -220,7 +227,8 @@ impl<'a> GlPrepared<'a> {
     }
 
     fn draw(
-        &self,
+        &mut self,
+        pool: &mut Pool,
         draw: &Draw,
         read_only: bool,
         used: &mut Used,
@@ -239,14 +247,18 @@ impl<'a> GlPrepared<'a> {
                 })
             })
             .collect::<Result<_, _>>()?;
+        let sampler = draw.sampler.map(|sampler| pool.sampler(context, sampler));
         let call = DrawCall {
-            program: self
-                .backend
-                .programs
-                .borrow_mut()
-                .shader(context, draw.shader)?,
+            program: self.backend.programs.borrow_mut().shader(
+                context,
+                draw.shader,
+                draw.early_tests,
+            )?,
             state: DrawState::new(context, draw, read_only)?,
             textures,
+            sampler: sampler.transpose()?,
+            queries: self.counters.queries(context, pool, draw)?,
+            runs: self.counters.runs(draw),
             params: block,
             mode: topology(draw.topology),
             indexed: indices.is_some(),
@@ -269,6 +281,7 @@ impl<'a> GlPrepared<'a> {
         let start = Instant::now();
         state::reset(context);
         draw::initialise(context, &self.attachments);
+        self.counters.start(context, self.inputs.runs);
         // SAFETY: the context is current; a query exists only where timers count.
         let (cpu, wall) = unsafe {
             if let Some(query) = backend.timer {
@@ -307,7 +320,10 @@ impl<'a> GlPrepared<'a> {
             programs: &mut backend.programs.borrow_mut(),
             no_vertices: backend.no_vertices,
         };
-        let mut frame = Frame::default();
+        let mut frame = Frame {
+            counters: self.counters.read(&backend.context, self.inputs.runs)?,
+            ..Frame::default()
+        };
         for index in &self.read {
             let attachment = self.attachments.get(*index);
             let known = attachment.and_then(|a| Some((a, backend.formats.get(&a.format)?)));
@@ -376,6 +392,7 @@ impl Drop for GlPrepared<'_> {
                 attachment.surface.delete(context);
             }
         }
+        std::mem::take(&mut self.counters).give_back(context, &mut pool, self.sound);
         for (buffer, size) in std::mem::take(&mut self.inputs).into_buffers() {
             pool.put_buffer(context, buffer, size);
         }

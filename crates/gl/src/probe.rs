@@ -4,14 +4,15 @@
 //! the framebuffer tells exactly the channels that the format's name promises, and where all codes
 //! survive being uploaded and read.
 
-use crate::codes;
 use crate::context::Context;
 use crate::format::{ReadPlan, ShaderStencil, Support, gl_format};
 use crate::read::{self, Reading};
 use crate::surface::{Surface, SurfaceKind, upload};
-use etalon_frame::{ChannelEncoding, FormatSupport, ReadPath, TextureFormat};
+use crate::{caps, codes};
+use etalon_case::state::{EarlyTests, Shader};
+use etalon_frame::{ChannelEncoding, Feature, FormatSupport, ReadPath, TextureFormat};
 use glow::HasContext;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 const SIGNED_NORMALIZED: u32 = 0x8F9C;
 const SAMPLE_COUNTS: [u32; 4] = [2, 4, 8, 16];
@@ -26,6 +27,7 @@ type Positions = BTreeMap<u32, Vec<[u16; 2]>>;
 pub(crate) struct Probed {
     pub(crate) formats: BTreeMap<TextureFormat, Support>,
     pub(crate) positions: Positions,
+    pub(crate) features: BTreeSet<Feature>,
 }
 
 /// Tries every format.
@@ -46,7 +48,31 @@ pub(crate) fn probe(reading: &mut Reading<'_>) -> Probed {
             probed.formats.insert(format, support);
         }
     }
+    probed.features = caps::features(context)
+        .into_iter()
+        .filter(|feature| compiles(reading, *feature))
+        .collect();
     probed
+}
+
+/// Whether the driver takes what naga writes for a feature of the shading language, and naga writes
+/// anything.
+fn compiles(reading: &mut Reading<'_>, feature: Feature) -> bool {
+    let shader = Shader::FlatColorDepth;
+    let tried: &[_] = match feature {
+        Feature::CentroidInterpolation => &[(Shader::Centroid, EarlyTests::Implicit)],
+        Feature::ConservativeDepth => &[
+            (shader, EarlyTests::GreaterEqual),
+            (shader, EarlyTests::LessEqual),
+            (shader, EarlyTests::Unchanged),
+        ],
+        Feature::ForcedEarlyTests => &[(shader, EarlyTests::Forced)],
+        Feature::StorageCounters => &[(Shader::CountedColor, EarlyTests::Implicit)],
+        _ => &[],
+    };
+    let context = reading.context;
+    let mut takes = |&(shader, tests)| reading.programs.shader(context, shader, tests).is_ok();
+    tried.iter().all(&mut takes)
 }
 
 /// Does something with a surface of a format.
@@ -97,11 +123,19 @@ fn examine(reading: &mut Reading<'_>, format: TextureFormat, surface: &Surface) 
     if format.is_color() {
         // Mesa's ES reads negative values of `rgba8snorm` as 0, and a shader sees one value for
         // both codes of -1, so that nothing reads that format exactly there.
-        let plans = [ReadPlan::Packed, ReadPlan::Bytes, ReadPlan::Floats];
+        let plans: &[ReadPlan] = if format.is_integer() {
+            &[ReadPlan::Integers]
+        } else {
+            &[ReadPlan::Packed, ReadPlan::Bytes, ReadPlan::Floats]
+        };
         let read = plans
-            .into_iter()
+            .iter()
+            .copied()
             .find(|plan| color_round_trips(reading, surface, format, *plan))?;
-        let blendable = format != TextureFormat::Rgba32Float || context.caps.float_blend;
+        let blendable = match format {
+            TextureFormat::Rgba32Float => context.caps.float_blend,
+            _ => !format.is_integer(),
+        };
         return done(&[1], blendable, &[], read);
     }
     if format == TextureFormat::Stencil8 {
@@ -189,6 +223,7 @@ fn holds(context: &Context, surface: &Surface, format: TextureFormat) -> bool {
     let due = match channels.first() {
         Some(ChannelEncoding::Unorm(_) | ChannelEncoding::Srgb8) => glow::UNSIGNED_NORMALIZED,
         Some(ChannelEncoding::Snorm(_)) => SIGNED_NORMALIZED,
+        Some(ChannelEncoding::Uint(_)) => glow::UNSIGNED_INT,
         _ => glow::FLOAT,
     };
     let kind = of_color(glow::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);

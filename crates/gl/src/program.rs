@@ -2,25 +2,34 @@
 
 use crate::context::{Context, refused};
 use etalon_backend::BackendError;
-use etalon_case::state::Shader;
+use etalon_case::state::{EarlyTests, Shader};
 use glow::HasContext;
-use naga::ShaderStage;
 use naga::back::glsl;
 use naga::proc::BoundsCheckPolicies;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::{AddressSpace, ResourceBinding, ShaderStage};
 use std::collections::HashMap;
 
 /// The uniform block's binding point.
 pub(crate) const PARAMS_BINDING: u32 = 0;
+/// The binding point of the storage block in which shaders count their runs.
+pub(crate) const RUNS_BINDING: u8 = 0;
 
 /// What the suite's shaders use beyond WebGPU's core.
-const CAPABILITIES: Capabilities =
-    Capabilities::DUAL_SOURCE_BLENDING.union(Capabilities::MULTISAMPLED_SHADING);
+const CAPABILITIES: Capabilities = Capabilities::DUAL_SOURCE_BLENDING
+    .union(Capabilities::MULTISAMPLED_SHADING)
+    .union(Capabilities::EARLY_DEPTH_TEST);
+
+/// Where the suite's shaders have the counter of their runs.
+const RUNS: ResourceBinding = ResourceBinding {
+    group: 0,
+    binding: 3,
+};
 
 /// Programs of one context, made at first need.
 #[derive(Default)]
 pub(crate) struct Programs {
-    shaders: HashMap<Shader, glow::Program>,
+    shaders: HashMap<(Shader, EarlyTests), glow::Program>,
     readers: HashMap<(Reader, bool), (glow::Program, Option<glow::UniformLocation>)>,
 }
 
@@ -29,8 +38,8 @@ pub(crate) struct Programs {
 pub(crate) enum Reader {
     /// The bits of the colour or depth that a shader sees.
     Floats,
-    /// The stencil value.
-    Stencil,
+    /// The stencil value or the integers of a colour.
+    Integers,
 }
 
 impl Programs {
@@ -39,15 +48,16 @@ impl Programs {
         &mut self,
         context: &Context,
         shader: Shader,
+        tests: EarlyTests,
     ) -> Result<glow::Program, BackendError> {
-        if let Some(program) = self.shaders.get(&shader) {
+        if let Some(program) = self.shaders.get(&(shader, tests)) {
             return Ok(*program);
         }
         let fail = |message| BackendError::Shader {
             shader: shader.name().to_owned(),
             message,
         };
-        let translated = Translated::new(context, shader.wgsl()).map_err(fail)?;
+        let translated = Translated::new(context, shader, tests).map_err(fail)?;
         let program = link(
             context,
             shader.name(),
@@ -69,7 +79,7 @@ impl Programs {
                 gl.uniform_1_i32(location.as_ref(), *unit as i32);
             }
         }
-        self.shaders.insert(shader, program);
+        self.shaders.insert((shader, tests), program);
         Ok(program)
     }
 
@@ -93,14 +103,14 @@ impl Programs {
         let sampler = match (reader, several) {
             (Reader::Floats, false) => "sampler2D",
             (Reader::Floats, true) => "sampler2DMS",
-            (Reader::Stencil, false) => "usampler2D",
-            (Reader::Stencil, true) => "usampler2DMS",
+            (Reader::Integers, false) => "usampler2D",
+            (Reader::Integers, true) => "usampler2DMS",
         };
         // The last argument is a sample's number, or else the level.
         let fetched = "texelFetch(source, ivec2(gl_FragCoord.xy), number)";
         let (name, value) = match reader {
             Reader::Floats => ("read floats", format!("floatBitsToUint({fetched})")),
-            Reader::Stencil => ("read stencil", fetched.to_owned()),
+            Reader::Integers => ("read integers", fetched.to_owned()),
         };
         let fragment = header
             + &format!(
@@ -135,7 +145,8 @@ struct Translated {
 }
 
 impl Translated {
-    fn new(context: &Context, source: &str) -> Result<Self, String> {
+    fn new(context: &Context, shader: Shader, tests: EarlyTests) -> Result<Self, String> {
+        let source = &*shader.wgsl_with(tests);
         let module = naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?;
         let info = Validator::new(ValidationFlags::all(), CAPABILITIES)
             .validate(&module)
@@ -150,6 +161,12 @@ impl Translated {
         let fragment = translated.stage(context, &module, &info, ShaderStage::Fragment)?;
         // naga takes GLSL's signed number for WGSL's unsigned one, which ES does not convert.
         translated.fragment = fragment.replace("gl_SampleID", "uint(gl_SampleID)");
+        // Where the version has no such qualifier, naga leaves it out.
+        if let Some(word) = qualifier(tests)
+            && !translated.fragment.contains(word)
+        {
+            return Err(format!("GLSL {} has no `{word}`", context.caps.glsl));
+        }
         Ok(translated)
     }
 
@@ -168,7 +185,8 @@ impl Translated {
             } else {
                 glsl::WriterFlags::FORCE_POINT_SIZE | glsl::WriterFlags::ADJUST_COORDINATE_SPACE
             },
-            // Bindings are set by name, which every version can.
+            // Other bindings are set by name, which every version can; ES cannot for storage.
+            binding_map: glsl::BindingMap::from([(RUNS, RUNS_BINDING)]),
             ..glsl::Options::default()
         };
         let entry_point = if stage == ShaderStage::Vertex {
@@ -192,7 +210,11 @@ impl Translated {
         )
         .and_then(|mut writer| writer.write())
         .map_err(|e| e.to_string())?;
-        self.blocks.extend(reflection.uniforms.into_values());
+        for (variable, name) in reflection.uniforms {
+            if module.global_variables[variable].space == AddressSpace::Uniform {
+                self.blocks.push(name);
+            }
+        }
         for (name, mapping) in reflection.texture_mapping {
             let binding = module.global_variables[mapping.texture].binding.as_ref();
             let unit = binding
@@ -201,6 +223,17 @@ impl Translated {
             self.textures.push((name, unit));
         }
         Ok(text)
+    }
+}
+
+/// GLSL's word for when the fragment tests happen.
+fn qualifier(tests: EarlyTests) -> Option<&'static str> {
+    match tests {
+        EarlyTests::Implicit => None,
+        EarlyTests::Forced => Some("early_fragment_tests"),
+        EarlyTests::GreaterEqual => Some("depth_greater"),
+        EarlyTests::LessEqual => Some("depth_less"),
+        EarlyTests::Unchanged => Some("depth_unchanged"),
     }
 }
 

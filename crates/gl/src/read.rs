@@ -79,6 +79,13 @@ impl Reading<'_> {
         if surface.samples() == 1 && plan != ReadPlan::Fetched {
             return Ok(copy(self.context, surface, format, plan).0);
         }
+        if format.is_integer() {
+            let wide = self.fetch(surface, Reader::Integers)?;
+            let texels = wide.chunks_exact(4);
+            return Ok(texels
+                .flat_map(|texel| texel.iter().take(channels.len()).copied())
+                .collect());
+        }
         let wide = self.fetch(surface, Reader::Floats)?;
         Ok(narrowed(&wide, channels))
     }
@@ -94,7 +101,7 @@ impl Reading<'_> {
     }
 
     fn fetched_stencil(&mut self, surface: &Surface) -> Result<Vec<u32>, BackendError> {
-        let wide = self.fetch(surface, Reader::Stencil)?;
+        let wide = self.fetch(surface, Reader::Integers)?;
         Ok(wide.chunks_exact(4).map(|texel| texel[0]).collect())
     }
 
@@ -154,8 +161,9 @@ impl Reading<'_> {
             return Err(refused("a framebuffer for reading back", "incomplete"));
         }
         state::reset(context);
+        let has_stencil = matches!(surface.kind, SurfaceKind::Attachment(f, _) if f.has_stencil());
         let set_mode = |mode: u32| {
-            if context.caps.stencil_texturing {
+            if reader == Reader::Integers && has_stencil && context.caps.stencil_texturing {
                 // SAFETY: the texture is bound and the context knows the parameter.
                 unsafe { gl.tex_parameter_i32(binding, DEPTH_STENCIL_TEXTURE_MODE, mode as i32) }
             }
@@ -174,13 +182,9 @@ impl Reading<'_> {
                 gl.bind_vertex_array(Some(self.no_vertices));
                 gl.active_texture(glow::TEXTURE0);
                 gl.bind_texture(binding, Some(texture));
-                if reader == Reader::Stencil {
-                    set_mode(STENCIL_INDEX);
-                }
+                set_mode(STENCIL_INDEX);
                 gl.draw_arrays(glow::TRIANGLES, 0, 3);
-                if reader == Reader::Stencil {
-                    set_mode(glow::DEPTH_COMPONENT);
-                }
+                set_mode(glow::DEPTH_COMPONENT);
             }
             // Every version reads unsigned integers as four channels.
             read_pixels(gl, size, glow::RGBA_INTEGER, glow::UNSIGNED_INT, &mut wide);
@@ -247,6 +251,8 @@ pub(crate) fn copy(
             let wide = words(glow::RGBA, glow::FLOAT, 4);
             (narrowed(&wide, format.color_channels()), None)
         }
+        // Every version reads unsigned integers as four channels.
+        ReadPlan::Integers => (words(glow::RGBA_INTEGER, glow::UNSIGNED_INT, 4), None),
         ReadPlan::Depth16 => {
             let mut codes = vec![0_u16; texels];
             read_pixels(gl, size, depth, glow::UNSIGNED_SHORT, &mut codes);

@@ -355,6 +355,8 @@ pub(crate) fn reset(context: &Context) {
         }
         gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
         gl.pixel_store_i32(glow::UNPACK_ALIGNMENT, 1);
+        // Only the first texture of a draw is ever sampled.
+        gl.bind_sampler(0, None);
     }
     context.set_clip_control();
 }

@@ -2,8 +2,8 @@
 
 use etalon_case::scene::ColorTarget;
 use etalon_case::state::{
-    BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction, LogicOperation,
-    PrimitiveTopology, StencilOperation,
+    AddressMode, BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction,
+    LogicOperation, PrimitiveTopology, StencilOperation,
 };
 
 pub(crate) fn topology(topology: PrimitiveTopology) -> u32 {
@@ -14,6 +14,14 @@ pub(crate) fn topology(topology: PrimitiveTopology) -> u32 {
         PrimitiveTopology::TriangleList => glow::TRIANGLES,
         PrimitiveTopology::TriangleFan => glow::TRIANGLE_FAN,
         PrimitiveTopology::TriangleStrip => glow::TRIANGLE_STRIP,
+    }
+}
+
+pub(crate) fn address(mode: AddressMode) -> u32 {
+    match mode {
+        AddressMode::ClampToEdge => glow::CLAMP_TO_EDGE,
+        AddressMode::Repeat => glow::REPEAT,
+        AddressMode::MirrorRepeat => glow::MIRRORED_REPEAT,
     }
 }
 

@@ -1,5 +1,6 @@
 //! The crate's face: which adapters there are, and an open one.
 
+use crate::descriptors::Samplers;
 use crate::device::{Device, identify};
 use crate::error::unavailable;
 use crate::format::{self, Native};
@@ -45,6 +46,7 @@ pub(crate) struct Pools {
     pub(crate) memory: Pool,
     pub(crate) pipelines: Pipelines,
     pub(crate) readers: SampleReaders,
+    pub(crate) samplers: Samplers,
 }
 
 /// All physical devices that the installed drivers offer, in the order of [`Options::device`]. The
@@ -133,6 +135,7 @@ impl Drop for VulkanBackend {
         pools.memory.destroy(&self.device);
         pools.pipelines.destroy(&self.device);
         pools.readers.destroy(&self.device);
+        pools.samplers.destroy(&self.device);
     }
 }
 

@@ -21,6 +21,8 @@ pub(crate) struct Device {
     pub(crate) queue: vk::Queue,
     pub(crate) queue_family: u32,
     pub(crate) limits: vk::PhysicalDeviceLimits,
+    /// Sample counts of attachments that hold integers.
+    pub(crate) integer_samples: vk::SampleCountFlags,
     pub(crate) memory: vk::PhysicalDeviceMemoryProperties,
     /// Whether the queue runs compute shaders.
     pub(crate) compute: bool,
@@ -115,8 +117,11 @@ fn wanted(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures {
         depth_clamp: has.depth_clamp,
         dual_src_blend: has.dual_src_blend,
         fill_mode_non_solid: has.fill_mode_non_solid,
+        fragment_stores_and_atomics: has.fragment_stores_and_atomics,
         independent_blend: has.independent_blend,
         logic_op: has.logic_op,
+        occlusion_query_precise: has.occlusion_query_precise,
+        pipeline_statistics_query: has.pipeline_statistics_query,
         sample_rate_shading: has.sample_rate_shading,
         ..vk::PhysicalDeviceFeatures::default()
     }
@@ -155,6 +160,10 @@ impl Device {
         let features = unsafe { api.get_physical_device_features(physical) };
         // SAFETY: as above.
         let memory = unsafe { api.get_physical_device_memory_properties(physical) };
+        let mut newer = vk::PhysicalDeviceVulkan12Properties::default();
+        let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut newer);
+        // SAFETY: as above, and a device of Vulkan 1.3 knows the chained structure.
+        unsafe { api.get_physical_device_properties2(physical, &mut all) };
 
         let priorities = [1.0];
         let queues = [vk::DeviceQueueCreateInfo::default()
@@ -187,6 +196,7 @@ impl Device {
             queue,
             queue_family: index,
             limits: properties.limits,
+            integer_samples: newer.framebuffer_integer_color_sample_counts,
             memory,
             compute: family.queue_flags.contains(compute),
             features: enabled,

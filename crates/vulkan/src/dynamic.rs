@@ -146,7 +146,8 @@ const IDLE_FACE: StencilFace = StencilFace {
 };
 
 /// The negative height turns clip space's y axis up: y = 1 lies at the rectangle's top, which is
-/// nearer to the origin (Vulkan, Controlling the Viewport).
+/// nearer to the origin (Vulkan, Controlling the Viewport). A mirrored one thereby becomes an
+/// ordinary one of Vulkan's.
 fn viewport(viewport: &Viewport) -> vk::Viewport {
     let [x, y, width, height] = viewport.rect;
     vk::Viewport {
@@ -188,6 +189,11 @@ mod tests {
         assert_eq!((turned.x, turned.width), (2.0, 4.0));
         assert_eq!((turned.y, turned.height), (9.0, -6.0));
         assert_eq!((turned.min_depth, turned.max_depth), (0.75, 0.25));
+        let mirrored = viewport(&Viewport {
+            rect: [2.0, 9.0, 4.0, -6.0],
+            depth: [0.0, 1.0],
+        });
+        assert_eq!((mirrored.y, mirrored.height), (3.0, 6.0));
     }
 
     #[test]

@@ -44,6 +44,7 @@ fn candidates(format: TextureFormat) -> &'static [vk::Format] {
             vk::Format::R4G4B4A4_UNORM_PACK16,
         ],
         TextureFormat::Rg11b10Ufloat => &[vk::Format::B10G11R11_UFLOAT_PACK32],
+        TextureFormat::Rgba8Uint => &[vk::Format::R8G8B8A8_UINT],
         TextureFormat::Rgba16Float => &[vk::Format::R16G16B16A16_SFLOAT],
         TextureFormat::Rgba32Float => &[vk::Format::R32G32B32A32_SFLOAT],
         TextureFormat::Depth16Unorm => &[vk::Format::D16_UNORM],
@@ -63,14 +64,18 @@ fn candidates(format: TextureFormat) -> &'static [vk::Format] {
 }
 
 /// The formats that the device supports, as [`etalon_frame::Limits::formats`] promises them: colours
-/// can be copied and fetched from, depth and stencil copied and drawn to. A candidate that can also
-/// be drawn to goes before one that cannot.
+/// can be copied and fetched from, and sampled linearly unless they hold integers or 32-bit floats
+/// (Vulkan requires as much of each first candidate), depth and stencil copied and drawn to. A
+/// candidate that can also be drawn to goes before one that cannot.
 pub(crate) fn natives(device: &Device) -> BTreeMap<TextureFormat, Native> {
     let transfer = vk::FormatFeatureFlags::TRANSFER_SRC | vk::FormatFeatureFlags::TRANSFER_DST;
     let mut natives = BTreeMap::new();
     for format in TextureFormat::ALL {
         let (needed, attachment) = if format.is_color() {
-            let sampled = vk::FormatFeatureFlags::SAMPLED_IMAGE;
+            let mut sampled = vk::FormatFeatureFlags::SAMPLED_IMAGE;
+            if !format.is_integer() && format != TextureFormat::Rgba32Float {
+                sampled |= vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR;
+            }
             (transfer | sampled, vk::FormatFeatureFlags::COLOR_ATTACHMENT)
         } else {
             let tested = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
@@ -108,9 +113,10 @@ pub(crate) fn layout(raw: vk::Format) -> &'static [(u32, u32)] {
     match raw {
         vk::Format::R8_UNORM => &[(0, 8)],
         vk::Format::R8G8_UNORM => &[(0, 8), (8, 8)],
-        vk::Format::R8G8B8A8_UNORM | vk::Format::R8G8B8A8_SRGB | vk::Format::R8G8B8A8_SNORM => {
-            &[(0, 8), (8, 8), (16, 8), (24, 8)]
-        }
+        vk::Format::R8G8B8A8_UNORM
+        | vk::Format::R8G8B8A8_SRGB
+        | vk::Format::R8G8B8A8_SNORM
+        | vk::Format::R8G8B8A8_UINT => &[(0, 8), (8, 8), (16, 8), (24, 8)],
         vk::Format::B8G8R8A8_UNORM | vk::Format::B8G8R8A8_SRGB => {
             &[(16, 8), (8, 8), (0, 8), (24, 8)]
         }

@@ -10,6 +10,8 @@
 //! pools, for a suite draws many thousands of small scenes.
 
 mod backend;
+mod counting;
+mod descriptors;
 mod device;
 mod dynamic;
 mod error;
@@ -21,6 +23,7 @@ mod memory;
 mod pipeline;
 mod plan;
 mod prepared;
+mod queries;
 mod read;
 mod record;
 mod samples;

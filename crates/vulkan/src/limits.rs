@@ -71,13 +71,20 @@ fn has(device: &Device, feature: Feature) -> bool {
             vk::FALSE
         }
         Feature::DualSourceBlending => features.dual_src_blend,
+        Feature::FragmentInvocations => features.pipeline_statistics_query,
         Feature::IndependentBlend => features.independent_blend,
         Feature::LogicOperations => features.logic_op,
         Feature::PolygonModeLine => features.fill_mode_non_solid,
+        Feature::PreciseOcclusion => features.occlusion_query_precise,
         Feature::SampleShading => features.sample_rate_shading,
-        Feature::ConstantAlphaBlendFactor
+        Feature::StorageCounters => features.fragment_stores_and_atomics,
+        Feature::CentroidInterpolation
+        | Feature::ConservativeDepth
+        | Feature::ConstantAlphaBlendFactor
+        | Feature::ForcedEarlyTests
         | Feature::FrontAndBackCulling
         | Feature::MinMaxBlendFactors
+        | Feature::MirroredViewport
         | Feature::RasterizerDiscard
         | Feature::ReversedDepthRange
         | Feature::ScissorOutside
@@ -125,6 +132,9 @@ fn sample_counts(device: &Device, format: TextureFormat, native: Native) -> Vec<
     let mut flags = properties.sample_counts;
     for aspect in format.aspects() {
         flags &= match aspect {
+            Aspect::Color if format.is_integer() => {
+                device.integer_samples & raw.sampled_image_integer_sample_counts
+            }
             Aspect::Color => {
                 raw.framebuffer_color_sample_counts & raw.sampled_image_color_sample_counts
             }

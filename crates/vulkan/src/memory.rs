@@ -20,6 +20,8 @@ pub(crate) enum BufferUse {
     Input,
     /// Read by the processor: what comes back.
     Output,
+    /// Counted in by shaders, then read by the processor: a few words.
+    Counts,
 }
 
 /// A buffer, mapped as long as it lives, in coherent memory.
@@ -94,6 +96,10 @@ impl Buffer {
             BufferUse::Output => (
                 vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
                 vk::MemoryPropertyFlags::HOST_CACHED,
+            ),
+            BufferUse::Counts => (
+                vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
+                vk::MemoryPropertyFlags::DEVICE_LOCAL,
             ),
         };
         let info = vk::BufferCreateInfo::default().size(self.size).usage(flags);

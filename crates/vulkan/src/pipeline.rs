@@ -9,7 +9,7 @@ use ash::vk;
 use etalon_backend::BackendError;
 use etalon_case::scene::{ColorTarget, Draw};
 use etalon_case::state::{
-    BlendComponent, LogicOperation, Multisample, PolygonMode, PrimitiveTopology, Shader,
+    BlendComponent, EarlyTests, LogicOperation, Multisample, PolygonMode, PrimitiveTopology, Shader,
 };
 use std::collections::HashMap;
 use std::mem::{offset_of, size_of};
@@ -35,6 +35,7 @@ pub(crate) struct Targets {
 struct Key {
     targets: Targets,
     shader: Shader,
+    early_tests: EarlyTests,
     /// The first topology of its class (Vulkan, Topology Class): within it, topology is dynamic.
     class: PrimitiveTopology,
     polygon_mode: PolygonMode,
@@ -54,7 +55,30 @@ fn class(topology: PrimitiveTopology) -> PrimitiveTopology {
     }
 }
 
-/// The layouts that shaders with so many textures share.
+/// Where shaders count their runs.
+pub(crate) const RUNS_BINDING: u32 = 3;
+/// How shaders sample their texture.
+pub(crate) const SAMPLER_BINDING: u32 = 4;
+
+/// What a shader has bound beside its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Bindings {
+    pub(crate) textures: usize,
+    pub(crate) sampler: bool,
+    pub(crate) runs: bool,
+}
+
+impl Bindings {
+    pub(crate) fn of(shader: Shader) -> Self {
+        Self {
+            textures: shader.textures(),
+            sampler: shader.samples_texture(),
+            runs: shader.counts_runs(),
+        }
+    }
+}
+
+/// The layouts that shaders with the same bindings share.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layout {
     pub(crate) set: vk::DescriptorSetLayout,
@@ -73,7 +97,7 @@ pub(crate) struct Pipeline {
 pub(crate) struct Pipelines {
     modules: Modules,
     cache: vk::PipelineCache,
-    layouts: HashMap<usize, Layout>,
+    layouts: HashMap<Bindings, Layout>,
     pipelines: HashMap<Key, Rc<Pipeline>>,
 }
 
@@ -87,34 +111,38 @@ impl Pipelines {
         Ok(())
     }
 
-    /// The layouts for shaders with so many textures.
+    /// The layouts for shaders with such bindings.
     pub(crate) fn layout(
         &mut self,
         device: &Device,
-        textures: usize,
+        bindings: Bindings,
     ) -> Result<Layout, BackendError> {
-        if let Some(layout) = self.layouts.get(&textures) {
+        if let Some(layout) = self.layouts.get(&bindings) {
             return Ok(*layout);
         }
-        let stages = vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT;
-        let mut bindings = vec![
+        let binding = |binding, kind, stages| {
             vk::DescriptorSetLayoutBinding::default()
-                .binding(0)
-                .descriptor_type(vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC)
+                .binding(binding)
+                .descriptor_type(kind)
                 .descriptor_count(1)
-                .stage_flags(stages),
-        ];
-        for (binding, _) in (1..).zip(0..textures) {
-            bindings.push(
-                vk::DescriptorSetLayoutBinding::default()
-                    .binding(binding)
-                    .descriptor_type(vk::DescriptorType::SAMPLED_IMAGE)
-                    .descriptor_count(1)
-                    .stage_flags(stages),
-            );
+                .stage_flags(stages)
+        };
+        let fragment = vk::ShaderStageFlags::FRAGMENT;
+        let both = vk::ShaderStageFlags::VERTEX | fragment;
+        let mut all = vec![binding(0, vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC, both)];
+        for (number, _) in (1..).zip(0..bindings.textures) {
+            all.push(binding(number, vk::DescriptorType::SAMPLED_IMAGE, both));
         }
-        let layout = create_layout(device, &bindings)?;
-        self.layouts.insert(textures, layout);
+        if bindings.runs {
+            let kind = vk::DescriptorType::STORAGE_BUFFER;
+            all.push(binding(RUNS_BINDING, kind, fragment));
+        }
+        if bindings.sampler {
+            let kind = vk::DescriptorType::SAMPLER;
+            all.push(binding(SAMPLER_BINDING, kind, both));
+        }
+        let layout = create_layout(device, &all)?;
+        self.layouts.insert(bindings, layout);
         Ok(layout)
     }
 
@@ -128,6 +156,7 @@ impl Pipelines {
         let key = Key {
             targets: targets.clone(),
             shader: draw.shader,
+            early_tests: draw.early_tests,
             class: class(draw.topology),
             polygon_mode: draw.polygon_mode,
             depth_clamp: draw.depth_clamp,
@@ -141,8 +170,8 @@ impl Pipelines {
         if self.pipelines.len() >= KEPT_PIPELINES {
             self.drop_unused(device);
         }
-        let module = self.modules.get(device, draw.shader)?;
-        let layout = self.layout(device, draw.shader.textures())?;
+        let module = self.modules.get(device, draw.shader, draw.early_tests)?;
+        let layout = self.layout(device, Bindings::of(draw.shader))?;
         let raw = create(device, self.cache, &key, &module, layout.pipeline)?;
         let pipeline = Rc::new(Pipeline {
             raw,

@@ -1,14 +1,13 @@
 //! What to record for a scene, in handles of the device.
 
-use crate::backend::{Pools, VulkanBackend};
-use crate::device::Device;
+use crate::backend::VulkanBackend;
+use crate::counting::{Counting, Query};
 use crate::dynamic::Dynamic;
-use crate::inputs::{DrawInputs, PARAMS_BYTES};
+use crate::inputs::DrawInputs;
 use crate::limits::attachment_usage;
 use crate::memory::{Image, ImageKey};
 use crate::pipeline::{Pipeline, Targets};
 use crate::read::ReadPlan;
-use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_case::Scene;
@@ -22,6 +21,7 @@ pub(crate) struct Plan {
     pub(crate) attachments: Vec<AttachmentPlan>,
     pub(crate) passes: Vec<PassPlan>,
     pub(crate) reads: Vec<ReadPlan>,
+    pub(crate) counting: Counting,
 }
 
 /// One attachment's beginning and its place during the passes.
@@ -37,7 +37,7 @@ pub(crate) struct AttachmentPlan {
 
 /// What an attachment starts from.
 pub(crate) enum Start {
-    Color([f32; 4]),
+    Color(vk::ClearColorValue),
     DepthStencil {
         depth: f32,
         stencil: u8,
@@ -68,8 +68,8 @@ pub(crate) struct PassPlan {
 /// One colour attachment of a pass.
 pub(crate) struct ColorPlan {
     pub(crate) view: vk::ImageView,
-    /// Where its samples are averaged to at the end.
-    pub(crate) resolve: Option<vk::ImageView>,
+    /// Where its samples are joined to one at the end, and how.
+    pub(crate) resolve: Option<(vk::ImageView, vk::ResolveModeFlags)>,
 }
 
 /// The depth-stencil attachment of a pass.
@@ -93,6 +93,8 @@ pub(crate) struct DrawPlan {
     /// Vertices, or indices where there are any.
     pub(crate) count: u32,
     pub(crate) dynamic: Dynamic,
+    /// What is counted about it.
+    pub(crate) queries: Vec<Query>,
 }
 
 pub(crate) fn internal(message: &str) -> BackendError {
@@ -119,9 +121,14 @@ impl Role {
 
 impl Start {
     /// What an attachment starts from, its texels lying at an offset of the input buffer.
-    pub(crate) fn of(contents: &Contents, texels: u64) -> Self {
-        match contents {
-            Contents::Color(color) => Self::Color(*color),
+    pub(crate) fn of(attachment: &Attachment, texels: u64) -> Self {
+        match &attachment.contents {
+            Contents::Color(color) if attachment.format.is_integer() => {
+                Self::Color(vk::ClearColorValue {
+                    uint32: color.map(|c| c as u32),
+                })
+            }
+            Contents::Color(color) => Self::Color(vk::ClearColorValue { float32: *color }),
             Contents::DepthStencil { depth, stencil } => Self::DepthStencil {
                 depth: *depth,
                 stencil: *stencil,
@@ -147,7 +154,19 @@ impl PassPlan {
         };
         for (location, index) in pass.color.iter().enumerate() {
             let resolve = match pass.resolve.get(location).copied().flatten() {
-                Some(index) => Some(image(index)?.whole()?),
+                Some(index) => {
+                    let integer = scene
+                        .attachments
+                        .get(index)
+                        .is_some_and(|a| a.format.is_integer());
+                    // Of integers one sample is taken (VkRenderingAttachmentInfo).
+                    let mode = if integer {
+                        vk::ResolveModeFlags::SAMPLE_ZERO
+                    } else {
+                        vk::ResolveModeFlags::AVERAGE
+                    };
+                    Some((image(index)?.whole()?, mode))
+                }
                 None => None,
             };
             plan.color.push(ColorPlan {
@@ -176,6 +195,7 @@ impl DrawPlan {
         size: [u32; 2],
         pipeline: Rc<Pipeline>,
         set: vk::DescriptorSet,
+        queries: Vec<Query>,
     ) -> Result<Self, BackendError> {
         Ok(Self {
             pipeline,
@@ -185,6 +205,7 @@ impl DrawPlan {
             indices: inputs.index_offset(),
             count: u32::try_from(inputs.count).map_err(|_| internal("too many vertices"))?,
             dynamic: Dynamic::new(draw, size, inputs.restarts())?,
+            queries,
         })
     }
 }
@@ -260,52 +281,4 @@ pub(crate) fn targets(
         }
     }
     Ok(targets)
-}
-
-/// A set of the parameters and the textures of a draw.
-pub(crate) fn descriptor_set(
-    device: &Device,
-    pools: &mut Pools,
-    slot: &Slot,
-    input: vk::Buffer,
-    draw: &Draw,
-    images: &[Image],
-) -> Result<vk::DescriptorSet, BackendError> {
-    let layout = pools.pipelines.layout(device, draw.textures.len())?;
-    let set = slot.descriptor_set(device, layout.set)?;
-    let buffers = [vk::DescriptorBufferInfo {
-        buffer: input,
-        offset: 0,
-        range: PARAMS_BYTES,
-    }];
-    let mut infos = Vec::with_capacity(draw.textures.len());
-    for index in &draw.textures {
-        let image = images
-            .get(*index)
-            .ok_or_else(|| internal("a draw names no attachment"))?;
-        infos.push([vk::DescriptorImageInfo {
-            sampler: vk::Sampler::null(),
-            image_view: image.whole()?,
-            image_layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
-        }]);
-    }
-    let mut writes = vec![
-        vk::WriteDescriptorSet::default()
-            .dst_set(set)
-            .dst_binding(0)
-            .descriptor_type(vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC)
-            .buffer_info(&buffers),
-    ];
-    for (binding, info) in (1..).zip(&infos) {
-        writes.push(
-            vk::WriteDescriptorSet::default()
-                .dst_set(set)
-                .dst_binding(binding)
-                .descriptor_type(vk::DescriptorType::SAMPLED_IMAGE)
-                .image_info(info),
-        );
-    }
-    // SAFETY: the set is new, and buffer and views live as long as the scene.
-    unsafe { device.raw.update_descriptor_sets(&writes, &[]) };
-    Ok(set)
 }

@@ -1,20 +1,20 @@
 //! A scene turned into objects of the device.
 
 use crate::backend::VulkanBackend;
+use crate::counting::Counting;
+use crate::descriptors::Descriptors;
 use crate::inputs::Inputs;
 use crate::memory::{Buffer, BufferUse, Image};
 use crate::plan::{
-    AttachmentPlan, DrawPlan, PassPlan, Plan, Role, Start, descriptor_set, image_key, internal,
-    targets,
+    AttachmentPlan, DrawPlan, PassPlan, Plan, Role, Start, image_key, internal, targets,
 };
 use crate::read::ReadPlan;
 use crate::record;
-use crate::slot::Slot;
+use crate::slot::{Needs, Slot};
 use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
 use etalon_case::Scene;
 use etalon_case::scene::Contents;
 use etalon_frame::Frame;
-use std::collections::HashMap;
 use std::time::Instant;
 
 /// A scene with everything that drawing it takes.
@@ -24,6 +24,8 @@ pub(crate) struct PreparedScene<'a> {
     slot: Option<Slot>,
     input: Option<Buffer>,
     output: Option<Buffer>,
+    /// What shaders count in, where any do.
+    counts: Option<Buffer>,
     images: Vec<Image>,
     plan: Plan,
     drawn: Drawn,
@@ -51,6 +53,7 @@ impl<'a> PreparedScene<'a> {
             slot: None,
             input: None,
             output: None,
+            counts: None,
             images: Vec::new(),
             plan: Plan::default(),
             drawn: Drawn::No,
@@ -69,7 +72,6 @@ impl<'a> PreparedScene<'a> {
         let input = memory.buffer(device, BufferUse::Input, inputs.bytes)?;
         let input = self.input.insert(input);
         inputs.write(input, scene)?;
-        let input = input.raw;
 
         for (index, attachment) in scene.attachments.iter().enumerate() {
             if let Contents::Texels(codes) = &attachment.contents {
@@ -87,7 +89,7 @@ impl<'a> PreparedScene<'a> {
                 aspects: image.aspects(),
                 size: attachment.size,
                 samples: attachment.samples,
-                start: Start::of(&attachment.contents, inputs.texels(index)),
+                start: Start::of(attachment, inputs.texels(index)),
                 role,
                 read,
             });
@@ -103,10 +105,24 @@ impl<'a> PreparedScene<'a> {
         ) else {
             return Err(internal("too many draws"));
         };
-        let slot = pools.slots.take(device, sets, textures)?;
+        let mut needs = Needs {
+            sets,
+            images: textures,
+            ..Needs::default()
+        };
+        self.plan.counting = Counting::new(device, scene);
+        let counting = &mut self.plan.counting;
+        counting.add_needs(scene, &mut needs);
+        let slot = pools.slots.take(device, needs)?;
         let slot = self.slot.insert(slot);
+        if counting.bytes > 0 {
+            let counts = pools
+                .memory
+                .buffer(device, BufferUse::Counts, counting.bytes)?;
+            self.counts = Some(counts);
+        }
 
-        let mut sets = HashMap::new();
+        let mut sets = Descriptors::new(input, self.counts.as_ref(), &self.images);
         for (pass, places) in scene.passes.iter().zip(&inputs.draws) {
             let targets = targets(self.backend, scene, pass)?;
             let mut planned = PassPlan::new(scene, pass, &self.images)?;
@@ -114,21 +130,12 @@ impl<'a> PreparedScene<'a> {
                 if draw.targets.len() != pass.color.len() {
                     return Err(internal("a draw has not one target per colour attachment"));
                 }
-                if draw.textures.len() != draw.shader.textures() {
-                    return Err(internal(
-                        "a draw has not the textures its shader fetches from",
-                    ));
-                }
-                let set = match sets.get(&draw.textures) {
-                    Some(set) => *set,
-                    None => {
-                        let set = descriptor_set(device, pools, slot, input, draw, &self.images)?;
-                        sets.insert(draw.textures.clone(), set);
-                        set
-                    }
-                };
-                let pipeline = pools.pipelines.get(device, &targets, draw)?;
-                let drawn = DrawPlan::new(draw, place, planned.size, pipeline, set)?;
+                let pipelines = &mut pools.pipelines;
+                let made = (&mut *pipelines, &mut pools.samplers);
+                let set = sets.get(device, made, slot, counting, draw)?;
+                let pipeline = pipelines.get(device, &targets, draw)?;
+                let queries = counting.queries(slot, draw)?;
+                let drawn = DrawPlan::new(draw, place, planned.size, pipeline, set, queries)?;
                 planned.draws.push(drawn);
             }
             self.plan.passes.push(planned);
@@ -159,10 +166,13 @@ impl Prepared for PreparedScene<'_> {
         let start = Instant::now();
         let commands = slot.begin(device)?;
         slot.reset_timestamps(device);
+        let counting = &self.plan.counting;
+        counting.start(device, commands, slot, self.counts.as_ref())?;
         record::start(device, commands, &self.plan, input.raw);
         slot.timestamp(device, 0);
         record::passes(device, commands, &self.plan, input.raw);
         slot.timestamp(device, 1);
+        counting.end(device, commands);
         let (cpu, wall) = slot.submit(device, start)?;
         self.drawn = Drawn::Passes;
         let gpu = slot.gpu_time(device)?;
@@ -187,7 +197,13 @@ impl Prepared for PreparedScene<'_> {
             // The codes still lie in the output buffer.
             Drawn::Read => {}
         }
-        let mut frame = Frame::default();
+        let mut frame = Frame {
+            images: Vec::with_capacity(self.plan.reads.len()),
+            counters: self
+                .plan
+                .counting
+                .read(device, slot, self.counts.as_ref())?,
+        };
         for read in &self.plan.reads {
             frame.images.push(read.image(output)?);
         }
@@ -203,9 +219,9 @@ impl Drop for PreparedScene<'_> {
         if let Some(slot) = self.slot.take() {
             pools.slots.give_back(device, slot);
         }
-        let buffers = self.input.take().into_iter().chain(self.output.take());
+        let buffers = [self.input.take(), self.output.take(), self.counts.take()];
         pools
             .memory
-            .give_back(device, buffers, self.images.drain(..));
+            .give_back(device, buffers.into_iter().flatten(), self.images.drain(..));
     }
 }

@@ -5,7 +5,7 @@ use crate::device::Device;
 use crate::format;
 use crate::inputs::Placer;
 use crate::memory::{Buffer, Image};
-use crate::samples::{self, SampleReader, SampleReaders};
+use crate::samples::{self, SampleReader, SampleReaders, Seen};
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::BackendError;
@@ -21,6 +21,7 @@ pub(crate) struct ReadPlan {
     /// For multisampled attachments, the shader that reads them, and its descriptors.
     pub(crate) reader: Option<(SampleReader, vk::DescriptorSet)>,
     name: String,
+    seen: Seen,
     size: [u32; 2],
     samples: u32,
     raw: vk::Format,
@@ -64,6 +65,7 @@ impl ReadPlan {
                     offset: placer.place(bytes, alignment),
                     reader: None,
                     name: attachment.name.clone(),
+                    seen: Seen::of(format, *aspect),
                     size: attachment.size,
                     samples: attachment.samples,
                     raw: native.raw,
@@ -94,7 +96,7 @@ impl ReadPlan {
                 message: "maxStorageBufferRange is smaller".to_owned(),
             });
         }
-        let reader = readers.get(device, self.aspect)?;
+        let reader = readers.get(device, self.seen)?;
         let set = slot.descriptor_set(device, reader.layout.set)?;
         let images = [vk::DescriptorImageInfo {
             sampler: vk::Sampler::null(),

@@ -117,14 +117,13 @@ pub(crate) fn start(device: &Device, commands: vk::CommandBuffer, plan: &Plan, i
         let ranges = [range(attachment.aspects)];
         match &attachment.start {
             Start::Color(color) => {
-                let value = vk::ClearColorValue { float32: *color };
                 // SAFETY: recording; the image is in this layout.
                 unsafe {
                     device.raw.cmd_clear_color_image(
                         commands,
                         attachment.image,
                         layout,
-                        &value,
+                        color,
                         &ranges,
                     );
                 }
@@ -221,9 +220,9 @@ fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk
     let mut color = Vec::with_capacity(pass.color.len());
     for target in &pass.color {
         let mut info = attachment(target.view, drawn);
-        if let Some(resolve) = target.resolve {
+        if let Some((resolve, mode)) = target.resolve {
             info = info
-                .resolve_mode(vk::ResolveModeFlags::AVERAGE)
+                .resolve_mode(mode)
                 .resolve_image_view(resolve)
                 .resolve_image_layout(drawn);
         }
@@ -277,8 +276,8 @@ fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk
 /// Within a render pass of `commands`, with the draw's pipeline bound.
 unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, input: vk::Buffer) {
     let api = &device.raw;
-    // SAFETY: set, buffers and pipeline live as long as the scene, and the offsets lie inside the
-    // input buffer, which was written before.
+    // SAFETY: set, buffers, queries and pipeline live as long as the scene, the offsets lie inside the
+    // input buffer, which was written before, and each query is begun once.
     unsafe {
         api.cmd_bind_descriptor_sets(
             commands,
@@ -290,12 +289,18 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
         );
         draw.dynamic.set(device, commands);
         api.cmd_bind_vertex_buffers(commands, 0, &[input], &[draw.vertices]);
+        for query in &draw.queries {
+            api.cmd_begin_query(commands, query.pool, query.index, query.flags);
+        }
         match draw.indices {
             Some(offset) => {
                 api.cmd_bind_index_buffer(commands, input, offset, vk::IndexType::UINT32);
                 api.cmd_draw_indexed(commands, draw.count, 1, 0, 0, 0);
             }
             None => api.cmd_draw(commands, draw.count, 1, 0, 0),
+        }
+        for query in draw.queries.iter().rev() {
+            api.cmd_end_query(commands, query.pool, query.index);
         }
     }
 }

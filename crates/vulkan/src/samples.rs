@@ -13,7 +13,7 @@ use crate::pipeline::{Layout, create_layout};
 use crate::shader;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_frame::{Aspect, ChannelEncoding};
+use etalon_frame::{Aspect, ChannelEncoding, TextureFormat};
 use std::collections::HashMap;
 
 /// Texels per side that one workgroup reads.
@@ -23,7 +23,7 @@ pub(crate) const TILE: u32 = 8;
 #[derive(Debug, Default)]
 pub(crate) struct SampleReaders {
     layout: Option<Layout>,
-    pipelines: HashMap<Aspect, vk::Pipeline>,
+    pipelines: HashMap<Seen, vk::Pipeline>,
 }
 
 /// A reader: a pipeline with its layouts.
@@ -38,6 +38,29 @@ pub(crate) fn can_read(encoding: ChannelEncoding) -> bool {
     match encoding {
         ChannelEncoding::Unorm(bits) | ChannelEncoding::Snorm(bits) => bits <= 16,
         _ => true,
+    }
+}
+
+/// What a reader's shader sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Seen {
+    /// Colours as floats.
+    Color,
+    /// Colours that are integers.
+    Integers,
+    Depth,
+    Stencil,
+}
+
+impl Seen {
+    /// What is seen of an aspect of a format.
+    pub(crate) fn of(format: TextureFormat, aspect: Aspect) -> Self {
+        match aspect {
+            Aspect::Color if format.is_integer() => Self::Integers,
+            Aspect::Color => Self::Color,
+            Aspect::Depth => Self::Depth,
+            Aspect::Stencil => Self::Stencil,
+        }
     }
 }
 
@@ -73,15 +96,21 @@ fn shortened(seen: u32, mantissa: u32) -> u32 {
     }
 }
 
-/// The compute shader for one aspect.
-fn source(aspect: Aspect) -> String {
-    let (texture, code) = match aspect {
-        Aspect::Color => ("texture_multisampled_2d<f32>", "bitcast<vec4u>(texel)"),
-        Aspect::Depth => (
+/// The compute shader that sees one thing.
+fn source(seen: Seen) -> String {
+    let (texture, code, aspect) = match seen {
+        Seen::Color => (
+            "texture_multisampled_2d<f32>",
+            "bitcast<vec4u>(texel)",
+            Aspect::Color,
+        ),
+        Seen::Integers => ("texture_multisampled_2d<u32>", "texel", Aspect::Color),
+        Seen::Depth => (
             "texture_depth_multisampled_2d",
             "vec4u(bitcast<u32>(texel))",
+            Aspect::Depth,
         ),
-        Aspect::Stencil => ("texture_multisampled_2d<u32>", "texel"),
+        Seen::Stencil => ("texture_multisampled_2d<u32>", "texel", Aspect::Stencil),
     };
     let words = words(aspect);
     format!(
@@ -109,21 +138,21 @@ fn cs(@builtin(global_invocation_id) id: vec3u) {{
 }
 
 impl SampleReaders {
-    /// The reader of an aspect, made at its first use.
+    /// The reader that sees one thing, made at its first use.
     pub(crate) fn get(
         &mut self,
         device: &Device,
-        aspect: Aspect,
+        seen: Seen,
     ) -> Result<SampleReader, BackendError> {
         let layout = match self.layout {
             Some(layout) => layout,
             None => *self.layout.insert(layout(device)?),
         };
-        if let Some(pipeline) = self.pipelines.get(&aspect).copied() {
+        if let Some(pipeline) = self.pipelines.get(&seen).copied() {
             return Ok(SampleReader { pipeline, layout });
         }
-        let pipeline = pipeline(device, &source(aspect), layout.pipeline)?;
-        self.pipelines.insert(aspect, pipeline);
+        let pipeline = pipeline(device, &source(seen), layout.pipeline)?;
+        self.pipelines.insert(seen, pipeline);
         Ok(SampleReader { pipeline, layout })
     }
 
@@ -192,8 +221,8 @@ mod tests {
 
     #[test]
     fn every_reader_translates() {
-        for aspect in [Aspect::Color, Aspect::Depth, Aspect::Stencil] {
-            shader::translate("read_samples", &source(aspect)).expect("our own shader");
+        for seen in [Seen::Color, Seen::Integers, Seen::Depth, Seen::Stencil] {
+            shader::translate("read_samples", &source(seen)).expect("our own shader");
         }
     }
 

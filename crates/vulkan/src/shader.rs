@@ -4,7 +4,7 @@ use crate::device::Device;
 use crate::error::Check;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_case::state::Shader;
+use etalon_case::state::{EarlyTests, Shader};
 use naga::back::spv;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::collections::HashMap;
@@ -24,10 +24,11 @@ pub(crate) struct Module {
     pub(crate) attributes: Vec<u32>,
 }
 
-/// One module per shader of the suite; the set is closed, so nothing needs to go early.
+/// One module per shader of the suite and time of its tests; the set is closed, so nothing needs to
+/// go early.
 #[derive(Debug, Default)]
 pub(crate) struct Modules {
-    modules: HashMap<Shader, Module>,
+    modules: HashMap<(Shader, EarlyTests), Module>,
 }
 
 /// Translates a WGSL file.
@@ -38,7 +39,9 @@ pub(crate) fn translate(name: &str, source: &str) -> Result<Translated, BackendE
     };
     let module =
         naga::front::wgsl::parse_str(source).map_err(|e| fail(e.emit_to_string(source)))?;
-    let capabilities = Capabilities::DUAL_SOURCE_BLENDING | Capabilities::MULTISAMPLED_SHADING;
+    let capabilities = Capabilities::DUAL_SOURCE_BLENDING
+        | Capabilities::MULTISAMPLED_SHADING
+        | Capabilities::EARLY_DEPTH_TEST;
     let info = Validator::new(ValidationFlags::all(), capabilities)
         .validate(&module)
         .map_err(|e| fail(e.emit_to_string(source)))?;
@@ -75,16 +78,21 @@ pub(crate) fn create_module(
 
 impl Modules {
     /// The module of a shader, made at its first use.
-    pub(crate) fn get(&mut self, device: &Device, shader: Shader) -> Result<Module, BackendError> {
-        if let Some(module) = self.modules.get(&shader) {
+    pub(crate) fn get(
+        &mut self,
+        device: &Device,
+        shader: Shader,
+        tests: EarlyTests,
+    ) -> Result<Module, BackendError> {
+        if let Some(module) = self.modules.get(&(shader, tests)) {
             return Ok(module.clone());
         }
-        let translated = translate(shader.name(), shader.wgsl())?;
+        let translated = translate(shader.name(), &shader.wgsl_with(tests))?;
         let module = Module {
             raw: create_module(device, shader.name(), &translated.words)?,
             attributes: translated.attributes,
         };
-        self.modules.insert(shader, module.clone());
+        self.modules.insert((shader, tests), module.clone());
         Ok(module)
     }
 
@@ -106,6 +114,46 @@ mod tests {
         for shader in Shader::ALL {
             let translated = translate(shader.name(), shader.wgsl()).expect("our own shader");
             assert!(translated.attributes.contains(&0), "{}", shader.name());
+        }
+    }
+
+    /// The execution modes of a module's entry points (SPIR-V, Mode Setting Instructions: opcode 16,
+    /// the mode in the third word).
+    fn execution_modes(words: &[u32]) -> Vec<u32> {
+        let (mut rest, mut modes) = (&words[5..], Vec::new());
+        while let [head, ..] = rest {
+            if head & 0xffff == 16 {
+                modes.push(rest[2]);
+            }
+            rest = &rest[(head >> 16) as usize..];
+        }
+        modes
+    }
+
+    /// SPIR-V, Execution Mode: EarlyFragmentTests, DepthReplacing, DepthGreater, DepthLess,
+    /// DepthUnchanged.
+    #[test]
+    fn the_time_of_tests_reaches_the_driver() {
+        let due = |tests| match tests {
+            EarlyTests::Implicit => None,
+            EarlyTests::Forced => Some(9),
+            EarlyTests::GreaterEqual => Some(14),
+            EarlyTests::LessEqual => Some(15),
+            EarlyTests::Unchanged => Some(16),
+        };
+        for shader in Shader::ALL {
+            for tests in EarlyTests::ALL {
+                if tests.is_conservative() && !shader.writes_depth() {
+                    continue;
+                }
+                let source = shader.wgsl_with(*tests);
+                let translated = translate(shader.name(), &source).expect("our own shader");
+                let mut modes = execution_modes(&translated.words);
+                modes.retain(|m| matches!(m, 9 | 12 | 14 | 15 | 16));
+                let replaces = shader.writes_depth().then_some(12);
+                let all: Vec<u32> = due(*tests).into_iter().chain(replaces).collect();
+                assert_eq!(modes, all, "{} {}", shader.name(), tests.name());
+            }
         }
     }
 }

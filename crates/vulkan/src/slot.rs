@@ -1,7 +1,8 @@
-//! What one scene in flight needs: commands, a fence, timestamps, descriptors. Slots are reused.
+//! What one scene in flight needs: commands, a fence, queries, descriptors. Slots are reused.
 
 use crate::device::Device;
 use crate::error::Check;
+use crate::queries::Queries;
 use ash::vk;
 use etalon_backend::BackendError;
 use std::time::{Duration, Instant};
@@ -16,8 +17,10 @@ pub(crate) struct Slot {
     pool: vk::CommandPool,
     commands: vk::CommandBuffer,
     fence: vk::Fence,
-    /// Null where the queue has no timestamps.
-    queries: vk::QueryPool,
+    /// None where the queue has no timestamps.
+    timestamps: Queries,
+    pub(crate) occlusion: Queries,
+    pub(crate) statistics: Queries,
     descriptors: vk::DescriptorPool,
     /// How many sets the descriptor pool has room for.
     sets: u32,
@@ -27,6 +30,19 @@ pub(crate) struct Slot {
     pub(crate) in_flight: bool,
 }
 
+/// What a scene needs of its slot.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Needs {
+    /// Descriptor sets.
+    pub(crate) sets: u32,
+    /// The most images of one set.
+    pub(crate) images: u32,
+    /// Occlusion queries.
+    pub(crate) occlusion: u32,
+    /// Queries of pipeline statistics.
+    pub(crate) statistics: u32,
+}
+
 /// Slots that no scene uses at present.
 #[derive(Debug, Default)]
 pub(crate) struct Slots {
@@ -34,15 +50,10 @@ pub(crate) struct Slots {
 }
 
 impl Slots {
-    /// A slot with room for so many descriptor sets of so many images at most.
-    pub(crate) fn take(
-        &mut self,
-        device: &Device,
-        sets: u32,
-        images: u32,
-    ) -> Result<Slot, BackendError> {
+    /// A slot with room for what a scene needs.
+    pub(crate) fn take(&mut self, device: &Device, needs: Needs) -> Result<Slot, BackendError> {
         let mut slot = self.free.pop().unwrap_or_default();
-        let ready = slot.create(device, sets.max(1), images.max(1));
+        let ready = slot.create(device, needs);
         if let Err(error) = ready {
             slot.destroy(device);
             return Err(error);
@@ -71,7 +82,8 @@ impl Slots {
 
 impl Slot {
     /// Makes what is missing, and gives all descriptor sets back.
-    fn create(&mut self, device: &Device, sets: u32, images: u32) -> Result<(), BackendError> {
+    fn create(&mut self, device: &Device, needs: Needs) -> Result<(), BackendError> {
+        let (sets, images) = (needs.sets.max(1), needs.images.max(1));
         let api = &device.raw;
         if self.pool == vk::CommandPool::null() {
             let info = vk::CommandPoolCreateInfo::default()
@@ -89,14 +101,14 @@ impl Slot {
             // SAFETY: the device lives.
             self.fence = unsafe { api.create_fence(&info, None) }.check("a fence")?;
             if device.timestamp_bits > 0 {
-                let info = vk::QueryPoolCreateInfo::default()
-                    .query_type(vk::QueryType::TIMESTAMP)
-                    .query_count(2);
-                // SAFETY: the queue has timestamps.
-                self.queries =
-                    unsafe { api.create_query_pool(&info, None) }.check("a query pool")?;
+                self.timestamps
+                    .make_room(device, vk::QueryType::TIMESTAMP, 2)?;
             }
         }
+        self.occlusion
+            .make_room(device, vk::QueryType::OCCLUSION, needs.occlusion)?;
+        self.statistics
+            .make_room(device, vk::QueryType::PIPELINE_STATISTICS, needs.statistics)?;
         if self.sets < sets || self.images < images {
             self.sets = sets.next_power_of_two().max(FEWEST_SETS);
             self.images = images.max(self.images);
@@ -114,6 +126,7 @@ impl Slot {
                     self.sets.saturating_mul(self.images),
                 ),
                 size(vk::DescriptorType::STORAGE_BUFFER, self.sets),
+                size(vk::DescriptorType::SAMPLER, self.sets),
             ];
             let info = vk::DescriptorPoolCreateInfo::default()
                 .max_sets(self.sets)
@@ -168,25 +181,18 @@ impl Slot {
 
     /// Records that the timestamps are not taken yet.
     pub(crate) fn reset_timestamps(&self, device: &Device) {
-        if self.queries != vk::QueryPool::null() {
-            // SAFETY: recording, outside of a render pass.
-            unsafe {
-                device
-                    .raw
-                    .cmd_reset_query_pool(self.commands, self.queries, 0, 2);
-            }
-        }
+        self.timestamps.reset(device, self.commands, 2);
     }
 
     /// Records a timestamp, 0 before and 1 after what is timed.
     pub(crate) fn timestamp(&self, device: &Device, index: u32) {
-        if self.queries != vk::QueryPool::null() {
+        if self.timestamps.raw != vk::QueryPool::null() {
             let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
             // SAFETY: recording; the pool has two queries.
             unsafe {
                 device
                     .raw
-                    .cmd_write_timestamp2(self.commands, stage, self.queries, index);
+                    .cmd_write_timestamp2(self.commands, stage, self.timestamps.raw, index);
             }
         }
     }
@@ -223,18 +229,10 @@ impl Slot {
 
     /// The time between the two timestamps of finished work.
     pub(crate) fn gpu_time(&self, device: &Device) -> Result<Option<Duration>, BackendError> {
-        if self.queries == vk::QueryPool::null() {
+        if self.timestamps.raw == vk::QueryPool::null() {
             return Ok(None);
         }
-        let mut ticks = [0_u64; 2];
-        let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
-        // SAFETY: both timestamps were written by finished work.
-        unsafe {
-            device
-                .raw
-                .get_query_pool_results(self.queries, 0, &mut ticks, flags)
-        }
-        .check("timestamps")?;
+        let ticks = self.timestamps.results(device, 2)?;
         let mask = u64::MAX >> (64 - device.timestamp_bits.clamp(1, 64));
         let difference = ticks[1].wrapping_sub(ticks[0]) & mask;
         let nanoseconds = difference as f64 * f64::from(device.limits.timestamp_period);
@@ -246,9 +244,11 @@ impl Slot {
         // command buffer along.
         unsafe {
             device.raw.destroy_descriptor_pool(self.descriptors, None);
-            device.raw.destroy_query_pool(self.queries, None);
             device.raw.destroy_fence(self.fence, None);
             device.raw.destroy_command_pool(self.pool, None);
+        }
+        for queries in [&self.timestamps, &self.occlusion, &self.statistics] {
+            queries.destroy(device);
         }
     }
 }

@@ -3,8 +3,9 @@
 use etalon_backend::BackendError;
 use etalon_case::scene::{StencilFace, StencilState};
 use etalon_case::state::{
-    BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction, CullMode, DepthBias,
-    DepthState, FrontFace, PolygonMode, PrimitiveTopology, StencilOperation,
+    AddressMode, BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction,
+    CullMode, DepthBias, DepthState, FilterMode, FrontFace, PolygonMode, PrimitiveTopology,
+    Sampler, StencilOperation,
 };
 use etalon_frame::{Requirement, TextureFormat};
 
@@ -22,6 +23,7 @@ pub(crate) fn texture(format: TextureFormat) -> Option<wgpu::TextureFormat> {
             return None;
         }
         TextureFormat::Rg11b10Ufloat => wgpu::TextureFormat::Rg11b10Ufloat,
+        TextureFormat::Rgba8Uint => wgpu::TextureFormat::Rgba8Uint,
         TextureFormat::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
         TextureFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
         TextureFormat::Depth16Unorm => wgpu::TextureFormat::Depth16Unorm,
@@ -212,6 +214,26 @@ pub(crate) fn primitive(shape: Shape) -> wgpu::PrimitiveState {
             PolygonMode::Line => wgpu::PolygonMode::Line,
         },
         conservative: false,
+    }
+}
+
+/// A sampler of a texture without smaller images.
+pub(crate) fn sampler(sampler: Sampler) -> wgpu::SamplerDescriptor<'static> {
+    let filter = match sampler.filter {
+        FilterMode::Nearest => wgpu::FilterMode::Nearest,
+        FilterMode::Linear => wgpu::FilterMode::Linear,
+    };
+    let [across, down] = sampler.address.map(|address| match address {
+        AddressMode::ClampToEdge => wgpu::AddressMode::ClampToEdge,
+        AddressMode::Repeat => wgpu::AddressMode::Repeat,
+        AddressMode::MirrorRepeat => wgpu::AddressMode::MirrorRepeat,
+    });
+    wgpu::SamplerDescriptor {
+        address_mode_u: across,
+        address_mode_v: down,
+        mag_filter: filter,
+        min_filter: filter,
+        ..wgpu::SamplerDescriptor::default()
     }
 }
 

@@ -1,9 +1,10 @@
 //! A device and everything that is kept on it from scene to scene.
 
+use crate::binding::Layout;
 use crate::error::Errors;
 use crate::format;
 use crate::limits::{Abilities, fetched};
-use crate::pipeline::{Layout, Pipelines};
+use crate::pipeline::Pipelines;
 use crate::pool::{Lease, Pool};
 use etalon_backend::BackendError;
 use etalon_frame::{Limits, TextureFormat};

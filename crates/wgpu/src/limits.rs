@@ -24,6 +24,8 @@ pub(crate) fn wanted_features() -> Features {
         | Features::DUAL_SOURCE_BLENDING
         | Features::DEPTH_CLIP_CONTROL
         | Features::POLYGON_MODE_LINE
+        | Features::PIPELINE_STATISTICS_QUERY
+        | Features::SHADER_EARLY_DEPTH_TEST
 }
 
 /// What matters here of an adapter and is not said by its limits.
@@ -128,7 +130,9 @@ fn support(
     if !found.allowed_usages.contains(due) || !format.is_color() && !drawable {
         return None;
     }
+    // WebGPU does not resolve integers (26.1.1).
     let multisampled = found.flags.sample_count_supported(SAMPLES)
+        && !format.is_integer()
         && (!format.is_color()
             || found
                 .flags
@@ -144,6 +148,7 @@ fn support(
     Some(FormatSupport {
         samples,
         blendable: drawable
+            && !format.is_integer()
             && found.flags.contains(TextureFormatFeatureFlags::BLENDABLE)
             && (format != TextureFormat::Rgba32Float
                 || features.contains(Features::FLOAT32_BLENDABLE)),
@@ -154,11 +159,22 @@ fn support(
 }
 
 /// What wgpu takes beyond WebGPU's least. It has no word for the rest, or refuses it: reversed
-/// depth ranges, scissors beyond the attachments, factors of `min` and `max`.
-fn offered(flags: DownlevelFlags, features: Features, max_size: u32) -> BTreeSet<Feature> {
+/// depth ranges and viewports that turn the picture over, scissors beyond the attachments, factors
+/// of `min` and `max`, counts of samples.
+///
+/// Where it takes shaders that say when the fragment tests happen, what it translates them to says it
+/// too: the feature comes with the versions of GLSL that have the word. Those that promise something
+/// of their depth may want an extension more, which [`crate::probe`] finds out.
+fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTreeSet<Feature> {
+    let max_size = of.max_texture_dimension_2d;
     let flag = |flag| flags.contains(flag);
     let feature = |feature| features.contains(feature);
     let all = [
+        (Feature::CentroidInterpolation, true),
+        (
+            Feature::ConservativeDepth,
+            feature(Features::SHADER_EARLY_DEPTH_TEST),
+        ),
         (
             Feature::DepthBiasClamp,
             flag(DownlevelFlags::DEPTH_BIAS_CLAMP),
@@ -167,6 +183,14 @@ fn offered(flags: DownlevelFlags, features: Features, max_size: u32) -> BTreeSet
         (
             Feature::DualSourceBlending,
             feature(Features::DUAL_SOURCE_BLENDING),
+        ),
+        (
+            Feature::ForcedEarlyTests,
+            feature(Features::SHADER_EARLY_DEPTH_TEST),
+        ),
+        (
+            Feature::FragmentInvocations,
+            feature(Features::PIPELINE_STATISTICS_QUERY),
         ),
         (
             Feature::IndependentBlend,
@@ -179,6 +203,11 @@ fn offered(flags: DownlevelFlags, features: Features, max_size: u32) -> BTreeSet
         (
             Feature::SampleShading,
             flag(DownlevelFlags::MULTISAMPLED_SHADING),
+        ),
+        (
+            Feature::StorageCounters,
+            flag(DownlevelFlags::FRAGMENT_WRITABLE_STORAGE)
+                && of.max_storage_buffers_per_shader_stage > 0,
         ),
         // WebGPU bounds a viewport by twice the largest texture (setViewport).
         (Feature::ViewportOutside, 2 * max_size > VIEWPORT_REACH),
@@ -206,13 +235,18 @@ pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abi
             .max_color_attachments
             .min(of.max_color_attachment_bytes_per_sample / MOST_TEXEL_BYTES),
         formats,
-        features: offered(flags, features, max_size),
+        features: offered(flags, features, &of),
         // WebGPU gives them (Rasterization): no adapter may have others.
         sample_positions: BTreeMap::from([
             (1, vec![[128, 128]]),
             (SAMPLES, vec![[96, 32], [224, 96], [32, 160], [160, 224]]),
         ]),
     }
+}
+
+/// Takes back that shaders can promise something of their depth.
+pub(crate) fn deny_conservative_depth(limits: &mut Limits) {
+    limits.features.remove(&Feature::ConservativeDepth);
 }
 
 /// Takes back that there is more than one sample.

@@ -1,7 +1,7 @@
 //! Finding adapters and opening one.
 
 use crate::gpu::Gpu;
-use crate::limits::{Abilities, deny_samples, limits, wanted_features};
+use crate::limits::{Abilities, deny_conservative_depth, deny_samples, limits, wanted_features};
 use crate::messages;
 use crate::prepared::Ready;
 use crate::probe;
@@ -166,7 +166,13 @@ fn device(adapter: &wgpu::Adapter) -> Result<Gpu, String> {
     let has_samples = probe::samples_work(&gpu).map_err(|error| error.to_string())?;
     if !has_samples {
         deny_samples(&mut gpu.limits);
-        // What a driver said of samples that nobody will ask for is no scene's matter.
+    }
+    let promises = probe::conservative_depth_works(&gpu).map_err(|error| error.to_string())?;
+    if !promises {
+        deny_conservative_depth(&mut gpu.limits);
+    }
+    if !has_samples || !promises {
+        // What a driver said of what nobody will ask for is no scene's matter.
         gpu.forget();
         drop(messages::take());
     }

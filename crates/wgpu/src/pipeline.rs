@@ -1,60 +1,24 @@
 //! Shaders and pipelines, kept by their state.
 
+use crate::binding::{Bindings, Layouts};
 use crate::error::Errors;
 use crate::fetch::{self, FetchKey};
 use crate::format::{self, Shape};
+use crate::kept::Kept;
 use etalon_backend::BackendError;
 use etalon_case::scene::{ColorTarget, Draw, StencilState};
-use etalon_case::state::{DepthBias, DepthState, Multisample, Shader};
+use etalon_case::state::{DepthBias, DepthState, EarlyTests, Multisample, Sampler, Shader};
 use etalon_frame::TextureFormat;
-use std::cell::RefCell;
-use std::collections::HashMap;
-use std::hash::Hash;
+use std::borrow::Cow;
 
-/// The most pipelines kept; past it all go, which costs little when it happens that seldom.
-const MOST_PIPELINES: usize = 1024;
 /// The size of [`etalon_case::Vertex`].
 pub(crate) const VERTEX_BYTES: u64 = 40;
-/// The size of [`etalon_case::scene::Params`].
-pub(crate) const PARAMS_BYTES: u64 = 32;
-
-/// A bind group layout and the pipeline layout made of it.
-pub(crate) struct Layout {
-    pub(crate) bindings: wgpu::BindGroupLayout,
-    pub(crate) pipeline: wgpu::PipelineLayout,
-}
-
-/// What a shader can be given, by kind.
-pub(crate) struct Layouts {
-    /// Nothing.
-    pub(crate) none: Layout,
-    /// The parameter block.
-    pub(crate) params: Layout,
-    /// One texture.
-    pub(crate) texture: Layout,
-    /// Two textures.
-    pub(crate) textures: Layout,
-    /// One texture of several samples of floats.
-    pub(crate) samples: Layout,
-    /// One texture of several samples of integers.
-    pub(crate) integers: Layout,
-}
-
-impl Layouts {
-    /// The layout for a shader that fetches from so many textures.
-    pub(crate) fn textures(&self, count: usize) -> &Layout {
-        match count {
-            0 => &self.none,
-            1 => &self.texture,
-            _ => &self.textures,
-        }
-    }
-}
 
 /// Pipelines and what they are made of.
 pub(crate) struct Pipelines {
     pub(crate) layouts: Layouts,
-    shaders: Kept<Shader, wgpu::ShaderModule>,
+    pub(crate) samplers: Kept<Sampler, wgpu::Sampler>,
+    shaders: Kept<(Shader, EarlyTests), wgpu::ShaderModule>,
     draws: Kept<DrawKey, wgpu::RenderPipeline>,
     fetch: Kept<(), wgpu::ShaderModule>,
     fetches: Kept<FetchKey, wgpu::RenderPipeline>,
@@ -64,6 +28,7 @@ pub(crate) struct Pipelines {
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub(crate) struct DrawKey {
     shader: Shader,
+    early_tests: EarlyTests,
     shape: Shape,
     depth: Option<DepthState>,
     stencil: Option<StencilState>,
@@ -99,18 +64,25 @@ impl DrawKey {
         depth_stencil: Option<TextureFormat>,
         samples: u32,
     ) -> Self {
-        let mut shader = draw.shader;
+        let (mut shader, mut early_tests) = (draw.shader, draw.early_tests);
         // WebGPU refuses a shader that writes depth where there is none (10.3.6). There the depth
-        // is lost, and another shader gives the same colours.
+        // is lost, with what the shader promises of it, and another shader gives the same colours.
         if !depth_stencil.is_some_and(TextureFormat::has_depth) {
             shader = match shader {
                 Shader::FlatColorDepth => Shader::UniformColor,
+                Shader::CountedDepth => Shader::CountedColor,
                 Shader::FragCoordDepth => Shader::FlatColor,
+                // It runs more often than the other, which a counter would tell.
+                Shader::SampleDepth if draw.counters.is_empty() => Shader::UniformColor,
                 other => other,
             };
+            if early_tests.is_conservative() {
+                early_tests = EarlyTests::Implicit;
+            }
         }
         Self {
             shader,
+            early_tests,
             shape: Shape {
                 topology: draw.topology,
                 indexed: draw.mesh.indices.is_some(),
@@ -140,40 +112,9 @@ impl DrawKey {
 
 impl Pipelines {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let params = wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Uniform,
-                has_dynamic_offset: true,
-                min_binding_size: wgpu::BufferSize::new(PARAMS_BYTES),
-            },
-            count: None,
-        };
-        let texture = |binding, sample_type, multisampled| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: wgpu::BindingType::Texture {
-                sample_type,
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled,
-            },
-            count: None,
-        };
-        let float = wgpu::TextureSampleType::Float { filterable: false };
-        let integer = wgpu::TextureSampleType::Uint;
         Self {
-            layouts: Layouts {
-                none: layout(device, &[]),
-                params: layout(device, &[params]),
-                texture: layout(device, &[texture(1, float, false)]),
-                textures: layout(
-                    device,
-                    &[texture(1, float, false), texture(2, float, false)],
-                ),
-                samples: layout(device, &[texture(1, float, true)]),
-                integers: layout(device, &[texture(1, integer, true)]),
-            },
+            layouts: Layouts::new(device),
+            samplers: Kept::default(),
             shaders: Kept::default(),
             draws: Kept::default(),
             fetch: Kept::default(),
@@ -182,10 +123,11 @@ impl Pipelines {
     }
 
     pub(crate) fn clear(&self) {
-        self.shaders.0.borrow_mut().clear();
-        self.draws.0.borrow_mut().clear();
-        self.fetch.0.borrow_mut().clear();
-        self.fetches.0.borrow_mut().clear();
+        self.samplers.clear();
+        self.shaders.clear();
+        self.draws.clear();
+        self.fetch.clear();
+        self.fetches.clear();
     }
 
     /// The pipeline of a draw.
@@ -197,14 +139,12 @@ impl Pipelines {
     ) -> Result<wgpu::RenderPipeline, BackendError> {
         self.draws.get(key, |key| {
             let shader = key.shader;
-            let module = self.shaders.get(shader, |shader| {
-                compiled(device, errors, shader.name(), shader.wgsl())
-            })?;
-            let layout = if shader.uses_params() {
-                &self.layouts.params
-            } else {
-                self.layouts.textures(shader.textures())
-            };
+            let module = self
+                .shaders
+                .get((shader, key.early_tests), |(shader, tests)| {
+                    compiled(device, errors, shader.name(), shader.wgsl_with(*tests))
+                })?;
+            let layout = self.layouts.draw(device, Bindings::of(shader))?;
             let vertices = wgpu::VertexBufferLayout {
                 array_stride: VERTEX_BYTES,
                 step_mode: wgpu::VertexStepMode::Vertex,
@@ -254,27 +194,44 @@ impl Pipelines {
         key: FetchKey,
     ) -> Result<wgpu::RenderPipeline, BackendError> {
         self.fetches.get(key, |key| {
-            let module = self
-                .fetch
-                .get((), |()| compiled(device, errors, "fetch", fetch::WGSL))?;
+            let module = self.fetch.get((), |()| {
+                compiled(device, errors, "fetch", fetch::WGSL.into())
+            })?;
             fetch::pipeline(device, errors, &self.layouts, &module, *key)
         })
     }
 }
 
-/// The vertex attributes that a shader takes: position, colour, and texture coordinates where one
-/// comes to want them. A validation layer warns of those that it does not.
+/// The vertex attributes that a shader takes: position, and colour or texture coordinates where it
+/// wants them. A validation layer warns of those that it does not.
 fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
-    const ALL: [wgpu::VertexAttribute; 2] =
+    const COLORED: [wgpu::VertexAttribute; 2] =
         wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4];
+    const TEXTURED: [wgpu::VertexAttribute; 2] = [
+        COLORED[0],
+        wgpu::VertexAttribute {
+            format: wgpu::VertexFormat::Float32x2,
+            offset: 32,
+            shader_location: 2,
+        },
+    ];
     match shader {
-        Shader::FlatColor | Shader::FlatColorDepth | Shader::FragCoordDepth => &ALL,
-        Shader::FrontFacing
+        Shader::CountedDepth
+        | Shader::FlatColor
+        | Shader::FlatColorDepth
+        | Shader::FragCoordDepth => &COLORED,
+        Shader::Centroid | Shader::SampledColor => &TEXTURED,
+        Shader::CountedColor
+        | Shader::CountedDiscard
+        | Shader::FrontFacing
+        | Shader::SampleDepth
         | Shader::SampleIndex
         | Shader::TexelColor
         | Shader::TexelColorAll
+        | Shader::TexelDiscard
         | Shader::TexelDualSource
-        | Shader::UniformColor => &ALL[..1],
+        | Shader::UintColor
+        | Shader::UniformColor => &COLORED[..1],
     }
 }
 
@@ -290,58 +247,16 @@ fn target(
     }))
 }
 
-fn layout(device: &wgpu::Device, entries: &[wgpu::BindGroupLayoutEntry]) -> Layout {
-    let bindings = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: None,
-        entries,
-    });
-    let groups = [Some(&bindings)];
-    let pipeline = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: if entries.is_empty() { &[] } else { &groups },
-        immediate_size: 0,
-    });
-    Layout { bindings, pipeline }
-}
-
 fn compiled(
     device: &wgpu::Device,
     errors: &Errors,
     name: &str,
-    wgsl: &'static str,
+    wgsl: Cow<'static, str>,
 ) -> Result<wgpu::ShaderModule, BackendError> {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(name),
-        source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+        source: wgpu::ShaderSource::Wgsl(wgsl),
     });
     errors.check_shader(name)?;
     Ok(module)
-}
-
-/// Objects by what they are made from.
-struct Kept<K, T>(RefCell<HashMap<K, T>>);
-
-impl<K, T> Default for Kept<K, T> {
-    fn default() -> Self {
-        Self(RefCell::default())
-    }
-}
-
-impl<K: Eq + Hash, T: Clone> Kept<K, T> {
-    fn get(
-        &self,
-        key: K,
-        make: impl FnOnce(&K) -> Result<T, BackendError>,
-    ) -> Result<T, BackendError> {
-        if let Some(found) = self.0.borrow().get(&key) {
-            return Ok(found.clone());
-        }
-        let made = make(&key)?;
-        let mut kept = self.0.borrow_mut();
-        if kept.len() >= MOST_PIPELINES {
-            kept.clear();
-        }
-        kept.insert(key, made.clone());
-        Ok(made)
-    }
 }

@@ -1,8 +1,10 @@
 //! A scene, ready to be drawn.
 
+use crate::binding::{Bound, Groups};
+use crate::counting::{Counted, Counting};
 use crate::format;
 use crate::gpu::{BufferLease, Clock, Gpu};
-use crate::pipeline::{DrawKey, PARAMS_BYTES, VERTEX_BYTES};
+use crate::pipeline::{DrawKey, VERTEX_BYTES};
 use crate::read::{self, Source};
 use crate::slot::Slot;
 use etalon_backend::{BackendError, FrameTime, Prepared};
@@ -24,7 +26,9 @@ pub(crate) struct Ready<'a> {
     read: Vec<usize>,
     vertices: Option<BufferLease<'a>>,
     indices: Option<BufferLease<'a>>,
-    params: Option<(BufferLease<'a>, wgpu::BindGroup)>,
+    counting: Counting<'a>,
+    /// What bind groups refer to; kept for them.
+    _params: Option<BufferLease<'a>>,
     submitted: bool,
 }
 
@@ -38,7 +42,8 @@ struct ReadyPass {
 
 struct ReadyDraw {
     pipeline: wgpu::RenderPipeline,
-    binding: Binding,
+    bound: Option<Bound>,
+    counted: Counted,
     viewport: Viewport,
     scissor: [u32; 4],
     blend_constant: wgpu::Color,
@@ -49,20 +54,11 @@ struct ReadyDraw {
     indices: Option<(u64, u32)>,
 }
 
-enum Binding {
-    None,
-    /// The parameter block at this offset.
-    Params(u32),
-    /// The textures of some attachments.
-    Textures(wgpu::BindGroup),
-}
-
 /// What goes into the buffers of a scene.
 #[derive(Default)]
 struct Data {
     vertices: Vec<u8>,
     indices: Vec<u32>,
-    params: Vec<u8>,
 }
 
 impl<'a> Ready<'a> {
@@ -78,36 +74,29 @@ impl<'a> Ready<'a> {
             .map(|index| Slot::new(gpu, scene, index))
             .collect::<Result<Vec<_>, _>>()?;
         gpu.errors.check("making attachments")?;
+        let (counting, counted) = Counting::new(gpu, scene);
+        gpu.errors.check("making counters")?;
+        let mut counted = counted.into_iter();
+        let mut groups = Groups::new(gpu, scene, &slots, &counting);
         let mut data = Data::default();
         let mut passes = Vec::new();
         for pass in &scene.passes {
-            let draws = pass.draws.iter();
+            let draws = pass.draws.iter().zip(counted.by_ref());
             passes.push(ReadyPass {
                 color: pass.color.clone(),
                 resolve: pass.resolve.clone(),
                 depth_stencil: pass.depth_stencil,
                 read_only: pass.depth_stencil_read_only,
                 draws: draws
-                    .map(|draw| ReadyDraw::new(gpu, scene, pass, draw, &slots, &mut data))
+                    .map(|(draw, counted)| {
+                        let bound = groups.bind(draw, counted.runs)?;
+                        ReadyDraw::new(gpu, scene, pass, draw, (bound, counted), &mut data)
+                    })
                     .collect::<Result<_, _>>()?,
             });
         }
         let filled = |usage, data: &[u8]| (!data.is_empty()).then(|| gpu.filled(usage, data));
-        let params = filled(BufferUsages::UNIFORM, &data.params).map(|buffer| {
-            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: None,
-                layout: &gpu.pipelines.layouts.params.bindings,
-                entries: &[wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                        buffer: &buffer,
-                        offset: 0,
-                        size: wgpu::BufferSize::new(PARAMS_BYTES),
-                    }),
-                }],
-            });
-            (buffer, group)
-        });
+        let params = groups.finish();
         let indices = bytemuck::cast_slice(&data.indices);
         Ok(Self {
             gpu,
@@ -116,7 +105,8 @@ impl<'a> Ready<'a> {
             read: scene.read.clone(),
             vertices: filled(BufferUsages::VERTEX, &data.vertices),
             indices: filled(BufferUsages::INDEX, indices),
-            params,
+            _params: params,
+            counting,
             submitted: false,
         })
     }
@@ -128,9 +118,11 @@ impl<'a> Ready<'a> {
         for slot in &self.slots {
             slot.initialise(&mut encoder, !self.submitted);
         }
+        self.counting.start(&mut encoder);
         for (index, pass) in self.passes.iter().enumerate() {
             self.record_pass(&mut encoder, index, pass);
         }
+        self.counting.finish(&mut encoder);
         if let Some(clock) = self.clock() {
             encoder.resolve_query_set(&clock.queries, 0..2, &clock.resolved, 0);
             encoder.copy_buffer_to_buffer(&clock.resolved, 0, &clock.mapped, 0, Clock::BYTES);
@@ -166,21 +158,20 @@ impl<'a> Ready<'a> {
                 beginning_of_pass_write_index: (index == 0).then_some(0),
                 end_of_pass_write_index: last.then_some(1),
             }),
+            occlusion_query_set: self.counting.occlusion(),
             ..wgpu::RenderPassDescriptor::default()
         });
         for draw in &pass.draws {
+            self.counting.begin(&mut encoder, draw.counted);
             self.record_draw(&mut encoder, draw);
+            self.counting.end(&mut encoder, draw.counted);
         }
     }
 
     fn record_draw(&self, encoder: &mut wgpu::RenderPass<'_>, draw: &ReadyDraw) {
         encoder.set_pipeline(&draw.pipeline);
-        match (&draw.binding, &self.params) {
-            (Binding::Params(offset), Some((_, group))) => {
-                encoder.set_bind_group(0, group, &[*offset]);
-            }
-            (Binding::Textures(group), _) => encoder.set_bind_group(0, group, &[]),
-            (Binding::Params(_) | Binding::None, _) => {}
+        if let Some(bound) = &draw.bound {
+            encoder.set_bind_group(0, &bound.group, bound.offset.as_slice());
         }
         let ([x, y, w, h], [near, far]) = (draw.viewport.rect, draw.viewport.depth);
         encoder.set_viewport(x, y, w, h, near, far);
@@ -255,8 +246,9 @@ impl Prepared for Ready<'_> {
             }
         };
         let sources: Vec<_> = self.read.iter().map(source).collect();
-        self.gpu
-            .guard("reading a frame back", || read::frame(self.gpu, &sources))
+        self.gpu.guard("reading a frame back", || {
+            read::frame(self.gpu, &sources, &self.counting)
+        })
     }
 }
 
@@ -266,27 +258,12 @@ impl ReadyDraw {
         scene: &Scene,
         pass: &Pass,
         draw: &Draw,
-        slots: &[Slot<'_>],
+        (bound, counted): (Option<Bound>, Counted),
         data: &mut Data,
     ) -> Result<Self, BackendError> {
         let formats = pass.color.iter().map(|i| scene.attachments[*i].format);
         let depth_stencil = pass.depth_stencil.map(|i| scene.attachments[i].format);
         let key = DrawKey::of(draw, formats, depth_stencil, scene.pass_samples(pass));
-        let binding = if !draw.textures.is_empty() {
-            let textures = draw.textures.iter();
-            let views: Vec<_> = textures.map(|i| slots[*i].target.fetch()).collect();
-            let layout = gpu.pipelines.layouts.textures(views.len());
-            Binding::Textures(gpu.bound(layout, &views))
-        } else if draw.shader.uses_params() {
-            let at = data.params.len();
-            let alignment = gpu.device.limits().min_uniform_buffer_offset_alignment;
-            let stride = PARAMS_BYTES.next_multiple_of(u64::from(alignment)) as usize;
-            data.params.extend_from_slice(&draw.params.to_bytes());
-            data.params.resize(at + stride, 0);
-            Binding::Params(at as u32)
-        } else {
-            Binding::None
-        };
         let first_vertex = data.vertices.len() as u64 / VERTEX_BYTES;
         data.vertices.extend_from_slice(draw.mesh.bytes());
         let indices = draw.mesh.indices.as_ref().map(|indices| {
@@ -297,7 +274,8 @@ impl ReadyDraw {
         let [width, height] = scene.pass_size(pass);
         Ok(Self {
             pipeline: gpu.pipelines.draw(&gpu.device, &gpu.errors, key)?,
-            binding,
+            bound,
+            counted,
             viewport: draw.viewport,
             scissor: draw.scissor.unwrap_or([0, 0, width, height]),
             blend_constant: format::color(draw.blend_constant),

@@ -1,9 +1,12 @@
-//! Whether several samples are what an adapter says they are.
+//! Whether an adapter has what wgpu says of it.
 //!
 //! wgpu's OpenGL advertises four samples on drivers that have one, and then draws to one; and where
 //! there are four, wgpu 30 makes a texture that a shader can read with the target of a single-sample
 //! one, which OpenGL refuses. So a scene is drawn whose samples must differ, and each of them is
 //! read.
+//!
+//! And wgpu takes shaders that promise something of their depth wherever tests can be forced to be
+//! early; the driver's compiler may want an extension for them, so one is compiled.
 
 use crate::gpu::Gpu;
 use crate::limits::SAMPLES;
@@ -13,11 +16,11 @@ use etalon_case::scene::{
     Attachment, ColorTarget, Contents, Draw, Params, Pass, StencilFace, StencilState,
 };
 use etalon_case::state::{
-    CompareFunction, CullMode, DepthBias, DepthState, FrontFace, Multisample, PolygonMode,
-    PrimitiveTopology, Shader, StencilOperation, Viewport,
+    CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace, Multisample,
+    PolygonMode, PrimitiveTopology, Shader, StencilOperation, Viewport,
 };
 use etalon_case::{Mesh, Scene, Vertex};
-use etalon_frame::{Frame, TextureFormat};
+use etalon_frame::{Feature, Frame, TextureFormat};
 
 /// Width and height of the attachments.
 const SIDE: u32 = 4;
@@ -39,12 +42,32 @@ pub(crate) fn samples_work(gpu: &Gpu) -> Result<bool, BackendError> {
     if !offered {
         return Ok(false);
     }
-    let drawn = Ready::new(gpu, &scene()).and_then(|mut ready| {
+    let drawn = Ready::new(gpu, &scene(SAMPLES)).and_then(|mut ready| {
         ready.submit()?;
         ready.read_back()
     });
     match drawn {
         Ok(frame) => Ok(has_samples(&frame)),
+        Err(error @ BackendError::DeviceLost(_)) => Err(error),
+        Err(_) => Ok(false),
+    }
+}
+
+/// Whether a shader that promises something of its depth compiles.
+///
+/// # Errors
+/// Only when the device is lost.
+pub(crate) fn conservative_depth_works(gpu: &Gpu) -> Result<bool, BackendError> {
+    if !gpu.limits.features.contains(&Feature::ConservativeDepth) {
+        return Ok(false);
+    }
+    let mut scene = scene(1);
+    for draw in scene.passes.iter_mut().flat_map(|pass| &mut pass.draws) {
+        draw.shader = Shader::FragCoordDepth;
+        draw.early_tests = EarlyTests::Unchanged;
+    }
+    match Ready::new(gpu, &scene) {
+        Ok(_) => Ok(true),
         Err(error @ BackendError::DeviceLost(_)) => Err(error),
         Err(_) => Ok(false),
     }
@@ -76,12 +99,12 @@ fn has_samples(frame: &Frame) -> bool {
     (0..SIDE).all(|y| (0..SIDE).all(|x| texel_is_right(x, y)))
 }
 
-fn scene() -> Scene {
+fn scene(samples: u32) -> Scene {
     let attachment = |name: &str, format, contents| Attachment {
         name: name.to_owned(),
         format,
         size: [SIDE; 2],
-        samples: SAMPLES,
+        samples,
         contents,
     };
     let cleared = Contents::DepthStencil {
@@ -101,6 +124,7 @@ fn scene() -> Scene {
             draws: vec![draw()],
         }],
         read: vec![0, 1],
+        counters: Vec::new(),
     }
 }
 
@@ -130,7 +154,10 @@ fn draw() -> Draw {
         topology: PrimitiveTopology::TriangleStrip,
         shader: Shader::FlatColor,
         params: Params::default(),
+        early_tests: EarlyTests::Implicit,
         textures: Vec::new(),
+        sampler: None,
+        counters: Vec::new(),
         cull: CullMode::None,
         front_face: FrontFace::Ccw,
         polygon_mode: PolygonMode::Fill,

@@ -1,5 +1,6 @@
 //! From attachments to a frame.
 
+use crate::counting::Counting;
 use crate::fetch::FetchKey;
 use crate::gpu::{Gpu, Target, TextureLease, extent};
 use crate::limits::{Abilities, read_path};
@@ -47,8 +48,12 @@ enum How {
     StencilBits,
 }
 
-/// All aspects of all sources, in order.
-pub(crate) fn frame(gpu: &Gpu, sources: &[Source<'_>]) -> Result<Frame, BackendError> {
+/// All aspects of all sources in order, and what was counted.
+pub(crate) fn frame(
+    gpu: &Gpu,
+    sources: &[Source<'_>],
+    counting: &Counting<'_>,
+) -> Result<Frame, BackendError> {
     let mut size = 0;
     let mut pieces = Vec::new();
     for source in sources {
@@ -58,25 +63,30 @@ pub(crate) fn frame(gpu: &Gpu, sources: &[Source<'_>]) -> Result<Frame, BackendE
             pieces.push(piece);
         }
     }
-    let buffer = gpu.buffer(BufferUsages::MAP_READ | BufferUsages::COPY_DST, size);
+    let usage = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
+    let buffer = gpu.buffer(usage, size + counting.bytes());
     let descriptor = wgpu::CommandEncoderDescriptor::default();
     let mut encoder = gpu.device.create_command_encoder(&descriptor);
     let mut scratch = Vec::new();
     for piece in &pieces {
         piece.record(gpu, &mut encoder, &buffer, &mut scratch)?;
     }
+    counting.copy(&mut encoder, &buffer, size);
     let index = gpu.queue.submit([encoder.finish()]);
     buffer.slice(..).map_async(wgpu::MapMode::Read, |_| {});
     gpu.wait(index)?;
-    let images = {
+    let frame = {
         let bytes = buffer
             .slice(..)
             .get_mapped_range()
             .map_err(|error| BackendError::Internal(format!("mapping a buffer: {error}")))?;
-        pieces.iter().map(|piece| piece.image(&bytes)).collect()
+        Frame {
+            images: pieces.iter().map(|piece| piece.image(&bytes)).collect(),
+            counters: counting.counts(&bytes[size as usize..]),
+        }
     };
     buffer.unmap();
-    Ok(Frame { images })
+    Ok(frame)
 }
 
 impl<'a> Piece<'a> {

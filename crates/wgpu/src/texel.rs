@@ -7,9 +7,10 @@ fn layout(format: TextureFormat) -> &'static [(u32, u32)] {
     match format {
         TextureFormat::R8Unorm => &[(0, 8)],
         TextureFormat::Rg8Unorm => &[(0, 8), (8, 8)],
-        TextureFormat::Rgba8Unorm | TextureFormat::Rgba8UnormSrgb | TextureFormat::Rgba8Snorm => {
-            &[(0, 8), (8, 8), (16, 8), (24, 8)]
-        }
+        TextureFormat::Rgba8Unorm
+        | TextureFormat::Rgba8UnormSrgb
+        | TextureFormat::Rgba8Snorm
+        | TextureFormat::Rgba8Uint => &[(0, 8), (8, 8), (16, 8), (24, 8)],
         TextureFormat::Bgra8Unorm => &[(16, 8), (8, 8), (0, 8), (24, 8)],
         TextureFormat::Rgb10a2Unorm => &[(0, 10), (10, 10), (20, 10), (30, 2)],
         TextureFormat::Rg11b10Ufloat => &[(0, 11), (11, 11), (22, 10)],

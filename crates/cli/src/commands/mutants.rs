@@ -6,7 +6,7 @@ use crate::commands::{build, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::output::{color, print, print_json, width};
 use etalon_backend::Backend;
-use etalon_case::{Case, Profile};
+use etalon_case::Case;
 use etalon_cpu::{MutantBackend, mutants};
 use etalon_record::{HUNT_FORMAT, Hunt, MutantInfo};
 use etalon_report::TableOptions;
@@ -20,7 +20,7 @@ pub(crate) fn run(arguments: &MutantsArguments) -> Result<u8, Failure> {
         return list(&chosen, arguments.format);
     }
     let library = library(arguments.cases.as_ref())?;
-    let cases: Vec<Case> = build(&library, Profile::Full, &arguments.case_globs)?
+    let cases: Vec<Case> = build(&library, arguments.profile.into(), &arguments.case_globs)?
         .into_iter()
         .filter(|c| c.judged_as.is_none())
         .collect();

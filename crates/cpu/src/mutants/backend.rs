@@ -86,6 +86,7 @@ impl Backend for MutantBackend {
             Plant::Steps(hooks) => Box::new(PreparedScene::new(believed, hooks.as_ref())),
             Plant::Frame(bug) => Box::new(PreparedMutant {
                 inner: self.inner.prepare(&believed)?,
+                scene: believed,
                 bug,
             }),
             Plant::Scene(_) | Plant::Sticky(_) => {
@@ -98,17 +99,18 @@ impl Backend for MutantBackend {
 /// A scene whose frame comes back changed.
 struct PreparedMutant<'a, F: ?Sized> {
     inner: Box<dyn Prepared + 'a>,
+    scene: Scene,
     bug: &'a F,
 }
 
-impl<F: Fn(&mut Frame) + ?Sized> Prepared for PreparedMutant<'_, F> {
+impl<F: Fn(&Scene, &mut Frame) + ?Sized> Prepared for PreparedMutant<'_, F> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         self.inner.submit()
     }
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         let mut frame = self.inner.read_back()?;
-        (self.bug)(&mut frame);
+        (self.bug)(&self.scene, &mut frame);
         Ok(frame)
     }
 }

@@ -1,7 +1,7 @@
 //! Bugs of clear values.
 
 use super::hooks::{clear_code, code};
-use super::plant::{Plant, in_bits, scene};
+use super::plant::{Plant, in_bits, nudge, scene};
 use super::{CONFUSION, List, SMALL};
 use etalon_case::scene::Contents;
 use etalon_frame::ChannelEncoding;
@@ -29,9 +29,12 @@ fn depths_and_stencils(bug: impl Fn(&mut f32, &mut u8) + Send + Sync + 'static) 
     })
 }
 
+/// Whether an encoding is one that depths have. Colours of 32-bit floats are taken for depths too.
 fn is_depth(encoding: ChannelEncoding) -> bool {
-    // Colour attachments that are cleared have 8 bits.
-    encoding != ChannelEncoding::Unorm(8)
+    matches!(
+        encoding,
+        ChannelEncoding::Unorm(16 | 24) | ChannelEncoding::Float32
+    )
 }
 
 pub(super) fn add(list: &mut List) {
@@ -55,11 +58,11 @@ fn color(list: &mut List) {
             SMALL,
             format!("Cleared colours are {lsb} codes off, within their range."),
             clear_code(move |encoding, v| {
-                let right = i64::from(code(encoding, v));
+                let right = code(encoding, v);
                 if is_depth(encoding) {
-                    right as u32
+                    right
                 } else {
-                    (right + lsb).clamp(0, encoding.max_order()) as u32
+                    nudge(encoding, right, lsb)
                 }
             }),
         );
@@ -138,10 +141,10 @@ fn color(list: &mut List) {
             "drivers differ in clear rounding: 0.3 becomes 76 or 77",
             format!("Cleared colours are rounded {name}."),
             clear_code(move |encoding, v| {
-                if is_depth(encoding) {
+                let ChannelEncoding::Unorm(1..=10) = encoding else {
                     return code(encoding, v);
-                }
-                let exact = f64::from(v.clamp(0.0, 1.0)) * 255.0;
+                };
+                let exact = f64::from(v.clamp(0.0, 1.0)) * encoding.max_order() as f64;
                 (if up { exact.ceil() } else { exact.floor() }) as u32
             }),
         )
@@ -188,7 +191,7 @@ fn depth(list: &mut List) {
         "Cleared depths are one code too large.",
         clear_code(|encoding, v| {
             let right = code(encoding, v);
-            right + u32::from(is_depth(encoding) && v < 1.0)
+            nudge(encoding, right, i64::from(is_depth(encoding) && v < 1.0))
         }),
     );
     list.add(
@@ -197,7 +200,7 @@ fn depth(list: &mut List) {
         "Cleared depths are one code too small.",
         clear_code(|encoding, v| {
             let right = code(encoding, v);
-            right - u32::from(is_depth(encoding) && v > 0.0)
+            nudge(encoding, right, -i64::from(is_depth(encoding) && v > 0.0))
         }),
     );
     list.add(

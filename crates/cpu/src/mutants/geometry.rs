@@ -2,10 +2,10 @@
 
 use super::hooks::{covered, fetch};
 use super::plant::{Plant, draws, in_bits, scene};
-use super::{CONFUSION, List, SMALL};
+use super::{CONFUSION, List, Row, SMALL};
 use etalon_case::scene::Contents;
 use etalon_case::state::FrontFace;
-use etalon_frame::TextureFormat;
+use etalon_frame::{ChannelEncoding, TextureFormat};
 
 pub(super) fn add(list: &mut List) {
     list.class("geometry", "blend");
@@ -64,7 +64,8 @@ fn coverage(list: &mut List) {
         CONFUSION,
         "The first triangle of every draw is lost.",
         draws(|draw| {
-            draw.mesh.vertices.drain(..3);
+            let n = draw.mesh.vertices.len().min(3);
+            draw.mesh.vertices.drain(..n);
         }),
     );
     list.add(
@@ -73,7 +74,7 @@ fn coverage(list: &mut List) {
         "The last triangle of every draw is lost.",
         draws(|draw| {
             let n = draw.mesh.vertices.len();
-            draw.mesh.vertices.truncate(n - 3);
+            draw.mesh.vertices.truncate(n.saturating_sub(3));
         }),
     );
     list.add(
@@ -213,110 +214,125 @@ fn vertex_depth(list: &mut List) {
     );
 }
 
+/// What is uploaded to an attachment.
+struct Upload {
+    format: TextureFormat,
+    /// Codes per texel.
+    texel: usize,
+    /// Codes per row.
+    row: usize,
+}
+
+/// Changes the codes of uploads.
+fn texels(bug: impl Fn(&Upload, &mut Vec<u32>) + Send + Sync + 'static) -> Plant {
+    scene(move |scene| {
+        for attachment in &mut scene.attachments {
+            if let Contents::Texels(codes) = &mut attachment.contents {
+                let texel = attachment.format.color_channels().len();
+                let upload = Upload {
+                    format: attachment.format,
+                    texel,
+                    row: texel * attachment.size[0] as usize,
+                };
+                bug(&upload, codes);
+            }
+        }
+    })
+}
+
+/// Changes every code of uploads of one format.
+fn codes(format: TextureFormat, bug: fn(u32) -> u32) -> Plant {
+    texels(move |upload, codes| {
+        if upload.format == format {
+            codes.iter_mut().for_each(|c| *c = bug(*c));
+        }
+    })
+}
+
+/// A value rounded to a 16-bit float.
+fn half(value: f32) -> f32 {
+    let encoding = ChannelEncoding::Float16;
+    let order = encoding.order_of_code(encoding.nearest_code(f64::from(value)));
+    encoding.value_of_order(order) as f32
+}
+
 fn uploads(list: &mut List) {
-    /// Changes the codes of uploads: format, width, height, codes.
-    fn texels(
-        bug: impl Fn(TextureFormat, [u32; 2], &mut Vec<u32>) + Send + Sync + 'static,
-    ) -> Plant {
-        scene(move |scene| {
-            for attachment in &mut scene.attachments {
-                if let Contents::Texels(codes) = &mut attachment.contents {
-                    bug(attachment.format, attachment.size, codes);
+    type Bug = fn(&Upload, &mut Vec<u32>);
+    let places: [Row<Bug>; 5] = [
+        (
+            "red-blue-swapped",
+            "Red and blue of uploads are exchanged.",
+            |upload, codes| {
+                if upload.texel > 2 {
+                    let texels = codes.chunks_exact_mut(upload.texel);
+                    texels.for_each(|t| t.swap(0, 2));
                 }
-            }
-        })
+            },
+        ),
+        (
+            "upside-down",
+            "Uploads are upside down.",
+            |upload, codes| {
+                let rows = codes.chunks_exact(upload.row).rev();
+                *codes = rows.flatten().copied().collect();
+            },
+        ),
+        (
+            "rows-one-late",
+            "Uploads start one row late.",
+            |upload, codes| codes.rotate_right(upload.row),
+        ),
+        (
+            "texels-one-late",
+            "Uploads start one texel late.",
+            |upload, codes| codes.rotate_right(upload.texel),
+        ),
+        (
+            "last-row-lost",
+            "The last row of uploads is 0.",
+            |upload, codes| {
+                let n = codes.len();
+                codes[n - upload.row..].fill(0);
+            },
+        ),
+    ];
+    list.rows("a row pitch or origin that is off", texels, &places);
+    type Code = (&'static str, TextureFormat, &'static str, fn(u32) -> u32);
+    let precisions: [Code; 5] = [
+        (
+            "code-plus-1",
+            TextureFormat::Rgba8Unorm,
+            "Uploaded 8-bit codes below 255 are one too large.",
+            |code| (code + 1).min(255),
+        ),
+        (
+            "lowest-bit-lost",
+            TextureFormat::Rgba8Unorm,
+            "Uploaded 8-bit codes lose their lowest bit.",
+            |code| code & 0xfe,
+        ),
+        (
+            "float-source-clamped-to-8-bits",
+            TextureFormat::Rgba32Float,
+            "Uploaded floats are clamped and kept in 8 bits.",
+            |code| in_bits(f32::from_bits(code).clamp(0.0, 1.0), 8).to_bits(),
+        ),
+        (
+            "float-source-in-6-bits",
+            TextureFormat::Rgba32Float,
+            "Uploaded floats keep 6 bits.",
+            |code| in_bits(f32::from_bits(code), 6).to_bits(),
+        ),
+        (
+            "float-source-in-16-bits",
+            TextureFormat::Rgba32Float,
+            "Uploaded floats are rounded to 16-bit ones.",
+            |code| half(f32::from_bits(code)).to_bits(),
+        ),
+    ];
+    for (name, format, about, bug) in precisions {
+        list.add(name, SMALL, about, codes(format, bug));
     }
-    list.add(
-        "red-blue-swapped",
-        CONFUSION,
-        "Red and blue of uploads are exchanged.",
-        texels(|_, _, codes| codes.chunks_exact_mut(4).for_each(|t| t.swap(0, 2))),
-    );
-    list.add(
-        "upside-down",
-        "ANGLE: y flip",
-        "Uploads are upside down.",
-        texels(|_, [width, _], codes| {
-            let rows: Vec<u32> = codes
-                .chunks_exact(width as usize * 4)
-                .rev()
-                .flatten()
-                .copied()
-                .collect();
-            *codes = rows;
-        }),
-    );
-    list.add(
-        "rows-one-late",
-        "a row pitch off by one row",
-        "Uploads start one row late.",
-        texels(|_, [width, _], codes| codes.rotate_right(width as usize * 4)),
-    );
-    list.add(
-        "texels-one-late",
-        "a row pitch off by one texel",
-        "Uploads start one texel late.",
-        texels(|_, _, codes| codes.rotate_right(4)),
-    );
-    list.add(
-        "last-row-lost",
-        CONFUSION,
-        "The last row of uploads is 0.",
-        texels(|_, [width, _], codes| {
-            let n = codes.len();
-            codes[n - width as usize * 4..].fill(0);
-        }),
-    );
-    list.add(
-        "code-plus-1",
-        SMALL,
-        "Uploaded 8-bit codes below 255 are one too large.",
-        texels(|format, _, codes| {
-            if format == TextureFormat::Rgba8Unorm {
-                for code in codes.iter_mut().filter(|c| **c < 255) {
-                    *code += 1;
-                }
-            }
-        }),
-    );
-    list.add(
-        "lowest-bit-lost",
-        SMALL,
-        "Uploaded 8-bit codes lose their lowest bit.",
-        texels(|format, _, codes| {
-            if format == TextureFormat::Rgba8Unorm {
-                codes.iter_mut().for_each(|c| *c &= 0xfe);
-            }
-        }),
-    );
-    list.add(
-        "float-source-clamped-to-8-bits",
-        CONFUSION,
-        "Uploaded floats are kept in 8 bits.",
-        texels(|format, _, codes| {
-            if format == TextureFormat::Rgba32Float {
-                for code in codes {
-                    *code = in_bits(f32::from_bits(*code).clamp(0.0, 1.0), 8).to_bits();
-                }
-            }
-        }),
-    )
-    .legal(
-        "Vulkan: Blending and Conversion from Floating-Point to Normalized Fixed-Point: into an \
-         8-bit format, a source may be clamped and rounded to a code before it is blended",
-    );
-    list.add(
-        "float-source-in-6-bits",
-        SMALL,
-        "Uploaded floats keep 6 bits.",
-        texels(|format, _, codes| {
-            if format == TextureFormat::Rgba32Float {
-                for code in codes {
-                    *code = in_bits(f32::from_bits(*code), 6).to_bits();
-                }
-            }
-        }),
-    );
     list.class("fetch", "blend");
     type From = fn([u32; 2], [u32; 2]) -> [u32; 2];
     let fetches: [(&str, &str, From); 5] = [

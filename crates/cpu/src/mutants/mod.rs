@@ -8,18 +8,25 @@
 //! Adding one takes a call of [`List::add`] in the file of its class.
 
 mod backend;
+mod bias;
 mod blend;
 mod clear;
 mod cull;
 mod depth;
+mod formats;
 mod geometry;
 mod hooks;
+mod logic;
 mod mask;
+mod multisample;
 mod plant;
 mod readback;
+mod scissor;
 mod stencil;
 mod sticky;
 mod tables;
+mod targets;
+mod topology;
 
 pub use backend::MutantBackend;
 
@@ -52,10 +59,17 @@ pub fn mutants() -> &'static [Mutant] {
     static ALL: LazyLock<Vec<Mutant>> = LazyLock::new(|| {
         let mut list = List::default();
         depth::add(&mut list);
+        bias::add(&mut list);
         stencil::add(&mut list);
         blend::add(&mut list);
         mask::add(&mut list);
+        formats::add(&mut list);
+        targets::add(&mut list);
+        logic::add(&mut list);
         cull::add(&mut list);
+        topology::add(&mut list);
+        multisample::add(&mut list);
+        scissor::add(&mut list);
         clear::add(&mut list);
         geometry::add(&mut list);
         readback::add(&mut list);
@@ -64,6 +78,9 @@ pub fn mutants() -> &'static [Mutant] {
     });
     &ALL
 }
+
+/// A mutant in a table: its name, what it does, and the bug.
+type Row<B> = (&'static str, &'static str, B);
 
 /// The registry while it is filled.
 #[derive(Debug, Default)]
@@ -98,6 +115,13 @@ impl List {
             plant,
         });
         &mut self.mutants[at]
+    }
+
+    /// Adds the mutants of a table, all of one source and planted in the same way.
+    fn rows<B: Copy>(&mut self, source: &'static str, plant: fn(B) -> Plant, rows: &[Row<B>]) {
+        for (name, about, bug) in rows {
+            self.add(name, source, *about, plant(*bug));
+        }
     }
 }
 

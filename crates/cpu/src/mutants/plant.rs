@@ -4,12 +4,12 @@ use super::hooks::Hooks;
 use etalon_case::Scene;
 use etalon_case::scene::{Draw, StencilFace};
 use etalon_case::state::BlendComponent;
-use etalon_frame::{Aspect, ChannelEncoding, Frame, Image};
+use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, TextureFormat};
 use std::fmt;
 
 type SceneBug = dyn Fn(&mut Scene) + Send + Sync;
 type StickyBug = dyn Fn(&Scene, &mut Scene) + Send + Sync;
-type FrameBug = dyn Fn(&mut Frame) + Send + Sync;
+type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
 
 /// A planted bug.
 pub(super) enum Plant {
@@ -103,9 +103,24 @@ pub(super) fn from_draw(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) 
 
 /// Changes every image of one aspect.
 pub(super) fn images(aspect: Aspect, bug: impl Fn(&mut Image) + Send + Sync + 'static) -> Plant {
-    Plant::Frame(Box::new(move |frame| {
+    Plant::Frame(Box::new(move |_, frame| {
         let chosen = frame.images.iter_mut().filter(|i| i.aspect == aspect);
         chosen.for_each(&bug);
+    }))
+}
+
+/// Changes every image of an attachment of this format.
+pub(super) fn images_of(
+    format: TextureFormat,
+    bug: impl Fn(&mut Image) + Send + Sync + 'static,
+) -> Plant {
+    Plant::Frame(Box::new(move |scene, frame| {
+        for image in &mut frame.images {
+            let mut all = scene.attachments.iter();
+            if all.any(|a| a.name == image.attachment && a.format == format) {
+                bug(image);
+            }
+        }
     }))
 }
 
@@ -117,13 +132,14 @@ pub(super) fn moved(
     images(aspect, move |image| {
         let original = image.clone();
         let [width, height] = image.size;
-        let n = image.channels.len();
+        // A texel's samples lie side by side and move together.
+        let n = image.channels.len() * image.samples as usize;
         for y in 0..height {
             for x in 0..width {
                 let [from_x, from_y] = from([x, y], image.size);
                 let at = (y * width + x) as usize * n;
-                let codes = original.sample(from_x.min(width - 1), from_y.min(height - 1), 0);
-                image.codes[at..at + n].copy_from_slice(codes);
+                let source = (from_y.min(height - 1) * width + from_x.min(width - 1)) as usize * n;
+                image.codes[at..at + n].copy_from_slice(&original.codes[source..source + n]);
             }
         }
     })
@@ -132,12 +148,7 @@ pub(super) fn moved(
 /// Adds steps to a code, held at the ends of its encoding.
 pub(super) fn nudge(encoding: ChannelEncoding, code: u32, steps: i64) -> u32 {
     let order = encoding.order_of_code(code) + steps;
-    let least = match encoding {
-        // Depths are never negative.
-        ChannelEncoding::Float32 => 0,
-        _ => encoding.min_order(),
-    };
-    encoding.code_of_order(order.clamp(least, encoding.max_order()))
+    encoding.code_of_order(order.clamp(encoding.min_order(), encoding.max_order()))
 }
 
 /// A value kept in so many bits, as a normalized integer.

@@ -1,8 +1,8 @@
 //! Bugs of what comes back.
 
 use super::plant::{Plant, images, moved, nudge};
-use super::{CONFUSION, List, SMALL};
-use etalon_frame::{Aspect, Image};
+use super::{CONFUSION, List, Row, SMALL};
+use etalon_frame::{Aspect, ChannelEncoding, Image};
 
 const ASPECTS: [(Aspect, &str); 3] = [
     (Aspect::Color, "blend"),
@@ -10,12 +10,25 @@ const ASPECTS: [(Aspect, &str); 3] = [
     (Aspect::Stencil, "stencil"),
 ];
 
+/// A code so many steps further; depths stay above 0, since no depth is negative.
+fn held(aspect: Aspect, encoding: ChannelEncoding, code: u32, steps: i64) -> u32 {
+    let moved = nudge(encoding, code, steps);
+    if aspect == Aspect::Depth && encoding.order_of_code(moved) < 0 {
+        0
+    } else {
+        moved
+    }
+}
+
 /// Moves one channel of every texel by so many codes.
 fn channel(aspect: Aspect, channel: usize, steps: i64) -> Plant {
     images(aspect, move |image| {
         let n = image.channels.len();
+        if channel >= n {
+            return;
+        }
         for texel in image.codes.chunks_exact_mut(n) {
-            texel[channel] = nudge(image.channels[channel], texel[channel], steps);
+            texel[channel] = held(aspect, image.channels[channel], texel[channel], steps);
         }
     })
 }
@@ -27,12 +40,12 @@ fn one_texel(
     at: impl Fn(&Image) -> usize + Send + Sync + 'static,
 ) -> Plant {
     images(aspect, move |image| {
-        let place = at(image) * image.channels.len();
+        let place = at(image) * image.channels.len() * image.samples as usize;
         let encoding = image.channels[0];
         let code = image.codes[place];
-        let up = nudge(encoding, code, steps);
+        let up = held(aspect, encoding, code, steps);
         image.codes[place] = if up == code {
-            nudge(encoding, code, -steps)
+            held(aspect, encoding, code, -steps)
         } else {
             up
         };
@@ -43,6 +56,10 @@ pub(super) fn add(list: &mut List) {
     for (aspect, area) in ASPECTS {
         list.class("readback", area);
         places(list, aspect);
+    }
+    list.class("readback", "multisample");
+    for (aspect, _) in ASPECTS {
+        multisampled(list, aspect);
     }
     list.class("readback", "blend");
     for (c, name) in ["red", "green", "blue", "alpha"].into_iter().enumerate() {
@@ -71,17 +88,23 @@ pub(super) fn add(list: &mut List) {
             CONFUSION,
             format!("Channels {name} are exchanged."),
             images(Aspect::Color, move |image| {
-                image.codes.chunks_exact_mut(4).for_each(|t| t.swap(a, b));
+                let n = image.channels.len();
+                if b < n {
+                    image.codes.chunks_exact_mut(n).for_each(|t| t.swap(a, b));
+                }
             }),
         );
     }
-    for (name, code) in [("alpha-one", 255), ("alpha-zero", 0)] {
+    for (name, alpha) in [("alpha-one", 1.0), ("alpha-zero", 0.0)] {
         list.add(
             name,
             CONFUSION,
-            format!("Every alpha comes back as code {code}."),
+            format!("Every alpha comes back as {alpha}."),
             images(Aspect::Color, move |image| {
-                image.codes.chunks_exact_mut(4).for_each(|t| t[3] = code);
+                if let Some(encoding) = image.channels.get(3) {
+                    let code = encoding.nearest_code(alpha);
+                    image.codes.chunks_exact_mut(4).for_each(|t| t[3] = code);
+                }
             }),
         );
     }
@@ -106,6 +129,127 @@ pub(super) fn add(list: &mut List) {
         "Stencil comes back without its lowest bit.",
         images(Aspect::Stencil, |image| {
             image.codes.iter_mut().for_each(|c| *c &= 0xfe);
+        }),
+    );
+}
+
+/// Changes how the samples of every texel stand: `from(sample, samples)` gives whose codes one gets.
+fn samples(aspect: Aspect, from: fn(usize, usize) -> usize) -> Plant {
+    images(aspect, move |image| {
+        let (n, samples) = (image.channels.len(), image.samples as usize);
+        for texel in image.codes.chunks_exact_mut(n * samples) {
+            let original = texel.to_vec();
+            for (s, codes) in texel.chunks_exact_mut(n).enumerate() {
+                let source = from(s, samples);
+                codes.copy_from_slice(&original[source * n..(source + 1) * n]);
+            }
+        }
+    })
+}
+
+/// Moves the texels of one sample: `from([x, y], size)` gives whose codes they get.
+fn plane(aspect: Aspect, which: fn(u32) -> u32, from: fn([u32; 2], [u32; 2]) -> [u32; 2]) -> Plant {
+    images(aspect, move |image| {
+        let original = image.clone();
+        let (n, sample) = (image.channels.len(), which(image.samples));
+        let [width, height] = image.size;
+        if image.samples == 1 {
+            return;
+        }
+        for y in 0..height {
+            for x in 0..width {
+                let at = ((y * width + x) * image.samples + sample) as usize * n;
+                let [from_x, from_y] = from([x, y], image.size);
+                let codes = original.sample(from_x.min(width - 1), from_y.min(height - 1), sample);
+                image.codes[at..at + n].copy_from_slice(codes);
+            }
+        }
+    })
+}
+
+/// Bugs of images with several samples per texel.
+fn multisampled(list: &mut List, aspect: Aspect) {
+    let name = aspect.name();
+    type Order = fn(usize, usize) -> usize;
+    let orders: [Row<Order>; 4] = [
+        (
+            "neighbouring-samples-swapped",
+            "with every two samples exchanged",
+            |s, n| (s ^ 1) % n,
+        ),
+        (
+            "samples-reversed",
+            "with its samples in reverse order",
+            |s, n| n - 1 - s,
+        ),
+        (
+            "first-sample-for-all",
+            "with the first sample for all",
+            |_, _| 0,
+        ),
+        (
+            "samples-one-late",
+            "with each sample in the place of the next",
+            |s, n| (s + n - 1) % n,
+        ),
+    ];
+    for (bug, about, from) in orders {
+        list.add(
+            &format!("{name}-{bug}"),
+            "a sample index that is off",
+            format!("The {name} image comes back {about}."),
+            samples(aspect, from),
+        );
+    }
+    type Plane = (
+        &'static str,
+        &'static str,
+        fn(u32) -> u32,
+        fn([u32; 2], [u32; 2]) -> [u32; 2],
+    );
+    let planes: [Plane; 3] = [
+        (
+            "last-sample-upside-down",
+            "upside down",
+            |n| n - 1,
+            |[x, y], [_, h]| [x, h - 1 - y],
+        ),
+        (
+            "second-sample-one-texel-right",
+            "one texel to the right",
+            |_| 1,
+            |[x, y], _| [x.saturating_sub(1), y],
+        ),
+        (
+            "first-sample-one-texel-down",
+            "one texel down",
+            |_| 0,
+            |[x, y], _| [x, y.saturating_sub(1)],
+        ),
+    ];
+    for (bug, about, which, from) in planes {
+        list.add(
+            &format!("{name}-{bug}"),
+            SMALL,
+            format!("One sample of the {name} image comes back {about}."),
+            plane(aspect, which, from),
+        );
+    }
+    list.add(
+        &format!("{name}-last-sample-off-by-one-lsb"),
+        SMALL,
+        format!("The last sample of the {name} image's last texel is one code off."),
+        images(aspect, move |image| {
+            if image.samples > 1 {
+                let at = image.codes.len() - image.channels.len();
+                let encoding = image.channels[0];
+                let up = held(aspect, encoding, image.codes[at], 1);
+                image.codes[at] = if up == image.codes[at] {
+                    held(aspect, encoding, up, -1)
+                } else {
+                    up
+                };
+            }
         }),
     );
 }

@@ -3,11 +3,12 @@
 use super::plant::{from_case, from_draw};
 use super::{List, Plant};
 use etalon_case::scene::Draw;
+use etalon_case::state::DepthBias;
 
 type Leftover = fn(&Draw, &mut Draw);
 
 /// What sticks, the area that must see it, and how a draw takes it from the one before.
-const LEFTOVERS: [(&str, &str, Leftover); 14] = [
+const LEFTOVERS: [(&str, &str, Leftover); 32] = [
     ("depth-test", "depth", |before, draw| {
         draw.depth = before.depth
     }),
@@ -75,6 +76,62 @@ const LEFTOVERS: [(&str, &str, Leftover); 14] = [
     ("cull", "cull", |before, draw| {
         draw.cull = before.cull;
         draw.front_face = before.front_face;
+    }),
+    ("logic", "blend", |before, draw| draw.logic = before.logic),
+    ("logic-when-off", "blend", |before, draw| {
+        draw.logic = draw.logic.or(before.logic);
+    }),
+    ("second-target", "blend", |before, draw| {
+        if let (Some(target), Some(before)) = (draw.targets.get_mut(1), before.targets.get(1)) {
+            *target = *before;
+        }
+    }),
+    ("depth-bias", "depth", |before, draw| {
+        draw.depth_bias = before.depth_bias;
+    }),
+    ("depth-bias-when-off", "depth", |before, draw| {
+        if draw.depth_bias == DepthBias::default() {
+            draw.depth_bias = before.depth_bias;
+        }
+    }),
+    ("depth-clamp", "depth", |before, draw| {
+        draw.depth_clamp = before.depth_clamp;
+    }),
+    ("depth-bounds", "depth", |before, draw| {
+        draw.depth_bounds = before.depth_bounds;
+    }),
+    ("depth-bounds-when-off", "depth", |before, draw| {
+        draw.depth_bounds = draw.depth_bounds.or(before.depth_bounds);
+    }),
+    ("depth-range", "depth", |before, draw| {
+        draw.viewport.depth = before.viewport.depth;
+    }),
+    ("viewport", "scissor", |before, draw| {
+        draw.viewport.rect = before.viewport.rect;
+    }),
+    ("scissor", "scissor", |before, draw| {
+        draw.scissor = before.scissor;
+    }),
+    ("scissor-when-off", "scissor", |before, draw| {
+        draw.scissor = draw.scissor.or(before.scissor);
+    }),
+    ("sample-mask", "multisample", |before, draw| {
+        draw.multisample.mask = before.multisample.mask;
+    }),
+    ("alpha-to-coverage", "multisample", |before, draw| {
+        draw.multisample.alpha_to_coverage = before.multisample.alpha_to_coverage;
+    }),
+    ("alpha-to-one", "multisample", |before, draw| {
+        draw.multisample.alpha_to_one = before.multisample.alpha_to_one;
+    }),
+    ("polygon-mode", "cull", |before, draw| {
+        draw.polygon_mode = before.polygon_mode;
+    }),
+    ("rasterizer-discard", "cull", |before, draw| {
+        draw.rasterizer_discard = before.rasterizer_discard;
+    }),
+    ("topology", "cull", |before, draw| {
+        draw.topology = before.topology;
     }),
 ];
 

@@ -1,6 +1,8 @@
 //! Which states are neighbours: those that a slip in a table would confuse.
 
-use etalon_case::state::{BlendFactor, BlendOperation, CompareFunction, StencilOperation};
+use etalon_case::state::{
+    BlendFactor, BlendOperation, CompareFunction, LogicOperation, StencilOperation,
+};
 
 /// Functions that differ in one of the three outcomes below, equal and above.
 pub(super) fn compare_neighbours() -> Vec<(CompareFunction, CompareFunction)> {
@@ -26,9 +28,8 @@ pub(super) fn compare_neighbours() -> Vec<(CompareFunction, CompareFunction)> {
     pairs
 }
 
-/// Operations and those declared before and after them, round the end.
-pub(super) fn stencil_neighbours() -> Vec<(StencilOperation, StencilOperation)> {
-    let all = StencilOperation::ALL;
+/// Values and those declared before and after them, round the end.
+fn round<T: Copy>(all: &[T]) -> Vec<(T, T)> {
     let n = all.len();
     (0..n)
         .flat_map(|i| [(all[i], all[(i + 1) % n]), (all[i], all[(i + n - 1) % n])])
@@ -36,11 +37,39 @@ pub(super) fn stencil_neighbours() -> Vec<(StencilOperation, StencilOperation)> 
 }
 
 /// Operations and those declared before and after them, round the end.
+pub(super) fn stencil_neighbours() -> Vec<(StencilOperation, StencilOperation)> {
+    round(StencilOperation::ALL)
+}
+
+/// Operations and those declared before and after them, round the end.
 pub(super) fn operation_neighbours() -> Vec<(BlendOperation, BlendOperation)> {
-    let all = BlendOperation::ALL;
-    let n = all.len();
-    (0..n)
-        .flat_map(|i| [(all[i], all[(i + 1) % n]), (all[i], all[(i + n - 1) % n])])
+    round(BlendOperation::ALL)
+}
+
+/// Operations and those declared before and after them, round the end; and those that differ in
+/// which of source and destination is inverted.
+pub(super) fn logic_neighbours() -> Vec<(LogicOperation, LogicOperation)> {
+    use LogicOperation as L;
+    let mut pairs = round(L::ALL);
+    for (a, b) in [
+        (L::AndReverse, L::AndInverted),
+        (L::OrReverse, L::OrInverted),
+        (L::Copy, L::Noop),
+        (L::CopyInverted, L::Invert),
+    ] {
+        pairs.extend([(a, b), (b, a)]);
+    }
+    pairs
+}
+
+/// Factors of the second source and those that differ in one thing: complement, channel or alpha,
+/// which source.
+pub(super) fn second_source_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
+    use BlendFactor as F;
+    let first = [F::Src, F::OneMinusSrc, F::SrcAlpha, F::OneMinusSrcAlpha];
+    let second = [F::Src1, F::OneMinusSrc1, F::Src1Alpha, F::OneMinusSrc1Alpha];
+    (0..4)
+        .flat_map(|c| [second[c ^ 1], second[c ^ 2], first[c]].map(|wrong| (second[c], wrong)))
         .collect()
 }
 
@@ -86,6 +115,8 @@ pub(super) fn same_for_alpha(a: BlendFactor, b: BlendFactor) -> bool {
         F::OneMinusDst => F::OneMinusDstAlpha,
         F::Constant => F::ConstantAlpha,
         F::OneMinusConstant => F::OneMinusConstantAlpha,
+        F::Src1 => F::Src1Alpha,
+        F::OneMinusSrc1 => F::OneMinusSrc1Alpha,
         F::SrcAlphaSaturated => F::One,
         other => other,
     };

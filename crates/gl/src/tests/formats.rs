@@ -18,6 +18,25 @@ pub(super) fn all(backend: &GlBackend) {
         }
     }
     srgb_is_encoded(backend);
+    integers_are_cleared_drawn_and_masked(backend);
+}
+
+fn integers_are_cleared_drawn_and_masked(backend: &GlBackend) {
+    let support = &backend.limits().formats[&TextureFormat::Rgba8Uint];
+    assert_eq!((support.read, support.blendable), (ReadPath::Copy, false));
+    let frame = draw(
+        backend,
+        r#"{"attachments": {"a": {"format":"rgba8uint","size":[16,16],"clear":[1,128,254,255]}},
+        "passes": [{"color":["a"],"draws":[
+            {"mesh":{"kind":"rect","texels":[0,0,5,3]},"shader":"uint_color",
+             "params":{"color":[200,3,127,0]},"write_mask":"rba"}]}],
+        "read": ["a"]}"#,
+    );
+    each(&frame.images[0], |x, y| {
+        let drawn = x < 5 && y < 3;
+        let [r, b, a] = if drawn { [200, 127, 0] } else { [1, 254, 255] };
+        vec![r, 128, b, a]
+    });
 }
 
 fn the_common_formats_are_offered(backend: &GlBackend) {
@@ -86,12 +105,17 @@ fn codes_survive(backend: &GlBackend, format: TextureFormat) {
 }
 
 fn zeros_and_ones_are_drawn(backend: &GlBackend, format: TextureFormat) {
+    let draws = if format.is_integer() {
+        r#"{"mesh":{"kind":"rect","texels":[0,0,8,16]},"shader":"uint_color","params":{"color":[0,1,1,0]}},
+           {"mesh":{"kind":"rect","texels":[8,0,16,16]},"shader":"uint_color","params":{"color":[1,0,0,1]}}"#
+    } else {
+        r#"{"mesh":{"kind":"columns","values":[[0,1,1,0],[1,0,0,1]]},"shader":"flat_color"}"#
+    };
     let frame = draw(
         backend,
         &format!(
             r#"{{"attachments": {{"a": {{"format":"{format}","size":[16,16],"clear":[1,1,1,1]}}}},
-            "passes": [{{"color":["a"],"draws":[
-                {{"mesh":{{"kind":"columns","values":[[0,1,1,0],[1,0,0,1]]}},"shader":"flat_color"}}]}}],
+            "passes": [{{"color":["a"],"draws":[{draws}]}}],
             "read": ["a"]}}"#
         ),
     );

@@ -2,10 +2,12 @@
 //! chooses it before libEGL is loaded.
 
 mod checks;
+mod counting;
 mod formats;
 mod help;
 mod raster;
 mod samples;
+mod sampling;
 mod targets;
 
 use crate::{GlBackend, Options, Platform, Profile, Tuning, open_with};
@@ -91,6 +93,8 @@ fn all(backend: &GlBackend) {
     raster::all(backend);
     targets::all(backend);
     samples::all(backend);
+    counting::all(backend);
+    sampling::all(backend);
     assert_eq!(backend.messages(), Vec::<String>::new());
 }
 

@@ -29,6 +29,8 @@ pub(super) fn all(backend: &GlBackend) {
         alpha_and_samples(backend);
         every_format_keeps_its_samples(backend);
         samples_are_shaded(backend);
+        shaders_write_the_depth_of_each_sample(backend);
+        attributes_are_taken_inside_the_primitive(backend);
     }
 }
 
@@ -143,6 +145,47 @@ fn samples_are_shaded(backend: &GlBackend) {
     }
 }
 
+fn shaders_write_the_depth_of_each_sample(backend: &GlBackend) {
+    if !has(backend, Feature::SampleShading) {
+        return;
+    }
+    let frame = draw(
+        backend,
+        &format!(
+            r#"{{"attachments": {{
+                "c": {{"format":"rgba8unorm","size":[8,8],"samples":4,"clear":[0,0,1,1]}},
+                "d": {{"format":"depth32float","size":[8,8],"samples":4,"clear":0.078125}}}},
+            "passes": [{{"color":["c"],"depth_stencil":"d","draws":[
+                {{"mesh":{},"shader":"sample_depth","params":{{"color":[1,0,0,1]}},
+                  "depth":{{"compare":"less","write":true}}}}]}}],
+            "read": ["c","d"]}}"#,
+            full("0")
+        ),
+    );
+    // The last two are not below what is stored.
+    each_sample(&frame.images[0], |_, _, s| if s < 2 { RED } else { CLEAR });
+    each_sample(&frame.images[1], |_, _, s| {
+        let depth = [1.0_f32, 2.0, 2.5, 2.5][s as usize] / 32.0;
+        [depth.to_bits(); 4]
+    });
+}
+
+/// The triangle covers half of a texel's samples and not its centre, where the texture coordinate
+/// would be negative.
+fn attributes_are_taken_inside_the_primitive(backend: &GlBackend) {
+    assert!(has(backend, Feature::CentroidInterpolation));
+    let mesh = r#"{"kind":"vertices","units":"texels",
+        "positions":[[4.5625,-16,0],[4.5625,48,0],[68.5625,-16,0]],"uv":[[0,0],[0,0],[64,0]]}"#;
+    let params = r#","params":{"color":[1,0,0,1],"back_color":[0,1,0,1]}"#;
+    let frame = four(backend, mesh, "centroid", params);
+    let positions = &backend.limits().sample_positions[&4];
+    each_sample(&frame.images[0], |x, _, s| {
+        let [across, _] = positions[s as usize];
+        let inside = x * 256 + u32::from(across) > 4 * 256 + 144;
+        if inside { RED } else { CLEAR }
+    });
+}
+
 /// Colours and depths of one and zero, and stencil values, in two samples of four.
 fn every_format_keeps_its_samples(backend: &GlBackend) {
     for (format, support) in &backend.limits().formats {
@@ -158,10 +201,15 @@ fn every_format_keeps_its_samples(backend: &GlBackend) {
                         "m": {{"format":"{format}","size":[8,8],"samples":4,"clear":[0,0,1,1]}},
                         "r": {{"format":"{format}","size":[8,8]}}}},
                     "passes": [{{"color":["m"],"resolve":["r"],"draws":[
-                        {{"mesh":{},"scissor":[0,0,4,8],"shader":"flat_color",
+                        {{"mesh":{},"scissor":[0,0,4,8],"shader":"{}","params":{{"color":[1,1,0,0]}},
                           "multisample":{{"mask":6}}}}]}}],
                     "read": ["m","r"]}}"#,
-                    full("[1,1,0,0]")
+                    full("[1,1,0,0]"),
+                    if format.is_integer() {
+                        "uint_color"
+                    } else {
+                        "flat_color"
+                    }
                 ),
             );
             let channels = format.color_channels();
@@ -177,6 +225,9 @@ fn every_format_keeps_its_samples(backend: &GlBackend) {
                 let mut result = [0; 4];
                 result[..found.len()].copy_from_slice(found);
                 assert!(x < 4 || result == code(blue), "{format}: {found:?}");
+                // Integers are not averaged: one of the samples is taken.
+                let one = [code(blue), code(blue.map(|on| !on))].contains(&result);
+                assert!(!format.is_integer() || one, "{format}: {found:?}");
                 result
             });
             continue;

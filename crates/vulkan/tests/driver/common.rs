@@ -93,6 +93,7 @@ pub(crate) fn check_shape(scene: &Scene, frame: &Frame) {
     for image in &frame.images {
         assert_eq!(image.codes.len(), image.expected_len());
     }
+    assert_eq!(frame.counters.len(), scene.counters.len());
 }
 
 /// The image of an attachment's aspect.

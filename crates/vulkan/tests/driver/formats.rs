@@ -23,18 +23,25 @@ fn colors() -> impl Iterator<Item = TextureFormat> {
     TextureFormat::ALL.into_iter().filter(|f| f.is_color())
 }
 
+/// Those that shaders of floats write and fetch.
+fn floats() -> impl Iterator<Item = TextureFormat> {
+    colors().filter(|f| !f.is_integer())
+}
+
 /// The codes of a texel that holds values which every format has exactly.
 fn codes(format: TextureFormat, values: [f64; 4]) -> Vec<u32> {
     let channels = format.color_channels().iter().zip(values);
     channels.map(|(e, v)| e.nearest_code(v)).collect()
 }
 
-/// The sample counts in which an attachment of the format is drawn here; lavapipe has 1 and 4.
+/// The sample counts in which an attachment of the format is drawn here; lavapipe has 1 and 4, of
+/// integers 1.
 fn counts(backend: &impl Backend, format: TextureFormat) -> Vec<u32> {
     let support = backend.limits().formats.get(&format);
     let counts = support.map_or(Vec::new(), |s| s.samples.clone());
     if backend.adapter().name == "vulkan:lavapipe" {
-        assert_eq!(counts, [1, 4], "{format}");
+        let due = if format.is_integer() { 1 } else { 2 };
+        assert_eq!(counts, [1, 4][..due], "{format}");
     }
     counts
 }
@@ -65,7 +72,7 @@ fn clears_store_0_and_1() {
 #[test]
 fn uploads_come_back_and_are_fetched() {
     let backend = backend(true);
-    for format in colors() {
+    for format in floats() {
         let mut scene = scene_of(
             &format!(
                 r#""seen": {{ "format": "rgba32float", "size": [16, 16] }}, "source": {{ "format": "r8unorm",
@@ -123,7 +130,7 @@ fn uploads_come_back_and_are_fetched() {
 #[test]
 fn draws_store_0_and_1() {
     let backend = backend(true);
-    for format in colors() {
+    for format in floats() {
         for samples in counts(&backend, format) {
             let scene = scene_of(
                 &format!(

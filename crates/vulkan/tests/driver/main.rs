@@ -2,10 +2,13 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod common;
+mod counters;
 mod drawing;
 mod formats;
+mod integers;
 mod living;
 mod multisample;
 mod raster;
+mod sampling;
 mod targets;
 mod timing;

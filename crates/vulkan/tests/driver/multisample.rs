@@ -52,6 +52,31 @@ fn a_shader_that_asks_for_its_sample_runs_for_each() {
     check_samples(&frame, |s| [s & 1, s >> 1 & 1, 0, 1].map(|c| c * 255));
 }
 
+/// Each sample's depth is its own.
+#[test]
+fn a_shader_that_runs_for_each_sample_writes_each_depth() {
+    let backend = backend(true);
+    let scene = scene_of(
+        r#""color": { "format": "rgba8unorm", "samples": 4, "clear": [0, 0, 0, 0] },
+           "depth": { "format": "depth32float", "samples": 4, "clear": 1 }"#,
+        r#"{ "color": ["color"], "depth_stencil": "depth", "draws": [
+             { "mesh": { "kind": "cover", "z": 0.5 }, "shader": "sample_depth",
+               "params": { "color": [1, 0, 0, 1] }, "depth": { "compare": "less", "write": true } } ] }"#,
+        &["color", "depth"],
+    );
+    let Some(frame) = draw_if_there(&backend, &scene) else {
+        return;
+    };
+    check_samples(&frame, |_| RED);
+    let depth = image(&frame, "depth", Aspect::Depth);
+    for at in 0..16 {
+        for sample in 0..4 {
+            let due = (sample as f32 + 1.0) / 32.0;
+            assert_eq!(depth.sample(at, at, sample), [due.to_bits()], "{sample}");
+        }
+    }
+}
+
 /// Two of four samples are red and opaque, the others 0.
 #[test]
 fn samples_are_averaged_at_the_end_of_a_pass() {

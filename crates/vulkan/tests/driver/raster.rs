@@ -35,6 +35,24 @@ fn a_viewport_counts_from_the_top_left() {
     check_red(&scene, |x, y| (4..8).contains(&x) && (2..4).contains(&y));
 }
 
+/// Turned over, the second number is the bottom, and faces show their other side.
+#[test]
+fn a_viewport_of_negative_height_turns_the_picture_over() {
+    let viewport = r#""viewport": { "rect": [4, 6, 8, -4], "depth": [0, 1] }"#;
+    let scene = one_draw(&format!("{WHOLE}, {PAINT}, {viewport}"));
+    check_red(&scene, |x, y| (4..12).contains(&x) && (2..6).contains(&y));
+    // The upper left quarter of clip space.
+    let quarter = WHOLE.replace("-1, 0]", "0, 0]").replace("[1,", "[0,");
+    let scene = one_draw(&format!("{quarter}, {PAINT}, {viewport}"));
+    check_red(&scene, |x, y| (4..8).contains(&x) && (4..6).contains(&y));
+    for (rect, color) in [([0, 0, 16, 16], RED), ([0, 16, 16, -16], GREEN)] {
+        let viewport = format!(r#""viewport": {{ "rect": {rect:?}, "depth": [0, 1] }}"#);
+        let scene = one_draw(&format!("{WHOLE}, {FACING}, {viewport}"));
+        let frame = draw(&backend(true), &scene);
+        check(image(&frame, "color", Aspect::Color), |_, _| color.to_vec());
+    }
+}
+
 #[test]
 fn a_viewport_may_reach_outside() {
     let scene = one_draw(&format!(

@@ -1,6 +1,6 @@
 //! What not every adapter can do, one scene each, drawn where the limits offer it.
 
-use crate::harness::{assert_texels, frame, image, value};
+use crate::harness::{assert_texels, frame, has, image, value};
 use etalon_backend::Backend;
 use etalon_frame::{Aspect, ChannelEncoding, Feature, Image, ReadPath, TextureFormat};
 use etalon_wgpu::WgpuBackend;
@@ -25,10 +25,6 @@ pub(crate) fn all(backend: &WgpuBackend) {
     // After it wgpu's OpenGL leaves factors of a second source behind on all targets, and Mesa drops a
     // later draw to several of them.
     two_sources(backend);
-}
-
-fn has(backend: &WgpuBackend, feature: Feature) -> bool {
-    backend.limits().features.contains(&feature)
 }
 
 /// What the drivers are known to have; a test that is skipped where it should run would be green.
@@ -68,7 +64,7 @@ pub(crate) fn what_is_offered(backend: &WgpuBackend) {
             _ => assert!(support.samples.contains(&1), "{format}"),
         }
         if vulkan && format.is_color() {
-            let due = format != TextureFormat::Rgba8Snorm;
+            let due = format != TextureFormat::Rgba8Snorm && !format.is_integer();
             assert_eq!(support.blendable, due, "{format}");
         }
     }
@@ -150,9 +146,12 @@ pub(crate) fn formats_keep_their_codes(backend: &WgpuBackend) {
             .collect();
         let mut passes = String::new();
         if support.samples.contains(&1) {
-            passes = r#"{"color": ["drawn"], "draws": [
-                {"mesh": {"kind": "columns", "values": [0, 1]}, "shader": "flat_color"}]}"#
-                .to_owned();
+            let draw = if format.is_integer() {
+                r#"{"mesh": {"kind": "rect", "texels": [0, 0, 2, 3]}, "shader": "uint_color"}"#
+            } else {
+                r#"{"mesh": {"kind": "columns", "values": [0, 1]}, "shader": "flat_color"}"#
+            };
+            passes = format!(r#"{{"color": ["drawn"], "draws": [{draw}]}}"#);
         }
         let frame = frame(
             backend,

@@ -2,7 +2,7 @@
 
 use etalon_backend::Backend;
 use etalon_case::{CaseFile, Profile, Scene};
-use etalon_frame::{Aspect, Frame, Image};
+use etalon_frame::{Aspect, Feature, Frame, Image};
 use etalon_wgpu::{Options, Via, WgpuBackend, enumerate, open};
 use std::fs;
 use std::path::PathBuf;
@@ -143,6 +143,10 @@ pub(crate) fn drawn(backend: &WgpuBackend, scene: &Scene) -> Frame {
 
 pub(crate) fn frame(backend: &WgpuBackend, json: &str) -> Frame {
     drawn(backend, &scene(json))
+}
+
+pub(crate) fn has(backend: &WgpuBackend, feature: Feature) -> bool {
+    backend.limits().features.contains(&feature)
 }
 
 pub(crate) fn image<'a>(frame: &'a Frame, attachment: &str, aspect: Aspect) -> &'a Image {

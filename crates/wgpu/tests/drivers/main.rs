@@ -2,8 +2,10 @@
 //! process starts, so each test runs its body in a child process. A missing driver is a failure.
 
 mod capabilities;
+mod counting;
 mod harness;
 mod samples;
+mod sampling;
 mod scenes;
 mod whole;
 
@@ -58,6 +60,23 @@ macro_rules! tests {
                 the_shader_knows_its_sample
                 samples_are_averaged
                 alpha_takes_samples_away
+                a_point_inside_the_primitive
+                each_sample_writes_its_depth
+            );
+            tests!(@ counting $driver, $choice,
+                any_sample_that_passes
+                samples_are_not_counted
+                runs_are_counted
+                shader_invocations
+                three_counters_of_one_draw
+                tests_before_the_shader
+                promised_depths
+            );
+            tests!(@ sampling $driver, $choice,
+                the_nearest_texel
+                an_average_of_texels
+                fragments_are_discarded
+                integers_are_stored
             );
             #[test]
             fn validation_is_clean() {

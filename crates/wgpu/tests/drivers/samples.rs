@@ -1,8 +1,8 @@
 //! Several samples per texel, drawn where the limits offer them: on Vulkan.
 
-use crate::harness::{frame, image};
+use crate::harness::{frame, has, image};
 use etalon_backend::Backend;
-use etalon_frame::{Aspect, Image, TextureFormat};
+use etalon_frame::{Aspect, Feature, Image, TextureFormat};
 use etalon_wgpu::WgpuBackend;
 
 /// A triangle over every sample; the suite's rectangles are sure of the texels' centres only.
@@ -15,6 +15,8 @@ pub(crate) fn all(backend: &WgpuBackend) {
     the_shader_knows_its_sample(backend);
     samples_are_averaged(backend);
     alpha_takes_samples_away(backend);
+    a_point_inside_the_primitive(backend);
+    each_sample_writes_its_depth(backend);
 }
 
 fn offered(backend: &WgpuBackend, format: TextureFormat) -> bool {
@@ -28,7 +30,12 @@ pub(crate) fn samples_are_truthful(backend: &WgpuBackend) {
     let vulkan = backend.adapter().name == "wgpu:vulkan:lavapipe";
     for format in backend.limits().formats.keys() {
         // Their codes could not be told for certain.
-        let inexact = [TextureFormat::Rgba8Snorm, TextureFormat::Depth16Unorm];
+        let inexact = [
+            TextureFormat::Rgba8Snorm,
+            TextureFormat::Depth16Unorm,
+            // WebGPU does not resolve integers.
+            TextureFormat::Rgba8Uint,
+        ];
         let due = vulkan && !inexact.contains(format);
         assert_eq!(offered(backend, *format), due, "{format}");
     }
@@ -186,5 +193,66 @@ pub(crate) fn alpha_takes_samples_away(backend: &WgpuBackend) {
         } else {
             vec![255, 0, 0, 255]
         }
+    });
+}
+
+/// An edge leaves of the third column only the sample farthest to the left, and the texel's centre
+/// lies where the coordinate, were it not interpolated inside, would be negative.
+pub(crate) fn a_point_inside_the_primitive(backend: &WgpuBackend) {
+    assert!(has(backend, Feature::CentroidInterpolation));
+    let samples = if offered(backend, TextureFormat::Rgba8Unorm) {
+        4
+    } else {
+        1
+    };
+    let frame = frame(
+        backend,
+        &format!(
+            r#"{{ "attachments": {{ "color": {{"format": "rgba8unorm", "size": [4, 4], "samples": {samples}, "clear": [0, 0, 1, 1]}} }},
+                 "passes": [ {{"color": ["color"], "draws": [
+                     {{"mesh": {{"kind": "vertices", "units": "texels", "values": [1],
+                                 "positions": [[-2, -2, 0], [-2, 6, 0], [2.25, -2, 0], [2.25, 6, 0]],
+                                 "uv": [[4.25, 0], [4.25, 0], [0, 0], [0, 0]]}},
+                      "topology": "triangle-strip", "shader": "centroid",
+                      "params": {{"color": [1, 0, 0, 1], "back_color": [0, 1, 0, 1]}}}}]}} ],
+                 "read": ["color"] }}"#
+        ),
+    );
+    let color = image(&frame, "color", Aspect::Color);
+    for (x, y) in (0..4).flat_map(|x| (0..4).map(move |y| (x, y))) {
+        for sample in 0..samples {
+            let covered = x < 2 || (samples, x, sample) == (4, 2, 2);
+            let due = if covered {
+                [255, 0, 0, 255]
+            } else {
+                [0, 0, 255, 255]
+            };
+            let came = color.sample(x, y, sample);
+            assert_eq!(came, due, "column {x}, row {y}, sample {sample}");
+        }
+    }
+}
+
+pub(crate) fn each_sample_writes_its_depth(backend: &WgpuBackend) {
+    if !offered(backend, TextureFormat::Depth32Float) {
+        return;
+    }
+    let scene = r#"{ "attachments": { "color": {"format": "rgba8unorm", "size": [4, 4], "samples": 4, "clear": [0, 0, 1, 1]},
+                              "depth": {"format": "depth32float", "samples": 4, "clear": 0.078125} },
+             "passes": [ {"color": ["color"], "depth_stencil": "depth", "draws": [
+                 {"mesh": EVERYWHERE, "shader": "sample_depth", "params": {"color": [1, 0, 0, 1]},
+                  "depth": {"compare": "less", "write": true}}]} ],
+             "read": ["color", "depth"] }"#;
+    let frame = frame(backend, &scene.replace("EVERYWHERE", EVERYWHERE));
+    assert_samples(image(&frame, "color", Aspect::Color), |_, sample| {
+        if sample < 2 {
+            vec![255, 0, 0, 255]
+        } else {
+            vec![0, 0, 255, 255]
+        }
+    });
+    assert_samples(image(&frame, "depth", Aspect::Depth), |_, sample| {
+        let due = [0.03125_f32, 0.0625, 0.078125, 0.078125][sample as usize];
+        vec![due.to_bits()]
     });
 }

@@ -4,7 +4,7 @@ use crate::scenes::{
     depth_formats_store_what_is_written, passes_keep_contents, stencil_without_depth,
     uploads_keep_their_orientation,
 };
-use crate::{capabilities, samples};
+use crate::{capabilities, counting, samples, sampling};
 use etalon_backend::Backend;
 use etalon_case::{Library, Profile};
 use etalon_wgpu::WgpuBackend;
@@ -26,6 +26,8 @@ fn run_all(backend: &WgpuBackend) {
         let aspects = |i: &usize| case.scene.attachments[*i].format.aspects().len();
         let due: usize = case.scene.read.iter().map(aspects).sum();
         assert_eq!(frame.images.len(), due, "{}", case.id);
+        let counters = case.scene.counters.len();
+        assert_eq!(frame.counters.len(), counters, "{}", case.id);
         ran += 1;
     }
     assert!(ran > 0, "no case ran");
@@ -44,6 +46,8 @@ pub(crate) fn validation_is_clean(backend: &WgpuBackend) {
     stencil_without_depth(backend);
     capabilities::all(backend);
     samples::all(backend);
+    counting::all(backend);
+    sampling::all(backend);
     let messages = backend.messages();
     assert!(messages.is_empty(), "{}", messages.join("\n"));
 }
