@@ -308,15 +308,18 @@ fn few_bits(list: &mut List) {
             format!("Destinations of {bits} bits are shifted into 8 bits whose lowest stay 0."),
             read(Unorm(bits), move |c| (c << (8 - bits)) as f32 / 255.0),
         );
-        list.add(
-            &format!("unorm{bits}-destination-replicated"),
-            "blending in 8 bits, as mobile GPUs do it",
-            format!("Destinations of {bits} bits are blended as 8 bits that repeat them."),
-            read(Unorm(bits), move |c| {
-                (c << (8 - bits) | c >> (2 * bits - 8)) as f32 / 255.0
-            }),
-        )
-        .legal(PRECISION);
+        // Four bits repeated are exactly the value they stand for.
+        if bits > 4 {
+            list.add(
+                &format!("unorm{bits}-destination-replicated"),
+                "blending in 8 bits, as mobile GPUs do it",
+                format!("Destinations of {bits} bits are blended as 8 bits that repeat them."),
+                read(Unorm(bits), move |c| {
+                    (c << (8 - bits) | c >> (2 * bits - 8)) as f32 / 255.0
+                }),
+            )
+            .legal(PRECISION);
+        }
         list.add(
             &format!("unorm{bits}-stored-through-8-bits"),
             "blending in 8 bits, as mobile GPUs do it",
