@@ -57,6 +57,11 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
             if !matches!(attachment.contents, Contents::Texels(_)) {
                 return Err(At::new(format!("`{name}` is not uploaded from `texels`")));
             }
+            if attachment.format.is_integer() {
+                return Err(At::new(format!(
+                    "`{name}` holds integers, the shader reads floats"
+                )));
+            }
             if !wire.shader.samples_texture() && attachment.size != size {
                 return Err(At::new(format!(
                     "`{name}` differs in size from the pass's attachments"

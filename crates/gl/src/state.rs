@@ -204,13 +204,20 @@ impl DrawState {
                 let [r, g, b, a] = mask(target);
                 gl.color_mask(r, g, b, a);
                 set(gl, glow::BLEND, target.blend.is_some());
-                if let Some(blend) = target.blend {
-                    let (color, alpha) = equations(blend);
-                    gl.blend_equation_separate(color.0, alpha.0);
-                    gl.blend_func_separate(color.1, color.2, alpha.1, alpha.2);
+                match target.blend {
+                    Some(blend) => {
+                        let (color, alpha) = equations(blend);
+                        gl.blend_equation_separate(color.0, alpha.0);
+                        gl.blend_func_separate(color.1, color.2, alpha.1, alpha.2);
+                    }
+                    // Mesa refuses several targets as long as the second source is named, even
+                    // where nothing is blended.
+                    None => gl.blend_func(glow::ONE, glow::ZERO),
                 }
                 return;
             }
+            // The same holds for buffers beyond the targets, which the loop does not reach.
+            gl.blend_func(glow::ONE, glow::ZERO);
             for (i, target) in (0..).zip(&self.targets) {
                 let [r, g, b, a] = mask(target);
                 gl.color_mask_draw_buffer(i, r, g, b, a);
@@ -221,7 +228,10 @@ impl DrawState {
                         gl.blend_equation_separate_draw_buffer(i, color.0, alpha.0);
                         gl.blend_func_separate_draw_buffer(i, color.1, color.2, alpha.1, alpha.2);
                     }
-                    None => gl.disable_draw_buffer(glow::BLEND, i),
+                    None => {
+                        gl.disable_draw_buffer(glow::BLEND, i);
+                        gl.blend_func_draw_buffer(i, glow::ONE, glow::ZERO);
+                    }
                 }
             }
         }

@@ -21,8 +21,6 @@ pub(crate) struct Device {
     pub(crate) queue: vk::Queue,
     pub(crate) queue_family: u32,
     pub(crate) limits: vk::PhysicalDeviceLimits,
-    /// Sample counts of attachments that hold integers.
-    pub(crate) integer_samples: vk::SampleCountFlags,
     pub(crate) memory: vk::PhysicalDeviceMemoryProperties,
     /// Whether the queue runs compute shaders.
     pub(crate) compute: bool,
@@ -160,10 +158,6 @@ impl Device {
         let features = unsafe { api.get_physical_device_features(physical) };
         // SAFETY: as above.
         let memory = unsafe { api.get_physical_device_memory_properties(physical) };
-        let mut newer = vk::PhysicalDeviceVulkan12Properties::default();
-        let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut newer);
-        // SAFETY: as above, and a device of Vulkan 1.3 knows the chained structure.
-        unsafe { api.get_physical_device_properties2(physical, &mut all) };
 
         let priorities = [1.0];
         let queues = [vk::DeviceQueueCreateInfo::default()
@@ -196,7 +190,6 @@ impl Device {
             queue,
             queue_family: index,
             limits: properties.limits,
-            integer_samples: newer.framebuffer_integer_color_sample_counts,
             memory,
             compute: family.queue_flags.contains(compute),
             features: enabled,

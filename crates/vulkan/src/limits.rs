@@ -132,9 +132,9 @@ fn sample_counts(device: &Device, format: TextureFormat, native: Native) -> Vec<
     let mut flags = properties.sample_counts;
     for aspect in format.aspects() {
         flags &= match aspect {
-            Aspect::Color if format.is_integer() => {
-                device.integer_samples & raw.sampled_image_integer_sample_counts
-            }
+            // The limits name what every format has; one may have more (Vulkan, Supported Sample
+            // Counts), and that of integers is often 1 where this one has several.
+            Aspect::Color if format.is_integer() => flags,
             Aspect::Color => {
                 raw.framebuffer_color_sample_counts & raw.sampled_image_color_sample_counts
             }

@@ -163,8 +163,8 @@ fn support(
 /// of `min` and `max`, counts of samples.
 ///
 /// Where it takes shaders that say when the fragment tests happen, what it translates them to says it
-/// too: the feature comes with the versions of GLSL that have the word. Those that promise something
-/// of their depth may want an extension more, which [`crate::probe`] finds out.
+/// too: the feature comes with the versions of GLSL that have the word. What does not compile after
+/// all, [`crate::probe`] takes back.
 fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTreeSet<Feature> {
     let max_size = of.max_texture_dimension_2d;
     let flag = |flag| flags.contains(flag);
@@ -242,11 +242,6 @@ pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abi
             (SAMPLES, vec![[96, 32], [224, 96], [32, 160], [160, 224]]),
         ]),
     }
-}
-
-/// Takes back that shaders can promise something of their depth.
-pub(crate) fn deny_conservative_depth(limits: &mut Limits) {
-    limits.features.remove(&Feature::ConservativeDepth);
 }
 
 /// Takes back that there is more than one sample.

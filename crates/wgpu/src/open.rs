@@ -1,7 +1,7 @@
 //! Finding adapters and opening one.
 
 use crate::gpu::Gpu;
-use crate::limits::{Abilities, deny_conservative_depth, deny_samples, limits, wanted_features};
+use crate::limits::{Abilities, deny_samples, limits, wanted_features};
 use crate::messages;
 use crate::prepared::Ready;
 use crate::probe;
@@ -167,11 +167,8 @@ fn device(adapter: &wgpu::Adapter) -> Result<Gpu, String> {
     if !has_samples {
         deny_samples(&mut gpu.limits);
     }
-    let promises = probe::conservative_depth_works(&gpu).map_err(|error| error.to_string())?;
-    if !promises {
-        deny_conservative_depth(&mut gpu.limits);
-    }
-    if !has_samples || !promises {
+    let denied = probe::deny_what_does_not_compile(&mut gpu).map_err(|error| error.to_string())?;
+    if denied || !has_samples {
         // What a driver said of what nobody will ask for is no scene's matter.
         gpu.forget();
         drop(messages::take());

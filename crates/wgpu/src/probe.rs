@@ -5,22 +5,22 @@
 //! one, which OpenGL refuses. So a scene is drawn whose samples must differ, and each of them is
 //! read.
 //!
-//! And wgpu takes shaders that promise something of their depth wherever tests can be forced to be
-//! early; the driver's compiler may want an extension for them, so one is compiled.
+//! And it advertises shaders that it cannot translate, or that the driver's compiler does not take, so
+//! one of each kind is compiled.
 
 use crate::gpu::Gpu;
 use crate::limits::SAMPLES;
 use crate::prepared::Ready;
 use etalon_backend::{BackendError, Prepared};
 use etalon_case::scene::{
-    Attachment, ColorTarget, Contents, Draw, Params, Pass, StencilFace, StencilState,
+    Attachment, ColorTarget, Contents, Counter, Draw, Params, Pass, StencilFace, StencilState,
 };
 use etalon_case::state::{
     CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace, Multisample,
     PolygonMode, PrimitiveTopology, Shader, StencilOperation, Viewport,
 };
 use etalon_case::{Mesh, Scene, Vertex};
-use etalon_frame::{Feature, Frame, TextureFormat};
+use etalon_frame::{CounterKind, Feature, Frame, TextureFormat};
 
 /// Width and height of the attachments.
 const SIDE: u32 = 4;
@@ -53,24 +53,53 @@ pub(crate) fn samples_work(gpu: &Gpu) -> Result<bool, BackendError> {
     }
 }
 
-/// Whether a shader that promises something of its depth compiles.
+/// Takes back the features whose shaders do not compile, and tells whether there were any. A shader
+/// that promises something of its depth may want an extension more than wgpu asks for; and wgpu offers
+/// storage in GLSL 330, into which it then does not translate it.
 ///
 /// # Errors
 /// Only when the device is lost.
-pub(crate) fn conservative_depth_works(gpu: &Gpu) -> Result<bool, BackendError> {
-    if !gpu.limits.features.contains(&Feature::ConservativeDepth) {
-        return Ok(false);
+pub(crate) fn deny_what_does_not_compile(gpu: &mut Gpu) -> Result<bool, BackendError> {
+    let mut denied = false;
+    let shaders = [
+        (
+            Feature::ConservativeDepth,
+            Shader::FragCoordDepth,
+            EarlyTests::Unchanged,
+        ),
+        (
+            Feature::StorageCounters,
+            Shader::CountedColor,
+            EarlyTests::Implicit,
+        ),
+    ];
+    for (feature, shader, early_tests) in shaders {
+        if !gpu.limits.features.contains(&feature) {
+            continue;
+        }
+        let mut scene = scene(1);
+        for draw in scene.passes.iter_mut().flat_map(|pass| &mut pass.draws) {
+            (draw.shader, draw.early_tests) = (shader, early_tests);
+            if shader.counts_runs() {
+                draw.counters = vec![0];
+            }
+        }
+        if shader.counts_runs() {
+            scene.counters = vec![Counter {
+                name: "runs".to_owned(),
+                kind: CounterKind::ShaderRuns,
+            }];
+        }
+        let compiled = match Ready::new(gpu, &scene) {
+            Ok(_) => true,
+            Err(error @ BackendError::DeviceLost(_)) => return Err(error),
+            Err(_) => false,
+        };
+        if !compiled {
+            denied |= gpu.limits.features.remove(&feature);
+        }
     }
-    let mut scene = scene(1);
-    for draw in scene.passes.iter_mut().flat_map(|pass| &mut pass.draws) {
-        draw.shader = Shader::FragCoordDepth;
-        draw.early_tests = EarlyTests::Unchanged;
-    }
-    match Ready::new(gpu, &scene) {
-        Ok(_) => Ok(true),
-        Err(error @ BackendError::DeviceLost(_)) => Err(error),
-        Err(_) => Ok(false),
-    }
+    Ok(denied)
 }
 
 fn has_samples(frame: &Frame) -> bool {

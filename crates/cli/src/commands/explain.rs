@@ -161,6 +161,21 @@ fn fits(
             all &= allowed;
         }
     }
+    for (counter, actual) in set.counters.iter().zip(&frame.counters) {
+        let allowed = counter.range.contains(*actual);
+        let legal = match counter.range.high {
+            Some(high) => format!("{} to {high}", counter.range.low),
+            None => format!("{} or more", counter.range.low),
+        };
+        let word = match (allowed, yardstick) {
+            (true, _) => "allowed",
+            (false, true) => "outside the yardstick",
+            (false, false) => "NOT ALLOWED",
+        };
+        let (name, kind) = (&counter.name, counter.kind.name());
+        let _ = writeln!(text, "counter {name} ({kind}): {actual} of {legal}: {word}");
+        all &= allowed;
+    }
     all
 }
 
@@ -176,9 +191,12 @@ fn draw(name: &str, case: &Case) -> Result<(Limits, Frame), Failure> {
         return Err(Failure::usage(format!("adapter {name} cannot be used")));
     };
     let limits = worker.hello.limits.clone();
-    if let Some(missing) = limits.missing(&case.scene.requirements()) {
+    if let Some(missing) = limits.missing(&case.requirements()) {
         return Err(Failure::usage(format!("{name} does not support {missing}")));
     }
-    let frame = worker.draw(&case.scene).map_err(Failure::incomplete)?;
+    let frames = worker.draw(case).map_err(Failure::incomplete)?;
+    // The case's own scene comes first; variants are explained by what they have in common with it.
+    let frame = frames.into_iter().next();
+    let frame = frame.ok_or_else(|| Failure::incomplete("no frame came back"))?;
     Ok((limits, frame))
 }

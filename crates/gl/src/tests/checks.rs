@@ -434,10 +434,10 @@ fn what_is_denied_is_named(backend: &GlBackend) {
 }
 
 /// Not among [`all`]: on a driver that compiles, each new state costs some 20 ms.
-pub(super) fn every_built_in_case_is_drawn(backend: &GlBackend) {
+pub(super) fn built_in_cases_are_drawn(backend: &GlBackend, profile: Profile) {
     let library = Library::built_in().unwrap();
     let (start, mut count) = (Instant::now(), 0);
-    for case in library.cases(Profile::Full) {
+    for case in library.cases(profile) {
         let case = case.build().unwrap();
         if let Some(missing) = backend.limits().missing(&case.scene.requirements()) {
             println!("{}: {missing}", case.id);

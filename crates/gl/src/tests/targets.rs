@@ -118,6 +118,8 @@ fn two_sources(backend: &GlBackend) {
         let [r, g, _, a] = ROWS[y as usize];
         vec![255 - r, 255 - g, 0, 255 - a]
     });
+    // Factors that name the second source do not stay.
+    images_of_all_targets_agree(backend);
 }
 
 fn logic(backend: &GlBackend) {

@@ -1,0 +1,158 @@
+//! What draws count: queries around them, and memory in which shaders count their runs.
+
+use crate::context::{Context, refused};
+use crate::pool::Pool;
+use etalon_backend::BackendError;
+use etalon_case::scene::{Counter, Draw};
+use etalon_frame::CounterKind;
+use glow::HasContext;
+
+/// A query around one draw. A query object stays with the target that it was first begun for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Query {
+    pub(crate) target: u32,
+    pub(crate) object: glow::Query,
+}
+
+/// A scene's counters.
+#[derive(Default)]
+pub(crate) struct Counters {
+    kinds: Vec<CounterKind>,
+    /// The queries of all draws, each with its counter.
+    queries: Vec<(usize, Query)>,
+    /// The distance of two counters of runs in bytes.
+    stride: usize,
+}
+
+/// The query target of a kind; `None` where shaders count themselves.
+pub(crate) fn query_target(kind: CounterKind) -> Option<u32> {
+    match kind {
+        CounterKind::SamplesPassed => Some(glow::SAMPLES_PASSED),
+        CounterKind::AnySamplesPassed => Some(glow::ANY_SAMPLES_PASSED),
+        CounterKind::FragmentInvocations => Some(glow::FRAGMENT_SHADER_INVOCATIONS),
+        CounterKind::ShaderRuns => None,
+    }
+}
+
+impl Counters {
+    /// A scene's counters, without queries yet.
+    pub(crate) fn new(context: &Context, counters: &[Counter]) -> Self {
+        let alignment = context.caps.storage_alignment.unwrap_or(1);
+        Self {
+            kinds: counters.iter().map(|c| c.kind).collect(),
+            queries: Vec::new(),
+            stride: size_of::<u32>().next_multiple_of(alignment),
+        }
+    }
+
+    /// The size in bytes of the memory that shaders count in: a place for each counter, of whatever
+    /// kind.
+    pub(crate) fn storage_size(&self) -> usize {
+        if self.kinds.contains(&CounterKind::ShaderRuns) {
+            self.stride * self.kinds.len()
+        } else {
+            0
+        }
+    }
+
+    /// The queries that count a draw.
+    pub(crate) fn queries(
+        &mut self,
+        context: &Context,
+        pool: &mut Pool,
+        draw: &Draw,
+    ) -> Result<Vec<Query>, BackendError> {
+        let mut made = Vec::new();
+        for index in &draw.counters {
+            if let Some(target) = self.kinds.get(*index).copied().and_then(query_target) {
+                let query = pool.query(context, target)?;
+                self.queries.push((*index, query));
+                made.push(query);
+            }
+        }
+        Ok(made)
+    }
+
+    /// Where the runs of a draw's shader are counted, in bytes.
+    pub(crate) fn runs(&self, draw: &Draw) -> Option<i32> {
+        let counts = |i: &usize| self.kinds.get(*i) == Some(&CounterKind::ShaderRuns);
+        let index = draw.counters.iter().copied().find(counts)?;
+        Some((index * self.stride) as i32)
+    }
+
+    /// Sets the memory of runs to 0, after whatever shaders wrote there before.
+    pub(crate) fn start(&self, context: &Context, runs: Option<(glow::Buffer, usize)>) {
+        let Some((buffer, size)) = runs else {
+            return;
+        };
+        let gl = &context.gl;
+        // SAFETY: the context is current, has storage buffers, and the buffer is of this size.
+        unsafe {
+            gl.memory_barrier(glow::BUFFER_UPDATE_BARRIER_BIT);
+            gl.bind_buffer(glow::SHADER_STORAGE_BUFFER, Some(buffer));
+            gl.buffer_sub_data_u8_slice(glow::SHADER_STORAGE_BUFFER, 0, &vec![0; size]);
+        }
+    }
+
+    /// The counts after the draws.
+    pub(crate) fn read(
+        &self,
+        context: &Context,
+        runs: Option<(glow::Buffer, usize)>,
+    ) -> Result<Vec<u64>, BackendError> {
+        let mut counts = match runs {
+            Some((buffer, size)) => self.read_runs(context, buffer, size)?,
+            None => vec![0; self.kinds.len()],
+        };
+        for (index, query) in &self.queries {
+            let result = context.query_result(query.object);
+            let count = &mut counts[*index];
+            *count = match self.kinds[*index] {
+                CounterKind::AnySamplesPassed => (*count).max(result.min(1)),
+                _ => *count + result,
+            };
+        }
+        Ok(counts)
+    }
+
+    fn read_runs(
+        &self,
+        context: &Context,
+        buffer: glow::Buffer,
+        size: usize,
+    ) -> Result<Vec<u64>, BackendError> {
+        let gl = &context.gl;
+        let mut bytes = vec![0_u8; size];
+        // SAFETY: the context is current, has storage buffers, and the buffer is of this size; what
+        // is mapped is copied before it is unmapped.
+        unsafe {
+            gl.memory_barrier(glow::BUFFER_UPDATE_BARRIER_BIT);
+            let target = glow::SHADER_STORAGE_BUFFER;
+            gl.bind_buffer(target, Some(buffer));
+            // ES has no other way to a buffer's contents.
+            let mapped = gl.map_buffer_range(target, 0, size as i32, glow::MAP_READ_BIT);
+            if mapped.is_null() {
+                return Err(refused("the counts of shader runs", "glMapBufferRange"));
+            }
+            bytes.copy_from_slice(std::slice::from_raw_parts(mapped, size));
+            gl.unmap_buffer(target);
+        }
+        let first = |place: &[u8]| {
+            let word = place.first_chunk().copied().unwrap_or_default();
+            u64::from(u32::from_ne_bytes(word))
+        };
+        Ok(bytes.chunks_exact(self.stride).map(first).collect())
+    }
+
+    /// Gives the queries back to the pool, or frees them where something has failed.
+    pub(crate) fn give_back(self, context: &Context, pool: &mut Pool, sound: bool) {
+        for (_, query) in self.queries {
+            if sound {
+                pool.put_query(context, query);
+            } else {
+                // SAFETY: the context is current and the object is its own.
+                unsafe { context.gl.delete_query(query.object) };
+            }
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! Counters: queries around draws, and words that shaders count in.
+
+use crate::device::Device;
+use crate::inputs::Placer;
+use crate::memory::Buffer;
+use crate::plan::internal;
+use crate::slot::{Needs, Slot};
+use ash::vk;
+use etalon_backend::BackendError;
+use etalon_case::Scene;
+use etalon_case::scene::Draw;
+use etalon_frame::CounterKind;
+use std::mem::size_of;
+
+/// What a scene counts, and where.
+#[derive(Default)]
+pub(crate) struct Counting {
+    kinds: Vec<CounterKind>,
+    /// Where each counter of shader runs has its word.
+    words: Vec<Option<u64>>,
+    /// Bytes of the buffer that holds all words; 0 where there are none.
+    pub(crate) bytes: u64,
+    /// The counters that the slot's queries count for, one after the other.
+    occlusion: Vec<usize>,
+    statistics: Vec<usize>,
+}
+
+/// A query around a draw.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Query {
+    pub(crate) pool: vk::QueryPool,
+    pub(crate) index: u32,
+    pub(crate) flags: vk::QueryControlFlags,
+}
+
+impl Counting {
+    /// The scene's counters, the shaders' words at places of their own.
+    pub(crate) fn new(device: &Device, scene: &Scene) -> Self {
+        let alignment = device.limits.min_storage_buffer_offset_alignment;
+        let mut placer = Placer::default();
+        let kinds: Vec<_> = scene.counters.iter().map(|c| c.kind).collect();
+        let word = |kind: &CounterKind| {
+            let counts = *kind == CounterKind::ShaderRuns;
+            counts.then(|| placer.place(size_of::<u32>() as u64, alignment.max(4)))
+        };
+        let words = kinds.iter().map(word).collect();
+        Self {
+            kinds,
+            words,
+            bytes: placer.place(0, 1),
+            occlusion: Vec::new(),
+            statistics: Vec::new(),
+        }
+    }
+
+    /// Adds to a slot's needs the queries of all draws: one for each query counter that one names.
+    pub(crate) fn add_needs(&self, scene: &Scene, needs: &mut Needs) {
+        let draws = scene.passes.iter().flat_map(|p| &p.draws);
+        for kind in draws.flat_map(|d| &d.counters).map(|c| self.kinds.get(*c)) {
+            match kind {
+                Some(kind) if kind.is_occlusion() => needs.occlusion += 1,
+                Some(CounterKind::FragmentInvocations) => needs.statistics += 1,
+                _ => {}
+            }
+        }
+    }
+
+    /// The next queries of a slot that has room for all, for a draw.
+    pub(crate) fn queries(&mut self, slot: &Slot, draw: &Draw) -> Result<Vec<Query>, BackendError> {
+        let mut queries = Vec::new();
+        for counter in &draw.counters {
+            let kind = self
+                .kinds
+                .get(*counter)
+                .ok_or_else(|| internal("a draw names no counter"))?;
+            let (pool, owners, flags) = match kind {
+                CounterKind::SamplesPassed => (
+                    &slot.occlusion,
+                    &mut self.occlusion,
+                    vk::QueryControlFlags::PRECISE,
+                ),
+                CounterKind::AnySamplesPassed => (
+                    &slot.occlusion,
+                    &mut self.occlusion,
+                    vk::QueryControlFlags::empty(),
+                ),
+                CounterKind::FragmentInvocations => (
+                    &slot.statistics,
+                    &mut self.statistics,
+                    vk::QueryControlFlags::empty(),
+                ),
+                CounterKind::ShaderRuns => continue,
+            };
+            queries.push(Query {
+                pool: pool.raw,
+                index: count(owners)?,
+                flags,
+            });
+            owners.push(*counter);
+        }
+        Ok(queries)
+    }
+
+    /// Where the shader of a draw counts its runs: the counter, and its word's place.
+    pub(crate) fn word(&self, draw: &Draw) -> Result<Option<(usize, u64)>, BackendError> {
+        let place = |counter: &usize| Some((*counter, self.words.get(*counter).copied()??));
+        let word = draw.counters.iter().find_map(place);
+        if word.is_some() != draw.shader.counts_runs() {
+            return Err(internal("a draw has not the counter its shader counts in"));
+        }
+        Ok(word)
+    }
+
+    /// Records that everything starts from 0.
+    pub(crate) fn start(
+        &self,
+        device: &Device,
+        commands: vk::CommandBuffer,
+        slot: &Slot,
+        counts: Option<&Buffer>,
+    ) -> Result<(), BackendError> {
+        let pools = [
+            (&slot.occlusion, &self.occlusion),
+            (&slot.statistics, &self.statistics),
+        ];
+        for (pool, owners) in pools {
+            pool.reset(device, commands, count(owners)?);
+        }
+        if let Some(counts) = counts {
+            let whole = vk::WHOLE_SIZE;
+            // SAFETY: recording, outside of a render pass; no other work uses the buffer.
+            unsafe {
+                device
+                    .raw
+                    .cmd_fill_buffer(commands, counts.raw, 0, whole, 0);
+            }
+            barrier(
+                device,
+                commands,
+                vk::MemoryBarrier2::default()
+                    .src_stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)
+                    .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
+                    .dst_stage_mask(vk::PipelineStageFlags2::FRAGMENT_SHADER)
+                    .dst_access_mask(
+                        vk::AccessFlags2::SHADER_STORAGE_READ
+                            | vk::AccessFlags2::SHADER_STORAGE_WRITE,
+                    ),
+            );
+        }
+        Ok(())
+    }
+
+    /// Records that the processor will read what shaders counted.
+    pub(crate) fn end(&self, device: &Device, commands: vk::CommandBuffer) {
+        if self.bytes > 0 {
+            barrier(
+                device,
+                commands,
+                vk::MemoryBarrier2::default()
+                    .src_stage_mask(vk::PipelineStageFlags2::FRAGMENT_SHADER)
+                    .src_access_mask(vk::AccessFlags2::SHADER_STORAGE_WRITE)
+                    .dst_stage_mask(vk::PipelineStageFlags2::HOST)
+                    .dst_access_mask(vk::AccessFlags2::HOST_READ),
+            );
+        }
+    }
+
+    /// The counts, in the order of the scene's counters, of finished work.
+    pub(crate) fn read(
+        &self,
+        device: &Device,
+        slot: &Slot,
+        counts: Option<&Buffer>,
+    ) -> Result<Vec<u64>, BackendError> {
+        let mut totals = vec![0_u64; self.kinds.len()];
+        let passed = slot.occlusion.results(device, self.occlusion.len())?;
+        let invoked = slot.statistics.results(device, self.statistics.len())?;
+        let passed = self.occlusion.iter().zip(passed);
+        let invoked = self.statistics.iter().zip(invoked);
+        for (counter, result) in passed.chain(invoked) {
+            let total = &mut totals[*counter];
+            *total = match self.kinds[*counter] {
+                // Anything but 0 says that some passed (Vulkan, Occlusion Queries).
+                CounterKind::AnySamplesPassed => *total | u64::from(result != 0),
+                _ => total.wrapping_add(result),
+            };
+        }
+        for (total, word) in totals.iter_mut().zip(&self.words) {
+            if let Some(offset) = word {
+                let counts = counts.ok_or_else(|| internal("there is no buffer of counts"))?;
+                let bytes = counts.read(*offset, size_of::<u32>())?;
+                let word = bytes
+                    .try_into()
+                    .map_err(|_| internal("a count is a word"))?;
+                *total = u32::from_ne_bytes(word).into();
+            }
+        }
+        Ok(totals)
+    }
+}
+
+fn count(owners: &[usize]) -> Result<u32, BackendError> {
+    u32::try_from(owners.len()).map_err(|_| internal("too many queries"))
+}
+
+fn barrier(device: &Device, commands: vk::CommandBuffer, barrier: vk::MemoryBarrier2<'_>) {
+    let barriers = [barrier];
+    let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+    // SAFETY: recording, outside of a render pass.
+    unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
+}

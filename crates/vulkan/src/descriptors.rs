@@ -1,0 +1,176 @@
+//! Descriptor sets: the parameters, textures, sampler and counter of a draw.
+
+use crate::counting::Counting;
+use crate::device::Device;
+use crate::error::Check;
+use crate::inputs::PARAMS_BYTES;
+use crate::memory::{Buffer, Image};
+use crate::pipeline::{Bindings, Pipelines, RUNS_BINDING, SAMPLER_BINDING};
+use crate::plan::internal;
+use crate::slot::Slot;
+use ash::vk;
+use etalon_backend::BackendError;
+use etalon_case::scene::Draw;
+use etalon_case::state::{AddressMode, FilterMode, Sampler};
+use std::collections::HashMap;
+use std::mem::size_of;
+
+/// The samplers made so far; there are few ways to sample, so none needs to go early.
+#[derive(Debug, Default)]
+pub(crate) struct Samplers {
+    samplers: HashMap<Sampler, vk::Sampler>,
+}
+
+/// What a draw names. Draws that name the same share a set: the parameters' place is dynamic.
+#[derive(PartialEq, Eq, Hash)]
+struct Named {
+    textures: Vec<usize>,
+    sampler: Option<Sampler>,
+    counter: Option<usize>,
+}
+
+/// What the sets of a scene are made of, and those made so far.
+pub(crate) struct Descriptors<'a> {
+    pub(crate) input: &'a Buffer,
+    /// The words that shaders count in, where any do.
+    pub(crate) counts: Option<&'a Buffer>,
+    pub(crate) images: &'a [Image],
+    sets: HashMap<Named, vk::DescriptorSet>,
+}
+
+impl Samplers {
+    /// The sampler that samples so, made at its first use.
+    fn get(&mut self, device: &Device, sampler: Sampler) -> Result<vk::Sampler, BackendError> {
+        if let Some(raw) = self.samplers.get(&sampler) {
+            return Ok(*raw);
+        }
+        let filter = match sampler.filter {
+            FilterMode::Nearest => vk::Filter::NEAREST,
+            FilterMode::Linear => vk::Filter::LINEAR,
+        };
+        let [across, down] = sampler.address.map(|mode| match mode {
+            AddressMode::ClampToEdge => vk::SamplerAddressMode::CLAMP_TO_EDGE,
+            AddressMode::Repeat => vk::SamplerAddressMode::REPEAT,
+            AddressMode::MirrorRepeat => vk::SamplerAddressMode::MIRRORED_REPEAT,
+        });
+        let info = vk::SamplerCreateInfo::default()
+            .mag_filter(filter)
+            .min_filter(filter)
+            .address_mode_u(across)
+            .address_mode_v(down);
+        // SAFETY: the device lives.
+        let raw = unsafe { device.raw.create_sampler(&info, None) }.check("a sampler")?;
+        self.samplers.insert(sampler, raw);
+        Ok(raw)
+    }
+
+    /// Destroys everything; called once, before the device goes.
+    pub(crate) fn destroy(&mut self, device: &Device) {
+        for (_, raw) in self.samplers.drain() {
+            // SAFETY: nothing uses it any more.
+            unsafe { device.raw.destroy_sampler(raw, None) };
+        }
+    }
+}
+
+impl<'a> Descriptors<'a> {
+    pub(crate) fn new(input: &'a Buffer, counts: Option<&'a Buffer>, images: &'a [Image]) -> Self {
+        Self {
+            input,
+            counts,
+            images,
+            sets: HashMap::new(),
+        }
+    }
+
+    /// The set of a draw.
+    pub(crate) fn get(
+        &mut self,
+        device: &Device,
+        (pipelines, samplers): (&mut Pipelines, &mut Samplers),
+        slot: &Slot,
+        counting: &Counting,
+        draw: &Draw,
+    ) -> Result<vk::DescriptorSet, BackendError> {
+        let word = counting.word(draw)?;
+        let bindings = Bindings::of(draw.shader);
+        if draw.textures.len() != bindings.textures || draw.sampler.is_some() != bindings.sampler {
+            return Err(internal("a draw has not the textures its shader reads"));
+        }
+        let named = Named {
+            textures: draw.textures.clone(),
+            sampler: draw.sampler,
+            counter: word.map(|(counter, _)| counter),
+        };
+        if let Some(set) = self.sets.get(&named) {
+            return Ok(*set);
+        }
+        let layout = pipelines.layout(device, bindings)?;
+        let set = slot.descriptor_set(device, layout.set)?;
+        let sampler = match draw.sampler {
+            Some(sampler) => Some(samplers.get(device, sampler)?),
+            None => None,
+        };
+        self.write(device, set, draw, sampler, word.map(|(_, offset)| offset))?;
+        self.sets.insert(named, set);
+        Ok(set)
+    }
+
+    fn write(
+        &self,
+        device: &Device,
+        set: vk::DescriptorSet,
+        draw: &Draw,
+        sampler: Option<vk::Sampler>,
+        word: Option<u64>,
+    ) -> Result<(), BackendError> {
+        let write = |binding, kind| {
+            vk::WriteDescriptorSet::default()
+                .dst_set(set)
+                .dst_binding(binding)
+                .descriptor_type(kind)
+        };
+        let params = [vk::DescriptorBufferInfo {
+            buffer: self.input.raw,
+            offset: 0,
+            range: PARAMS_BYTES,
+        }];
+        let mut writes =
+            vec![write(0, vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC).buffer_info(&params)];
+        let mut textures = Vec::with_capacity(draw.textures.len());
+        for index in &draw.textures {
+            let image = self
+                .images
+                .get(*index)
+                .ok_or_else(|| internal("a draw names no attachment"))?;
+            textures.push([vk::DescriptorImageInfo {
+                sampler: vk::Sampler::null(),
+                image_view: image.whole()?,
+                image_layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+            }]);
+        }
+        for (binding, info) in (1..).zip(&textures) {
+            writes.push(write(binding, vk::DescriptorType::SAMPLED_IMAGE).image_info(info));
+        }
+        let samplers = [vk::DescriptorImageInfo::default().sampler(sampler.unwrap_or_default())];
+        if sampler.is_some() {
+            writes.push(write(SAMPLER_BINDING, vk::DescriptorType::SAMPLER).image_info(&samplers));
+        }
+        let mut counts = [vk::DescriptorBufferInfo::default()];
+        if let Some(offset) = word {
+            let buffer = self
+                .counts
+                .ok_or_else(|| internal("there is no buffer of counts"))?;
+            counts[0] = vk::DescriptorBufferInfo {
+                buffer: buffer.raw,
+                offset,
+                range: size_of::<u32>() as u64,
+            };
+            writes
+                .push(write(RUNS_BINDING, vk::DescriptorType::STORAGE_BUFFER).buffer_info(&counts));
+        }
+        // SAFETY: the set is new, and all that it names lives as long as the scene, samplers longer.
+        unsafe { device.raw.update_descriptor_sets(&writes, &[]) };
+        Ok(())
+    }
+}

@@ -1,0 +1,232 @@
+//! What a scene counts: queries around draws, and the counters that shaders add to.
+//!
+//! WebGPU's occlusion queries tell whether any sample passed, not how many (GPUQueryType), so
+//! `PreciseOcclusion` is denied.
+
+use crate::binding::RUNS_BYTES;
+use crate::gpu::{BufferLease, Gpu};
+use etalon_case::Scene;
+use etalon_case::scene::Draw;
+use etalon_frame::CounterKind;
+use wgpu::BufferUsages;
+
+/// The size of a query's result.
+const RESULT_BYTES: u64 = wgpu::QUERY_SIZE as u64;
+
+/// The counters of a scene.
+pub(crate) struct Counting<'a> {
+    kinds: Vec<CounterKind>,
+    occlusion: Option<Queries>,
+    statistics: Option<Queries>,
+    /// The results of both, one after the other.
+    results: Option<BufferLease<'a>>,
+    /// A count of runs at each counter's place, whatever its kind.
+    runs: Option<BufferLease<'a>>,
+    /// The distance between those.
+    stride: u64,
+}
+
+/// A query for every draw that adds to a counter of one kind.
+struct Queries {
+    set: wgpu::QuerySet,
+    /// The counter of each.
+    counters: Vec<usize>,
+    /// Where the results start in their buffer.
+    offset: u64,
+}
+
+/// What one draw adds to.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Counted {
+    /// Its occlusion query.
+    occlusion: Option<u32>,
+    /// Its pipeline statistics query.
+    statistics: Option<u32>,
+    /// The counter of its shader's runs.
+    pub(crate) runs: Option<usize>,
+}
+
+impl Queries {
+    /// Queries for these counters; `None` where there are none to make.
+    fn new(gpu: &Gpu, ty: wgpu::QueryType, counters: Vec<usize>, offset: u64) -> Option<Self> {
+        let descriptor = wgpu::QuerySetDescriptor {
+            label: None,
+            ty,
+            count: counters.len() as u32,
+        };
+        (!counters.is_empty()).then(|| Self {
+            set: gpu.device.create_query_set(&descriptor),
+            counters,
+            offset,
+        })
+    }
+
+    fn end(&self) -> u64 {
+        self.offset + self.counters.len() as u64 * RESULT_BYTES
+    }
+
+    fn resolve(&self, encoder: &mut wgpu::CommandEncoder, results: &wgpu::Buffer) {
+        let all = 0..self.counters.len() as u32;
+        encoder.resolve_query_set(&self.set, all, results, self.offset);
+    }
+}
+
+impl<'a> Counting<'a> {
+    /// The counters of a scene, and what each of its draws adds to, over all passes.
+    pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> (Self, Vec<Counted>) {
+        let (mut occlusion, mut statistics) = (Vec::new(), Vec::new());
+        let mut add = |draw: &Draw| {
+            let number = |counters: &mut Vec<usize>, counter: usize| {
+                counters.push(counter);
+                counters.len() as u32 - 1
+            };
+            let of = |kind| draw.counter(scene, |k| k == kind);
+            Counted {
+                occlusion: of(CounterKind::AnySamplesPassed).map(|c| number(&mut occlusion, c)),
+                statistics: of(CounterKind::FragmentInvocations)
+                    .map(|c| number(&mut statistics, c)),
+                runs: of(CounterKind::ShaderRuns),
+            }
+        };
+        let draws = scene.passes.iter().flat_map(|pass| &pass.draws);
+        let counted: Vec<_> = draws.map(&mut add).collect();
+        let occlusion = Queries::new(gpu, wgpu::QueryType::Occlusion, occlusion, 0);
+        let behind = occlusion.as_ref().map_or(0, Queries::end);
+        let statistics = Queries::new(
+            gpu,
+            wgpu::QueryType::PipelineStatistics(
+                wgpu::PipelineStatisticsTypes::FRAGMENT_SHADER_INVOCATIONS,
+            ),
+            statistics,
+            behind.next_multiple_of(wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT),
+        );
+        let end = statistics.as_ref().map_or(behind, Queries::end);
+        let resolved = BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC;
+        let stored = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
+        let alignment = gpu.device.limits().min_storage_buffer_offset_alignment;
+        let stride = RUNS_BYTES.next_multiple_of(alignment.into());
+        let runs = counted.iter().any(|counted| counted.runs.is_some());
+        let counting = Self {
+            results: (end > 0).then(|| gpu.buffer(resolved, end)),
+            runs: runs.then(|| gpu.buffer(stored, scene.counters.len() as u64 * stride)),
+            stride,
+            kinds: scene.counters.iter().map(|c| c.kind).collect(),
+            occlusion,
+            statistics,
+        };
+        (counting, counted)
+    }
+
+    /// Where a shader adds to a counter of runs.
+    pub(crate) fn runs(&self, counter: usize) -> Option<(&wgpu::Buffer, u64)> {
+        let buffer = self.runs.as_ref()?;
+        Some((buffer, counter as u64 * self.stride))
+    }
+
+    /// The occlusion queries for a pass.
+    pub(crate) fn occlusion(&self) -> Option<&wgpu::QuerySet> {
+        self.occlusion.as_ref().map(|queries| &queries.set)
+    }
+
+    /// Records that shaders count from 0.
+    pub(crate) fn start(&self, encoder: &mut wgpu::CommandEncoder) {
+        if let Some(runs) = &self.runs {
+            encoder.clear_buffer(runs, 0, None);
+        }
+    }
+
+    /// Records the beginning of a draw's queries.
+    pub(crate) fn begin(&self, pass: &mut wgpu::RenderPass<'_>, counted: Counted) {
+        if let Some(query) = counted.occlusion {
+            pass.begin_occlusion_query(query);
+        }
+        if let (Some(query), Some(queries)) = (counted.statistics, &self.statistics) {
+            pass.begin_pipeline_statistics_query(&queries.set, query);
+        }
+    }
+
+    /// Records the end of a draw's queries.
+    pub(crate) fn end(&self, pass: &mut wgpu::RenderPass<'_>, counted: Counted) {
+        if counted.statistics.is_some() {
+            pass.end_pipeline_statistics_query();
+        }
+        if counted.occlusion.is_some() {
+            pass.end_occlusion_query();
+        }
+    }
+
+    /// Records that results go where they can be copied from.
+    pub(crate) fn finish(&self, encoder: &mut wgpu::CommandEncoder) {
+        if let Some(results) = &self.results {
+            for queries in self.occlusion.iter().chain(&self.statistics) {
+                queries.resolve(encoder, results);
+            }
+        }
+    }
+
+    /// Bytes of all counts, as [`Counting::copy`] lays them out.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.runs_start() + self.runs_bytes()
+    }
+
+    /// The results of queries come first.
+    fn runs_start(&self) -> u64 {
+        let both = self.occlusion.iter().chain(&self.statistics);
+        both.map(Queries::end).max().unwrap_or(0)
+    }
+
+    fn runs_bytes(&self) -> u64 {
+        let all = self.kinds.len() as u64 * self.stride;
+        self.runs.as_ref().map_or(0, |_| all)
+    }
+
+    /// Records the copy of all counts into a buffer.
+    pub(crate) fn copy(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        buffer: &wgpu::Buffer,
+        offset: u64,
+    ) {
+        let start = self.runs_start();
+        if let Some(results) = &self.results {
+            encoder.copy_buffer_to_buffer(results, 0, buffer, offset, start);
+        }
+        if let Some(runs) = &self.runs {
+            encoder.copy_buffer_to_buffer(runs, 0, buffer, offset + start, self.runs_bytes());
+        }
+    }
+
+    /// The counters, in the scene's order, out of the bytes that were copied.
+    pub(crate) fn counts(&self, bytes: &[u8]) -> Vec<u64> {
+        let start = self.runs_start();
+        let total = |(counter, kind): (usize, &CounterKind)| match kind {
+            CounterKind::AnySamplesPassed => {
+                let sum = sum(bytes, self.occlusion.as_ref(), counter);
+                u64::from(sum > 0)
+            }
+            CounterKind::FragmentInvocations => sum(bytes, self.statistics.as_ref(), counter),
+            CounterKind::ShaderRuns if self.runs.is_some() => {
+                number(bytes, start + counter as u64 * self.stride, RUNS_BYTES)
+            }
+            // No draw adds to it, or it is denied.
+            CounterKind::ShaderRuns | CounterKind::SamplesPassed => 0,
+        };
+        self.kinds.iter().enumerate().map(total).collect()
+    }
+}
+
+/// The sum of the results that belong to a counter.
+fn sum(bytes: &[u8], queries: Option<&Queries>, counter: usize) -> u64 {
+    let Some(queries) = queries else { return 0 };
+    let results = (0..).zip(&queries.counters);
+    results
+        .filter(|(_, of)| **of == counter)
+        .map(|(i, _)| number(bytes, queries.offset + i * RESULT_BYTES, RESULT_BYTES))
+        .fold(0, u64::saturating_add)
+}
+
+/// A little-endian number of so many bytes.
+fn number(bytes: &[u8], at: u64, size: u64) -> u64 {
+    let bytes = bytes[at as usize..(at + size) as usize].iter().rev();
+    bytes.fold(0, |value, byte| value << 8 | u64::from(*byte))
+}
