@@ -117,9 +117,13 @@ pub(crate) fn depth_bias(
     let unit = match encoding {
         ChannelEncoding::Unorm(bits) => {
             let least = 2_f64.powi(-i32::from(bits));
+            let (low, high) = match bits {
+                16 => rules.unorm16,
+                _ => rules.unorm,
+            };
             Interval {
-                low: least * rules.unorm.0,
-                high: least * rules.unorm.1,
+                low: least * low,
+                high: least * high,
             }
         }
         _ => {

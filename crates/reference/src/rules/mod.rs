@@ -79,7 +79,9 @@ pub enum DepthOrder {
 /// and of `2^(exponent - 23)` for float depth: at least, at most.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BiasUnit {
-    /// For normalized depth of so many bits.
+    /// For normalized depth of 16 bits.
+    pub unorm16: (f64, f64),
+    /// For normalized depth of other bits.
     pub unorm: (f64, f64),
     /// For float depth, by the exponent of the primitive's greatest depth.
     pub float: (f64, f64),

@@ -10,16 +10,16 @@ pub(super) fn rules() -> Rules {
         name: "opengl",
         float_error: permit(
             1e-5,
-            "OpenGL 4.6: 2.3.4 Floating-Point Computation: accurate to about 1 part in 10^5",
+            "OpenGL 4.6: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
         ),
         decode_error: permit(
             1e-5,
             "OpenGL 4.6: 2.3.5.1 Conversion from Normalized Fixed-Point to Floating-Point, at the \
-             accuracy of 2.3.4",
+             accuracy of 2.3.4.1",
         ),
         snap: permit(
             Snap::EitherSide,
-            "OpenGL 4.6: table 23.69 SUBPIXEL_BITS: the rounding to the grid is not stated",
+            "OpenGL 4.6: Implementation Dependent Values, SUBPIXEL_BITS: the rounding to the grid is not stated",
         ),
         shared_edge: permit(
             SharedEdge::ExactlyOne,
@@ -43,10 +43,11 @@ pub(super) fn rules() -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
+                unorm16: (0.999, 1e9),
                 unorm: (0.999, 1e9),
-                float: (0.499, 1e9),
+                float: (0.499, 1.001),
             },
-            "OpenGL 4.6: 14.6.5 Depth Offset: the least r that is sure to be resolved; how much more is open",
+            "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
         ),
         depth_range: permit(
             DepthRange::Unit,
@@ -60,7 +61,10 @@ pub(super) fn rules() -> Rules {
             Resolve::Between,
             "OpenGL 4.6: 18.3.1 Blitting Pixel Rectangles: the resolve is implementation-dependent",
         ),
-        points_face_front: permit(true, "OpenGL 4.6: 17.3.3: points and lines use front state"),
+        points_face_front: permit(
+            true,
+            "OpenGL 4.6: 17.3.3 Stencil Test, 15.2.2 Shader Inputs: points and lines are front-facing",
+        ),
         outlines_face_as_polygons: permit(
             true,
             "OpenGL 4.6: 17.3.3 Stencil Test: a primitive is still considered a polygon even if it is rasterized as points or lines due to the polygon mode",
@@ -90,7 +94,7 @@ pub(super) fn rules() -> Rules {
             "OpenGL 4.6: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
         ),
         shader_runs: "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: the fragment shader is invoked for every fragment; tests come after it unless early tests are forced",
-        alpha_to_coverage: "OpenGL 4.6: 17.3.1 Multisample Fragment Operations: intended; dEQP-GLES3 multisample.alpha_to_coverage demands the ends",
+        alpha_to_coverage: "OpenGL 4.6: 17.3.1 Alpha To Coverage: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
         facing: "OpenGL 4.6: 14.6.1 Basic Polygon Rasterization: front by the sign of the area",
         stencil: "OpenGL 4.6: 17.3.3 Stencil Test: integer operations",
         write_mask: "OpenGL 4.6: 17.4.2 Fine Control of Buffer Updates",

@@ -10,7 +10,7 @@ pub(super) fn rules() -> Rules {
         name: "opengl-es",
         float_error: permit(
             1e-5,
-            "OpenGL ES 3.2: 2.3.4 Floating-Point Computation: accurate to about 1 part in 10^5",
+            "OpenGL ES 3.2: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
         ),
         decode_error: permit(
             1e-5,
@@ -43,10 +43,11 @@ pub(super) fn rules() -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
+                unorm16: (0.999, 1e9),
                 unorm: (0.999, 1e9),
-                float: (0.499, 1e9),
+                float: (0.499, 1.001),
             },
-            "OpenGL ES 3.2: 13.7.2 Depth Offset: the least r that is sure to be resolved; how much more is open",
+            "OpenGL ES 3.2: 13.7.2 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
         ),
         depth_range: permit(
             DepthRange::Unit,
@@ -89,8 +90,8 @@ pub(super) fn rules() -> Rules {
             true,
             "OpenGL ES 3.2: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
         ),
-        shader_runs: "OpenGL ES 3.2: 7.13.1 Shader Memory Access Ordering: the fragment shader is invoked for every fragment; tests come after it unless early tests are forced",
-        alpha_to_coverage: "OpenGL ES 3.2: 15.1.1: intended; dEQP-GLES3 multisample.alpha_to_coverage demands the ends",
+        shader_runs: "OpenGL ES 3.2: 7.11.1 Shader Memory Access Ordering: the fragment shader is invoked for every fragment; dEQP-GLES31.functional.image_load_store.early_fragment_tests.no_early_fragment_tests_* demands it",
+        alpha_to_coverage: "OpenGL ES 3.2: 15.1.1 Alpha To Coverage: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
         facing: "OpenGL ES 3.2: 13.7.1 Basic Polygon Rasterization: front by the sign of the area",
         stencil: "OpenGL ES 3.2: 15.1.2 Stencil Test: integer operations",
         write_mask: "OpenGL ES 3.2: 15.2.2 Fine Control of Buffer Updates",

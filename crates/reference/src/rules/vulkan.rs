@@ -42,10 +42,11 @@ pub(super) fn rules() -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
+                unorm16: (0.999, 2.001),
                 unorm: (0.999, 2.001),
                 float: (0.499, 1.001),
             },
-            "Vulkan: Depth Bias: r at most 2 * 2^-n for fixed point, 2^(e-n) for floats, whose n may count the hidden bit",
+            "Vulkan: Depth Bias Computation: r at most 2 * 2^-n for fixed point, 2^(e-n) for floats, whose n may count the hidden bit",
         ),
         depth_range: permit(
             DepthRange::Undefined,
@@ -57,9 +58,12 @@ pub(super) fn rules() -> Rules {
         ),
         resolve: permit(
             Resolve::Between,
-            "Vulkan: Multisample Resolve: the average's precision is not stated",
+            "Vulkan: vkCmdResolveImage: resolved in an implementation-dependent manner; VkResolveModeFlagBits: the average's precision is implementation-defined",
         ),
-        points_face_front: permit(true, "Vulkan: Points, Line Segments: always front-facing"),
+        points_face_front: permit(
+            true,
+            "Vulkan: Stencil Test, FrontFacing: fragments of other primitives than polygons are front-facing",
+        ),
         outlines_face_as_polygons: permit(
             true,
             "Vulkan 1.0: Polygon Mode: fragments rasterized from polygons inherit their facingness from the polygon, even if it is rasterized as points or lines",
@@ -89,7 +93,7 @@ pub(super) fn rules() -> Rules {
             "Vulkan: Fundamentals, Floating-Point Format Conversions: representable finite values are kept",
         ),
         shader_runs: "Vulkan: Fragment Shader Execution: at least one run for every fragment that no operation before shading discards, where the shader writes storage",
-        alpha_to_coverage: "Vulkan: Multisample Coverage: alpha 0 gives no sample and alpha 1 all; dEQP-VK.pipeline.*.alpha_to_coverage demands the ends",
+        alpha_to_coverage: "Vulkan: Multisample Coverage: intended that alpha 0 gives no sample and alpha 1 all; dEQP-VK.pipeline.*.multisample.alpha_to_coverage.* demands the ends",
         facing: "Vulkan: Basic Polygon Rasterization: front by the sign of the area; zero area is \
                  not front",
         stencil: "Vulkan: Stencil Test: integer operations",

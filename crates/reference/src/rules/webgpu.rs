@@ -23,7 +23,7 @@ pub(super) fn rules() -> Rules {
         ),
         shared_edge: permit(
             SharedEdge::Independent,
-            "WebGPU: 23.2.5.3 Polygon Rasterization: whether a sample on an edge is inside is not \
+            "WebGPU: 23.2.5.4 Polygon Rasterization: whether a sample on an edge is inside is not \
              defined",
         ),
         store: permit(
@@ -37,14 +37,15 @@ pub(super) fn rules() -> Rules {
         ),
         depth_order: permit(
             DepthOrder::Either,
-            "WebGPU: 23.2.7 Output Merging is silent on the order of conversion and comparison",
+            "WebGPU: 23.2.6 Fragment Processing is silent on the order of conversion and comparison",
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm: (0.999, 1e9),
-                float: (0.499, 1e9),
+                unorm16: (0.999, 1.001),
+                unorm: (0.999, 2.001),
+                float: (0.499, 1.001),
             },
-            "WebGPU: depth bias as the API under it; OpenGL: the least r that is sure to be resolved; how much more is open",
+            "WebGPU: GPUDepthStencilState, biased fragment depth: r is the least positive value of a unorm format; which one depth24plus is, and the float unit, are not told, so as Vulkan has them",
         ),
         depth_range: permit(
             DepthRange::ViewportIfWritten,
@@ -56,7 +57,7 @@ pub(super) fn rules() -> Rules {
         ),
         resolve: permit(
             Resolve::Between,
-            "WebGPU: 23.2.8: no resolve algorithm is stated",
+            "WebGPU: GPURenderPassColorAttachment.resolveTarget: no resolve algorithm is stated",
         ),
         points_face_front: permit(
             false,
@@ -88,8 +89,8 @@ pub(super) fn rules() -> Rules {
             "WebGPU: silent on small floats; OpenGL: 16-bit ones may be encoded as zero",
         ),
         shader_runs: "WebGPU: 23.2.6 Fragment Processing: skipped only where the shader writes to no storage binding",
-        alpha_to_coverage: "WebGPU: 23.2.7 Output Merging: alpha 0 gives no sample and alpha 1 all",
-        facing: "WebGPU: 23.2.5.3 Polygon Rasterization: front by the sign of the area; zero area \
+        alpha_to_coverage: "WebGPU: 23.2.9 Alpha to Coverage: alpha 0 gives no sample and alpha 1 all",
+        facing: "WebGPU: 23.2.5.4 Polygon Rasterization: front by the sign of the area; zero area \
                  is back",
         stencil: "WebGPU: 23.2.7 Output Merging: integer operations",
         write_mask: "WebGPU: GPUColorWrite: channels not written keep their value",

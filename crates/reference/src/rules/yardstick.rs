@@ -39,6 +39,7 @@ pub(super) fn rules(api: Api) -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
+                unorm16: (0.999, 1.001),
                 unorm: (0.999, 1.001),
                 float: (0.999, 1.001),
             },
