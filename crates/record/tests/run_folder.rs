@@ -93,6 +93,7 @@ prop_compose! {
             case, adapter, verdict, improves, due_fail, message, story, frame,
             expected: expected.map(|reason| Expected { reason }),
             texels: TexelCounts { total: counts[0], wrong: counts[1], imprecise: counts[2], open: counts[3] },
+            counters: Vec::new(),
             assertions: figures.into_iter().map(assertion).collect(),
             wrong: wrong.into_iter().map(|(a, x, c)| wrong_texel(a, x, c)).collect(),
             seconds: Seconds { draw: f64::from(seconds[0]) / 8.0, judge: f64::from(seconds[1]) / 8.0 },

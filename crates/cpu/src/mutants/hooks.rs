@@ -87,6 +87,8 @@ hooks! {
     stored_sample(Aspect, usize) -> usize;
     /// At whose position, of so many samples, a sample's depth is taken.
     depth_sample(usize, usize) -> usize;
+    /// Whether a shader that may discard keeps a fragment, of the value and its limit.
+    kept(f32, f32) -> bool;
     /// A channel of a resolved texel.
     resolve(ChannelEncoding, &[u32]) -> u32;
 }
@@ -320,6 +322,13 @@ impl Steps for &Hooks {
         match &self.depth_sample {
             None => sample,
             Some(bug) => bug(sample, samples),
+        }
+    }
+
+    fn kept(&self, value: Real, limit: Real) -> Mask {
+        match &self.kept {
+            None => Faithful.kept(value, limit),
+            Some(bug) => std::array::from_fn(|i| bug(value[i], limit[i])),
         }
     }
 

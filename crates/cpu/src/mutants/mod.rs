@@ -13,9 +13,11 @@ mod blend;
 mod clear;
 mod cull;
 mod depth;
+mod early;
 mod formats;
 mod geometry;
 mod hooks;
+mod invariance;
 mod logic;
 mod mask;
 mod multisample;
@@ -26,6 +28,7 @@ mod stencil;
 mod sticky;
 mod tables;
 mod targets;
+mod texture;
 mod topology;
 
 pub use backend::MutantBackend;
@@ -72,6 +75,9 @@ pub fn mutants() -> &'static [Mutant] {
         scissor::add(&mut list);
         clear::add(&mut list);
         geometry::add(&mut list);
+        early::add(&mut list);
+        texture::add(&mut list);
+        invariance::add(&mut list);
         readback::add(&mut list);
         sticky::add(&mut list);
         list.mutants
