@@ -2,8 +2,8 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use etalon_frame::{
-    Api, Aspect, Band, ChannelEncoding, ChannelMismatch, Limits, Story, StoryLine, TexelCounts,
-    WrongTexel,
+    Api, Aspect, Band, ChannelEncoding, ChannelMismatch, CounterKind, CounterOutcome, Limits,
+    Story, StoryLine, TexelCounts, WrongTexel,
 };
 use etalon_record::{
     AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header, MAX_LINE,
@@ -93,7 +93,14 @@ prop_compose! {
             case, adapter, verdict, improves, due_fail, message, story, frame,
             expected: expected.map(|reason| Expected { reason }),
             texels: TexelCounts { total: counts[0], wrong: counts[1], imprecise: counts[2], open: counts[3] },
-            counters: Vec::new(),
+            counters: vec![CounterOutcome {
+                name: "passed".to_owned(),
+                kind: CounterKind::SamplesPassed,
+                low: counts[0],
+                high: (counts[1] % 2 == 0).then_some(counts[2]),
+                actual: counts[3],
+                band: (counts[1] % 3 == 0).then_some(Band::Fail),
+            }],
             assertions: figures.into_iter().map(assertion).collect(),
             wrong: wrong.into_iter().map(|(a, x, c)| wrong_texel(a, x, c)).collect(),
             seconds: Seconds { draw: f64::from(seconds[0]) / 8.0, judge: f64::from(seconds[1]) / 8.0 },

@@ -2,7 +2,7 @@
 
 use super::hooks::kept;
 use super::plant::{Plant, draws, from_draw};
-use super::{CONFUSION, List, SMALL};
+use super::{CONFUSION, List, Row, SMALL};
 use etalon_case::Scene;
 use etalon_case::scene::Draw;
 use etalon_case::state::EarlyTests;
@@ -27,7 +27,8 @@ fn tests(list: &mut List) {
             }
         }),
     );
-    let early: [(&str, &'static str, &str, fn(&Draw) -> bool); 5] = [
+    type When = fn(&Draw) -> bool;
+    let early: [(&str, &'static str, &str, When); 5] = [
         (
             "tested-before-discard",
             "panfrost: early tests despite alpha test; Adreno, Mali: discard still touching depth and stencil",
@@ -104,7 +105,7 @@ fn tests(list: &mut List) {
 }
 
 fn discards(list: &mut List) {
-    let rows: [(&str, &str, fn(f32, f32) -> bool); 5] = [
+    let rows: [Row<fn(f32, f32) -> bool>; 5] = [
         ("discard-off", "No fragment is discarded.", |_, _| true),
         (
             "discard-at-threshold",
@@ -128,14 +129,10 @@ fn discards(list: &mut List) {
         ),
     ];
     list.class("discard", "texture");
-    for (name, about, bug) in rows {
-        list.add(
-            name,
-            "a discard that is not done as written",
-            about,
-            kept(bug),
-        );
+    fn plant(bug: fn(f32, f32) -> bool) -> Plant {
+        kept(bug)
     }
+    list.rows("a discard that is not done as written", plant, &rows);
     list.class("early", "early-z");
 }
 
