@@ -105,7 +105,8 @@ fn tests(list: &mut List) {
 }
 
 fn discards(list: &mut List) {
-    let rows: [Row<fn(f32, f32) -> bool>; 5] = [
+    type Keeps = fn(f32, f32) -> bool;
+    let rows: [Row<Keeps>; 5] = [
         ("discard-off", "No fragment is discarded.", |_, _| true),
         (
             "discard-at-threshold",
@@ -129,7 +130,7 @@ fn discards(list: &mut List) {
         ),
     ];
     list.class("discard", "texture");
-    fn plant(bug: fn(f32, f32) -> bool) -> Plant {
+    fn plant(bug: Keeps) -> Plant {
         kept(bug)
     }
     list.rows("a discard that is not done as written", plant, &rows);
