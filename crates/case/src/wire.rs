@@ -135,22 +135,30 @@ struct Count {
 
 impl<'de> Deserialize<'de> for Axis {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        use serde::de::Error;
-        let value = Value::deserialize(deserializer)?;
-        if value.is_object() {
-            let range: Count = serde_json::from_value(value).map_err(D::Error::custom)?;
-            let all = (0..u64::from(range.count)).map(|i| {
-                let number = u64::from(range.from) + i;
-                AxisValue {
-                    name: number.to_string(),
-                    value: number.into(),
-                }
-            });
-            return Ok(Self(all.collect()));
+        use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+        use serde::de::{MapAccess, SeqAccess, Visitor};
+        struct Values;
+        impl<'de> Visitor<'de> for Values {
+            type Value = Axis;
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a list of values or {\"from\": …, \"count\": …}")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Axis, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(seq)).map(Axis)
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Axis, A::Error> {
+                let range = Count::deserialize(MapAccessDeserializer::new(map))?;
+                let all = (0..u64::from(range.count)).map(|i| {
+                    let number = u64::from(range.from) + i;
+                    AxisValue {
+                        name: number.to_string(),
+                        value: number.into(),
+                    }
+                });
+                Ok(Axis(all.collect()))
+            }
         }
-        serde_path_to_error::deserialize(value)
-            .map(Self)
-            .map_err(D::Error::custom)
+        deserializer.deserialize_any(Values)
     }
 }
 

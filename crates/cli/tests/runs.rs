@@ -2,6 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use assert_cmd::Command;
+use etalon_frame::{Band, CounterOutcome};
 use etalon_record::{Record, Run, Verdict};
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty};
@@ -92,10 +93,19 @@ fn every_selftest_fails_for_a_stated_reason() {
                 continue;
             }
             assert_eq!(record.verdict, Verdict::Fail, "{record:?}");
+            let counted = |c: &CounterOutcome| c.band == Some(Band::Fail);
+            if record.texels.wrong == 0 && record.counters.iter().any(counted) {
+                assert!(record.message.starts_with("counter "), "{record:?}");
+                continue;
+            }
             assert!(
                 record.texels.wrong > 0 && !record.wrong.is_empty(),
                 "{record:?}"
             );
+            if record.case.starts_with("selftest/relation-") {
+                assert!(record.message.contains(" differ from "), "{record:?}");
+                continue;
+            }
             let story = record.story.as_ref().unwrap();
             assert!(!story.lines.is_empty(), "{record:?}");
             assert!(story.lines.iter().any(|l| l.citation.is_some()), "{story}");

@@ -65,6 +65,11 @@ fn the_quick_profile_takes_some_of_every_file() {
         let quick: Vec<String> = file.cases(Profile::Quick).map(|c| c.id()).collect();
         assert!(!quick.is_empty(), "{}", file.name());
         assert!(quick.iter().all(|id| full.contains(id)), "{}", file.name());
+        // One seed is as good as another.
+        if file.name().starts_with("combined/") {
+            all += quick.len();
+            continue;
+        }
         // Each value of each axis stands in one of them.
         let parts = |id: &str| -> Vec<String> { id.split('/').map(str::to_owned).collect() };
         let due: BTreeSet<String> = full.iter().flat_map(|id| parts(id)).collect();
@@ -112,14 +117,20 @@ fn a_case_needs_few_pipelines() {
                 pipelines.push(state);
             }
         }
-        assert!(pipelines.len() <= 2, "{}: {}", case.id, pipelines.len());
+        // Where the order of draws is the question, and where all state differs, a case has more.
+        let most = match case.area() {
+            "early-z" | "order" | "combined" => 5,
+            _ => 2,
+        };
+        assert!(pipelines.len() <= most, "{}: {}", case.id, pipelines.len());
     }
 }
 
 #[test]
 fn no_edge_comes_near_a_texel_centre() {
     let mut seen = BTreeSet::new();
-    for case in cases("") {
+    // Frames of the area `order` are held against each other: there edges may lie anywhere.
+    for case in cases("").into_iter().filter(|c| c.area() != "order") {
         for (pass, draw) in draws(&case.scene) {
             let size = case.scene.attachments[pass.color[0]].size;
             if !seen.insert((size, draw.mesh.bytes().to_vec())) {
@@ -423,6 +434,7 @@ fn every_selftest_differs_beyond_what_any_rule_allows() {
     for case in selftests
         .into_iter()
         .filter(|c| simulation::knows(c.judged_scene()))
+        .filter(|c| c.scene.counters.is_empty() && c.relation.is_none())
     {
         let (drawn, judged) = (plain(&case.scene), plain(case.judged_scene()));
         let proven = case.scene.read.iter().any(|index| {

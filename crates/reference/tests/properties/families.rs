@@ -46,7 +46,12 @@ fn every_file_asserts_something_under_every_api() {
         assert!(share > 0.9, "{area}: {share:.3} is asserted");
         let exact = figures.exact as f64 / figures.asserted as f64;
         // Pictures that the rules leave open are held against each other in this area.
-        let least = if area == "order" { 0.3 } else { 0.5 };
+        // Random scenes blend several times over.
+        let least = match area.as_str() {
+            "order" => 0.3,
+            "combined" => 0.4,
+            _ => 0.5,
+        };
         assert!(exact > least, "{area}: {exact:.3} is exact");
     }
 }
