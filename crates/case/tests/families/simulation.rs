@@ -2,8 +2,8 @@
 
 use etalon_case::scene::{Contents, Draw, StencilFace};
 use etalon_case::state::{
-    BlendComponent, BlendFactor, BlendOperation, CompareFunction, CullMode, FrontFace, PolygonMode,
-    Shader, StencilOperation,
+    BlendComponent, BlendFactor, BlendOperation, CompareFunction, CullMode, EarlyTests, FrontFace,
+    PolygonMode, Shader, StencilOperation,
 };
 use etalon_case::{Primitive, Scene};
 use etalon_frame::{ChannelEncoding, TextureFormat};
@@ -99,6 +99,7 @@ pub(crate) fn knows(scene: &Scene) -> bool {
                 && draw.viewport.rect == [0.0, 0.0, size[0], size[1]]
                 && draw.viewport.depth == [0.0, 1.0]
                 && draw.scissor.is_none()
+                && draw.early_tests == EarlyTests::Implicit
                 && draw.logic.is_none()
                 && draw.depth_bounds.is_none()
                 && draw.depth_bias == Default::default()

@@ -48,7 +48,8 @@ fn every_file_asserts_something_under_every_api() {
         // Pictures that the rules leave open are held against each other in this area.
         // Random scenes blend several times over.
         let least = match area.as_str() {
-            "order" => 0.3,
+            // A code that a texture hands on may move by one.
+            "order" | "texture" => 0.3,
             "combined" => 0.4,
             _ => 0.5,
         };
