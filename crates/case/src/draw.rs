@@ -244,6 +244,12 @@ fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
                 "a vertex lies within {FARTHEST} of the middle of clip space"
             )));
         }
+        if vertex.uv.iter().any(far) {
+            return Err(At::new(format!(
+                "texture coordinates lie between -{FARTHEST} and {FARTHEST}"
+            ))
+            .key("uv"));
+        }
         if shader == Shader::Centroid && vertex.uv[0] < 0.0 {
             let message = "the shader `centroid` wants a first texture coordinate not below 0";
             return Err(At::new(message).key("uv"));

@@ -9,12 +9,19 @@ use etalon_frame::{ChannelEncoding, TextureFormat};
 /// The largest width or height of an attachment that a case file may ask for.
 pub(crate) const MAX_SIZE: u32 = 4096;
 
+/// The most counters of a scene.
+const MAX_COUNTERS: usize = 64;
+
 pub(crate) fn scene(wire: &SceneWire) -> Result<Scene, At> {
     let size = default_size(wire);
     let mut attachments = Vec::new();
     for (name, a) in &wire.attachments {
         let attachment = attachment(name, a, size).map_err(|e| e.key(name).key("attachments"))?;
         attachments.push(attachment);
+    }
+    if wire.counters.len() > MAX_COUNTERS {
+        let message = format!("a scene has {MAX_COUNTERS} counters at most");
+        return Err(At::new(message).key("counters"));
     }
     let counters: Vec<Counter> = wire
         .counters

@@ -222,6 +222,30 @@ fn broken_case_files_are_named_with_line_and_key() {
             "\"read\": []",
             ":24: scene.read: ",
         ),
+        (
+            "axis without an end",
+            "[true, false]",
+            "{ \"from\": 0 }",
+            ":4: axes.write",
+        ),
+        (
+            "unknown counter",
+            "\"read\": [\"color\", \"depth\"]",
+            "\"counters\": { \"n\": \"frogs\" }, \"read\": [\"color\"]",
+            "scene.counters.n: ",
+        ),
+        (
+            "variants without a relation",
+            "\"spec\": [\"none\"],",
+            "\"spec\": [\"none\"], \"variants\": [{ \"name\": \"x\" }],",
+            "relation: ",
+        ),
+        (
+            "two scenes",
+            "\"spec\": [\"none\"],",
+            "\"spec\": [\"none\"], \"random\": { \"flavor\": \"common\", \"seed\": 1 },",
+            "random: ",
+        ),
         ("missing key", "\"kind\": \"full\"", "", "mesh: "),
         (
             "not JSON",
