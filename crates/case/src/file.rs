@@ -274,17 +274,7 @@ impl CaseRef<'_> {
             None
         } else {
             let mut judged = scene_value;
-            for (pointer, value) in &wire.judged_as {
-                let patch = || -> Result<(), At> {
-                    let target = judged
-                        .pointer_mut(pointer)
-                        .ok_or_else(|| At::new("the scene has no value at this JSON pointer"))?;
-                    *target = substitute(value, &values)?;
-                    Ok(())
-                };
-                let mut patch = patch;
-                patch().map_err(|e| e.key(pointer).key("judged_as"))?;
-            }
+            patch(&mut judged, &wire.judged_as, &values).map_err(|e| e.key("judged_as"))?;
             Some(parse_scene(&judged).map_err(|e| e.key("judged_as"))?)
         };
         let expect = self.expect(&scene, &values).map_err(|e| e.key("expect"))?;
@@ -326,16 +316,8 @@ impl CaseRef<'_> {
         let list: Vec<ExpectWire> = typed(&value)?;
         let mut result = Vec::new();
         for (i, e) in list.into_iter().enumerate() {
-            let found = scene
-                .read
-                .iter()
-                .copied()
-                .find(|index| scene.attachments[*index].name == e.attachment);
-            let Some(attachment) = found else {
-                return Err(At::new(format!("`{}` is not read back", e.attachment))
-                    .key("attachment")
-                    .index(i));
-            };
+            let attachment =
+                read_back(scene, &e.attachment).map_err(|e| e.key("attachment").index(i))?;
             let target = &scene.attachments[attachment];
             let channels = target.format.color_channels().len();
             if channels == 0 || e.value.len() != channels {
@@ -373,6 +355,36 @@ impl CaseRef<'_> {
     }
 }
 
+/// The value of a scene at a JSON pointer.
+fn value_at<'v>(scene: &'v mut Value, pointer: &str) -> Result<&'v mut Value, At> {
+    let missing = || At::new("the scene has no value at this JSON pointer");
+    scene.pointer_mut(pointer).ok_or_else(missing)
+}
+
+/// Changes a scene: JSON pointers and what stands there instead.
+fn patch(
+    scene: &mut Value,
+    changes: &BTreeMap<String, Value>,
+    values: &BTreeMap<&str, &Value>,
+) -> Result<(), At> {
+    for (pointer, value) in changes {
+        let mut change = || -> Result<(), At> {
+            let target = value_at(scene, pointer)?;
+            *target = substitute(value, values)?;
+            Ok(())
+        };
+        change().map_err(|e| e.key(pointer))?;
+    }
+    Ok(())
+}
+
+/// The attachment of a name that is read back.
+fn read_back(scene: &Scene, name: &str) -> Result<usize, At> {
+    let mut read = scene.read.iter().copied();
+    read.find(|index| scene.attachments[*index].name == name)
+        .ok_or_else(|| At::new(format!("`{name}` is not read back")))
+}
+
 /// The scene with a variant's changes.
 fn variant_scene(
     scene: &Value,
@@ -380,19 +392,10 @@ fn variant_scene(
     values: &BTreeMap<&str, &Value>,
 ) -> Result<Variant, At> {
     let mut changed = scene.clone();
-    let missing = || At::new("the scene has no value at this JSON pointer");
-    for (pointer, value) in &wire.patch {
-        let mut patch = || -> Result<(), At> {
-            let value = substitute(value, values)?;
-            *changed.pointer_mut(pointer).ok_or_else(missing)? = value;
-            Ok(())
-        };
-        patch().map_err(|e| e.key(pointer).key("patch"))?;
-    }
+    patch(&mut changed, &wire.patch, values).map_err(|e| e.key("patch"))?;
     for (pointer, order) in &wire.permute {
         let mut permute = || -> Result<(), At> {
-            let list = changed.pointer_mut(pointer).ok_or_else(missing)?;
-            let items = list
+            let items = value_at(&mut changed, pointer)?
                 .as_array_mut()
                 .ok_or_else(|| At::new("this is no list"))?;
             let mut seen = order.clone();
@@ -432,13 +435,7 @@ fn relation(
     let wire: RelationWire = typed(&substitute(value, values)?)?;
     let mut attachments = Vec::new();
     for (i, name) in wire.attachments.iter().enumerate() {
-        let read = scene.read.iter().copied();
-        let mut found = read.filter(|index| &scene.attachments[*index].name == name);
-        let index = found.next().ok_or_else(|| {
-            At::new(format!("`{name}` is not read back"))
-                .index(i)
-                .key("attachments")
-        })?;
+        let index = read_back(scene, name).map_err(|e| e.index(i).key("attachments"))?;
         attachments.push(index);
     }
     let key = |index: &usize| {

@@ -3,6 +3,7 @@
 use crate::compare::Band;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// What a counter counts.
 #[derive(
@@ -21,14 +22,6 @@ pub enum CounterKind {
 }
 
 impl CounterKind {
-    /// Every kind, in declaration order.
-    pub const ALL: [Self; 4] = [
-        Self::SamplesPassed,
-        Self::AnySamplesPassed,
-        Self::ShaderRuns,
-        Self::FragmentInvocations,
-    ];
-
     /// The name in case files and records.
     pub fn name(self) -> &'static str {
         match self {
@@ -72,6 +65,16 @@ impl CountRange {
     /// Whether exactly one count is legal.
     pub fn is_exact(self) -> bool {
         self.high == Some(self.low)
+    }
+}
+
+impl fmt::Display for CountRange {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.high {
+            Some(high) if high == self.low => write!(f, "{high}"),
+            Some(high) => write!(f, "{} to {high}", self.low),
+            None => write!(f, "{} or more", self.low),
+        }
     }
 }
 
@@ -149,6 +152,8 @@ mod tests {
         let range = |low, high| CountRange { low, high };
         assert!(range(3, Some(5)).contains(3) && range(3, Some(5)).contains(5));
         assert!(!range(3, Some(5)).contains(2) && !range(3, Some(5)).contains(6));
+        let words = [range(3, Some(3)), range(3, Some(5)), range(3, None)].map(|r| r.to_string());
+        assert_eq!(words, ["3", "3 to 5", "3 or more"]);
         assert!(range(3, None).contains(u64::MAX));
         assert!(range(0, None).is_open(CounterKind::ShaderRuns));
         assert!(!range(1, None).is_open(CounterKind::ShaderRuns));

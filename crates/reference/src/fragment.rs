@@ -353,7 +353,6 @@ impl Walk<'_> {
             _ if place.draw.depth_clamp => held,
             _ if !(exported && outside) => unit,
             DepthRange::Undefined => whole,
-            DepthRange::Viewport => held,
             DepthRange::Unit => unit,
             DepthRange::ViewportIfWritten if written => held,
             DepthRange::Either | DepthRange::ViewportIfWritten => held.hull(unit),

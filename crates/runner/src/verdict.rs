@@ -234,6 +234,8 @@ fn judged_scene(case: &Case, index: usize) -> &Scene {
 
 /// The record of the worse of two scenes, with the assertions of both.
 fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
+    // Not `Verdict::severity`: an open scene takes nothing from one that asserts something, and an
+    // error of our own outranks a Fail.
     let badness = |judged: &Judged| match judged.record.verdict {
         Verdict::InternalError => 4,
         Verdict::Fail => 3,
@@ -278,11 +280,7 @@ fn counter_message(counters: &[CounterOutcome]) -> Option<String> {
         .iter()
         .filter(|c| c.band.is_some())
         .map(|c| {
-            let legal = match c.high {
-                Some(high) if high == c.low => format!("{high}"),
-                Some(high) => format!("{} to {high}", c.low),
-                None => format!("{} or more", c.low),
-            };
+            let legal = c.range();
             let due = match c.band {
                 Some(Band::Fail) => format!("{legal} is legal"),
                 _ => format!("{legal} is legal, but the yardstick wants another"),

@@ -114,6 +114,11 @@ fn fits(
     yardstick: bool,
 ) -> bool {
     let mut all = true;
+    let word = |allowed: bool| match (allowed, yardstick) {
+        (true, _) => "allowed",
+        (false, true) => "outside the yardstick",
+        (false, false) => "NOT ALLOWED",
+    };
     for (g, group) in set.groups.iter().enumerate() {
         if x >= group.size[0] || y >= group.size[1] {
             continue;
@@ -152,26 +157,14 @@ fn fits(
             }
             let allowed =
                 orders.len() == group.channels.len() && group.sample(x, y, sample).allows(&orders);
-            let word = match (allowed, yardstick) {
-                (true, _) => "allowed",
-                (false, true) => "outside the yardstick",
-                (false, false) => "NOT ALLOWED",
-            };
+            let word = word(allowed);
             let _ = writeln!(text, "came back: {}: {word}", parts.join("; "));
             all &= allowed;
         }
     }
     for (counter, actual) in set.counters.iter().zip(&frame.counters) {
         let allowed = counter.range.contains(*actual);
-        let legal = match counter.range.high {
-            Some(high) => format!("{} to {high}", counter.range.low),
-            None => format!("{} or more", counter.range.low),
-        };
-        let word = match (allowed, yardstick) {
-            (true, _) => "allowed",
-            (false, true) => "outside the yardstick",
-            (false, false) => "NOT ALLOWED",
-        };
+        let (legal, word) = (counter.range, word(allowed));
         let (name, kind) = (&counter.name, counter.kind.name());
         let _ = writeln!(text, "counter {name} ({kind}): {actual} of {legal}: {word}");
         all &= allowed;

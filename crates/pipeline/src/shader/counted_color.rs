@@ -1,16 +1,4 @@
-//! Twin of `shaders/counted_color.wgsl`. What it counts is the walker's business.
+//! Twin of `shaders/counted_color.wgsl`. What it counts is the walker's business; the rest is
+//! `uniform_color`.
 
-use super::{FragmentInput, FragmentOutput};
-use crate::arithmetic::Arithmetic;
-
-pub(super) fn fragment<A: Arithmetic>(
-    a: &mut A,
-    input: &FragmentInput<'_, A::Real>,
-) -> FragmentOutput<A::Real> {
-    FragmentOutput {
-        color: input.params.color.map(|v| a.constant(v)),
-        second: None,
-        depth: None,
-        kept: None,
-    }
-}
+pub(super) use super::uniform_color::fragment;

@@ -1,16 +1,4 @@
-//! Twin of `shaders/counted_depth.wgsl`.
+//! Twin of `shaders/counted_depth.wgsl`. What it counts is the walker's business; the rest is
+//! `flat_color_depth`.
 
-use super::{FragmentInput, FragmentOutput};
-use crate::arithmetic::Arithmetic;
-
-pub(super) fn fragment<A: Arithmetic>(
-    a: &mut A,
-    input: &FragmentInput<'_, A::Real>,
-) -> FragmentOutput<A::Real> {
-    FragmentOutput {
-        color: input.params.color.map(|v| a.constant(v)),
-        second: None,
-        depth: Some(input.color[0]),
-        kept: None,
-    }
-}
+pub(super) use super::flat_color_depth::fragment;

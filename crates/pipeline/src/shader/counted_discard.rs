@@ -1,16 +1,4 @@
-//! Twin of `shaders/counted_discard.wgsl`.
+//! Twin of `shaders/counted_discard.wgsl`. What it counts is the walker's business; the rest is
+//! `texel_discard`.
 
-use super::{FragmentInput, FragmentOutput};
-use crate::arithmetic::Arithmetic;
-
-pub(super) fn fragment<A: Arithmetic>(
-    a: &mut A,
-    input: &FragmentInput<'_, A::Real>,
-) -> FragmentOutput<A::Real> {
-    FragmentOutput {
-        color: input.texels[0],
-        second: None,
-        depth: None,
-        kept: Some([input.texels[0][3], a.constant(input.params.color[3])]),
-    }
-}
+pub(super) use super::texel_discard::fragment;

@@ -1,15 +1,4 @@
-//! Twin of `shaders/sampled_color.wgsl`.
+//! Twin of `shaders/sampled_color.wgsl`. Whether the texel was fetched or sampled is the walker's
+//! business: `texel_color`.
 
-use super::{FragmentInput, FragmentOutput};
-use crate::arithmetic::Arithmetic;
-
-pub(super) fn fragment<A: Arithmetic>(
-    input: &FragmentInput<'_, A::Real>,
-) -> FragmentOutput<A::Real> {
-    FragmentOutput {
-        color: input.texels[0],
-        second: None,
-        depth: None,
-        kept: None,
-    }
-}
+pub(super) use super::texel_color::fragment;

@@ -102,8 +102,6 @@ pub enum FactorClamp {
 pub enum DepthRange {
     /// Anything from 0 to 1.
     Undefined,
-    /// It is held to the viewport's range.
-    Viewport,
     /// It is held to 0 and 1.
     Unit,
     /// It is held to the viewport's range or to 0 and 1.

@@ -4,7 +4,7 @@ use crate::picture;
 use crate::words::{
     allowed, channel_of, code_and_value, code_text, count, multisampled, place, value_text,
 };
-use etalon_frame::{Band, ChannelMismatch, CounterOutcome, Story, WrongTexel};
+use etalon_frame::{Band, ChannelMismatch, Story, WrongTexel};
 use etalon_record::{FrameFile, Record, Run};
 use maud::{Markup, html};
 use std::path::Path;
@@ -77,7 +77,7 @@ fn counters(record: &Record) -> Markup {
                     tr {
                         th scope="row" { (counter.name) }
                         td { (counter.kind.name()) }
-                        td.num { (legal(counter)) }
+                        td.num { (counter.range().to_string()) }
                         td.num { (counter.actual) }
                         td {
                             @match counter.band {
@@ -91,14 +91,6 @@ fn counters(record: &Record) -> Markup {
                 }
             }
         } }
-    }
-}
-
-fn legal(counter: &CounterOutcome) -> String {
-    match counter.high {
-        Some(high) if high == counter.low => high.to_string(),
-        Some(high) => format!("{} to {high}", counter.low),
-        None => format!("{} or more", counter.low),
     }
 }
 
