@@ -3,9 +3,7 @@
 use crate::error::{At, Step};
 use crate::mesh::Mesh;
 use crate::resolve::{MAX_SIZE, find};
-use crate::scene::{
-    Attachment, ColorTarget, Contents, Counter, Draw, Params, StencilFace, StencilState,
-};
+use crate::scene::{Attachment, ColorTarget, Counter, Draw, Params, StencilFace, StencilState};
 use crate::state::{
     Multisample, PolygonMode, PrimitiveTopology, Shader, StencilOperation, Viewport,
 };
@@ -13,7 +11,7 @@ use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
 use etalon_frame::{CounterKind, TextureFormat};
 
 /// The most vertices of one mesh.
-const MAX_VERTICES: usize = 4 << 20;
+pub(crate) const MAX_VERTICES: usize = 4 << 20;
 
 /// What a draw draws to, and what it can name.
 pub(crate) struct Target<'a> {
@@ -22,6 +20,8 @@ pub(crate) struct Target<'a> {
     /// Indices of the colour attachments.
     pub(crate) color: &'a [usize],
     pub(crate) depth_stencil: Option<TextureFormat>,
+    /// Indices of all attachments that the pass draws or resolves to.
+    pub(crate) bound: &'a [usize],
     pub(crate) attachments: &'a [Attachment],
     pub(crate) counters: &'a [Counter],
 }
@@ -54,8 +54,13 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
         let check = || -> Result<usize, At> {
             let index = find(name, attachments)?;
             let attachment = &attachments[index];
-            if !matches!(attachment.contents, Contents::Texels(_)) {
-                return Err(At::new(format!("`{name}` is not uploaded from `texels`")));
+            if !attachment.format.is_color() || attachment.samples != 1 {
+                let message = "is no colour attachment with one sample, so it cannot be read";
+                return Err(At::new(format!("`{name}` {message}")));
+            }
+            if target.bound.contains(&index) {
+                let message = "belongs to the pass itself, so it cannot be read";
+                return Err(At::new(format!("`{name}` {message}")));
             }
             if attachment.format.is_integer() {
                 return Err(At::new(format!(

@@ -1,15 +1,16 @@
 //! One case file: parsing, the product of its axes, and the cases it stands for.
 
-use crate::draw::write_mask;
 use crate::error::{At, CaseError};
+use crate::methods::{self, MethodWire};
 use crate::pairwise::{self, Cover};
 use crate::random;
 use crate::relation::Relation;
 use crate::resolve;
 use crate::scene::Scene;
-use crate::wire::{
-    AxisValue, ExpectWire, FileWire, QuickWire, RandomWire, RelationWire, SceneWire, VariantWire,
-};
+use crate::states;
+use crate::truth::{Method, Parameter};
+use crate::variants::{patch, read_back, relation, variant_scene};
+use crate::wire::{AxisValue, ExpectWire, FileWire, QuickWire, RandomWire, SceneWire};
 use etalon_frame::Requirement;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -18,12 +19,15 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The most cases that one file may stand for.
 const MAX_CASES: usize = 1 << 20;
 
+/// The axis of the methods.
+const METHOD: &str = "method";
+
 /// How much of each file's product of axes is taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Profile {
     /// Of files that say `"quick": "pairwise"` so many cases that every two values of every two axes
-    /// meet, of those that say `"quick": { "each": 2 }` so many that every value stands in two; of
-    /// all others everything.
+    /// meet, of those that say `"quick": { "each": 2 }` so many that every value stands in two, of those
+    /// that say `"quick": { "where": … }` the cases with these values; of all others everything.
     #[default]
     Quick,
     /// Everything.
@@ -66,6 +70,8 @@ pub struct Case {
     pub relation: Option<Relation>,
     /// Literal values that must come back.
     pub expect: Vec<Expect>,
+    /// What a method case asks; its distance from the truth is measured.
+    pub method: Option<Method>,
 }
 
 /// A scene with changes.
@@ -175,13 +181,35 @@ impl CaseFile {
                         .key("derived"),
                 ));
             }
-            if !wire.axes.contains_key(&derived.axis) {
+            let Some(axis) = wire.axes.get(&derived.axis) else {
                 return Err(fail(
                     At::new(format!("there is no axis `{}`", derived.axis))
                         .key("axis")
                         .key(name)
                         .key("derived"),
                 ));
+            };
+            let values = derived.values.as_ref();
+            if values.is_some_and(|list| list.len() != axis.len()) {
+                return Err(fail(
+                    At::new(format!("axis `{}` has {} values", derived.axis, axis.len()))
+                        .key("values")
+                        .key(name)
+                        .key("derived"),
+                ));
+            }
+        }
+        if let Some(QuickWire::Where(due)) = &wire.quick {
+            for (axis, name) in due {
+                let values = wire.axes.get(axis).map_or(&[][..], |axis| axis);
+                if !values.iter().any(|v| v.name == *name) {
+                    return Err(fail(
+                        At::new(format!("no axis `{axis}` has a value `{name}`"))
+                            .key(axis)
+                            .key("where")
+                            .key("quick"),
+                    ));
+                }
             }
         }
         Ok(Self {
@@ -193,6 +221,11 @@ impl CaseFile {
         })
     }
 
+    /// Whether the cases draw by methods.
+    fn is_method(&self) -> bool {
+        !self.wire.method.is_null()
+    }
+
     /// The file's path below the cases folder.
     pub fn name(&self) -> &str {
         &self.name
@@ -200,10 +233,19 @@ impl CaseFile {
 
     /// The cases of a profile, the last axis (in alphabetical order) varying fastest.
     pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
-        let indices: Vec<usize> = match (profile, self.wire.quick) {
+        let indices: Vec<usize> = match (profile, &self.wire.quick) {
             (Profile::Quick, Some(QuickWire::Pairwise)) => self.covering(Cover::Pairs),
             (Profile::Quick, Some(QuickWire::Each(n))) => self.covering(Cover::Each(n.get())),
             (Profile::Quick, Some(QuickWire::First(n))) => (0..self.count.min(n.get())).collect(),
+            (Profile::Quick, Some(QuickWire::Where(due))) => (0..self.count)
+                .filter(|index| {
+                    let at = self.positions(*index);
+                    let is = |(axis, name): (&String, &String)| {
+                        self.wire.axes[axis][at[axis.as_str()]].name == *name
+                    };
+                    due.iter().all(is)
+                })
+                .collect(),
             _ => (0..self.count).collect(),
         };
         let one = move |index| CaseRef { file: self, index };
@@ -233,10 +275,15 @@ impl CaseFile {
 }
 
 impl CaseRef<'_> {
-    /// The stable id: the file's path and each axis with its value, in alphabetical order.
+    /// The stable id: the file's path and each axis with its value, in alphabetical order, but the
+    /// method of a method case first.
     pub fn id(&self) -> String {
         let mut id = self.file.stem.clone();
-        for (axis, at) in self.file.positions(self.index) {
+        let mut axes: Vec<(&str, usize)> = self.file.positions(self.index).into_iter().collect();
+        if self.file.is_method() {
+            axes.sort_by_key(|(axis, _)| *axis != METHOD);
+        }
+        for (axis, at) in axes {
             id.push('/');
             id.push_str(axis);
             id.push('=');
@@ -257,6 +304,12 @@ impl CaseRef<'_> {
     fn try_build(&self) -> Result<Case, At> {
         let wire = &self.file.wire;
         let values = self.values();
+        if self.file.is_method() {
+            return self.method_case(&values);
+        }
+        if wire.parameter.is_some() {
+            return Err(At::new("only methods have a parameter").key("parameter"));
+        }
         let scene_value = self.scene_value(&values)?;
         let scene = parse_scene(&scene_value).map_err(|e| e.key("scene"))?;
         let variants = wire
@@ -287,23 +340,96 @@ impl CaseRef<'_> {
             variants,
             relation,
             expect,
+            method: None,
+        })
+    }
+
+    /// A scene drawn by a method.
+    fn method_case(&self, values: &BTreeMap<&str, &Value>) -> Result<Case, At> {
+        let wire = &self.file.wire;
+        let others = [
+            &wire.scene,
+            &wire.random,
+            &wire.states,
+            &wire.relation,
+            &wire.expect,
+        ];
+        let alone = others.into_iter().all(Value::is_null)
+            && wire.variants.is_empty()
+            && wire.judged_as.is_empty();
+        if !alone {
+            return Err(
+                At::new("`method` stands alone, without a scene or relations").key("method"),
+            );
+        }
+        let place: Vec<&str> = self.file.stem.split('/').collect();
+        let ["methods", question, scene] = place[..] else {
+            let message = "a method's file is methods/<question>/<scene>.json";
+            return Err(At::new(message).key("method"));
+        };
+        let positions = self.file.positions(self.index);
+        let named = |axis: &str| Some(&self.file.wire.axes[axis][*positions.get(axis)?]);
+        let name = named(METHOD).ok_or_else(|| At::new("there is no axis `method`").key("axes"))?;
+        let parameter = match &wire.parameter {
+            None => None,
+            Some(axis) => {
+                let number = || named(axis)?.value.as_f64();
+                let value = number().ok_or_else(|| {
+                    At::new(format!("there is no axis `{axis}` with numbers")).key("parameter")
+                })?;
+                Some(Parameter {
+                    name: axis.clone(),
+                    value,
+                })
+            }
+        };
+        let make = || -> Result<methods::Made, At> {
+            let wire: MethodWire = typed(&substitute(&wire.method, values)?)?;
+            methods::make(&wire)
+        };
+        let made = make().map_err(|e| e.key("method"))?;
+        Ok(Case {
+            id: self.id(),
+            about: wire.about.clone(),
+            spec: wire.spec.clone(),
+            scene: made.scene,
+            judged_as: None,
+            variants: Vec::new(),
+            relation: None,
+            expect: Vec::new(),
+            method: Some(Method {
+                question: question.to_owned(),
+                scene: scene.to_owned(),
+                name: name.name.clone(),
+                parameter,
+                truth: made.truth,
+            }),
         })
     }
 
     /// The scene with all values in their places.
     fn scene_value(&self, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
         let wire = &self.file.wire;
-        match (wire.scene.is_null(), wire.random.is_null()) {
-            (false, true) => substitute(&wire.scene, values).map_err(|e| e.key("scene")),
-            (true, false) => {
+        match (
+            wire.scene.is_null(),
+            wire.random.is_null(),
+            wire.states.is_null(),
+        ) {
+            (false, true, true) => substitute(&wire.scene, values).map_err(|e| e.key("scene")),
+            (true, true, false) => {
+                let made = || states::scene(&typed(&substitute(&wire.states, values)?)?);
+                made().map_err(|e| e.key("states"))
+            }
+            (true, false, true) => {
                 let made = || -> Result<Value, At> {
                     let random: RandomWire = typed(&substitute(&wire.random, values)?)?;
                     Ok(random::scene(random.flavor, random.seed))
                 };
                 made().map_err(|e| e.key("random"))
             }
-            (false, false) => Err(At::new("`random` stands instead of `scene`").key("random")),
-            (true, true) => Err(At::new("a case file needs a scene").key("scene")),
+            (true, true, true) => Err(At::new("a case file needs a scene").key("scene")),
+            (_, false, _) => Err(At::new("`random` stands instead of `scene`").key("random")),
+            _ => Err(At::new("`states` stands instead of `scene`").key("states")),
         }
     }
 
@@ -349,127 +475,11 @@ impl CaseRef<'_> {
         for (name, derived) in &wire.derived {
             let list = &wire.axes[&derived.axis];
             let at = (positions[derived.axis.as_str()] + derived.shift) % list.len();
-            values.insert(name, &list[at].value);
+            let given = derived.values.as_ref().and_then(|values| values.get(at));
+            values.insert(name, given.unwrap_or(&list[at].value));
         }
         values
     }
-}
-
-/// The value of a scene at a JSON pointer.
-fn value_at<'v>(scene: &'v mut Value, pointer: &str) -> Result<&'v mut Value, At> {
-    let missing = || At::new("the scene has no value at this JSON pointer");
-    scene.pointer_mut(pointer).ok_or_else(missing)
-}
-
-/// Changes a scene: JSON pointers and what stands there instead.
-fn patch(
-    scene: &mut Value,
-    changes: &BTreeMap<String, Value>,
-    values: &BTreeMap<&str, &Value>,
-) -> Result<(), At> {
-    for (pointer, value) in changes {
-        let mut change = || -> Result<(), At> {
-            let target = value_at(scene, pointer)?;
-            *target = substitute(value, values)?;
-            Ok(())
-        };
-        change().map_err(|e| e.key(pointer))?;
-    }
-    Ok(())
-}
-
-/// The attachment of a name that is read back.
-fn read_back(scene: &Scene, name: &str) -> Result<usize, At> {
-    let mut read = scene.read.iter().copied();
-    read.find(|index| scene.attachments[*index].name == name)
-        .ok_or_else(|| At::new(format!("`{name}` is not read back")))
-}
-
-/// The scene with a variant's changes.
-fn variant_scene(
-    scene: &Value,
-    wire: &VariantWire,
-    values: &BTreeMap<&str, &Value>,
-) -> Result<Variant, At> {
-    let mut changed = scene.clone();
-    patch(&mut changed, &wire.patch, values).map_err(|e| e.key("patch"))?;
-    for (pointer, order) in &wire.permute {
-        let mut permute = || -> Result<(), At> {
-            let items = value_at(&mut changed, pointer)?
-                .as_array_mut()
-                .ok_or_else(|| At::new("this is no list"))?;
-            let mut seen = order.clone();
-            seen.sort_unstable();
-            if !seen.into_iter().eq(0..items.len()) {
-                return Err(At::new(format!(
-                    "an order names each of the {} items once, from 0",
-                    items.len()
-                )));
-            }
-            *items = order.iter().map(|i| items[*i].clone()).collect();
-            Ok(())
-        };
-        permute().map_err(|e| e.key(pointer).key("permute"))?;
-    }
-    Ok(Variant {
-        name: wire.name.clone(),
-        scene: parse_scene(&changed)?,
-    })
-}
-
-/// What the frames have to do with each other, checked against the scenes.
-fn relation(
-    value: &Value,
-    values: &BTreeMap<&str, &Value>,
-    scene: &Scene,
-    variants: &[Variant],
-) -> Result<Option<Relation>, At> {
-    if value.is_null() {
-        return match variants {
-            [] => Ok(None),
-            _ => Err(At::new(
-                "variants need a relation, or nothing is asserted of them",
-            )),
-        };
-    }
-    let wire: RelationWire = typed(&substitute(value, values)?)?;
-    let mut attachments = Vec::new();
-    for (i, name) in wire.attachments.iter().enumerate() {
-        let index = read_back(scene, name).map_err(|e| e.index(i).key("attachments"))?;
-        attachments.push(index);
-    }
-    let key = |index: &usize| {
-        let a = &scene.attachments[*index];
-        (a.format, a.size, a.samples)
-    };
-    if attachments
-        .windows(2)
-        .any(|pair| key(&pair[0]) != key(&pair[1]))
-    {
-        let message = "the attachments differ in format, size or samples";
-        return Err(At::new(message).key("attachments"));
-    }
-    if attachments.len() < 2 && variants.is_empty() {
-        return Err(At::new("a relation needs variants or two attachments"));
-    }
-    let shape = |scene: &Scene| -> Vec<_> {
-        let read = scene.read.iter().map(|i| &scene.attachments[*i]);
-        read.map(|a| (a.name.clone(), a.format, a.size, a.samples))
-            .collect()
-    };
-    if let Some(other) = variants.iter().find(|v| shape(&v.scene) != shape(scene)) {
-        return Err(At::new(format!(
-            "variant `{}` reads other images back than the scene",
-            other.name
-        )));
-    }
-    Ok(Some(Relation {
-        invariance: wire.same,
-        within: wire.within,
-        channels: write_mask(&wire.channels).map_err(|e| e.key("channels"))?,
-        offset: wire.offset,
-        attachments,
-    }))
 }
 
 fn is_word(text: &str) -> bool {
@@ -479,16 +489,16 @@ fn is_word(text: &str) -> bool {
             .all(|b| b.is_ascii_alphanumeric() || b"-_.+".contains(&b))
 }
 
-fn typed<T: DeserializeOwned>(value: &Value) -> Result<T, At> {
+pub(crate) fn typed<T: DeserializeOwned>(value: &Value) -> Result<T, At> {
     serde_path_to_error::deserialize(value).map_err(At::from_typed)
 }
 
-fn parse_scene(value: &Value) -> Result<Scene, At> {
+pub(crate) fn parse_scene(value: &Value) -> Result<Scene, At> {
     resolve::scene(&typed::<SceneWire>(value)?)
 }
 
 /// Replaces every string `"$name"` by the value of that name.
-fn substitute(value: &Value, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
+pub(crate) fn substitute(value: &Value, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
     Ok(match value {
         Value::String(text) => match text.strip_prefix('$') {
             None => value.clone(),

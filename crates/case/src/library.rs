@@ -112,6 +112,56 @@ mod tests {
     }
 
     #[test]
+    fn values_beside_an_axis_and_a_quick_profile_of_one_value() {
+        let file = |more: &str| {
+            let text = format!(
+                r#"{{"about":"t","spec":["t"],{more},
+                "axes":{{"a":[1,2],"side":[{{"name":"small","value":4}},{{"name":"large","value":8}}]}},
+                "scene":{{"attachments":{{"c":{{"format":"rgba8unorm","size":["$side",16]}}}},
+                "passes":[{{"color":["c"],"draws":[{{"mesh":{{"kind":"full"}},"shader":"uniform_color",
+                "scissor":"$rect"}}]}}],"read":["c"]}}}}"#
+            );
+            CaseFile::parse("t.json", &text)
+        };
+        let good = r#""quick":{"where":{"side":"large"}},
+            "derived":{"rect":{"axis":"side","values":[[0,0,2,2],[0,0,4,4]]}}"#;
+        let good = file(good).expect("parses");
+        let quick: Vec<String> = good.cases(Profile::Quick).map(|c| c.id()).collect();
+        assert_eq!(quick, ["t/a=1/side=large", "t/a=2/side=large"]);
+        for case in good.cases(Profile::Full) {
+            let scene = case.build().expect("builds").scene;
+            let due = scene.attachments[0].size[0] / 2;
+            assert_eq!(
+                scene.passes[0].draws[0].scissor,
+                Some([0, 0, due, due]),
+                "{}",
+                case.id()
+            );
+        }
+        for (bad, key, words) in [
+            (
+                r#""derived":{"rect":{"axis":"side","values":[[0,0,2,2]]}}"#,
+                "derived.rect.values",
+                "2 values",
+            ),
+            (
+                r#""quick":{"where":{"side":"tiny"}}"#,
+                "quick.where.side",
+                "no axis `side` has a value `tiny`",
+            ),
+            (
+                r#""quick":{"where":{"b":"large"}}"#,
+                "quick.where.b",
+                "no axis `b`",
+            ),
+        ] {
+            let error = file(bad).expect_err("is refused");
+            assert_eq!(error.key, key);
+            assert!(error.message.contains(words), "{error}");
+        }
+    }
+
+    #[test]
     fn every_built_in_case_builds_and_no_id_repeats() {
         let library = Library::built_in().expect("built-in files parse");
         let mut ids = HashSet::new();

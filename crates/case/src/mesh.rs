@@ -1,5 +1,10 @@
 //! Meshes: described in case files, expanded here, the same bits for every backend.
 
+mod splat;
+mod surface;
+
+pub use splat::Splat;
+
 use crate::state::{FrontFace, PrimitiveTopology};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec4};
@@ -162,6 +167,40 @@ pub enum MeshSource {
         #[serde(default = "one_ccw")]
         windings: Vec<FrontFace>,
     },
+    /// Several layers over everything, one [`MeshSource::Cover`] after the other.
+    Stack {
+        /// Vertex depth of each layer, in the order of drawing.
+        z: Vec<f32>,
+        /// Vertex colours of the layers, repeated as needed.
+        #[serde(default = "one_splat")]
+        values: Vec<Splat>,
+    },
+    /// The whole viewport as a sheet of triangles that share their vertices, two to a cell.
+    ///
+    /// Cells are alike but for the first of each row and column, which is narrower: so the lines between
+    /// cells keep a quarter of a cell or of a texel, whichever is less, away from texel centres, where the
+    /// cells' sides are whole texels or whole parts of one. Elsewhere edges may pass through centres, and
+    /// two triangles share what they cover there.
+    Grid {
+        /// How many cells lie side by side and one above the other.
+        cells: [u32; 2],
+        /// Vertex depth.
+        #[serde(default)]
+        z: f32,
+        /// The vertex colour.
+        #[serde(default)]
+        value: Splat,
+    },
+    /// A torus seen along its axis: a closed mesh whose front half hides the back half. Triangles share
+    /// their vertices; seen from outside, they are counter-clockwise. Its middle lies in the viewport's
+    /// middle, at depth 0.5.
+    Torus {
+        /// How many segments lie around the axis and around the tube, each at least 3.
+        segments: [u32; 2],
+        /// The vertex colour.
+        #[serde(default)]
+        value: Splat,
+    },
     /// Vertices one by one.
     Vertices {
         /// Positions x, y, z.
@@ -212,51 +251,6 @@ fn one_splat() -> Vec<Splat> {
     vec![Splat::default()]
 }
 
-/// Four values, written as a list of four or as one number for all.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Splat(pub [f32; 4]);
-
-impl<'de> Deserialize<'de> for Splat {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Visitor;
-        impl<'de> serde::de::Visitor<'de> for Visitor {
-            type Value = Splat;
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("a number or a list of four numbers")
-            }
-            fn visit_f64<E>(self, v: f64) -> Result<Splat, E> {
-                Ok(Splat([v as f32; 4]))
-            }
-            fn visit_u64<E>(self, v: u64) -> Result<Splat, E> {
-                Ok(Splat([v as f32; 4]))
-            }
-            fn visit_i64<E>(self, v: i64) -> Result<Splat, E> {
-                Ok(Splat([v as f32; 4]))
-            }
-            fn visit_seq<A: serde::de::SeqAccess<'de>>(self, seq: A) -> Result<Splat, A::Error> {
-                let inner = serde::de::value::SeqAccessDeserializer::new(seq);
-                <[f32; 4]>::deserialize(inner).map(Splat)
-            }
-        }
-        deserializer.deserialize_any(Visitor)
-    }
-}
-
-impl JsonSchema for Splat {
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        "Splat".into()
-    }
-    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        schemars::json_schema!({
-            "description": "Four values, or one number for all four.",
-            "anyOf": [
-                { "type": "number" },
-                { "type": "array", "items": { "type": "number" }, "minItems": 4, "maxItems": 4 }
-            ]
-        })
-    }
-}
-
 impl MeshSource {
     /// The mesh for a viewport of a size in texels, or what is wrong with the description.
     ///
@@ -270,18 +264,20 @@ impl MeshSource {
             Self::Full { z, value, winding } => {
                 builder.rect([0, 0, size[0], size[1]], *z, value.0, *winding)?;
             }
-            Self::Cover { z, value, uv } => {
-                let [left, top, right, bottom] = uv;
-                for [x, y] in [[-2.0, -2.0], [8.0, -2.0], [-2.0, 8.0]] {
-                    builder.vertices.push(Vertex {
-                        position: [x, y, *z, 1.0],
-                        color: value.0,
-                        uv: [
-                            left + (right - left) * (x + 1.0) / 2.0,
-                            top + (bottom - top) * (1.0 - y) / 2.0,
-                        ],
-                    });
+            Self::Cover { z, value, uv } => builder.cover(*z, value.0, *uv),
+            Self::Stack { z, values } => {
+                if z.is_empty() || values.is_empty() {
+                    return Err("`z` and `values` must not be empty".to_owned());
                 }
+                for (z, value) in z.iter().zip(values.iter().cycle()) {
+                    builder.cover(*z, value.0, [0.0; 4]);
+                }
+            }
+            Self::Grid { cells, z, value } => {
+                indices = Some(builder.grid(*cells, *z, value.0)?);
+            }
+            Self::Torus { segments, value } => {
+                indices = Some(builder.torus(*segments, value.0)?);
             }
             Self::Rect {
                 texels,
@@ -358,6 +354,21 @@ impl Builder {
         Self {
             size,
             vertices: Vec::new(),
+        }
+    }
+
+    /// One triangle that reaches far beyond the viewport.
+    fn cover(&mut self, z: f32, value: [f32; 4], uv: [f32; 4]) {
+        let [left, top, right, bottom] = uv;
+        for [x, y] in [[-2.0, -2.0], [8.0, -2.0], [-2.0, 8.0]] {
+            self.vertices.push(Vertex {
+                position: [x, y, z, 1.0],
+                color: value,
+                uv: [
+                    left + (right - left) * (x + 1.0) / 2.0,
+                    top + (bottom - top) * (1.0 - y) / 2.0,
+                ],
+            });
         }
     }
 

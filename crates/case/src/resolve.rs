@@ -35,32 +35,6 @@ pub(crate) fn scene(wire: &SceneWire) -> Result<Scene, At> {
     for (i, p) in wire.passes.iter().enumerate() {
         passes.push(pass(p, &attachments, &counters).map_err(|e| e.index(i).key("passes"))?);
     }
-    let drawn = |index: usize| {
-        passes
-            .iter()
-            .any(|p: &Pass| p.color.contains(&index) || p.depth_stencil == Some(index))
-    };
-    let drawn = |index: usize| {
-        drawn(index)
-            || passes
-                .iter()
-                .any(|p: &Pass| p.resolve.contains(&Some(index)))
-    };
-    for (p, pass) in passes.iter().enumerate() {
-        for (d, draw) in pass.draws.iter().enumerate() {
-            if let Some(t) = draw.textures.iter().position(|t| drawn(*t)) {
-                return Err(At::new(
-                    "a pass draws to this attachment, so it cannot be fetched from",
-                )
-                .index(t)
-                .key("textures")
-                .index(d)
-                .key("draws")
-                .index(p)
-                .key("passes"));
-            }
-        }
-    }
     let mut read = Vec::new();
     for (i, name) in wire.read.iter().enumerate() {
         let index = find(name, &attachments).map_err(|e| e.index(i).key("read"))?;
@@ -299,6 +273,13 @@ fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Re
         )));
     }
     let format = depth_stencil.map(|i| attachments[i].format);
+    let resolved = resolve.iter().flatten();
+    let bound: Vec<usize> = color
+        .iter()
+        .chain(&depth_stencil)
+        .chain(resolved)
+        .copied()
+        .collect();
     let mut draws = Vec::new();
     for (i, d) in wire.draws.iter().enumerate() {
         let target = Target {
@@ -306,6 +287,7 @@ fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Re
             samples: first.samples,
             color: &color,
             depth_stencil: format,
+            bound: &bound,
             attachments,
             counters,
         };

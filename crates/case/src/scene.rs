@@ -1,7 +1,7 @@
 //! What a case draws: the domain types that backends and the judge work on.
 //!
 //! Scenes are valid by construction ([`crate::expand`] builds them): indices are in range, sizes
-//! agree within a pass, textures are uploads.
+//! agree within a pass, no pass reads what it draws to.
 
 use crate::mesh::Mesh;
 use crate::state::{
@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 /// Everything a device needs to know of a case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
-    /// Textures that passes draw to or fetch from, by name in ascending order.
+    /// Textures that passes draw to or read, each under a name of its own.
     pub attachments: Vec<Attachment>,
     /// Passes, in order.
     pub passes: Vec<Pass>,
@@ -96,7 +96,8 @@ pub struct Draw {
     pub params: Params,
     /// When the fragment tests happen.
     pub early_tests: EarlyTests,
-    /// Indices of the attachments that the shader reads.
+    /// Indices of the attachments that the shader reads: single-sample colour, as it was uploaded,
+    /// cleared or left by earlier passes, and no part of the pass.
     pub textures: Vec<usize>,
     /// How it samples them; `None` where it fetches single texels.
     pub sampler: Option<Sampler>,
@@ -244,6 +245,30 @@ impl Scene {
     pub fn pass_samples(&self, pass: &Pass) -> u32 {
         let first = pass.color.first().copied().or(pass.depth_stencil);
         first.map_or(1, |index| self.attachments[index].samples)
+    }
+
+    /// The scene with something counted over all its draws, and nothing else.
+    pub fn counting(&self, kind: CounterKind) -> Self {
+        let mut scene = self.clone();
+        scene.counters = vec![Counter {
+            name: kind.name().to_owned(),
+            kind,
+        }];
+        for pass in &mut scene.passes {
+            for draw in &mut pass.draws {
+                draw.counters = vec![0];
+            }
+        }
+        scene
+    }
+
+    /// Bytes of all attachments, by their formats' texel sizes.
+    pub fn bytes(&self) -> u64 {
+        let bytes = |a: &Attachment| {
+            let texels = u64::from(a.size[0]) * u64::from(a.size[1]) * u64::from(a.samples);
+            texels * u64::from(a.format.texel_bytes())
+        };
+        self.attachments.iter().map(bytes).sum()
     }
 
     /// The formats of all attachments.

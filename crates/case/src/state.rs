@@ -2,7 +2,6 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
 
 macro_rules! state_enum {
     ($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $variant:ident = $text:literal),+ $(,)? }) => {
@@ -23,6 +22,8 @@ macro_rules! state_enum {
 }
 
 pub(crate) use state_enum;
+
+pub use crate::shader::Shader;
 
 state_enum! {
     /// A depth or stencil comparison: incoming (reference) value on the left, stored on the right.
@@ -282,170 +283,6 @@ pub struct Sampler {
     pub filter: FilterMode,
     /// Across and down.
     pub address: [AddressMode; 2],
-}
-
-state_enum! {
-    /// The suite's shaders. Each has a WGSL file in `shaders/` and a twin in the reference.
-    Shader {
-        /// `params.color` where the first texture coordinate, interpolated inside the primitive, is
-        /// not negative; `params.back_color` where it is.
-        Centroid = "centroid",
-        /// `params.color`; counts its runs.
-        CountedColor = "counted_color",
-        /// As `flat_color_depth`; counts its runs.
-        CountedDepth = "counted_depth",
-        /// As `texel_discard`; counts its runs.
-        CountedDiscard = "counted_discard",
-        /// The vertex colour, flat.
-        FlatColor = "flat_color",
-        /// `params.color`; writes the vertex colour's red as depth.
-        FlatColorDepth = "flat_color_depth",
-        /// The vertex colour, flat; writes the fragment's own window depth as depth.
-        FragCoordDepth = "frag_coord_depth",
-        /// `params.color` on front faces, `params.back_color` on back faces.
-        FrontFacing = "front_facing",
-        /// `params.color`; writes the number of the sample being shaded plus 1, in 32nds, as depth. Runs
-        /// once per sample.
-        SampleDepth = "sample_depth",
-        /// The number of the sample being shaded in binary: red its lowest bit, alpha 1. Runs once
-        /// per sample.
-        SampleIndex = "sample_index",
-        /// Texture 0 sampled at the interpolated texture coordinates.
-        SampledColor = "sampled_color",
-        /// The texel of texture 0 under the fragment.
-        TexelColor = "texel_color",
-        /// The texel of texture 0 under the fragment, to colour locations 0 to 3 alike.
-        TexelColorAll = "texel_color_all",
-        /// The texel of texture 0 under the fragment; discards where its alpha is below
-        /// `params.color`'s.
-        TexelDiscard = "texel_discard",
-        /// The texel of texture 0 under the fragment as source, that of texture 1 as second source.
-        TexelDualSource = "texel_dual_source",
-        /// `params.color` as integers.
-        UintColor = "uint_color",
-        /// `params.color`.
-        UniformColor = "uniform_color",
-    }
-}
-
-impl Shader {
-    /// The WGSL text: a vertex entry point `vs` and a fragment entry point `fs`. Vertex inputs are
-    /// location 0 position, 1 colour, 2 uv; group 0 holds the parameters at binding 0, textures at
-    /// bindings 1 and 2, the counter of runs at binding 3 and a sampler at binding 4.
-    pub fn wgsl(self) -> &'static str {
-        match self {
-            Self::Centroid => include_str!("../../../shaders/centroid.wgsl"),
-            Self::CountedColor => include_str!("../../../shaders/counted_color.wgsl"),
-            Self::CountedDepth => include_str!("../../../shaders/counted_depth.wgsl"),
-            Self::CountedDiscard => include_str!("../../../shaders/counted_discard.wgsl"),
-            Self::FlatColor => include_str!("../../../shaders/flat_color.wgsl"),
-            Self::FlatColorDepth => include_str!("../../../shaders/flat_color_depth.wgsl"),
-            Self::FragCoordDepth => include_str!("../../../shaders/frag_coord_depth.wgsl"),
-            Self::FrontFacing => include_str!("../../../shaders/front_facing.wgsl"),
-            Self::SampleDepth => include_str!("../../../shaders/sample_depth.wgsl"),
-            Self::SampleIndex => include_str!("../../../shaders/sample_index.wgsl"),
-            Self::SampledColor => include_str!("../../../shaders/sampled_color.wgsl"),
-            Self::TexelColor => include_str!("../../../shaders/texel_color.wgsl"),
-            Self::TexelColorAll => include_str!("../../../shaders/texel_color_all.wgsl"),
-            Self::TexelDiscard => include_str!("../../../shaders/texel_discard.wgsl"),
-            Self::TexelDualSource => include_str!("../../../shaders/texel_dual_source.wgsl"),
-            Self::UintColor => include_str!("../../../shaders/uint_color.wgsl"),
-            Self::UniformColor => include_str!("../../../shaders/uniform_color.wgsl"),
-        }
-    }
-
-    /// The WGSL text with the attribute that tells when the fragment tests happen.
-    pub fn wgsl_with(self, tests: EarlyTests) -> Cow<'static, str> {
-        let text = self.wgsl();
-        match tests.attribute() {
-            None => Cow::Borrowed(text),
-            Some(word) => {
-                let attributes = format!("@fragment @early_depth_test({word})");
-                Cow::Owned(text.replacen("@fragment", &attributes, 1))
-            }
-        }
-    }
-
-    /// How many textures the shader reads.
-    pub fn textures(self) -> usize {
-        match self {
-            Self::TexelColor
-            | Self::TexelColorAll
-            | Self::TexelDiscard
-            | Self::CountedDiscard
-            | Self::SampledColor => 1,
-            Self::TexelDualSource => 2,
-            _ => 0,
-        }
-    }
-
-    /// Whether the shader samples its texture instead of fetching single texels.
-    pub fn samples_texture(self) -> bool {
-        self == Self::SampledColor
-    }
-
-    /// Whether the fragment shader replaces the fragment's depth.
-    pub fn writes_depth(self) -> bool {
-        matches!(
-            self,
-            Self::FlatColorDepth | Self::CountedDepth | Self::FragCoordDepth | Self::SampleDepth
-        )
-    }
-
-    /// Whether the depth that the shader writes is the vertex colour's red.
-    pub fn depth_from_vertex_color(self) -> bool {
-        matches!(self, Self::FlatColorDepth | Self::CountedDepth)
-    }
-
-    /// Whether the shader may discard fragments.
-    pub fn discards(self) -> bool {
-        matches!(self, Self::TexelDiscard | Self::CountedDiscard)
-    }
-
-    /// Whether the shader counts its runs in a storage buffer.
-    pub fn counts_runs(self) -> bool {
-        matches!(
-            self,
-            Self::CountedColor | Self::CountedDepth | Self::CountedDiscard
-        )
-    }
-
-    /// Whether the shader writes integers.
-    pub fn writes_integers(self) -> bool {
-        self == Self::UintColor
-    }
-
-    /// How many colour locations the shader writes.
-    pub fn outputs(self) -> usize {
-        if self == Self::TexelColorAll { 4 } else { 1 }
-    }
-
-    /// Whether the shader gives a second source for blending.
-    pub fn has_second_source(self) -> bool {
-        self == Self::TexelDualSource
-    }
-
-    /// Whether the shader runs once per sample.
-    pub fn runs_per_sample(self) -> bool {
-        matches!(self, Self::SampleIndex | Self::SampleDepth)
-    }
-
-    /// Whether the shader reads the parameter block.
-    pub fn uses_params(self) -> bool {
-        matches!(
-            self,
-            Self::Centroid
-                | Self::CountedColor
-                | Self::CountedDepth
-                | Self::CountedDiscard
-                | Self::FlatColorDepth
-                | Self::FrontFacing
-                | Self::SampleDepth
-                | Self::TexelDiscard
-                | Self::UintColor
-                | Self::UniformColor
-        )
-    }
 }
 
 impl BlendFactor {

@@ -1,6 +1,7 @@
 //! The shape of a case file. These types parse; [`crate::scene`] computes.
 
 use crate::mesh::{MeshSource, Splat};
+use crate::methods::MethodWire;
 use crate::random::Flavor;
 use crate::relation::Invariance;
 use crate::state::{
@@ -40,6 +41,17 @@ pub(crate) struct FileWire {
     #[serde(default)]
     #[schemars(with = "RandomWire")]
     pub(crate) random: Value,
+    /// Instead of `scene`: many draws, each with a state of its own.
+    #[serde(default)]
+    #[schemars(with = "StatesWire")]
+    pub(crate) states: Value,
+    /// Instead of `scene`: a scene that is drawn by a rendering method, whose picture is held against
+    /// the truth. The file lies in `methods/<question>/<scene>.json` and has an axis `method`.
+    #[serde(default)]
+    #[schemars(with = "MethodWire")]
+    pub(crate) method: Value,
+    /// Methods only: the axis with numbers along which the methods' errors are followed.
+    pub(crate) parameter: Option<String>,
     /// Changes to the scene, each of which is drawn too.
     #[serde(default)]
     pub(crate) variants: Vec<VariantWire>,
@@ -65,6 +77,16 @@ pub(crate) struct RandomWire {
     pub(crate) flavor: Flavor,
     /// The seed.
     pub(crate) seed: u64,
+}
+
+/// A scene of many draws, each with a state and a place of its own.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StatesWire {
+    /// How many draws.
+    pub(crate) count: u32,
+    /// Width and height in texels.
+    pub(crate) size: [u32; 2],
 }
 
 /// The scene again with some changes.
@@ -100,8 +122,9 @@ pub(crate) struct RelationWire {
     pub(crate) attachments: Vec<String>,
 }
 
-/// Which cases of a product the quick profile takes: `"pairwise"`, `{ "each": n }` or `{ "first": n }`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+/// Which cases of a product the quick profile takes: `"pairwise"`, `{ "each": n }`, `{ "first": n }` or
+/// `{ "where": { axis: value } }`.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum QuickWire {
     /// So many that every two values of every two axes meet.
@@ -111,6 +134,8 @@ pub(crate) enum QuickWire {
     Each(NonZeroUsize),
     /// So many from the first on: for seeds, of which one is as good as another.
     First(NonZeroUsize),
+    /// Those in which these axes have the values of these names: for sizes that only a benchmark wants.
+    Where(BTreeMap<String, String>),
 }
 
 /// The values of an axis: a list, or so many integers from one on.
@@ -237,14 +262,18 @@ impl JsonSchema for AxisValue {
     }
 }
 
-/// A value taken from an axis, some places further on, so that two states differ in every case.
+/// A value that follows from an axis: the axis's own some places further on, so that two states differ
+/// in every case, or one of a list beside the axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DerivedWire {
     /// The axis.
     pub(crate) axis: String,
     /// How many values further on, past the end from the start again.
+    #[serde(default)]
     pub(crate) shift: usize,
+    /// As many values as the axis has, each instead of the axis's own.
+    pub(crate) values: Option<Vec<Value>>,
 }
 
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

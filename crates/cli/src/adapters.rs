@@ -1,6 +1,7 @@
 //! Which adapters there are: software drivers from the data file, hardware found by enumeration.
 
 use crate::failure::Failure;
+use crate::slower;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, StartError, Worker};
 use serde::{Deserialize, Serialize};
@@ -22,13 +23,16 @@ pub(crate) enum BackendName {
 }
 
 /// What a worker is to open.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Open {
     pub(crate) name: String,
     pub(crate) backend: BackendName,
     /// The device in the backend's own order; without it, the default one.
     pub(crate) device: Option<usize>,
+    /// How many per cent longer each frame is made to take.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) slower: Option<f64>,
 }
 
 /// A device that a backend's enumeration found.
@@ -76,7 +80,14 @@ const MANIFEST_FOLDERS: [&str; 6] = [
 
 /// Finds adapters and starts their workers; only those named, or all.
 pub(crate) fn discover(names: &[String]) -> Result<Adapters, Failure> {
-    let candidates = candidates()?;
+    let mut candidates = candidates()?;
+    for name in names {
+        if let Some(percent) = slower::percent(name)
+            && !candidates.iter().any(|c| c.name() == name)
+        {
+            candidates.push(Candidate::slower(name, percent));
+        }
+    }
     let wanted = |name: &str| names.is_empty() || names.iter().any(|n| n == name);
     for name in names {
         if !candidates.iter().any(|c| c.name() == name) {
@@ -130,6 +141,7 @@ fn candidates() -> Result<Vec<Candidate>, Failure> {
                 name: d.name,
                 backend: d.backend,
                 device: None,
+                slower: None,
             },
             environment: d.environment,
             manifests: d.manifests,
@@ -160,6 +172,7 @@ fn candidates() -> Result<Vec<Candidate>, Failure> {
                     name: device.name,
                     backend,
                     device: Some(device.device),
+                    slower: None,
                 },
                 environment: BTreeMap::new(),
                 manifests: Vec::new(),
@@ -200,6 +213,21 @@ fn quiet() -> Option<(String, String)> {
 }
 
 impl Candidate {
+    /// The rasterizer, slowed down.
+    fn slower(name: &str, percent: f64) -> Self {
+        Self {
+            open: Open {
+                name: name.to_owned(),
+                backend: BackendName::Cpu,
+                device: None,
+                slower: Some(percent),
+            },
+            environment: BTreeMap::new(),
+            manifests: Vec::new(),
+            remedy: String::new(),
+        }
+    }
+
     fn name(&self) -> &str {
         &self.open.name
     }

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[command(
     version,
     arg_required_else_help = true,
-    after_help = "Exit codes: 0 fine, 1 an unexpected bad verdict, 2 only improvements, 3 incomplete, \
+    after_help = "Exit codes: 0 fine, 1 an unexpected bad verdict or something worse in diff, 2 only improvements, 3 incomplete, \
                   4 nothing selected, 64 wrong usage or bad input."
 )]
 pub(crate) struct Arguments {
@@ -27,8 +27,12 @@ pub(crate) enum Command {
     Schema,
     /// Draw cases on adapters, judge every texel, write records and a report
     Run(RunArguments),
-    /// Make the reports of run folders anew
+    /// Make the reports of run and bench folders anew
     Report(ReportArguments),
+    /// Time the frames of cases whose pictures are right, interleaved over adapters
+    Bench(BenchArguments),
+    /// Say what became faster or slower from one bench to another
+    Diff(DiffArguments),
     /// Tell the story of one texel, operation by operation, with rule and citation
     Explain(ExplainArguments),
     /// Plant bugs in the cpu rasterizer and tell which of them the cases see
@@ -72,7 +76,7 @@ impl From<CaseProfile> for etalon_case::Profile {
     }
 }
 
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct CaseArguments {
     /// Which cases: globs over ids in which `*` also matches `/`; a plain name stands for all below
     /// it; none for all
@@ -111,10 +115,70 @@ pub(crate) struct RunArguments {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct BenchArguments {
+    #[command(flatten)]
+    pub(crate) selection: CaseArguments,
+    /// Time this adapter (repeat for several); without it, all that are found
+    #[arg(long = "adapter", value_name = "NAME")]
+    pub(crate) adapters: Vec<String>,
+    /// Where samples and reports go
+    #[arg(long, value_name = "DIR", default_value = "reports/bench-latest")]
+    pub(crate) out: PathBuf,
+    /// How often each case is prepared and timed anew, in new processes; fewer than 7 tell no difference
+    #[arg(long, value_name = "N", default_value = "12", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub(crate) rounds: u32,
+    /// How long the timed frames of a case take on an adapter in each round, about
+    #[arg(long, value_name = "S", default_value = "0.1", value_parser = parse_seconds)]
+    pub(crate) seconds: f64,
+    /// Switch off the drivers' shader caches on disk, so that each round's first frame compiles everything
+    #[arg(long)]
+    pub(crate) cold: bool,
+    /// For people or for programs
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct ReportArguments {
-    /// Run folders
+    /// Run and bench folders
     #[arg(value_name = "DIR", required = true)]
     pub(crate) folders: Vec<PathBuf>,
+}
+
+/// Which time of a bench is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DiffTime {
+    /// A frame until the device was done.
+    Wall,
+    /// A frame until the last call that submits work returned.
+    Cpu,
+    /// A frame between GPU timestamps.
+    Gpu,
+    /// Reading a frame back.
+    ReadBack,
+    /// Preparing the scene.
+    Prepare,
+    /// The first frame after preparing.
+    First,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct DiffArguments {
+    /// The bench folder to compare with
+    #[arg(value_name = "BEFORE")]
+    pub(crate) before: PathBuf,
+    /// The bench folder to judge
+    #[arg(value_name = "AFTER")]
+    pub(crate) after: PathBuf,
+    /// Which time
+    #[arg(long, value_enum, default_value = "wall")]
+    pub(crate) time: DiffTime,
+    /// Also write a page here
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) out: Option<PathBuf>,
+    /// For people or for programs
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
 }
 
 #[derive(Debug, Args)]
@@ -169,6 +233,15 @@ pub(crate) struct WorkerArguments {
     /// List the devices of a backend as JSON
     #[arg(long)]
     pub(crate) enumerate: Option<String>,
+}
+
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().unwrap_or(f64::NAN);
+    if (0.001..=30.0).contains(&seconds) {
+        Ok(seconds)
+    } else {
+        Err("seconds lie between 0.001 and 30".to_owned())
+    }
 }
 
 fn parse_texel(text: &str) -> Result<[u32; 2], String> {

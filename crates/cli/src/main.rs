@@ -5,6 +5,7 @@ mod args;
 mod commands;
 mod failure;
 mod output;
+mod slower;
 mod worker;
 
 use args::{Arguments, Command};
@@ -28,6 +29,8 @@ fn main() -> ExitCode {
         Command::Schema => commands::list::schema(),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
+        Command::Bench(arguments) => commands::bench::run(&arguments),
+        Command::Diff(arguments) => commands::diff::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Mutants(arguments) => commands::mutants::run(&arguments),
         Command::Worker(arguments) => worker::run(&arguments),

@@ -62,7 +62,11 @@ fn list_names_every_case_once_and_readably() {
 fn the_quick_profile_is_a_small_part_of_every_area() {
     let quick = lines(&["list"]);
     assert_eq!(lines(&["list", "--profile", "quick"]), quick);
-    assert!(quick.len() <= 1500, "{}", quick.len());
+    // The areas that measure are not held to the number of what is judged: their cases stand for
+    // questions, not for combinations of states.
+    let measured = |id: &&String| id.starts_with("methods/") || id.starts_with("perf/");
+    let conformance = quick.iter().filter(|id| !measured(id)).count();
+    assert!(conformance <= 1500, "{conformance}");
     let full = lines(&["list", "--profile", "full"]);
     assert!(
         quick.len() * 5 < full.len(),

@@ -9,10 +9,11 @@ use std::process::Command;
 
 /// Each crate's folder, which of ours it may use, and which graphics APIs; development dependencies
 /// are free.
-const TABLE: [(&str, &[&str], &[&str]); 13] = [
+const TABLE: [(&str, &[&str], &[&str]); 14] = [
     ("frame", &[], &[]),
     ("case", &["frame"], &[]),
     ("record", &["frame"], &[]),
+    ("stats", &[], &[]),
     ("pipeline", &["case", "frame"], &[]),
     ("reference", &["case", "frame", "pipeline"], &[]),
     ("backend", &["case", "frame"], &[]),
@@ -26,10 +27,10 @@ const TABLE: [(&str, &[&str], &[&str]); 13] = [
     ("wgpu", &["backend", "case", "frame"], &["naga", "wgpu"]),
     (
         "runner",
-        &["backend", "case", "frame", "record", "reference"],
+        &["backend", "case", "frame", "record", "reference", "stats"],
         &[],
     ),
-    ("report", &["frame", "record"], &[]),
+    ("report", &["frame", "record", "stats"], &[]),
     (
         "cli",
         &[
@@ -43,6 +44,7 @@ const TABLE: [(&str, &[&str], &[&str]); 13] = [
             "reference",
             "report",
             "runner",
+            "stats",
             "vulkan",
             "wgpu",
         ],

@@ -1,4 +1,5 @@
-//! What drawing costs: representative 16 by 16 cases, and a full screen blended sixteen times over.
+//! What drawing costs: representative 16 by 16 cases, pictures blended sixteen times over, and a million
+//! small triangles.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_backend::Backend;
@@ -11,20 +12,49 @@ const IDS: [&str; 3] = [
     "blend/factors/dst=one-minus-src-alpha/operation=add/src=src-alpha",
 ];
 
-fn overdraw() -> Scene {
+fn built(text: &str) -> Scene {
+    let file = CaseFile::parse("bench.json", text).expect("the scene parses");
+    let case = file.cases(Profile::Full).next().expect("one case").build();
+    case.expect("the scene builds").scene
+}
+
+/// A million triangles of 2 by 1 texels, twice over 1280 by 720 texels, with a depth test.
+fn small_triangles() -> Scene {
+    let mut scene = built(
+        r#"{"about":"b","spec":["b"],"scene":{"attachments":{"color":{"format":"rgba8unorm","size":[1280,720]},
+        "depth":{"format":"depth32float","clear":1}},
+        "passes":[{"color":["color"],"depth_stencil":"depth","draws":[{"mesh":{"kind":"cover"},"shader":"flat_color",
+        "depth":{"compare":"less-equal","write":true}}]}],"read":["color"]}}"#,
+    );
+    let mesh = &mut scene.passes[0].draws[0].mesh;
+    let first = mesh.vertices[0];
+    mesh.indices = None;
+    mesh.vertices = (0..1_000_000_u32)
+        .flat_map(|i| {
+            let (x, y) = ((i % 640) as f32 * 2.0, (i / 640 % 720) as f32);
+            let at = |dx: f32, dy: f32| {
+                let mut vertex = first;
+                let clip = |v: f32, size: f32| v / size * 2.0 - 1.0;
+                vertex.position = [clip(x + dx, 1280.0), -clip(y + dy, 720.0), 0.5, 1.0];
+                vertex
+            };
+            [at(0.0, 0.0), at(0.0, 1.5), at(2.5, 0.0)]
+        })
+        .collect();
+    scene
+}
+
+fn overdraw([width, height]: [u32; 2]) -> Scene {
     let part = r#"{"operation":"add","src_factor":"src-alpha","dst_factor":"one-minus-src-alpha"}"#;
     let draw = format!(
         r#"{{"mesh":{{"kind":"vertices","positions":[[-1,-1,0],[1,-1,0],[1,1,0],[-1,-1,0],[1,1,0],[-1,1,0]]}},
         "shader":"uniform_color","params":{{"color":[0.2,0.4,0.6,0.25]}},"blend":{{"color":{part},"alpha":{part}}}}}"#
     );
-    let text = format!(
-        r#"{{"about":"b","spec":["b"],"scene":{{"attachments":{{"color":{{"format":"rgba8unorm","size":[1280,720]}}}},
+    built(&format!(
+        r#"{{"about":"b","spec":["b"],"scene":{{"attachments":{{"color":{{"format":"rgba8unorm","size":[{width},{height}]}}}},
         "passes":[{{"color":["color"],"draws":[{}]}}],"read":["color"]}}}}"#,
         vec![draw; 16].join(",")
-    );
-    let file = CaseFile::parse("overdraw.json", &text).expect("the scene parses");
-    let case = file.cases(Profile::Full).next().expect("one case").build();
-    case.expect("the scene builds").scene
+    ))
 }
 
 fn raster(c: &mut Criterion) {
@@ -43,7 +73,9 @@ fn raster(c: &mut Criterion) {
         let case = reference.build().expect("a built-in case builds");
         bench(id.split('=').next().unwrap_or(id), &case.scene, 100);
     }
-    bench("1280x720, 16 blended quads", &overdraw(), 10);
+    bench("128x128, 16 blended quads", &overdraw([128, 128]), 50);
+    bench("1280x720, 16 blended quads", &overdraw([1280, 720]), 10);
+    bench("1280x720, 1000000 small triangles", &small_triangles(), 10);
 }
 
 criterion_group!(benches, raster);

@@ -136,8 +136,11 @@ impl<S: Steps> Prepared for PreparedScene<S> {
             }
             for (source, target) in pass.color.iter().zip(&pass.resolve) {
                 if let Some(target) = target {
-                    let source = self.surfaces[*source].clone();
-                    self.surfaces[*target].resolve_from(&source, &self.steps);
+                    let both = self.surfaces.get_disjoint_mut([*source, *target]);
+                    let [source, target] = both.map_err(|_| {
+                        BackendError::Internal("an attachment is resolved to itself".to_owned())
+                    })?;
+                    target.resolve_from(source, &self.steps);
                 }
             }
         }

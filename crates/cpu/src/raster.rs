@@ -1,9 +1,9 @@
 //! Primitives to spans.
 
-use crate::SUB_PIXEL_BITS;
 use crate::span::{Counted, LANES, Span, SpanState};
 use crate::steps::{Mask, Steps};
 use crate::surface::Surface;
+use crate::{SAMPLES, SUB_PIXEL_BITS};
 use etalon_case::scene::{Draw, Pass};
 use etalon_case::state::PolygonMode;
 use etalon_case::{Primitive, Scene};
@@ -15,6 +15,9 @@ use etalon_pipeline::{
 
 /// Sub-texel units per texel.
 const UNITS: i64 = 1 << SUB_PIXEL_BITS;
+
+/// The most samples of a texel.
+const MOST_SAMPLES: usize = SAMPLES[SAMPLES.len() - 1] as usize;
 
 #[derive(Clone, Copy)]
 struct Vertex {
@@ -40,35 +43,49 @@ impl Linear {
     }
 }
 
-/// Window depth of a primitive, and whether near and far plane leave it.
-struct Depths {
+/// What is linear over a primitive, its window depth first, and what clipping leaves of it.
+struct Planes {
     window: DepthPlane,
+    /// Texture coordinates, where the shader reads them.
+    uv: Option<[Linear; 2]>,
     clip: DepthPlane,
     range: [f32; 2],
     clip_range: [f64; 2],
     bias: f64,
     clamp: Option<[f32; 2]>,
     clips: bool,
+    /// Whether some of it may lie outside of the viewport.
+    leaves: bool,
     /// Left, top, right and bottom of the viewport in sub-texel units.
     viewport: [i64; 4],
 }
 
-impl Depths {
+impl Planes {
     fn new(draw: &Draw, points: [Point; 3], vertices: [Vertex; 3], bias: f64, wide: bool) -> Self {
         let z = vertices.map(|v| v.z);
         let clip_z = vertices.map(|v| v.clip_z);
         let [near, far] = draw.viewport.depth;
         let [x, y, w, h] = draw.viewport.area();
+        let viewport = [x, y, x + w, y + h].map(|v| (v * UNITS as f32).ceil() as i64);
+        let [left, top, right, bottom] = viewport;
+        let inside = |p: &Point| (left..right).contains(&p.x) && (top..bottom).contains(&p.y);
         let out = clip_z.iter().any(|z| !(0.0..=1.0).contains(z));
         Self {
             window: DepthPlane::new(points, z.map(f64::from)),
             clip: DepthPlane::new(points, clip_z.map(f64::from)),
+            uv: draw.shader.uses_uv().then(|| {
+                [0, 1].map(|axis| {
+                    let values = vertices.map(|v| f64::from(v.uv[axis]));
+                    Linear(DepthPlane::new(points, values))
+                })
+            }),
             clip_range: ends(clip_z).map(f64::from),
             range: ends(z),
             bias,
             clamp: draw.depth_clamp.then_some([near.min(far), near.max(far)]),
             clips: out && !draw.depth_clamp,
-            viewport: [x, y, x + w, y + h].map(|v| (v * UNITS as f32).ceil() as i64),
+            leaves: wide || !points.iter().all(inside),
+            viewport,
         }
         .reaching(points, wide)
     }
@@ -99,10 +116,12 @@ impl Depths {
 
     /// Takes texels out of a mask that the viewport's edges, the near or the far plane clip away.
     fn clip(&self, mask: &mut Mask, x: usize, y: usize, sample: Point) {
-        let [left, top, right, bottom] = self.viewport;
-        for (lane, covered) in mask.iter_mut().enumerate() {
-            let at = position(x + lane, y, sample);
-            *covered &= (left..right).contains(&at.x) && (top..bottom).contains(&at.y);
+        if self.leaves {
+            let [left, top, right, bottom] = self.viewport;
+            for (lane, covered) in mask.iter_mut().enumerate() {
+                let at = position(x + lane, y, sample);
+                *covered &= (left..right).contains(&at.x) && (top..bottom).contains(&at.y);
+            }
         }
         if self.clips {
             for (lane, covered) in mask.iter_mut().enumerate() {
@@ -179,16 +198,16 @@ pub(crate) fn draw<S: Steps>(
             Primitive::Point(i) => {
                 let v = vertices[i];
                 let bias = line_bias(draw, [v.at; 3], [v.z; 3], encoding, steps);
-                let depths = Depths::new(draw, [v.at; 3], [v; 3], bias, true);
-                point(v, front, &depths, &samples, bounds, &mut state);
+                let planes = Planes::new(draw, [v.at; 3], [v; 3], bias, true);
+                point(v, front, &planes, &samples, bounds, &mut state);
             }
             Primitive::Line(ends) => {
                 let ends = ends.map(|i| vertices[i]);
                 let [a, b] = ends;
                 let points = [a.at, b.at, a.at];
                 let bias = line_bias(draw, points, [a.z, b.z, a.z], encoding, steps);
-                let depths = Depths::new(draw, points, [a, b, a], bias, true);
-                line(ends, front, &depths, samples.len(), bounds, &mut state);
+                let planes = Planes::new(draw, points, [a, b, a], bias, true);
+                line(ends, front, &planes, samples.len(), bounds, &mut state);
             }
             Primitive::Triangle(triangle) => {
                 let corners = triangle.map(|i| vertices[i]);
@@ -201,7 +220,7 @@ pub(crate) fn draw<S: Steps>(
                     continue;
                 };
                 let bias = depth_bias(draw, points, corners.map(|v| v.z), encoding, steps);
-                let depths = Depths::new(
+                let planes = Planes::new(
                     draw,
                     points,
                     corners,
@@ -214,20 +233,13 @@ pub(crate) fn draw<S: Steps>(
                             triangle: &snapped,
                             front,
                             color: corners[0].color,
-                            uv: draw.shader.samples_texture().then(|| {
-                                let plane = |axis: usize| {
-                                    let values = corners.map(|v| f64::from(v.uv[axis]));
-                                    Linear(DepthPlane::new(points, values))
-                                };
-                                [plane(0), plane(1)]
-                            }),
                         };
-                        fill(&inside, &depths, &samples, bounds, &mut state);
+                        fill(&inside, &planes, &samples, bounds, &mut state);
                     }
                     PolygonMode::Line => {
                         for (i, j) in [(0, 1), (1, 2), (2, 0)] {
                             let ends = [corners[i], corners[j]];
-                            line(ends, front, &depths, samples.len(), bounds, &mut state);
+                            line(ends, front, &planes, samples.len(), bounds, &mut state);
                         }
                     }
                 }
@@ -291,13 +303,12 @@ struct Inside<'a> {
     triangle: &'a SnappedTriangle,
     front: bool,
     color: [f32; 4],
-    uv: Option<[Linear; 2]>,
 }
 
 /// Runs the spans of a triangle's inside.
 fn fill<S: Steps>(
     inside: &Inside<'_>,
-    depths: &Depths,
+    planes: &Planes,
     samples: &[Point],
     bounds: Bounds,
     state: &mut SpanState<'_, S>,
@@ -313,29 +324,40 @@ fn fill<S: Steps>(
     };
     let (left, right) = bound(|p| p.x, bounds[0], bounds[2]);
     let (top, bottom) = bound(|p| p.y, bounds[1], bounds[3]);
-    let mut masks = vec![[false; LANES]; samples.len()];
+    // As many as there can be samples.
+    let mut all = [[false; LANES]; MOST_SAMPLES];
+    let masks = &mut all[..samples.len().min(MOST_SAMPLES)];
     for y in top..bottom {
         for x in (left / LANES * LANES..right).step_by(LANES) {
             let mut any = false;
             for (mask, sample) in masks.iter_mut().zip(samples) {
                 let edges = triangle.edges_at(position(x, y, *sample));
-                *mask = std::array::from_fn(|lane| {
-                    let step = lane as i64 * UNITS;
-                    let inside = x + lane >= left && x + lane < right;
-                    inside && edges.iter().all(|(value, dx)| value + dx * step >= 0)
-                });
-                depths.clip(mask, x, y, *sample);
+                // An edge function is linear: its ends tell where it has one sign all along.
+                let last = |(value, dx): &(i64, i64)| value + dx * (LANES as i64 - 1) * UNITS;
+                if edges.iter().any(|edge| edge.0 < 0 && last(edge) < 0) {
+                    *mask = [false; LANES];
+                    continue;
+                }
+                let whole = edges.iter().all(|edge| edge.0 >= 0 && last(edge) >= 0);
+                *mask = std::array::from_fn(|lane| x + lane >= left && x + lane < right);
+                if !whole {
+                    for (lane, covered) in mask.iter_mut().enumerate() {
+                        let step = lane as i64 * UNITS;
+                        *covered &= edges.iter().all(|(value, dx)| value + dx * step >= 0);
+                    }
+                }
+                planes.clip(mask, x, y, *sample);
                 any |= mask.contains(&true);
             }
             if any {
                 state.run(&Span {
                     x,
                     y,
-                    masks: &masks,
+                    masks,
                     front: inside.front,
                     color: inside.color,
-                    depth: &|sample| depths.at(x, y, samples[sample]),
-                    uv: inside.uv,
+                    depth: &|sample| planes.at(x, y, samples[sample]),
+                    uv: planes.uv,
                 });
             }
         }
@@ -346,7 +368,7 @@ fn fill<S: Steps>(
 fn point<S: Steps>(
     vertex: Vertex,
     front: bool,
-    depths: &Depths,
+    planes: &Planes,
     samples: &[Point],
     bounds: Bounds,
     state: &mut SpanState<'_, S>,
@@ -364,7 +386,7 @@ fn point<S: Steps>(
                 inside(vertex.at.x, at.x) && inside(vertex.at.y, at.y)
             };
             let masks: Vec<bool> = samples.iter().map(covered).collect();
-            texel((x, y), &masks, front, vertex.color, depths, bounds, state);
+            texel((x, y), &masks, front, vertex.color, planes, bounds, state);
         }
     }
 }
@@ -374,7 +396,7 @@ fn point<S: Steps>(
 fn line<S: Steps>(
     ends: [Vertex; 2],
     front: bool,
-    depths: &Depths,
+    planes: &Planes,
     samples: usize,
     bounds: Bounds,
     state: &mut SpanState<'_, S>,
@@ -402,7 +424,7 @@ fn line<S: Steps>(
         let cross = cross_from + (cross_to - cross_from) * along / (to - from);
         let cross = cross.div_euclid(UNITS);
         let at = if steep { (cross, cell) } else { (cell, cross) };
-        texel(at, &masks, front, a.color, depths, bounds, state);
+        texel(at, &masks, front, a.color, planes, bounds, state);
     }
 }
 
@@ -411,7 +433,7 @@ fn texel<S: Steps>(
     samples: &[bool],
     front: bool,
     color: [f32; 4],
-    depths: &Depths,
+    planes: &Planes,
     bounds: Bounds,
     state: &mut SpanState<'_, S>,
 ) {
@@ -429,7 +451,7 @@ fn texel<S: Steps>(
         .iter()
         .map(|covered| {
             let mut mask = std::array::from_fn(|lane| *covered && start + lane == x);
-            depths.clip(&mut mask, start, y, center);
+            planes.clip(&mut mask, start, y, center);
             mask
         })
         .collect();
@@ -439,7 +461,7 @@ fn texel<S: Steps>(
         masks: &masks,
         front,
         color,
-        depth: &|_| depths.at(start, y, center),
-        uv: None,
+        depth: &|_| planes.at(start, y, center),
+        uv: planes.uv,
     });
 }

@@ -54,7 +54,10 @@ fn weighted(surface: &Surface, sampler: Sampler, at: [f32; 2]) -> [f32; 4] {
         let texel = tap(
             surface,
             sampler,
-            [first[0] as i64 + dx, first[1] as i64 + dy],
+            [
+                (first[0] as i64).saturating_add(dx),
+                (first[1] as i64).saturating_add(dy),
+            ],
         );
         for (sum, value) in sum.iter_mut().zip(texel) {
             *sum += value * share;

@@ -6,9 +6,9 @@ use crate::steps::{Codes, Mask, Path, Real, Steps, Tests};
 use crate::surface::Surface;
 use etalon_case::Scene;
 use etalon_case::scene::{Draw, Pass, StencilFace};
-use etalon_case::state::EarlyTests;
+use etalon_case::state::{EarlyTests, Shader};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
-use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
+use etalon_pipeline::shader::{FragmentInput, FragmentOutput, cost, fragment};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, takes_logic};
 
 /// Texels of a span.
@@ -24,7 +24,7 @@ pub(crate) struct Span<'a> {
     pub(crate) color: [f32; 4],
     /// Window depths at one sample.
     pub(crate) depth: &'a dyn Fn(usize) -> Real,
-    /// Texture coordinates, where the draw samples a texture.
+    /// Texture coordinates, where the shader reads them.
     pub(crate) uv: Option<[Linear; 2]>,
 }
 
@@ -37,10 +37,18 @@ pub(crate) struct SpanState<'a, S> {
     /// Whether each target obeys logic operations.
     logic: Vec<bool>,
     size: [u32; 2],
+    /// Whether the tests come before the shader: where that is forced, and where nobody could tell but
+    /// by the time.
+    early: bool,
+    /// Whether anyone asks for the fragment's own depth.
+    asks_depth: bool,
     surfaces: &'a mut [Surface],
     counters: &'a mut [Counted],
     steps: &'a S,
 }
+
+/// Texels of which an expensive shader's work is done side by side.
+const TOGETHER: usize = 4;
 
 /// A counter and how far it has come.
 pub(crate) type Counted = (CounterKind, u64);
@@ -77,6 +85,39 @@ fn four(channels: &[ChannelEncoding]) -> [ChannelEncoding; 4] {
     })
 }
 
+/// Whether a draw's fragment tests come before its shader: where they are forced to, and where the
+/// result is the same.
+fn tests_early(draw: &Draw) -> bool {
+    let shader = draw.shader;
+    let same = !(shader.discards()
+        || shader.writes_depth()
+        || shader.counts_runs()
+        || draw.multisample.alpha_to_coverage);
+    same || draw.early_tests == EarlyTests::Forced
+}
+
+/// Whether a shader may read its fragment's depth.
+fn reads_depth(shader: Shader) -> bool {
+    !matches!(
+        shader,
+        Shader::ExpensiveColor
+            | Shader::FlatColor
+            | Shader::SampledColor
+            | Shader::SampledDiscard
+            | Shader::TexelColor
+            | Shader::TexelColorAll
+            | Shader::TexelDiscard
+            | Shader::UniformColor
+    )
+}
+
+fn is_expensive(shader: Shader) -> bool {
+    matches!(
+        shader,
+        Shader::ExpensiveColor | Shader::ExpensiveDepth | Shader::ExpensiveDiscard
+    )
+}
+
 impl<'a, S: Steps> SpanState<'a, S> {
     pub(crate) fn new(
         scene: &Scene,
@@ -102,6 +143,10 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 .map(|index| takes_logic(format(*index)))
                 .collect(),
             size: scene.pass_size(pass),
+            early: tests_early(draw),
+            asks_depth: draw.depth.is_some()
+                || draw.depth_bounds.is_some()
+                || reads_depth(draw.shader),
             surfaces,
             counters,
             steps,
@@ -115,10 +160,10 @@ impl<'a, S: Steps> SpanState<'a, S> {
 
     /// Shades, tests, blends and stores a span.
     pub(crate) fn run(&mut self, span: &Span<'_>) {
-        let texels = [self.texel(span, 0), self.texel(span, 1)];
         let per_sample = self.steps.runs_per_sample(self.draw.shader);
-        let early = self.draw.early_tests == EarlyTests::Forced;
         let mut shaded: Option<FragmentOutput<Real>> = None;
+        // The depth that a shader sees that stands for all samples: the first one's that is covered.
+        let mut seen: Option<Real> = None;
         let mut ran = [false; LANES];
         for sample in 0..span.masks.len() {
             let mut mask = self
@@ -127,31 +172,34 @@ impl<'a, S: Steps> SpanState<'a, S> {
             if self.draw.multisample.mask & (1 << sample) == 0 || !mask.contains(&true) {
                 continue;
             }
-            let own_depth = (span.depth)(self.steps.depth_sample(sample, span.masks.len()));
-            if early {
+            let own_depth = if self.asks_depth {
+                (span.depth)(self.steps.depth_sample(sample, span.masks.len()))
+            } else {
+                [0.0; LANES]
+            };
+            let first_depth = *seen.get_or_insert(own_depth);
+            if self.early {
                 mask = self.test_and_store(span, sample, own_depth, mask);
                 self.count_passed(mask);
+                if !mask.contains(&true) {
+                    continue;
+                }
             }
+            let new = if per_sample { mask } else { and_not(mask, ran) };
             ran = or(ran, mask);
             // A shader that does not ask for the sample runs once; its depth is a sample's own only
             // where it writes none.
-            let output = match shaded {
+            let mut output = match shaded {
                 Some(output) if !per_sample => output,
                 _ => {
-                    let input = FragmentInput {
-                        color: span.color.map(|v| [v; LANES]),
-                        front: span.front,
-                        depth: own_depth,
-                        sample: sample as u32,
-                        texels,
-                        params: &self.draw.params,
-                    };
-                    fragment(&mut Plain::<LANES>, self.draw.shader, &input)
+                    let depth = if per_sample { own_depth } else { first_depth };
+                    self.shade(span, sample, depth)
                 }
             };
+            self.labour(span, new, &mut output);
             shaded = Some(output);
-            if let Some([value, limit]) = output.kept {
-                mask = and(mask, self.steps.kept(value, limit));
+            if let Some(kept) = &output.kept {
+                mask = and(mask, self.steps.kept(kept));
             }
             if self.draw.multisample.alpha_to_coverage {
                 let covers = self
@@ -159,14 +207,50 @@ impl<'a, S: Steps> SpanState<'a, S> {
                     .alpha_covers(output.color[3], sample, span.masks.len());
                 mask = and(mask, covers);
             }
-            if !early {
+            if !self.early {
                 let depth = output.depth.unwrap_or(own_depth);
                 mask = self.test_and_store(span, sample, depth, mask);
                 self.count_passed(mask);
             }
-            self.write_colors(span, sample, &output, mask);
+            if mask.contains(&true) {
+                self.write_colors(span, sample, &output, mask);
+            }
         }
         self.count(|kind| !kind.is_occlusion(), ran);
+    }
+
+    /// Runs the fragment shader, but for the work that it is slow for.
+    fn shade(&self, span: &Span<'_>, sample: usize, depth: Real) -> FragmentOutput<Real> {
+        let input = FragmentInput {
+            color: span.color.map(|v| [v; LANES]),
+            front: span.front,
+            depth,
+            sample: sample as u32,
+            texels: [self.texel(span, 0), self.texel(span, 1)],
+            uv: self.uv(span),
+            params: &self.draw.params,
+        };
+        fragment(&mut Plain::<LANES>, self.draw.shader, &input)
+    }
+
+    /// Does the work of an expensive shader for the texels that it runs for, so that times tell how often
+    /// it ran.
+    fn labour(&self, span: &Span<'_>, mask: Mask, output: &mut FragmentOutput<Real>) {
+        let steps = self.draw.params.back_color[0];
+        if !is_expensive(self.draw.shader) {
+            return;
+        }
+        let lanes = mask.iter().enumerate().filter(|(_, set)| **set);
+        let columns: Vec<u32> = lanes.map(|(lane, _)| (span.x + lane) as u32).collect();
+        for some in columns.chunks(TOGETHER) {
+            // What is left over does the work of the last one again beside it, in the same time.
+            let at: [u32; TOGETHER] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
+            let zeros = cost(at, span.y as u32, steps);
+            for (x, zero) in some.iter().zip(zeros) {
+                let lane = *x as usize - span.x;
+                output.color.iter_mut().for_each(|c| c[lane] += zero);
+            }
+        }
     }
 
     fn count_passed(&mut self, passed: Mask) {
@@ -185,6 +269,16 @@ impl<'a, S: Steps> SpanState<'a, S> {
 
     fn at(&self, index: usize, span: &Span<'_>) -> usize {
         span.y * self.surfaces[index].stride + span.x
+    }
+
+    /// The texture coordinates of a span's texels.
+    fn uv(&self, span: &Span<'_>) -> [Real; 2] {
+        match &span.uv {
+            Some(planes) => planes
+                .each_ref()
+                .map(|plane| plane.at_centers(span.x, span.y)),
+            None => [[0.0; LANES]; 2],
+        }
     }
 
     fn texel(&self, span: &Span<'_>, t: usize) -> [Real; 4] {
@@ -314,15 +408,15 @@ impl<'a, S: Steps> SpanState<'a, S> {
         output: &FragmentOutput<Real>,
         mask: Mask,
     ) {
-        let mut color = output.color;
         let second = output.second.unwrap_or([[0.0; LANES]; 4]);
         let second = self.steps.second_source(&self.draw.multisample, second);
-        if self.draw.multisample.alpha_to_one {
-            color[3] = [1.0; LANES];
-        }
         let seen = self.steps.stored_sample(Aspect::Color, sample);
         for (t, index) in self.pass.color.iter().enumerate() {
             let target = &self.draw.targets[t];
+            let mut color = output.at_location(t);
+            if self.draw.multisample.alpha_to_one {
+                color[3] = [1.0; LANES];
+            }
             let encodings = self.encodings[t];
             let at = self.at(*index, span);
             let surface = &mut self.surfaces[*index];

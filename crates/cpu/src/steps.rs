@@ -12,6 +12,7 @@ use etalon_case::state::{
     StencilOperation,
 };
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
+use etalon_pipeline::shader::Kept;
 use etalon_pipeline::{
     Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
 };
@@ -88,8 +89,13 @@ pub(crate) trait Steps {
 
     /// Where a shader that may discard keeps its fragments.
     #[inline(always)]
-    fn kept(&self, value: Real, limit: Real) -> Mask {
-        std::array::from_fn(|i| value[i] >= limit[i])
+    fn kept(&self, kept: &Kept<Real>) -> Mask {
+        let (value, limit) = (kept.value, kept.limit);
+        if kept.strict {
+            std::array::from_fn(|i| value[i] > limit[i])
+        } else {
+            std::array::from_fn(|i| value[i] >= limit[i])
+        }
     }
 
     /// What a counter adds for a span of samples that passed, or of texels whose shader ran.

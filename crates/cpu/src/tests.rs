@@ -47,3 +47,65 @@ fn a_slanted_triangle_has_depths_between_its_vertices() {
         assert!((at(x) - due).abs() < 1e-6, "{x}: {} for {due}", at(x));
     }
 }
+
+/// Three layers over the whole picture, nearest first, under a depth test, with one shader; how many
+/// fragments were shaded, and the picture.
+fn layers(shader: &str) -> (u64, Vec<u32>) {
+    let layer = |z: f32, color: &str| {
+        format!(
+            r#"{{"mesh":{{"kind":"full","value":{color},"z":{z}}},"shader":"{shader}",
+            "params":{{"back_color":[20,0,0,0]}},"counters":["shaded"],"depth":{{"compare":"less","write":true}}}}"#
+        )
+    };
+    let all = [
+        layer(0.25, "[1,0,0,1]"),
+        layer(0.5, "[0,1,0,1]"),
+        layer(0.75, "[0,0,1,1]"),
+    ];
+    let frame = frame(&format!(
+        r#"{{"about":"t","spec":["t"],"scene":{{
+        "attachments":{{"color":{{"format":"rgba8unorm","size":[20,8]}},"depth":{{"format":"depth32float","clear":1}}}},
+        "counters":{{"shaded":"fragment-invocations"}},
+        "passes":[{{"color":["color"],"depth_stencil":"depth","draws":[{}]}}],"read":["color"]}}}}"#,
+        all.join(",")
+    ));
+    (frame.counters[0], frame.images[0].codes.clone())
+}
+
+#[test]
+fn hidden_fragments_are_shaded_only_where_the_shader_may_change_what_the_tests_see() {
+    let (early, picture) = layers("expensive_color");
+    assert_eq!(early, 20 * 8);
+    assert_eq!(picture, [255, 0, 0, 255].repeat(20 * 8));
+    for shader in ["expensive_depth", "expensive_discard"] {
+        assert_eq!(layers(shader), (3 * 20 * 8, picture.clone()), "{shader}");
+    }
+}
+
+#[test]
+fn each_location_gets_its_own_colour() {
+    let frame = frame(
+        r#"{"about":"t","spec":["t"],"scene":{
+        "attachments":{"a":{"format":"rgba8unorm","size":[4,4]},"b":{"format":"rgba8unorm","size":[4,4]},
+        "before":{"format":"rgba32float","size":[4,4]}},
+        "passes":[{"color":["a","b"],"draws":[{"mesh":{"kind":"full","value":[0,0,1,0],"z":1},"shader":"peel",
+        "textures":["before"]}]}],"read":["a","b"]}}"#,
+    );
+    assert_eq!(frame.images[0].sample(1, 1, 0), [0, 0, 255, 0]);
+    assert_eq!(frame.images[1].sample(1, 1, 0), [255, 0, 0, 255]);
+}
+
+#[test]
+fn texture_coordinates_reach_shaders_that_read_them_as_numbers() {
+    let frame = frame(
+        r#"{"about":"t","spec":["t"],"scene":{
+        "attachments":{"color":{"format":"rgba32float","size":[16,4]}},
+        "passes":[{"color":["color"],"draws":[{"mesh":{"kind":"vertices","positions":[[-1,-1,0],[3,-1,0],[-1,3,0]],
+        "values":[[1,1,1,1]],"uv":[[-0.5,0],[1.5,0],[-0.5,0]]},"shader":"edge_alpha"}]}],"read":["color"]}}"#,
+    );
+    for x in 0..16 {
+        let alpha = f32::from_bits(frame.images[0].sample(x, 2, 0)[3]);
+        let due = (x as f32 + 0.5) / 16.0;
+        assert!((alpha - due).abs() < 1e-6, "{x}: {alpha} for {due}");
+    }
+}

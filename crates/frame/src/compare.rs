@@ -1,5 +1,6 @@
 //! A frame held against its legal set and the yardstick.
 
+use crate::accuracy::{Accuracy, Distances};
 use crate::counter::CounterOutcome;
 use crate::format::{Aspect, ChannelEncoding};
 use crate::image::{Frame, FrameError};
@@ -67,7 +68,7 @@ pub struct TexelCounts {
 }
 
 /// The outcome of [`compare`].
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Comparison {
     /// Counts over all samples.
     pub texels: TexelCounts,
@@ -75,6 +76,8 @@ pub struct Comparison {
     pub wrong: Vec<WrongTexel>,
     /// Every counter.
     pub counters: Vec<CounterOutcome>,
+    /// How far the frame lies from the yardstick's middle, per aspect that was read back.
+    pub accuracy: Vec<Accuracy>,
 }
 
 impl Comparison {
@@ -113,6 +116,7 @@ pub fn compare(
             .enumerate()
             .filter(|(_, i)| i.group == g)
             .collect();
+        let mut distances = Distances::new(&images);
         for y in 0..group.size[1] {
             for x in 0..group.size[0] {
                 for sample in 0..group.samples {
@@ -128,6 +132,7 @@ pub fn compare(
                     }
                     let allowed = group.sample(x, y, sample);
                     let tight = yardstick.groups[g].sample(x, y, sample);
+                    distances.add(tight, &orders);
                     result.texels.total += 1;
                     result.texels.open += u64::from(allowed.is_open());
                     let describe = |band, set: &TexelSet| WrongTexel {
@@ -151,6 +156,7 @@ pub fn compare(
                 }
             }
         }
+        distances.into(&mut result.accuracy);
     }
     for ((set, tight), actual) in legal
         .counters

@@ -107,6 +107,23 @@ impl TextureFormat {
         }
     }
 
+    /// Bytes of one texel, all aspects together and without padding (WebGPU section 26.1, texel block
+    /// copy footprints; `depth24plus` as most devices store it).
+    pub fn texel_bytes(self) -> u32 {
+        match self {
+            Self::R8Unorm | Self::Stencil8 => 1,
+            Self::Rg8Unorm
+            | Self::B5g6r5Unorm
+            | Self::Bgr5a1Unorm
+            | Self::Bgra4Unorm
+            | Self::Depth16Unorm => 2,
+            Self::Depth32FloatStencil8 => 5,
+            Self::Rgba16Float => 8,
+            Self::Rgba32Float => 16,
+            _ => 4,
+        }
+    }
+
     /// Whether texels are colours.
     pub fn is_color(self) -> bool {
         !self.has_depth() && !self.has_stencil()

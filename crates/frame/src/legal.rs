@@ -331,6 +331,18 @@ impl LegalSetBuilder {
         target.index.push(at);
     }
 
+    /// Adds the next samples of a group, so many, of which nothing is asserted.
+    pub fn open(&mut self, group: usize, count: u64) {
+        if count == 0 {
+            return;
+        }
+        self.sample(group, TexelSet::default());
+        let index = &mut self.groups[group].index;
+        if let Some(last) = index.last().copied() {
+            index.resize(index.len() + count as usize - 1, last);
+        }
+    }
+
     /// Adds a counter.
     pub fn counter(&mut self, counter: CounterSet) {
         self.counters.push(counter);

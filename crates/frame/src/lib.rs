@@ -5,8 +5,10 @@
 //! ([`Frame`]), what an adapter can do ([`Limits`], [`Feature`]), what the rules allow
 //! ([`LegalSet`]) and how the last two are held against each other ([`compare`]).
 
+mod accuracy;
 mod compare;
 mod counter;
+mod distance;
 mod format;
 mod image;
 mod legal;
@@ -14,8 +16,11 @@ mod limits;
 mod samples;
 mod story;
 
+pub use accuracy::Accuracy;
 pub use compare::{Band, ChannelMismatch, Comparison, TexelCounts, WrongTexel, compare};
+
 pub use counter::{CountRange, CounterKind, CounterOutcome, CounterSet};
+pub use distance::Distance;
 pub use format::{Aspect, ChannelEncoding, TextureFormat, linear_to_srgb, srgb_to_linear};
 pub use image::{Frame, FrameError, Image, ReadPath};
 pub use legal::{

@@ -22,12 +22,25 @@ pub trait Arithmetic {
     fn sub(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
     /// Product.
     fn mul(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
-    /// Quotient by a value that is not zero.
+    /// Quotient; by zero it is infinite or no number.
     fn div(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
     /// The smaller of two.
     fn min(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
     /// The larger of two.
     fn max(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
+
+    /// A result that a shader computed, at the precision of shaders.
+    fn rounded(&mut self, value: Self::Real) -> Self::Real;
+    /// The binary logarithm as a shader computes it.
+    fn log2(&mut self, value: Self::Real) -> Self::Real;
+    /// The third where the first is less than the second, else the fourth.
+    fn select_less(
+        &mut self,
+        a: Self::Real,
+        b: Self::Real,
+        less: Self::Real,
+        otherwise: Self::Real,
+    ) -> Self::Real;
 
     /// A window coordinate computed by the viewport transform, in texels of an axis so long.
     fn window_coordinate(&mut self, value: Self::Real, length: f32) -> Self::Real;

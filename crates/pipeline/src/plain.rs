@@ -17,9 +17,23 @@ static SRGB: LazyLock<[f32; 256]> = LazyLock::new(|| {
     std::array::from_fn(|c| ChannelEncoding::Srgb8.value_of_order(c as i64) as f32)
 });
 
+/// Lane by lane, in a plain loop: what the standard library builds arrays with is not always inlined here.
+#[inline(always)]
+fn each<const N: usize, T: Copy, U: Copy + Default>(values: [T; N], f: impl Fn(T) -> U) -> [U; N] {
+    let mut result = [U::default(); N];
+    for (result, value) in result.iter_mut().zip(values) {
+        *result = f(value);
+    }
+    result
+}
+
 #[inline(always)]
 fn zip<const N: usize>(a: [f32; N], b: [f32; N], f: impl Fn(f32, f32) -> f32) -> [f32; N] {
-    std::array::from_fn(|i| f(a[i], b[i]))
+    let mut result = a;
+    for (result, b) in result.iter_mut().zip(b) {
+        *result = f(*result, b);
+    }
+    result
 }
 
 impl<const N: usize> Arithmetic for Plain<N> {
@@ -62,6 +76,27 @@ impl<const N: usize> Arithmetic for Plain<N> {
     }
 
     #[inline(always)]
+    fn rounded(&mut self, value: [f32; N]) -> [f32; N] {
+        value
+    }
+
+    #[inline(always)]
+    fn log2(&mut self, value: [f32; N]) -> [f32; N] {
+        each(value, f32::log2)
+    }
+
+    #[inline(always)]
+    fn select_less(
+        &mut self,
+        a: [f32; N],
+        b: [f32; N],
+        less: [f32; N],
+        otherwise: [f32; N],
+    ) -> [f32; N] {
+        std::array::from_fn(|i| if a[i] < b[i] { less[i] } else { otherwise[i] })
+    }
+
+    #[inline(always)]
     fn window_coordinate(&mut self, value: [f32; N], _length: f32) -> [f32; N] {
         value
     }
@@ -76,22 +111,24 @@ impl<const N: usize> Arithmetic for Plain<N> {
         match encoding {
             ChannelEncoding::Unorm(bits) if bits <= 16 => {
                 let scale = encoding.max_order() as f32;
-                code.map(|c| c as f32 / scale)
+                each(code, |c| c as f32 / scale)
             }
             ChannelEncoding::Unorm(_) => {
                 let scale = encoding.max_order() as f64;
-                code.map(|c| (f64::from(c) / scale) as f32)
+                each(code, |c| (f64::from(c) / scale) as f32)
             }
             ChannelEncoding::Snorm(_) => {
                 let scale = encoding.max_order() as f32;
-                code.map(|c| (encoding.order_of_code(c) as f32 / scale).max(-1.0))
+                each(code, |c| {
+                    (encoding.order_of_code(c) as f32 / scale).max(-1.0)
+                })
             }
-            ChannelEncoding::Srgb8 => code.map(|c| SRGB[(c & 0xff) as usize]),
-            ChannelEncoding::Uint(_) => code.map(|c| c as f32),
-            ChannelEncoding::Float16 => code.map(|c| f16::from_bits(c as u16).to_f32()),
-            ChannelEncoding::Float32 => code.map(f32::from_bits),
+            ChannelEncoding::Srgb8 => each(code, |c| SRGB[(c & 0xff) as usize]),
+            ChannelEncoding::Uint(_) => each(code, |c| c as f32),
+            ChannelEncoding::Float16 => each(code, |c| f16::from_bits(c as u16).to_f32()),
+            ChannelEncoding::Float32 => each(code, f32::from_bits),
             ChannelEncoding::Ufloat(_) => {
-                code.map(|c| encoding.value_of_order(i64::from(c)) as f32)
+                each(code, |c| encoding.value_of_order(i64::from(c)) as f32)
             }
         }
     }
@@ -104,37 +141,39 @@ impl<const N: usize> Arithmetic for Plain<N> {
             ChannelEncoding::Unorm(bits) if bits <= 16 => {
                 let scale = encoding.max_order() as f32;
                 // `as` maps NaN to 0 and saturates.
-                value.map(|v| (v.clamp(0.0, 1.0) * scale + 0.5) as u32)
+                each(value, |v| (v.clamp(0.0, 1.0) * scale + 0.5) as u32)
             }
             ChannelEncoding::Unorm(_) => {
                 let scale = encoding.max_order() as f64;
-                value.map(|v| (f64::from(v.clamp(0.0, 1.0)) * scale + 0.5) as u32)
+                each(value, |v| {
+                    (f64::from(v.clamp(0.0, 1.0)) * scale + 0.5) as u32
+                })
             }
             ChannelEncoding::Snorm(_) => {
                 let scale = encoding.max_order() as f32;
-                value.map(|v| {
+                each(value, |v| {
                     let order = (v.clamp(-1.0, 1.0) * scale).round() as i64;
                     encoding.code_of_order(order)
                 })
             }
-            ChannelEncoding::Srgb8 => value.map(|v| {
+            ChannelEncoding::Srgb8 => each(value, |v| {
                 let linear = f64::from(v.clamp(0.0, 1.0));
                 (linear_to_srgb(linear) * 255.0 + 0.5) as u32
             }),
             ChannelEncoding::Uint(_) => {
                 let most = encoding.max_order() as f32;
-                value.map(|v| v.clamp(0.0, most) as u32)
+                each(value, |v| v.clamp(0.0, most) as u32)
             }
-            ChannelEncoding::Float16 => value.map(|v| u32::from(f16::from_f32(v).to_bits())),
-            ChannelEncoding::Float32 => value.map(f32::to_bits),
-            ChannelEncoding::Ufloat(_) => value.map(|v| encoding.nearest_code(f64::from(v))),
+            ChannelEncoding::Float16 => each(value, |v| u32::from(f16::from_f32(v).to_bits())),
+            ChannelEncoding::Float32 => each(value, f32::to_bits),
+            ChannelEncoding::Ufloat(_) => each(value, |v| encoding.nearest_code(f64::from(v))),
         }
     }
 
     #[inline(always)]
     fn blend_operand(&mut self, encoding: ChannelEncoding, value: [f32; N]) -> [f32; N] {
         match encoding.normalized_range() {
-            Some((low, high)) => value.map(|v| v.clamp(low, high)),
+            Some((low, high)) => each(value, |v| v.clamp(low, high)),
             None => value,
         }
     }
@@ -146,7 +185,7 @@ impl<const N: usize> Arithmetic for Plain<N> {
 
     #[inline(always)]
     fn blend_complement(&mut self, _encoding: ChannelEncoding, value: [f32; N]) -> [f32; N] {
-        value.map(|v| 1.0 - v)
+        each(value, |v| 1.0 - v)
     }
 
     #[inline(always)]

@@ -26,6 +26,21 @@ pub enum RecordError {
         /// The folder.
         path: PathBuf,
     },
+    /// The folder holds no bench.
+    #[error(
+        "{} holds no bench.jsonl; name a folder that `etalon bench --out` wrote",
+        path.display()
+    )]
+    NoBench {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A bench was to be written over a run.
+    #[error("{} holds a run; choose another folder for the bench", path.display())]
+    HoldsRun {
+        /// The folder.
+        path: PathBuf,
+    },
     /// The run was written in another format.
     #[error(
         "{} is in format {found} where this etalon reads format {expected}; \

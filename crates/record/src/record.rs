@@ -2,8 +2,11 @@
 
 use crate::expectations::{Expectation, Expectations};
 use crate::header::AdapterRecord;
+use crate::measured::Measured;
 use crate::verdict::Verdict;
-use etalon_frame::{Aspect, AspectStatistics, CounterOutcome, Story, TexelCounts, WrongTexel};
+use etalon_frame::{
+    Accuracy, Aspect, AspectStatistics, CounterOutcome, Story, TexelCounts, WrongTexel,
+};
 use serde::{Deserialize, Serialize};
 
 /// The most wrong texels that a record lists.
@@ -35,6 +38,9 @@ pub struct Record {
     pub texels: TexelCounts,
     /// How much was asserted, per aspect.
     pub assertions: Vec<Assertion>,
+    /// How far the frame lies from the ideal, per aspect; empty when no frame came back.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub accuracy: Vec<Accuracy>,
     /// Every counter with what is legal of it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub counters: Vec<CounterOutcome>,
@@ -49,6 +55,9 @@ pub struct Record {
     pub frame: Option<String>,
     /// How long it took.
     pub seconds: Seconds,
+    /// What was measured, of a method case.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured: Option<Measured>,
 }
 
 fn is_false(value: &bool) -> bool {
@@ -68,11 +77,13 @@ impl Record {
             message: String::new(),
             texels: TexelCounts::default(),
             assertions: Vec::new(),
+            accuracy: Vec::new(),
             counters: Vec::new(),
             wrong: Vec::new(),
             story: None,
             frame: None,
             seconds: Seconds::default(),
+            measured: None,
         }
     }
 

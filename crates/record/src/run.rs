@@ -8,7 +8,7 @@ use crate::record::Record;
 use serde::Deserialize;
 use serde_json::error::Category;
 use std::fs::{self, File};
-use std::io::{BufRead, BufReader, ErrorKind};
+use std::io::{BufRead, BufReader, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 
 /// A recorded run.
@@ -22,6 +22,8 @@ pub struct Run {
     pub truncated: bool,
 }
 
+/// How every PNG file begins.
+const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
 const REMEDY: &str = "remove the line, or record the run again";
 
 #[derive(Deserialize)]
@@ -98,6 +100,25 @@ impl Run {
         let path = folder.join(below(frame)?);
         let bytes = fs::read(&path).map_err(RecordError::io("read", &path))?;
         serde_json::from_slice(&bytes).map_err(|e| parse_error(&path, e.line(), &e))
+    }
+
+    /// Reads a picture by the path that a record names; `None` where it is no PNG file or longer than
+    /// `most` bytes.
+    ///
+    /// # Errors
+    /// When the path leaves the folder, or the file cannot be read.
+    pub fn read_picture(
+        folder: &Path,
+        picture: &str,
+        most: u64,
+    ) -> Result<Option<Vec<u8>>, RecordError> {
+        let path = folder.join(below(picture)?);
+        let mut bytes = Vec::new();
+        File::open(&path)
+            .and_then(|file| file.take(most.saturating_add(1)).read_to_end(&mut bytes))
+            .map_err(RecordError::io("read", &path))?;
+        let whole = bytes.len() as u64 <= most && bytes.starts_with(PNG);
+        Ok(whole.then_some(bytes))
     }
 }
 

@@ -32,8 +32,10 @@ impl RunWriter {
         let path = folder.join("run.jsonl");
         if path.is_file() {
             // The run goes last: while it is there, the rest is known to be ours to remove.
-            gone(fs::remove_dir_all(folder.join("frames")), folder, "frames")?;
-            for name in ["index.html", "junit.xml", "run.jsonl"] {
+            for name in ["frames", "pictures"] {
+                gone(fs::remove_dir_all(folder.join(name)), folder, name)?;
+            }
+            for name in ["index.html", "methods.html", "junit.xml", "run.jsonl"] {
                 gone(fs::remove_file(folder.join(name)), folder, name)?;
             }
         }
@@ -77,13 +79,39 @@ impl RunWriter {
         Ok(relative)
     }
 
+    /// Writes a picture as PNG and returns its path below the run folder. `rgb` holds red, green and
+    /// blue of each texel, row by row from the top. Call it before the record is appended.
+    ///
+    /// # Errors
+    /// When the file cannot be written, or there are not as many values as the size asks for.
+    pub fn write_picture(
+        &self,
+        case: &str,
+        [width, height]: [u32; 2],
+        rgb: &[u8],
+    ) -> Result<String, RecordError> {
+        let relative = format!("{}.png", path_below("pictures", case));
+        let path = self.folder.join(&relative);
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).map_err(RecordError::io("create", parent))?;
+        }
+        image::save_buffer(&path, rgb, width, height, image::ColorType::Rgb8)
+            .map_err(std::io::Error::other)
+            .map_err(RecordError::io("write", &path))?;
+        Ok(relative)
+    }
+
     /// The run folder.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 }
 
-fn gone(result: std::io::Result<()>, folder: &Path, name: &str) -> Result<(), RecordError> {
+pub(crate) fn gone(
+    result: std::io::Result<()>,
+    folder: &Path,
+    name: &str,
+) -> Result<(), RecordError> {
     match result {
         Err(e) if e.kind() != ErrorKind::NotFound => {
             Err(RecordError::io("remove", &folder.join(name))(e))
@@ -92,7 +120,10 @@ fn gone(result: std::io::Result<()>, folder: &Path, name: &str) -> Result<(), Re
     }
 }
 
-fn json_line(what: &'static str, value: &impl Serialize) -> Result<Vec<u8>, RecordError> {
+pub(crate) fn json_line(
+    what: &'static str,
+    value: &impl Serialize,
+) -> Result<Vec<u8>, RecordError> {
     let mut line = serde_json::to_vec(value).map_err(RecordError::serialize(what))?;
     line.push(b'\n');
     Ok(line)
@@ -100,12 +131,17 @@ fn json_line(what: &'static str, value: &impl Serialize) -> Result<Vec<u8>, Reco
 
 /// `frames/<adapter>/<case>.json`, with everything that could mislead a file system replaced.
 fn frame_path(adapter: &str, case: &str) -> String {
-    let mut path = format!("frames/{}", safe(adapter));
+    let folder = format!("frames/{}", safe(adapter));
+    format!("{}.json", path_below(&folder, case))
+}
+
+/// `<folder>/<case>`, with everything in the case that could mislead a file system replaced.
+fn path_below(folder: &str, case: &str) -> String {
+    let mut path = folder.to_owned();
     for part in case.split('/') {
         path.push('/');
         path.push_str(&safe(part));
     }
-    path.push_str(".json");
     path
 }
 

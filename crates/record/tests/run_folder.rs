@@ -2,12 +2,13 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use etalon_frame::{
-    Api, Aspect, Band, ChannelEncoding, ChannelMismatch, CounterKind, CounterOutcome, Limits,
-    Story, StoryLine, TexelCounts, WrongTexel,
+    Accuracy, Api, Aspect, Band, ChannelEncoding, ChannelMismatch, CounterKind, CounterOutcome,
+    Distance, Limits, Story, StoryLine, TexelCounts, WrongTexel,
 };
 use etalon_record::{
     AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header, MAX_LINE,
-    MAX_WRONG_TEXELS, Machine, Record, RecordError, Run, RunWriter, Seconds, Verdict,
+    MAX_WRONG_TEXELS, Machine, Measured, Parameter, Record, RecordError, Run, RunWriter, Seconds,
+    Times, Verdict,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -69,6 +70,44 @@ prop_compose! {
     }
 }
 
+/// A number that JSON keeps to the last bit.
+fn eighths(n: u64) -> f64 {
+    (n % 4096) as f64 / 8.0
+}
+
+/// Something measured, with and without what may be missing.
+fn measured(f: &[u64; 7]) -> Measured {
+    let even = |n: u64| n.is_multiple_of(2);
+    Measured {
+        question: format!("question {}", f[0]),
+        scene: "scene".to_owned(),
+        method: "method".to_owned(),
+        parameter: even(f[1]).then(|| Parameter {
+            name: "k".to_owned(),
+            value: eighths(f[2]),
+        }),
+        distance: Distance {
+            rmse: eighths(f[3]),
+            max: 1.0,
+            flip: 0.1,
+            wrong: 0.25,
+            truth_error: 0.0,
+        },
+        time: even(f[4]).then(|| Times {
+            samples: f[5] as u32,
+            wall: eighths(f[6]),
+            cpu: 0.001,
+            gpu: even(f[5]).then_some(0.002),
+        }),
+        passes: f[0] as u32,
+        draws: f[1] as u32,
+        fragments: even(f[3]).then_some(f[2]),
+        bytes: f[6],
+        picture: even(f[6]).then(|| "pictures/a.png".to_owned()),
+        truth: even(f[0]).then(|| "pictures/truth.png".to_owned()),
+    }
+}
+
 prop_compose! {
     fn record()(
         (case, adapter) in ("[a-z/=.0-9]{1,40}", ".{1,20}"),
@@ -89,6 +128,9 @@ prop_compose! {
             channels: f[0], asserted: f[1], exact: f[2], codes: f[3],
             yardstick_exact: f[4], yardstick_codes: f[5], yardstick_asserted: f[6],
         };
+        let accuracy = |f: &[u64; 7]| Accuracy {
+            aspect: Aspect::Depth, channels: f[0], mean: eighths(f[1]), max: eighths(f[2]),
+        };
         Record {
             case, adapter, verdict, improves, due_fail, message, story, frame,
             expected: expected.map(|reason| Expected { reason }),
@@ -101,6 +143,8 @@ prop_compose! {
                 actual: counts[3],
                 band: (counts[1] % 3 == 0).then_some(Band::Fail),
             }],
+            accuracy: figures.iter().map(accuracy).collect(),
+            measured: figures.first().map(measured),
             assertions: figures.into_iter().map(assertion).collect(),
             wrong: wrong.into_iter().map(|(a, x, c)| wrong_texel(a, x, c)).collect(),
             seconds: Seconds { draw: f64::from(seconds[0]) / 8.0, judge: f64::from(seconds[1]) / 8.0 },
@@ -298,5 +342,39 @@ fn long_records_are_shortened_in_order() {
     assert!(matches!(
         writer.append(&hopeless),
         Err(RecordError::TooLong { .. })
+    ));
+}
+
+#[test]
+fn pictures_are_read_below_the_folder_alone() {
+    let outer = tempfile::tempdir().unwrap();
+    let folder = outer.path().join("run");
+    fs::create_dir_all(folder.join("pictures")).unwrap();
+    let png = b"\x89PNG\r\n\x1a\nand so on";
+    fs::write(outer.path().join("secret.png"), png).unwrap();
+    fs::write(folder.join("pictures/a.png"), png).unwrap();
+    fs::write(folder.join("pictures/b.png"), "GIF89a").unwrap();
+    let read = |path: &str, most| Run::read_picture(&folder, path, most);
+    assert_eq!(
+        read("pictures/a.png", 17).unwrap().as_deref(),
+        Some(&png[..])
+    );
+    assert_eq!(read("pictures/a.png", 16).unwrap(), None, "too long");
+    assert_eq!(read("pictures/b.png", 100).unwrap(), None, "no PNG");
+    for path in [
+        "../secret.png",
+        "/etc/passwd",
+        "",
+        "pictures/../../secret.png",
+    ] {
+        let error = read(path, 100).unwrap_err();
+        assert!(
+            matches!(error, RecordError::Outside { .. }),
+            "{path}: {error}"
+        );
+    }
+    assert!(matches!(
+        read("pictures/none.png", 9).unwrap_err(),
+        RecordError::Io { .. }
     ));
 }

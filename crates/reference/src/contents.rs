@@ -32,7 +32,7 @@ impl Walk<'_> {
                 sample,
                 ..at
             };
-            let worlds = self.worlds(at, passes, &mut Notes(None))?;
+            let worlds = self.earlier(at, passes)?;
             single.extend(worlds.iter().map(|w| w.cells[source].channels));
             for (c, encoding) in encodings.iter().enumerate() {
                 let all = worlds.iter().map(|w| w.cells[source].channels[c]);
@@ -88,42 +88,50 @@ impl Walk<'_> {
         Some(vec![result])
     }
 
-    pub(crate) fn initial(&self, at: Sample, notes: &mut Notes<'_>) -> World {
+    /// What a texel of an attachment holds before the first pass.
+    pub(crate) fn first_contents(&self, index: usize, [x, y]: [usize; 2]) -> Cell {
         let mut judging = Judging::new(self.rules);
+        let attachment = &self.scene.attachments[index];
+        let encodings = attachment.format.color_channels();
+        let mut cell = Cell {
+            channels: [CodeInterval::exact(0); 4],
+            stencil: 0,
+            origin: None,
+        };
+        match &attachment.contents {
+            Contents::Color(color) => {
+                for (c, encoding) in encodings.iter().enumerate() {
+                    let value = judging.constant(color[c]);
+                    cell.channels[c] = judging.encode(*encoding, value);
+                }
+            }
+            Contents::DepthStencil { depth, stencil } => {
+                let value = judging.constant(*depth);
+                cell.channels[0] = judging.encode(self.depth_encoding(index), value);
+                cell.stencil = *stencil;
+            }
+            Contents::Texels(codes) => {
+                let start = (y * attachment.size[0] as usize + x) * encodings.len();
+                for (c, encoding) in encodings.iter().enumerate() {
+                    let order = encoding.order_of_code(codes[start + c]);
+                    cell.channels[c] = CodeInterval::exact(order);
+                }
+            }
+        }
+        cell
+    }
+
+    pub(crate) fn initial(&self, at: Sample, notes: &mut Notes<'_>) -> World {
         let cells = self
             .scene
             .attachments
             .iter()
             .enumerate()
             .map(|(index, attachment)| {
-                let encodings = attachment.format.color_channels();
-                let mut cell = Cell {
-                    channels: [CodeInterval::exact(0); 4],
-                    stencil: 0,
-                    origin: None,
-                };
-                match &attachment.contents {
-                    Contents::Color(color) => {
-                        for (c, encoding) in encodings.iter().enumerate() {
-                            let value = judging.constant(color[c]);
-                            cell.channels[c] = judging.encode(*encoding, value);
-                        }
-                    }
-                    Contents::DepthStencil { depth, stencil } => {
-                        let value = judging.constant(*depth);
-                        cell.channels[0] = judging.encode(self.depth_encoding(index), value);
-                        cell.stencil = *stencil;
-                    }
-                    Contents::Texels(codes) if attachment.size == at.size => {
-                        let start =
-                            (at.y as usize * at.size[0] as usize + at.x as usize) * encodings.len();
-                        for (c, encoding) in encodings.iter().enumerate() {
-                            let order = encoding.order_of_code(codes[start + c]);
-                            cell.channels[c] = CodeInterval::exact(order);
-                        }
-                    }
-                    Contents::Texels(_) => {}
-                }
+                // What an attachment of another size holds elsewhere is no part of this sample's story.
+                let same = attachment.size == at.size;
+                let place = if same { [at.x, at.y] } else { [0, 0] };
+                let cell = self.first_contents(index, place.map(|v| v as usize));
                 let text = || self.cell_text(index, &cell);
                 let how = match &attachment.contents {
                     Contents::Texels(_) => "upload",

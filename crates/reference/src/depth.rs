@@ -76,6 +76,29 @@ impl Depth {
         largest.0 + largest.1
     }
 
+    /// Over the edges of a triangle, which reach beyond it as lines do.
+    pub(crate) fn reach_out(&mut self, units: i64) {
+        let far = self.steepest() * 2.0 * units as f64;
+        self.error += far;
+        self.hull = self.hull.widen(far);
+    }
+
+    /// The hull over the texel that holds a point, inside of the primitive or not.
+    pub(crate) fn over_texel(&self, point: Point, units: i64) -> Interval {
+        let corner = |v: i64| v.div_euclid(units) * units;
+        let (x, y) = (corner(point.x), corner(point.y));
+        let corners = [(0, 0), (units, 0), (0, units), (units, units)];
+        let depths = corners.map(|(dx, dy)| {
+            self.beyond(Point {
+                x: x + dx,
+                y: y + dy,
+            })
+        });
+        depths[1..]
+            .iter()
+            .fold(depths[0], |all, one| all.hull(*one))
+    }
+
     pub(crate) fn at(&self, point: Point) -> Interval {
         self.beyond(point).clamp(self.hull.low, self.hull.high)
     }

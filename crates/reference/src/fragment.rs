@@ -61,7 +61,7 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) {
         let draw = place.draw;
-        let output = self.shader(place, front, notes);
+        let output = self.shader(place, &world, front, notes);
         let own_depth = place.primitive.depth_at(place.point);
         let covered = self.covered_after_shading(place, &output, notes);
         let mut world = world;
@@ -117,19 +117,28 @@ impl Walk<'_> {
     fn shader(
         &self,
         place: Place<'_>,
+        world: &World,
         front: bool,
         notes: &mut Notes<'_>,
     ) -> FragmentOutput<Range> {
         let draw = place.draw;
         let mut judging = Judging::new(self.rules);
+        let mut depth = place
+            .primitive
+            .depth_seen(place.point, self.units, place.at.samples);
+        if draw.depth_clamp {
+            // Whether the shader sees the depth before or after it is clamped is not told.
+            let [near, far] = draw.viewport.depth.map(f64::from);
+            let held = depth.float.clamp(near.min(far), near.max(far));
+            depth = Range::same(depth.float.hull(held));
+        }
         let input = FragmentInput {
             color: place.primitive.color,
             front,
-            depth: place
-                .primitive
-                .depth_seen(place.point, self.units, place.at.samples),
+            depth,
             sample: place.at.sample,
-            texels: [self.texel(place, 0), self.texel(place, 1)],
+            texels: [self.texel(place, world, 0), self.texel(place, world, 1)],
+            uv: self.uv(place),
             params: &draw.params,
         };
         let output = fragment(&mut judging, draw.shader, &input);
@@ -157,9 +166,15 @@ impl Walk<'_> {
         let word = |can: bool| if can { "may or may not" } else { "does not" };
         let (kept_can, kept_must) = match output.kept {
             None => (true, true),
-            Some([value, limit]) => {
-                let (value, limit) = (value.hull(), limit.hull());
-                (value.high >= limit.low, value.low >= limit.high)
+            Some(kept) => {
+                let (value, limit) = (kept.value.hull(), kept.limit.hull());
+                if value.may_be_nan() || limit.may_be_nan() {
+                    (true, false)
+                } else if kept.strict {
+                    (value.high > limit.low, value.low > limit.high)
+                } else {
+                    (value.high >= limit.low, value.low >= limit.high)
+                }
             }
         };
         if !kept_must {
@@ -350,6 +365,8 @@ impl Walk<'_> {
         let written = source == Source::Written;
         let exported = written || place.primitive.is_biased();
         let depth = match self.rules.depth_range.value {
+            // What is no number stays none, or is held to whatever there is.
+            _ if depth.float.may_be_nan() => depth.float,
             _ if place.draw.depth_clamp => held,
             _ if !(exported && outside) => unit,
             DepthRange::Undefined => whole,
@@ -395,19 +412,13 @@ impl Walk<'_> {
         let encoding = self.depth_encoding(index);
         let stored = world.cells[index].channels[0];
         let mut judging = Judging::new(self.rules);
-        let exact = Interval {
-            low: encoding.value_of_order(stored.low),
-            high: encoding.value_of_order(stored.high),
-        };
+        let exact = Interval::of_codes(encoding, stored);
         let stored = exact.hull(judging.decode(encoding, stored).hull());
         // A bound may be compared as it is or as the attachment would hold it.
         let mut bound = |v: f32| {
             let v = judging.constant(v);
             let codes = judging.encode(encoding, v);
-            Interval {
-                low: encoding.value_of_order(codes.low).min(v.float.low),
-                high: encoding.value_of_order(codes.high).max(v.float.high),
-            }
+            Interval::of_codes(encoding, codes).hull(v.float)
         };
         let (low, high) = (bound(low), bound(high));
         let can = stored.high >= low.low && stored.low <= high.high;
@@ -482,10 +493,7 @@ impl Walk<'_> {
         let (incoming, stored) = (incoming.depth, stored.channels[0]);
         let mut judging = Judging::new(self.rules);
         let codes = judging.encode(encoding, incoming);
-        let of_codes = |codes: CodeInterval| Interval {
-            low: encoding.value_of_order(codes.low),
-            high: encoding.value_of_order(codes.high),
-        };
+        let of_codes = |codes: CodeInterval| Interval::of_codes(encoding, codes);
         let (left, right) = match self.rules.depth_order.value {
             DepthOrder::Either => (
                 of_codes(codes).hull(incoming.hull()),

@@ -1,5 +1,6 @@
 //! Closed intervals of real numbers.
 
+use etalon_frame::{ChannelEncoding, CodeInterval};
 use std::fmt;
 
 /// The real numbers from `low` to `high`, both included.
@@ -12,6 +13,17 @@ pub struct Interval {
 }
 
 impl Interval {
+    /// Everything, infinite values and what is no number among it.
+    pub const EVERYTHING: Self = Self {
+        low: f64::NEG_INFINITY,
+        high: f64::INFINITY,
+    };
+
+    /// Whether what is no number may be among the values.
+    pub fn may_be_nan(self) -> bool {
+        self == Self::EVERYTHING
+    }
+
     /// The interval of one number.
     pub fn exact(value: f64) -> Self {
         Self {
@@ -26,6 +38,18 @@ impl Interval {
             low: a.min(b),
             high: a.max(b),
         }
+    }
+
+    /// The values of an interval of codes; everything where there are codes of no number among them.
+    pub fn of_codes(encoding: ChannelEncoding, codes: CodeInterval) -> Self {
+        let (low, high) = (
+            encoding.value_of_order(codes.low),
+            encoding.value_of_order(codes.high),
+        );
+        if low.is_nan() || high.is_nan() {
+            return Self::EVERYTHING;
+        }
+        Self { low, high }
     }
 
     /// Whether this is the one number.
@@ -54,7 +78,8 @@ impl Interval {
         }
     }
 
-    /// Applies a function that is monotone in each argument alone; its extremes stand at corners.
+    /// Applies a function that is monotone in each argument alone; its extremes stand at corners. A
+    /// corner that is no number, as of an infinite end, makes it everything.
     pub fn corners(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let values = [
             f(self.low, other.low),
@@ -62,6 +87,9 @@ impl Interval {
             f(self.high, other.low),
             f(self.high, other.high),
         ];
+        if values.iter().any(|v| v.is_nan()) {
+            return Self::EVERYTHING;
+        }
         Self {
             low: values.iter().copied().fold(f64::INFINITY, f64::min),
             high: values.iter().copied().fold(f64::NEG_INFINITY, f64::max),

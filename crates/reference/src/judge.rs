@@ -5,16 +5,20 @@ use crate::coverage::misses;
 use crate::judging::{Judging, Range};
 use crate::rules::Rules;
 use crate::setup::{self, DrawSetup, Primitive, Shape, Side, units_per_texel};
+use crate::texels::Texels;
 use crate::world::{Cell, World, merge};
 use etalon_case::Scene;
 use etalon_case::scene::Draw;
 use etalon_frame::{
-    Aspect, ChannelEncoding, CodeInterval, LegalSet, LegalSetBuilder, Limits, ReadPath, Story,
-    StoryLine, TexelSet, WorldBox,
+    Aspect, ChannelEncoding, CodeInterval, CountRange, LegalSet, LegalSetBuilder, Limits, ReadPath,
+    Story, StoryLine, TexelSet, WorldBox,
 };
 use etalon_pipeline::{Arithmetic, Point};
 use smallvec::SmallVec;
 use std::borrow::Cow;
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::rc::Rc;
 
 /// Both bands of one scene for one possible set of limits.
 #[derive(Clone, Debug)]
@@ -25,17 +29,34 @@ pub struct Judgement {
     pub legal: LegalSet,
     /// What the yardstick wants.
     pub yardstick: LegalSet,
+    /// How many samples of all images of one size were looked at, summed over sizes and sample counts:
+    /// of the others nothing is asserted.
+    pub looked_at: u64,
 }
 
 /// Judges a scene in both bands, once per depth encoding that the adapter may have.
 pub fn judgements(scene: &Scene, limits: &Limits) -> Vec<Judgement> {
+    judgements_of(scene, limits, Texels::All)
+}
+
+/// As [`judgements`], of some texels only; of the others nothing is asserted. Counters are sums over all
+/// texels: unless all are looked at, nothing is asserted of them either.
+pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judgement> {
     limits
         .alternatives(&scene.formats())
         .into_iter()
-        .map(|limits| Judgement {
-            legal: judge(scene, &limits, &Rules::of(limits.api)),
-            yardstick: judge(scene, &limits, &Rules::yardstick(&limits)),
-            limits,
+        .map(|limits| {
+            let legal = judge_some(scene, &limits, &Rules::of(limits.api), texels);
+            let yardstick = judge_some(scene, &limits, &Rules::yardstick(&limits), texels);
+            let groups = legal.groups.iter();
+            Judgement {
+                looked_at: groups
+                    .map(|g| texels.count(g.size) * u64::from(g.samples))
+                    .sum(),
+                legal,
+                yardstick,
+                limits,
+            }
         })
         .collect()
 }
@@ -43,7 +64,11 @@ pub fn judgements(scene: &Scene, limits: &Limits) -> Vec<Judgement> {
 /// What the rules allow at every sample of what the scene reads back. Of a depth format with
 /// several possible encodings the first is assumed; see [`judgements`].
 pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
-    let walk = Walk::new(scene, limits, rules);
+    judge_some(scene, limits, rules, Texels::All)
+}
+
+fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> LegalSet {
+    let walk = Walk::new(scene, limits, rules, texels);
     let mut builder = LegalSetBuilder::default();
     for index in &scene.read {
         let attachment = &scene.attachments[*index];
@@ -70,7 +95,12 @@ pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
         add(&mut shapes, (attachment.size, attachment.samples));
     }
     let read = shapes.len();
-    for pass in &scene.passes {
+    let counted = if texels.is_all() {
+        &scene.passes[..]
+    } else {
+        &[]
+    };
+    for pass in counted {
         if pass.draws.iter().any(|d| !d.counters.is_empty()) {
             let shape = (scene.pass_size(pass), scene.pass_samples(pass));
             add(&mut shapes, shape);
@@ -78,8 +108,17 @@ pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
     }
     let mut tally = Tally::new(scene, rules);
     for (group, shape) in shapes.iter().enumerate() {
-        for y in 0..shape.0[1] {
-            for x in 0..shape.0[0] {
+        let (size, lattice) = (shape.0, texels.lattice(shape.0));
+        for y in 0..size[1] {
+            let mut next = 0;
+            while next < size[0] {
+                let x = lattice.first(next, y).map_or(size[0], |x| x.min(size[0]));
+                builder.open(group, u64::from(x - next) * u64::from(shape.1));
+                next = x + 1;
+                if x == size[0] {
+                    break;
+                }
+                walk.forget();
                 for sample in 0..shape.1 {
                     let at = Sample {
                         size: shape.0,
@@ -105,7 +144,10 @@ pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
             }
         }
     }
-    for counter in tally.finish() {
+    for mut counter in tally.finish() {
+        if !texels.is_all() {
+            counter.range = CountRange { low: 0, high: None };
+        }
         builder.counter(counter);
     }
     builder.build()
@@ -130,11 +172,15 @@ pub struct Sample {
 /// used, its citation.
 pub fn explain(scene: &Scene, limits: &Limits, rules: &Rules, at: Sample) -> Story {
     let mut story = Story::default();
-    Walk::new(scene, limits, rules).sample(at, Some(&mut story));
+    let texels = Texels::One([at.x, at.y]);
+    Walk::new(scene, limits, rules, texels).sample(at, Some(&mut story));
     story
 }
 
 pub(crate) type Worlds = SmallVec<[World; 2]>;
+
+/// Worlds by samples per texel, sample and passes; `None` where the sample is open.
+type Known = HashMap<(u32, u32, usize), Option<Rc<Worlds>>>;
 
 /// Whether a draw's scissor rectangle lets a texel through.
 fn in_scissor(draw: &Draw, at: Sample) -> bool {
@@ -149,6 +195,8 @@ pub(crate) struct Walk<'a> {
     /// Per pass and draw.
     setups: Vec<Vec<DrawSetup>>,
     pub(crate) units: i64,
+    /// What the samples of the texel at hand were after some passes, where that was asked for.
+    known: RefCell<Known>,
 }
 
 /// Where in the scene a fragment comes from.
@@ -207,7 +255,7 @@ impl Place<'_> {
 }
 
 impl<'a> Walk<'a> {
-    fn new(scene: &'a Scene, limits: &'a Limits, rules: &'a Rules) -> Self {
+    fn new(scene: &'a Scene, limits: &'a Limits, rules: &'a Rules, texels: Texels) -> Self {
         let setups = scene
             .passes
             .iter()
@@ -216,6 +264,7 @@ impl<'a> Walk<'a> {
                     rules,
                     limits,
                     size: scene.pass_size(pass),
+                    lattice: texels.lattice(scene.pass_size(pass)),
                     depth: pass
                         .depth_stencil
                         .filter(|i| scene.attachments[*i].format.has_depth())
@@ -231,7 +280,25 @@ impl<'a> Walk<'a> {
             rules,
             setups,
             units: units_per_texel(limits),
+            known: RefCell::default(),
         }
+    }
+
+    /// What another sample of the texel at hand is after the first passes; `None` when it is open. Passes
+    /// that read and resolve what passes before them left ask for the same again and again.
+    pub(crate) fn earlier(&self, at: Sample, passes: usize) -> Option<Rc<Worlds>> {
+        let key = (at.samples, at.sample, passes);
+        if let Some(known) = self.known.borrow().get(&key) {
+            return known.clone();
+        }
+        let worlds = self.worlds(at, passes, &mut Notes(None)).map(Rc::new);
+        self.known.borrow_mut().insert(key, worlds.clone());
+        worlds
+    }
+
+    /// Goes on to another texel.
+    fn forget(&self) {
+        self.known.borrow_mut().clear();
     }
 
     /// The encoding in which an attachment stores its depth.
@@ -316,7 +383,7 @@ impl<'a> Walk<'a> {
                         pass: p,
                         draw_index: d,
                         draw,
-                        primitive_index: *i as usize,
+                        primitive_index: primitive.index as usize,
                         primitive,
                         draw_id,
                         world: 0,

@@ -68,6 +68,44 @@ impl<'r> Judging<'r> {
         self.rules.float_error.value
     }
 
+    /// Everything that a shader's computing makes of an exact result. What a 32-bit float does not hold
+    /// is infinite or no number, and what is below its normal numbers may be zero.
+    fn computed(&self, value: Interval) -> Interval {
+        let most = f64::from(f32::MAX);
+        if value.low < -most || value.high > most {
+            return Interval::EVERYTHING;
+        }
+        if value.is(0.0) {
+            return value;
+        }
+        let wide = value.widen_relative(self.rules.shader_error.value);
+        let tiny = f64::from(f32::MIN_POSITIVE);
+        Interval {
+            low: if (0.0..tiny).contains(&wide.low) {
+                0.0
+            } else {
+                wide.low
+            },
+            high: if wide.high <= 0.0 && wide.high > -tiny {
+                0.0
+            } else {
+                wide.high
+            },
+        }
+    }
+
+    /// Everything that a shader's binary logarithm makes of a value: 3 units in the last place, between
+    /// a half and 2 an absolute error of 2^-21 (Vulkan, Precision of GLSL.std.450 Instructions; WGSL,
+    /// 15.7.4), or what a shader's precision makes of it where that is more.
+    fn logarithm(&self, value: Interval) -> Interval {
+        if value.low <= 0.0 || value.may_be_nan() {
+            return Interval::EVERYTHING;
+        }
+        let exact = value.map_increasing(f64::log2);
+        let units = 3.0 * f64::from(f32::EPSILON);
+        self.computed(exact.widen(2_f64.powi(-21)).widen_relative(units))
+    }
+
     /// Widens to the destination's codes on either side, where blending may round to them.
     fn round_outward(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
         if self.rules.blend.value != BlendPrecision::DestinationCodes {
@@ -106,6 +144,9 @@ impl<'r> Judging<'r> {
     }
 
     fn store(&self, encoding: ChannelEncoding, value: Interval, slack: f64) -> CodeInterval {
+        if value.may_be_nan() && encoding.is_float() {
+            return all_codes(encoding);
+        }
         let ends = (encoding.min_order() as f64, encoding.max_order() as f64);
         let position = |v: f64| {
             let held = match encoding.normalized_range() {
@@ -160,6 +201,15 @@ impl<'r> Judging<'r> {
     }
 }
 
+/// All codes of a float encoding, of infinite values and of what is no number too.
+fn all_codes(encoding: ChannelEncoding) -> CodeInterval {
+    match encoding {
+        ChannelEncoding::Ufloat(mantissa) => CodeInterval::new(0, (32 << mantissa) - 1),
+        ChannelEncoding::Float16 => CodeInterval::new(-0x7fff, 0x7fff),
+        _ => CodeInterval::new(-0x7fff_ffff, 0x7fff_ffff),
+    }
+}
+
 /// The order of the largest 32-bit float not above a value.
 fn order_below(value: f64) -> i64 {
     let encoding = ChannelEncoding::Float32;
@@ -203,7 +253,12 @@ impl Arithmetic for Judging<'_> {
     }
 
     fn div(&mut self, a: Range, b: Range) -> Range {
-        a.zip(b, |a, b| a.corners(b, |a, b| a / b))
+        a.zip(b, |a, b| {
+            if b.contains(0.0) {
+                return Interval::EVERYTHING;
+            }
+            a.corners(b, |a, b| a / b)
+        })
     }
 
     fn min(&mut self, a: Range, b: Range) -> Range {
@@ -212,6 +267,25 @@ impl Arithmetic for Judging<'_> {
 
     fn max(&mut self, a: Range, b: Range) -> Range {
         a.zip(b, |a, b| a.corners(b, f64::max))
+    }
+
+    fn rounded(&mut self, value: Range) -> Range {
+        value.zip(value, |v, _| self.computed(v))
+    }
+
+    fn log2(&mut self, value: Range) -> Range {
+        value.zip(value, |v, _| self.logarithm(v))
+    }
+
+    fn select_less(&mut self, a: Range, b: Range, less: Range, otherwise: Range) -> Range {
+        let (a, b) = (a.hull(), b.hull());
+        let may = a.low < b.high || a.may_be_nan() || b.may_be_nan();
+        let must = a.high < b.low && !a.may_be_nan() && !b.may_be_nan();
+        match (may, must) {
+            (_, true) => less,
+            (false, _) => otherwise,
+            _ => less.zip(otherwise, Interval::hull),
+        }
     }
 
     /// The terms of the transform are as large as the axis, and so is what their error is relative
@@ -237,10 +311,7 @@ impl Arithmetic for Judging<'_> {
     }
 
     fn decode(&mut self, encoding: ChannelEncoding, code: CodeInterval) -> Range {
-        let value = Interval {
-            low: encoding.value_of_order(code.low),
-            high: encoding.value_of_order(code.high),
-        };
+        let value = Interval::of_codes(encoding, code);
         match encoding {
             ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => {
                 let error = self.rules.decode_error.value;

@@ -16,9 +16,13 @@ pub mod rules;
 mod sampling;
 mod setup;
 mod store;
+mod texels;
+mod truth;
 mod world;
 
 pub use interval::Interval;
-pub use judge::{Judgement, Sample, explain, judge, judgements};
+pub use judge::{Judgement, Sample, explain, judge, judgements, judgements_of};
 pub use judging::{Judging, Range};
 pub use rules::{Permission, Rules};
+pub use texels::Texels;
+pub use truth::{TruthPicture, distance, shown, truth};

@@ -1,37 +1,103 @@
 //! What a shader sees of its textures: single texels, or a sampler's weighted average.
 
 use crate::interval::Interval;
-use crate::judge::{Place, Walk};
+use crate::judge::{Place, Sample, Walk};
 use crate::judging::{Judging, Range};
-use etalon_case::scene::{Attachment, Contents};
+use crate::world::World;
 use etalon_case::state::{AddressMode, FilterMode, Sampler};
 use etalon_frame::CodeInterval;
 use etalon_pipeline::{Arithmetic, texel_position};
 
 impl Walk<'_> {
-    /// What the shader sees of a texture at the sample.
-    pub(crate) fn texel(&self, place: Place<'_>, t: usize) -> [Range; 4] {
-        let Some(index) = place.draw.textures.get(t) else {
+    /// What the shader sees of a texture at the sample, in a world.
+    pub(crate) fn texel(&self, place: Place<'_>, world: &World, t: usize) -> [Range; 4] {
+        let Some(index) = place.draw.textures.get(t).copied() else {
             return [Range::exact(0.0); 4];
         };
-        let texture = &self.scene.attachments[*index];
-        match (place.draw.sampler, place.primitive.uv(place.point)) {
-            (Some(sampler), Some(uv)) => self.sampled(texture, sampler, uv),
-            _ => self.fetched(texture, place.at.x as usize, place.at.y as usize),
+        let drawn = self.is_drawn_before(index, place.pass);
+        match (place.draw.sampler, self.coordinates(place)) {
+            (Some(_), Some(_)) if drawn => self.anything(index),
+            (Some(sampler), Some(uv)) => self.sampled(index, sampler, uv),
+            _ if drawn => self.left_before(place, world, index),
+            _ => self.fetched(index, [place.at.x as usize, place.at.y as usize]),
         }
     }
 
-    /// One texel. A format without alpha is read with alpha 1.
-    fn fetched(&self, texture: &Attachment, x: usize, y: usize) -> [Range; 4] {
+    /// The texture coordinates that the shader sees.
+    pub(crate) fn uv(&self, place: Place<'_>) -> [Range; 2] {
+        self.coordinates(place)
+            .map_or([Range::exact(0.0); 2], |uv| uv.map(Range::same))
+    }
+
+    fn coordinates(&self, place: Place<'_>) -> Option<[Interval; 2]> {
+        let at = place.at;
+        place.primitive.uv_seen(place.point, self.units, at.samples)
+    }
+
+    /// Whether a pass before this one draws or resolves to an attachment.
+    fn is_drawn_before(&self, index: usize, pass: usize) -> bool {
+        self.scene.passes[..pass]
+            .iter()
+            .any(|pass| pass.color.contains(&index) || pass.resolve.contains(&Some(index)))
+    }
+
+    /// What a sampler may make of a texture of which the texels are not looked into.
+    fn anything(&self, index: usize) -> [Range; 4] {
+        let encodings = self.scene.attachments[index].format.color_channels();
+        let slack = self.rules.float_error.value * 4.0;
+        let mut texel = [0.0, 0.0, 0.0, 1.0].map(|v| Range::same(Interval::exact(v).widen(slack)));
+        for (channel, encoding) in texel.iter_mut().zip(encodings) {
+            *channel = Range::same(match encoding.normalized_range() {
+                Some((low, high)) => Interval {
+                    low: f64::from(low),
+                    high: f64::from(high),
+                }
+                .widen(slack),
+                None => Interval::EVERYTHING,
+            });
+        }
+        texel
+    }
+
+    /// The texel that earlier passes left under the sample: in a pass of its own shape this world's, else
+    /// everything that it can be.
+    fn left_before(&self, place: Place<'_>, world: &World, index: usize) -> [Range; 4] {
+        let attachment = &self.scene.attachments[index];
+        let at = place.at;
+        if attachment.size != at.size {
+            return self.anything(index);
+        }
+        if attachment.samples == at.samples {
+            return self.decoded(index, world.cells[index].channels);
+        }
+        let at = Sample {
+            samples: attachment.samples,
+            sample: 0,
+            ..at
+        };
+        let Some(worlds) = self.earlier(at, place.pass) else {
+            return self.anything(index);
+        };
+        let all = worlds.iter().map(|w| w.cells[index].channels);
+        let hull = all.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])));
+        hull.map_or_else(
+            || self.anything(index),
+            |channels| self.decoded(index, channels),
+        )
+    }
+
+    /// One texel of a texture that nothing was drawn to.
+    fn fetched(&self, index: usize, at: [usize; 2]) -> [Range; 4] {
+        self.decoded(index, self.first_contents(index, at).channels)
+    }
+
+    /// What a shader sees of stored codes. A format without alpha is read with alpha 1.
+    fn decoded(&self, index: usize, codes: [CodeInterval; 4]) -> [Range; 4] {
         let mut judging = Judging::new(self.rules);
         let mut texel = [0.0, 0.0, 0.0, 1.0].map(Range::exact);
-        if let Contents::Texels(codes) = &texture.contents {
-            let encodings = texture.format.color_channels();
-            let start = (y * texture.size[0] as usize + x) * encodings.len();
-            for (c, encoding) in encodings.iter().enumerate() {
-                let order = encoding.order_of_code(codes[start + c]);
-                texel[c] = judging.decode(*encoding, CodeInterval::exact(order));
-            }
+        let encodings = self.scene.attachments[index].format.color_channels();
+        for (c, encoding) in encodings.iter().enumerate() {
+            texel[c] = judging.decode(*encoding, codes[c]);
         }
         texel
     }
@@ -39,10 +105,17 @@ impl Walk<'_> {
     /// Everything that legal filtering makes of the texels around a coordinate: the hull of what it
     /// is at all coordinates that rounding can lead to. In a linear filter that is a polynomial linear
     /// in each coordinate between two texel centres, so its extremes stand at ends and centres.
-    fn sampled(&self, texture: &Attachment, sampler: Sampler, uv: [Interval; 2]) -> [Range; 4] {
+    fn sampled(&self, texture: usize, sampler: Sampler, uv: [Interval; 2]) -> [Range; 4] {
+        if uv
+            .iter()
+            .any(|v| !(v.low.is_finite() && v.high.is_finite()))
+        {
+            return self.anything(texture);
+        }
+        let texels = self.scene.attachments[texture].size;
         let step = self.rules.filter_step.value;
         let along = |axis: usize| -> Vec<f64> {
-            let size = texture.size[axis];
+            let size = texels[axis];
             let scaled = uv[axis].map_increasing(|v| v * f64::from(size));
             let reach = scaled.widen(step);
             match sampler.filter {
@@ -73,17 +146,17 @@ impl Walk<'_> {
         result.map_or([Range::exact(0.0); 4], |all| all.map(Range::same))
     }
 
-    fn tap(&self, texture: &Attachment, sampler: Sampler, at: [i64; 2]) -> [Interval; 4] {
+    fn tap(&self, texture: usize, sampler: Sampler, at: [i64; 2]) -> [Interval; 4] {
         let inside = |axis: usize| {
             let mode: AddressMode = sampler.address[axis];
-            texel_position(mode, at[axis], texture.size[axis])
+            texel_position(mode, at[axis], self.scene.attachments[texture].size[axis])
         };
-        self.fetched(texture, inside(0), inside(1))
+        self.fetched(texture, [inside(0), inside(1)])
             .map(|channel| channel.float.hull(channel.coarse))
     }
 
     /// The average at a position counted from the centre of the first texel.
-    fn weighted(&self, texture: &Attachment, sampler: Sampler, at: [f64; 2]) -> [Interval; 4] {
+    fn weighted(&self, texture: usize, sampler: Sampler, at: [f64; 2]) -> [Interval; 4] {
         let first = at.map(f64::floor);
         let weight = [at[0] - first[0], at[1] - first[1]];
         let mut sum = [Interval::exact(0.0); 4];
@@ -94,7 +167,10 @@ impl Walk<'_> {
                 _ => weight[axis],
             };
             let share = part(0, dx) * part(1, dy);
-            let position = [first[0] as i64 + dx, first[1] as i64 + dy];
+            let position = [
+                (first[0] as i64).saturating_add(dx),
+                (first[1] as i64).saturating_add(dy),
+            ];
             for (sum, tap) in sum.iter_mut().zip(self.tap(texture, sampler, position)) {
                 largest = largest.max(tap.low.abs()).max(tap.high.abs());
                 let scaled = tap.map_increasing(|v| v * share);

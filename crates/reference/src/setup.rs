@@ -4,11 +4,12 @@ use crate::depth::{Depth, depth_bias};
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
 use crate::rules::{Rules, Snap};
+use crate::texels::Lattice;
 use etalon_case::Primitive as Vertices;
 use etalon_case::scene::Draw;
 use etalon_case::state::PolygonMode;
 use etalon_frame::{ChannelEncoding, Limits};
-use etalon_pipeline::{Arithmetic, Point, edge_value, signed_area, window_position};
+use etalon_pipeline::{Arithmetic, Plain, Point, edge_value, signed_area, window_position};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// All positions that legal snapping can give one vertex: x and y each from low to high, in units
@@ -92,10 +93,13 @@ pub(crate) struct Primitive {
     bias: Interval,
     /// All snapped vertices.
     all: SnapBox,
-    /// Texture coordinates, where the draw samples a texture.
+    /// Texture coordinates, where the shader reads them.
     uv: Option<[Depth; 2]>,
-    /// Tells geometries apart: the same number, the same vertices under the same viewport.
+    /// Tells geometries apart: the same number, the same vertices under the same viewport. 0 where the
+    /// draw tests no depth.
     pub(crate) geometry: u64,
+    /// Its place in the draw.
+    pub(crate) index: u32,
 }
 
 /// Where a sample lies relative to one edge.
@@ -185,23 +189,24 @@ impl Primitive {
     pub(crate) fn depth_seen(&self, at: Point, units: i64, samples: u32) -> Range {
         let mut depth = self.window_depth.at(at);
         if samples > 1 {
-            let corner = |v: i64| v.div_euclid(units) * units;
-            for (x, y) in [(0, 0), (units, 0), (0, units), (units, units)] {
-                let point = Point {
-                    x: corner(at.x) + x,
-                    y: corner(at.y) + y,
-                };
-                depth = depth.hull(self.window_depth.beyond(point));
-            }
+            depth = depth.hull(self.window_depth.over_texel(at, units));
         }
         let biased = depth.corners(self.bias, |a, b| a + b);
         Range::same(depth.hull(biased))
     }
 
-    /// The texture coordinates at a sample that the primitive covers, where the draw samples.
-    pub(crate) fn uv(&self, at: Point) -> Option<[Interval; 2]> {
+    /// The texture coordinates that a shader sees at a sample that the primitive covers, where it reads
+    /// them. Of several samples they may be those of any point of the texel, the centre outside of the
+    /// primitive too (Vulkan, Interpolation Decorations; OpenGL 4.6, 14.3.1).
+    pub(crate) fn uv_seen(&self, at: Point, units: i64, samples: u32) -> Option<[Interval; 2]> {
         let both = self.uv.as_ref()?;
-        Some(both.each_ref().map(|one| one.at(at)))
+        Some(both.each_ref().map(|one| {
+            if samples > 1 {
+                one.at(at).hull(one.over_texel(at, units))
+            } else {
+                one.at(at)
+            }
+        }))
     }
 
     /// Whether a depth bias may move its fragments.
@@ -309,24 +314,23 @@ pub(crate) struct Context<'a> {
     pub(crate) limits: &'a Limits,
     /// The size of the pass's attachments.
     pub(crate) size: [u32; 2],
+    /// Which of their texels are looked at.
+    pub(crate) lattice: Lattice,
     /// The encoding of the pass's depth, where it has one.
     pub(crate) depth: Option<ChannelEncoding>,
 }
 
 pub(crate) fn draw(context: &Context<'_>, draw: &Draw) -> DrawSetup {
-    let vertices: Vec<Vertex> = draw
-        .mesh
-        .vertices
-        .iter()
-        .map(|v| vertex(context, draw, v.position))
-        .collect();
     let height = i64::from(context.size[1]);
     let mut rows = vec![Vec::new(); context.size[1] as usize];
     let mut primitives = Vec::new();
     if draw.rasterizer_discard {
         return DrawSetup { primitives, rows };
     }
-    for one in draw.mesh.primitives(draw.topology) {
+    for (index, one) in draw.mesh.primitives(draw.topology).into_iter().enumerate() {
+        if is_far(context, draw, one) {
+            continue;
+        }
         let own: Vec<usize> = match one {
             Vertices::Point(i) => vec![i],
             Vertices::Line(line) => line.to_vec(),
@@ -337,11 +341,7 @@ pub(crate) fn draw(context: &Context<'_>, draw: &Draw) -> DrawSetup {
             let hull = own.iter().map(value).reduce(Interval::hull);
             Range::same(hull.unwrap_or(Interval::exact(0.0)))
         });
-        let boxes = own.iter().map(|i| vertices[*i].snapped);
-        let Some(all) = boxes.reduce(SnapBox::hull) else {
-            continue;
-        };
-        let mut primitive = primitive(context, draw, one, &vertices, color, all);
+        let mut primitive = primitive(context, draw, one, color, index as u32);
         primitive.uv = texture_coordinates(context, draw, &primitive.shape, one);
         let first = primitive.bounds[1].clamp(0, height) as usize;
         let last = primitive.bounds[3].clamp(0, height) as usize;
@@ -353,21 +353,57 @@ pub(crate) fn draw(context: &Context<'_>, draw: &Draw) -> DrawSetup {
     DrawSetup { primitives, rows }
 }
 
+/// Whether no texel that is looked at is anywhere near a primitive, by a rough estimate: most of a
+/// million small triangles then cost no more than this.
+fn is_far(context: &Context<'_>, draw: &Draw, one: Vertices) -> bool {
+    if context.lattice == Lattice::ALL {
+        return false;
+    }
+    let own: &[usize] = match &one {
+        Vertices::Point(i) => &[*i],
+        Vertices::Line(line) => line,
+        Vertices::Triangle(triangle) => triangle,
+    };
+    let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+    for i in own {
+        let position = draw.mesh.vertices[*i].position;
+        let [[x], [y], _] = window_position(&mut Plain::<1>, position, &draw.viewport);
+        for (axis, v) in [x, y].into_iter().enumerate() {
+            if !v.is_finite() {
+                return false;
+            }
+            // More than all that rules let a position be off and a line reach beyond its ends.
+            let slack = 4.0 + v.abs() / 1024.0;
+            low[axis] = low[axis].min(v - slack);
+            high[axis] = high[axis].max(v + slack);
+        }
+    }
+    let [width, height] = context.size;
+    // `as` holds what is out of range to the ends.
+    let within = |v: f32, most: u32| (v as u32).min(most);
+    !context.lattice.meets([
+        within(low[0].floor(), width),
+        within(low[1].floor(), height),
+        within(high[0].ceil(), width),
+        within(high[1].ceil(), height),
+    ])
+}
+
 fn primitive(
     context: &Context<'_>,
     draw: &Draw,
     one: Vertices,
-    vertices: &[Vertex],
     color: [Range; 4],
-    all: SnapBox,
+    index: u32,
 ) -> Primitive {
+    let of = |i: usize| vertex(context, draw, draw.mesh.vertices[i].position);
     let units = units_per_texel(context.limits);
     let grid = units >> context.limits.sub_pixel_bits;
     let error = context.rules.float_error.value;
     let mut bias = Interval::exact(0.0);
     let (shape, window_depth, clip_depth) = match one {
         Vertices::Point(i) => {
-            let v = vertices[i];
+            let v = of(i);
             (
                 Shape::Point(v.snapped),
                 Depth::flat(&[v.window_z]),
@@ -375,7 +411,7 @@ fn primitive(
             )
         }
         Vertices::Line(line) => {
-            let v = line.map(|i| vertices[i]);
+            let v = line.map(of);
             (
                 Shape::Line(v.map(|v| v.snapped)),
                 Depth::along(v.map(|v| v.snapped), v.map(|v| v.window_z), units),
@@ -383,7 +419,7 @@ fn primitive(
             )
         }
         Vertices::Triangle(triangle) => {
-            let v = triangle.map(|i| vertices[i]);
+            let v = triangle.map(of);
             let boxes = v.map(|v| v.snapped);
             let triangle = Triangle {
                 vertices: boxes,
@@ -398,15 +434,18 @@ fn primitive(
             };
             let mut depths = [window, Depth::over(boxes, v.map(|v| v.clip_z), grid, error)];
             if draw.polygon_mode == PolygonMode::Line {
-                // An edge reaches beyond the triangle as a line does.
-                for depth in &mut depths {
-                    let steep = depth.steepest();
-                    depth.error += steep * 2.0 * units as f64;
-                    depth.hull = depth.hull.widen(steep * 2.0 * units as f64);
-                }
+                depths.iter_mut().for_each(|depth| depth.reach_out(units));
             }
             let [window, clip] = depths;
             (shape, window, clip)
+        }
+    };
+    let all = match &shape {
+        Shape::Point(one) => *one,
+        Shape::Line([a, b]) => a.hull(*b),
+        Shape::Triangle(t) | Shape::Outline(t) => {
+            let [a, b, c] = t.vertices;
+            a.hull(b).hull(c)
         }
     };
     let reach = match shape {
@@ -427,7 +466,11 @@ fn primitive(
         bias,
         all,
         uv: None,
-        geometry: geometry(draw, one),
+        geometry: match (context.depth, draw.depth) {
+            (Some(_), Some(_)) => geometry(draw, one),
+            _ => 0,
+        },
+        index,
     }
 }
 
@@ -459,15 +502,25 @@ fn texture_coordinates(
     shape: &Shape,
     one: Vertices,
 ) -> Option<[Depth; 2]> {
-    if !draw.shader.samples_texture() {
+    if !draw.shader.uses_uv() {
         return None;
     }
-    let grid = units_per_texel(context.limits) >> context.limits.sub_pixel_bits;
+    let units = units_per_texel(context.limits);
+    let grid = units >> context.limits.sub_pixel_bits;
     let error = context.rules.float_error.value;
     let value = |i: usize, axis: usize| Interval::exact(f64::from(draw.mesh.vertices[i].uv[axis]));
     Some([0, 1].map(|axis| match (shape, one) {
         (Shape::Triangle(triangle), Vertices::Triangle(own)) => {
             Depth::over(triangle.vertices, own.map(|i| value(i, axis)), grid, error)
+        }
+        (Shape::Outline(triangle), Vertices::Triangle(own)) => {
+            let values = own.map(|i| value(i, axis));
+            let mut plane = Depth::over(triangle.vertices, values, grid, error);
+            plane.reach_out(units);
+            plane
+        }
+        (Shape::Line(ends), Vertices::Line(own)) => {
+            Depth::along(*ends, own.map(|i| value(i, axis)), units)
         }
         (_, Vertices::Point(i)) => Depth::flat(&[value(i, axis)]),
         (_, Vertices::Line(own)) => Depth::flat(&own.map(|i| value(i, axis))),

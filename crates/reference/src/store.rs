@@ -48,13 +48,18 @@ impl Walk<'_> {
     ) {
         let mut judging = Judging::new(self.rules);
         let pass = &self.scene.passes[place.pass];
-        let mut color = output.color;
         let mut second = output.second.unwrap_or([Range::exact(0.0); 4]);
         if place.draw.multisample.alpha_to_one {
-            color[3] = Range::exact(1.0);
             second[3] = Range::exact(1.0);
         }
-        for (target, index) in place.draw.targets.iter().zip(&pass.color) {
+        for (location, index) in pass.color.iter().enumerate() {
+            let Some(target) = place.draw.targets.get(location) else {
+                continue;
+            };
+            let mut color = output.at_location(location);
+            if place.draw.multisample.alpha_to_one {
+                color[3] = Range::exact(1.0);
+            }
             let attachment = &self.scene.attachments[*index];
             let encodings = attachment.format.color_channels();
             let all: [ChannelEncoding; 4] =

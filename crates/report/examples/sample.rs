@@ -1,5 +1,5 @@
 //! Writes a made-up run and its reports, to look at the pages and at their size:
-//! `cargo run -p etalon-report --example sample -- FOLDER [REPEATS]`.
+//! `cargo run -p etalon-report --example sample -- FOLDER [REPEATS|methods]`.
 #![expect(clippy::unwrap_used, reason = "an example may stop at the first error")]
 
 #[path = "../tests/synthetic/mod.rs"]
@@ -13,15 +13,23 @@ use std::time::Instant;
 fn main() {
     let mut arguments = std::env::args().skip(1);
     let folder = PathBuf::from(arguments.next().unwrap_or_else(|| {
-        eprintln!("usage: sample FOLDER [REPEATS]");
+        eprintln!("usage: sample FOLDER [REPEATS|methods]");
         std::process::exit(64)
     }));
-    let repeats = arguments.next().map_or(1, |n| n.parse().unwrap());
-    let records = synthetic::write(&folder, repeats);
+    let what = arguments.next().unwrap_or_else(|| "1".to_owned());
+    let records = match what.as_str() {
+        "methods" => synthetic::methods::write(&folder),
+        repeats => synthetic::write(&folder, repeats.parse().unwrap()),
+    };
     let start = Instant::now();
     let written = write(&folder).unwrap();
     let seconds = start.elapsed().as_secs_f64();
-    for path in [&written.html, &written.junit] {
+    let pages = [
+        Some(&written.html),
+        Some(&written.junit),
+        written.methods.as_ref(),
+    ];
+    for path in pages.into_iter().flatten() {
         let bytes = std::fs::metadata(path).unwrap().len();
         println!("{}: {:.2} MB", path.display(), bytes as f64 / 1e6);
     }

@@ -1,13 +1,17 @@
 //! `index.html`: one self-contained page that works offline and without its script.
 
-mod adapters;
+pub(crate) mod adapters;
 mod assertions;
 mod cases;
 mod detail;
 mod findings;
 mod matrix;
 
+pub(crate) use adapters::breakable;
+pub(crate) use detail::quoted;
+
 use crate::grid::{Grid, Tally};
+use crate::methods::{self, Methods};
 use crate::words::{self, Tone, count};
 use etalon_record::{Run, Verdict};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -20,9 +24,10 @@ pub(crate) const POLICY: &str =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
 /// The whole page. Frame files are read from the folder as they are needed.
-pub(crate) fn page(folder: &Path, run: &Run) -> String {
+pub(crate) fn page(folder: &Path, run: &Run, methods: Option<&Methods<'_>>) -> String {
     let grid = Grid::new(run);
     let plan = findings::Plan::new(&grid);
+    let drivers = methods::driver_section(&grid);
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -32,15 +37,17 @@ pub(crate) fn page(folder: &Path, run: &Run) -> String {
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 title { (title(run)) }
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(STYLE)) @if drivers.is_some() { (PreEscaped(methods::CHART_STYLE)) } }
             }
             body {
-                (head(run))
+                (head(run, methods.is_some(), drivers.is_some()))
                 @if run.records.is_empty() {
                     p { "No case was run, so there is nothing to report." }
                 } @else {
                     (totals(run))
                     (matrix::section(&grid))
+                    @if let Some(methods) = methods { (methods::section(methods)) }
+                    @if let Some(drivers) = drivers { (drivers) }
                     (findings::section(folder, &grid, &plan))
                     (cases::section(&grid, &plan))
                     (assertions::section(&grid))
@@ -62,7 +69,7 @@ fn title(run: &Run) -> String {
     }
 }
 
-fn head(run: &Run) -> Markup {
+fn head(run: &Run, methods: bool, drivers: bool) -> Markup {
     let h = &run.header;
     html! {
         header {
@@ -85,6 +92,8 @@ fn head(run: &Run) -> Markup {
             @if !run.records.is_empty() {
             nav {
                 a href="#matrix" { "Matrix" } " "
+                @if methods { a href="#methods" { "Methods" } " " }
+                @if drivers { a href="#accuracy" { "Accuracy of drivers" } " " }
                 a href="#findings" { "Findings" } " "
                 a href="#cases" { "All cases" } " "
                 a href="#asserted" { "What was asserted" } " "

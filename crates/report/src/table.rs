@@ -1,6 +1,7 @@
 //! The summary for a terminal.
 
 use crate::grid::{Grid, Tally};
+use crate::methods;
 use crate::words::{Tone, count, headline, name, plain, symbol};
 use etalon_record::{Record, Run, Verdict};
 use std::cmp::Reverse;
@@ -57,6 +58,9 @@ pub fn table(run: &Run, options: TableOptions) -> String {
         .collect();
     let mut text = adapters(&rows, options);
     text.push('\n');
+    if let Some(found) = methods::Methods::of(run) {
+        text.push_str(&methods::lines(&found, options.width));
+    }
     text.push_str(&unexpected(run, options));
     let improvements = run.records.iter().filter(|r| r.improvement()).count();
     if improvements > 0 {

@@ -1,10 +1,11 @@
 //! Reports made from run folders: their structure, their size, and what hostile names do to them.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
+mod bench;
 mod synthetic;
 
-use etalon_frame::{Api, Story, StoryLine};
-use etalon_record::{Expected, Record, Run, RunWriter, Verdict};
+use etalon_frame::{Accuracy, Api, Aspect, Distance, Story, StoryLine};
+use etalon_record::{Expected, Measured, Parameter, Record, Run, RunWriter, Times, Verdict};
 use etalon_report::{TableOptions, Written, table, write};
 use roxmltree::{Document, Node};
 use std::collections::HashSet;
@@ -283,4 +284,160 @@ fn a_large_run_stays_small() {
     let leftovers = fs::read_dir(folder.path()).unwrap();
     let names: Vec<_> = leftovers.map(|e| e.unwrap().file_name()).collect();
     assert_eq!(names.len(), 4, "{names:?}");
+}
+
+#[test]
+fn methods_get_a_page_of_charts() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = synthetic::methods::write(folder.path());
+    let written = write(folder.path()).unwrap();
+    let page = fs::read_to_string(written.methods.as_ref().unwrap()).unwrap();
+    links_lead_somewhere(&page);
+    assert!(!page.contains("<script"), "readable without scripts");
+    assert!(!page.contains("http://") && !page.contains("https://"));
+    // Three scenes on four adapters, and one chart of stability for each scene, since the made-up errors are the
+    // same everywhere.
+    let charts: Vec<&str> = page.split("<svg class=\"chart").skip(1).collect();
+    assert_eq!(charts.len(), 3 * 4 + 3);
+    for chart in &charts {
+        let chart = chart.split("</svg>").next().unwrap();
+        assert!(chart.contains("role=\"img\"") && chart.contains("<title>"));
+        let xml = format!("<svg class=\"chart{chart}</svg>");
+        assert!(Document::parse(&xml).is_ok(), "{xml}");
+    }
+    assert_eq!(
+        page.matches("Hardware adapters").count(),
+        3,
+        "never among the others"
+    );
+    // Every record stands in a table, and every scene has its command.
+    assert_eq!(
+        page.matches("<tr><th scope=\"row\">").count(),
+        records + claims(&page)
+    );
+    assert!(
+        page.contains("etalon run &#39;methods/transparency/windows/*&#39;")
+            || page.contains("etalon run 'methods/transparency/windows/*'")
+    );
+    for text in [
+        "weighted-blended leaves 1\u{a0}% RMSE at alpha 0.53",
+        "reproduced",
+        "not measured",
+    ] {
+        assert!(page.contains(text), "{text}");
+    }
+
+    let (index, _) = read(&written);
+    links_lead_somewhere(&index);
+    for text in [
+        "href=\"methods.html#s",
+        "href=\"#methods\"",
+        "href=\"#accuracy\"",
+        "median frame time",
+    ] {
+        assert!(index.contains(text), "{text}");
+    }
+    assert!(index.len() < 200_000, "{}", index.len());
+    let text = table(&Run::read(folder.path()).unwrap(), TableOptions::default());
+    assert!(
+        text.contains("transparency/windows (hardware): depth-peeling 0;"),
+        "{text}"
+    );
+}
+
+fn claims(page: &str) -> usize {
+    page.matches("<td class=\"verdict").count()
+}
+
+#[test]
+fn hostile_names_of_methods_stay_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let hostile = "\"><script>alert(1)</script><i class='x' onload=\"y\">&amp;]]>\u{1b}[2J\u{7}";
+    let mut header = header(1, vec![adapter(hostile, Api::Vulkan)]);
+    header.command = vec![hostile.to_owned()];
+    let mut writer = RunWriter::create(folder.path(), &header).unwrap();
+    let [first, second] = [0.1, 2.0].map(|value| {
+        let mut record = Record::new(format!("{hostile}/b={hostile}"), hostile, Verdict::Measured);
+        record.accuracy = vec![Accuracy {
+            aspect: Aspect::Color,
+            channels: 1,
+            mean: value,
+            max: 1e300,
+        }];
+        record.measured = Some(Measured {
+            question: hostile.to_owned(),
+            scene: hostile.to_owned(),
+            method: hostile.to_owned(),
+            parameter: Some(Parameter {
+                name: hostile.to_owned(),
+                value,
+            }),
+            distance: Distance {
+                rmse: value / 10.0,
+                ..Distance::default()
+            },
+            time: Some(Times {
+                samples: 1,
+                wall: value,
+                cpu: 1e300,
+                gpu: Some(-1.0),
+            }),
+            passes: u32::MAX,
+            draws: 0,
+            fragments: Some(u64::MAX),
+            bytes: u64::MAX,
+            picture: Some("../secret.png".to_owned()),
+            truth: Some("/etc/passwd".to_owned()),
+        });
+        record
+    });
+    writer.append(&first).unwrap();
+    writer.append(&second).unwrap();
+    let written = write(folder.path()).unwrap();
+    let page = fs::read_to_string(written.methods.as_ref().unwrap()).unwrap();
+    assert!(!page.contains("<script") && !page.contains("<i class='x'"));
+    assert!(
+        !page.contains("<img"),
+        "nothing outside of the folder is read"
+    );
+    assert!(page.contains("leaves 1\u{a0}% RMSE"));
+    links_lead_somewhere(&page);
+    let (index, _) = read(&written);
+    assert!(!index.contains("<i class='x'"));
+    let text = table(&Run::read(folder.path()).unwrap(), TableOptions::default());
+    assert!(
+        !text.contains('\u{1b}') && !text.contains('\u{7}'),
+        "{text:?}"
+    );
+}
+
+#[test]
+fn pictures_of_methods_are_shown_when_they_are_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    synthetic::methods::write(folder.path());
+    let mut run = Run::read(folder.path()).unwrap();
+    let mut writer = RunWriter::create(&folder.path().join("with"), &run.header).unwrap();
+    for (record, name) in run
+        .records
+        .iter_mut()
+        .zip(["a.png", "b.png", "c.png", "d.png", "e.png"])
+    {
+        let measured = record.measured.as_mut().unwrap();
+        measured.picture = Some(format!("pictures/{name}"));
+        measured.truth = Some("pictures/truth.png".to_owned());
+        writer.append(record).unwrap();
+    }
+    let pictures = folder.path().join("with/pictures");
+    fs::create_dir_all(&pictures).unwrap();
+    let png = b"\x89PNG\r\n\x1a\nand so on";
+    fs::write(pictures.join("truth.png"), png).unwrap();
+    // The middle value's picture is the one that is shown.
+    fs::write(pictures.join("c.png"), png).unwrap();
+    let written = write(&folder.path().join("with")).unwrap();
+    let page = fs::read_to_string(written.methods.as_ref().unwrap()).unwrap();
+    assert_eq!(page.matches("<img").count(), 2);
+    fs::write(pictures.join("c.png"), "<svg onload='alert(1)'>").unwrap();
+    let written = write(&folder.path().join("with")).unwrap();
+    let page = fs::read_to_string(written.methods.as_ref().unwrap()).unwrap();
+    assert_eq!(page.matches("<img").count(), 1, "no picture, but the truth");
 }

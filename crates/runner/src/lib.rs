@@ -5,8 +5,10 @@
 //! case and adapter, and tells [`Event`]s as they happen. [`hunt`] draws cases with bugs planted, and
 //! tells which of them are seen.
 
+mod bench;
 mod event;
 mod hunt;
+mod measure;
 mod process;
 mod protocol;
 mod relation;
@@ -15,6 +17,7 @@ mod select;
 mod verdict;
 mod worker;
 
+pub use bench::{BenchError, BenchEvent, BenchOutcome, BenchPlan, bench, ruler};
 pub use event::Event;
 pub use hunt::{HuntPlan, hunt};
 pub use process::{DrawError, Launch, StartError, Worker};

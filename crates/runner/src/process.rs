@@ -165,7 +165,7 @@ impl Link {
     }
 
     /// Sends a request. A broken pipe shows when the answer is awaited.
-    fn request(&mut self, request: &Request) {
+    pub(crate) fn request(&mut self, request: &Request) {
         if let Some(input) = &mut self.input
             && send(input, request).is_err()
         {
@@ -174,7 +174,7 @@ impl Link {
     }
 
     /// The next answer.
-    fn response(&mut self, timeout: Duration) -> Result<Response, Loss> {
+    pub(crate) fn response(&mut self, timeout: Duration) -> Result<Response, Loss> {
         match self.responses.recv_timeout(timeout) {
             Ok(Ok(response)) => Ok(response),
             Ok(Err(e)) => Err(Loss::Garbage(e.to_string())),

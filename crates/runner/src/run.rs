@@ -1,6 +1,7 @@
 //! A whole run: every selected case on every adapter, one record each.
 
 use crate::event::Event;
+use crate::measure::{Timed, Truths, measured};
 use crate::process::{DRAW_TIMEOUT, Drawn, Launch, Link, Loss, Worker};
 use crate::verdict::{Judge, Judged};
 use etalon_backend::BackendError;
@@ -9,10 +10,11 @@ use etalon_frame::{Frame, Limits};
 use etalon_record::{
     AdapterRecord, Expectations, Header, Record, RecordError, RunWriter, Seconds, Verdict,
 };
-use std::collections::{HashMap, VecDeque};
+use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError, RwLock};
+use etalon_reference::TruthPicture;
 use std::thread;
 use std::time::{Duration, Instant};
 use thiserror::Error;
@@ -70,6 +72,12 @@ struct Shared<'a> {
     error: Mutex<Option<RecordError>>,
     stop: AtomicBool,
     outcome: Mutex<Outcome>,
+    truths: Truths,
+    /// Held for writing by who times frames, for reading by who draws and judges.
+    quiet: RwLock<()>,
+    /// Numbers of the method cases whose pictures are kept, and the adapter that they are taken from.
+    pictures: HashSet<usize>,
+    painter: String,
     events: &'a (dyn Fn(Event) + Sync),
 }
 
@@ -87,6 +95,10 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<Outcome, R
         error: Mutex::new(None),
         stop: AtomicBool::new(false),
         outcome: Mutex::new(Outcome::default()),
+        truths: Truths::default(),
+        quiet: RwLock::new(()),
+        pictures: in_the_middle(plan.cases),
+        painter: plan.adapters.first().map_or_else(String::new, |(l, _)| l.adapter.clone()),
         events,
     };
     let jobs = plan.jobs.max(1);
@@ -118,6 +130,32 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<Outcome, R
             .lock()
             .unwrap_or_else(PoisonError::into_inner)),
     }
+}
+
+/// The verdict of a case whose worker was lost.
+fn lost(loss: &Loss) -> Verdict {
+    match loss {
+        Loss::Timeout(_) => Verdict::Timeout,
+        Loss::Garbage(_) | Loss::Died => Verdict::Crash,
+    }
+}
+
+/// Of each method's cases in a scene the one in the middle of its parameter's range: the one whose
+/// picture is kept.
+fn in_the_middle(cases: &[Case]) -> HashSet<usize> {
+    let mut families: BTreeMap<(&str, &str, &str), Vec<(f64, usize)>> = BTreeMap::new();
+    for (number, case) in cases.iter().enumerate() {
+        if let Some(method) = &case.method {
+            let family = (&*method.question, &*method.scene, &*method.name);
+            let value = method.parameter.as_ref().map_or(0.0, |p| p.value);
+            families.entry(family).or_default().push((value, number));
+        }
+    }
+    let middle = |mut all: Vec<(f64, usize)>| {
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all.get(all.len() / 2).map(|(_, number)| *number)
+    };
+    families.into_values().filter_map(middle).collect()
 }
 
 /// The record form of an adapter.
@@ -175,7 +213,13 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
         let mut waiting: VecDeque<usize> = VecDeque::new();
         let mut next = 0;
         while !self.shared.stop.load(Ordering::Relaxed) {
-            while waiting.len() < IN_FLIGHT && next < cases.len() {
+            while next < cases.len() {
+                let timed = |number: &usize| cases[*number].method.is_some();
+                // Nothing may be in flight while frames are timed.
+                let alone = timed(&next) || waiting.front().is_some_and(timed);
+                if waiting.len() >= if alone { 1 } else { IN_FLIGHT } {
+                    break;
+                }
                 let number = next;
                 next += 1;
                 if let Some(missing) = self.limits().missing(&cases[number].requirements()) {
@@ -194,9 +238,18 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
                 break;
             };
             let asked = Instant::now();
+            let shared = self.shared;
+            let busy = shared.quiet.read().unwrap_or_else(PoisonError::into_inner);
             let (drawn, drawing) = self.receive(cases[number].scene_count());
             match drawn {
-                Drawn::Frames(frames) => self.finish(number, &frames, drawing),
+                Drawn::Frames(frames) => match self.judge(number, &frames, drawing) {
+                    Some(record) if record.measured.is_some() => {
+                        drop(busy);
+                        self.time(number, record);
+                    }
+                    Some(record) => self.record(record),
+                    None => {}
+                },
                 Drawn::Error(error) => {
                     let verdict = match &error {
                         BackendError::NotSupported(_) => Verdict::NotSupported,
@@ -217,10 +270,7 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
                     }
                 }
                 Drawn::Lost(loss) => {
-                    let verdict = match loss {
-                        Loss::Timeout(_) => Verdict::Timeout,
-                        Loss::Garbage(_) | Loss::Died => Verdict::Crash,
-                    };
+                    let verdict = lost(&loss);
                     let message = match self.link.take() {
                         Some(mut link) => link.obituary(loss),
                         None => self.last_words.clone(),
@@ -280,7 +330,38 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
         }
     }
 
-    fn finish(&mut self, number: usize, frames: &[Frame], drawing: Duration) {
+    /// Times a method case and records it. A wrong picture has no time.
+    fn time(&mut self, number: usize, mut record: Record) {
+        let scene = &self.shared.cases[number].scene;
+        if record.verdict != Verdict::Fail
+            && let Some(link) = &mut self.link
+        {
+            let timed = {
+                let quiet = &self.shared.quiet;
+                let _alone = quiet.write().unwrap_or_else(PoisonError::into_inner);
+                link.time(number as u32, scene, &self.adapter.limits)
+            };
+            match timed {
+                Timed::Times(times, fragments) => {
+                    if let Some(measured) = &mut record.measured {
+                        measured.time = times;
+                        measured.fragments = fragments;
+                    }
+                }
+                Timed::Lost(loss) => {
+                    record.verdict = lost(&loss);
+                    if let Some(mut link) = self.link.take() {
+                        let how = link.obituary(loss);
+                        record.message = format!("while its frames were timed: {how}");
+                    }
+                }
+            }
+        }
+        self.record(record);
+    }
+
+    /// The record of a case's frames, but for frame times; `None` when the run cannot go on.
+    fn judge(&mut self, number: usize, frames: &[Frame], drawing: Duration) -> Option<Record> {
         let start = Instant::now();
         let case = &self.shared.cases[number];
         let Judged {
@@ -315,10 +396,49 @@ impl<'s, 'a> AdapterRun<'s, 'a> {
                 .write_frame(&file);
             match written {
                 Ok(path) => record.frame = Some(path),
-                Err(error) => return self.give_up(error),
+                Err(error) => {
+                    self.give_up(error);
+                    return None;
+                }
             }
         }
-        self.record(record);
+        if let (Some(method), Some(frame)) = (&case.method, frames.first()) {
+            let truth = self.shared.truths.get(method);
+            record.measured = measured(case, &truth, frame);
+            if let Err(error) = self.keep_picture(number, &mut record, &truth, frame) {
+                self.give_up(error);
+                return None;
+            }
+        }
+        Some(record)
+    }
+
+    /// Writes the pictures of a method and of the truth, where this is the case and the adapter that
+    /// stands for the method.
+    fn keep_picture(
+        &self,
+        number: usize,
+        record: &mut Record,
+        truth: &TruthPicture,
+        frame: &Frame,
+    ) -> Result<(), RecordError> {
+        let shared = self.shared;
+        if !shared.pictures.contains(&number) || shared.painter != self.launch.adapter {
+            return Ok(());
+        }
+        let Some(measured) = &mut record.measured else {
+            return Ok(());
+        };
+        let Some(image) = frame.images.first() else {
+            return Ok(());
+        };
+        let writer = shared.writer.lock().unwrap_or_else(PoisonError::into_inner);
+        let seen = etalon_reference::shown(image);
+        measured.picture = Some(writer.write_picture(&record.case, image.size, &seen)?);
+        let due = truth.shown();
+        measured.truth =
+            Some(writer.write_picture(&format!("truth/{}", record.case), truth.size, &due)?);
+        Ok(())
     }
 
     fn keeps_frame(&mut self, record: &Record) -> bool {

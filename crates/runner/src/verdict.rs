@@ -7,12 +7,17 @@ use etalon_frame::{
     Limits, SampleGroup, WrongTexel, compare,
 };
 use etalon_record::{Assertion, FrameFile, FrameImage, MAX_WRONG_TEXELS, Record, Verdict};
-use etalon_reference::{Judgement, Rules, Sample, explain, judgements};
+use etalon_reference::{Judgement, Rules, Sample, Texels, explain, judgements_of};
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Bytes of legal sets that are kept for the adapters that come to a case later.
 const CACHE_BYTES: usize = 512 << 20;
+
+/// The most texels of an image that are judged, on a lattice that meets every row and column: big
+/// frames are there to be measured, and judging all of them would take longer than all drawing. What
+/// is left out counts as not asserted.
+const MOST_TEXELS: u64 = 4096;
 
 /// A case, one of its scenes, and the limits it is judged by.
 type Key = (usize, usize, Limits);
@@ -104,11 +109,16 @@ impl Judge {
         record.texels = comparison.texels;
         record.wrong = comparison.wrong;
         record.counters = comparison.counters;
+        record.accuracy = comparison.accuracy;
         record.assertions = assertions(judgement);
         let texels: u64 = record.assertions.iter().map(|a| a.asserted).sum();
         let counters = record.counters.iter().filter(|c| c.is_asserted()).count();
+        // Of a method whose outcome the rules leave open somewhere only the distance from the truth is
+        // told.
+        let unasserted = record.texels.open > record.texels.total.saturating_sub(judgement.looked_at);
         record.verdict = match worst {
             Some(Band::Fail) => Verdict::Fail,
+            _ if case.method.is_some() && (unasserted || texels == 0) => Verdict::Measured,
             _ if texels == 0 && counters == 0 => Verdict::Open,
             Some(Band::Imprecise) => Verdict::Imprecise,
             None => Verdict::Pass,
@@ -199,7 +209,8 @@ impl Judge {
         let mut fresh = false;
         let sets = Arc::clone(entry.get_or_init(|| {
             fresh = true;
-            Arc::new(judgements(judged_scene(case, index), limits))
+            let texels = Texels::AtMost(MOST_TEXELS);
+            Arc::new(judgements_of(judged_scene(case, index), limits, texels))
         }));
         if fresh {
             let weight = |all: &[Judgement]| -> usize {
@@ -269,6 +280,16 @@ fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
         {
             Some(own) => own.add(assertion),
             None => record.assertions.push(*assertion),
+        }
+    }
+    for accuracy in &other.record.accuracy {
+        match record
+            .accuracy
+            .iter_mut()
+            .find(|a| a.aspect == accuracy.aspect)
+        {
+            Some(own) => own.add(accuracy),
+            None => record.accuracy.push(*accuracy),
         }
     }
     kept

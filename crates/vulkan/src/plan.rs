@@ -31,6 +31,7 @@ pub(crate) struct AttachmentPlan {
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
     pub(crate) start: Start,
+    /// Where it lies before the first pass and after the last.
     pub(crate) role: Role,
     pub(crate) read: bool,
 }
@@ -46,12 +47,14 @@ pub(crate) enum Start {
     Upload(u64),
 }
 
-/// What the passes do with an attachment.
+/// What a pass does with an attachment, or all passes do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// Drawn to, or averaged to.
+    /// Drawn to, or averaged to. Some passes may fetch what others draw.
     Color,
     DepthStencil,
+    /// Tested against without a right to write.
+    Tested,
     Fetched,
     /// Nothing; it may be read back all the same.
     Idle,
@@ -60,6 +63,8 @@ pub(crate) enum Role {
 /// One pass.
 pub(crate) struct PassPlan {
     pub(crate) size: [u32; 2],
+    /// The attachments that the pass has to do with, each once, and what it does with them.
+    pub(crate) roles: Vec<(usize, Role)>,
     pub(crate) color: Vec<ColorPlan>,
     pub(crate) depth_stencil: Option<DepthStencilPlan>,
     pub(crate) draws: Vec<DrawPlan>,
@@ -74,8 +79,6 @@ pub(crate) struct ColorPlan {
 
 /// The depth-stencil attachment of a pass.
 pub(crate) struct DepthStencilPlan {
-    /// Its index among the scene's attachments.
-    pub(crate) attachment: usize,
     pub(crate) view: vk::ImageView,
     pub(crate) has_depth: bool,
     pub(crate) has_stencil: bool,
@@ -102,21 +105,43 @@ pub(crate) fn internal(message: &str) -> BackendError {
 }
 
 impl Role {
+    /// What all passes together do with an attachment: what is drawn at all counts as drawn.
     pub(crate) fn of(scene: &Scene, index: usize) -> Self {
-        let mut role = Self::Idle;
-        for pass in &scene.passes {
-            if pass.color.contains(&index) || pass.resolve.contains(&Some(index)) {
-                return Self::Color;
-            }
-            if pass.depth_stencil == Some(index) {
-                return Self::DepthStencil;
-            }
-            if pass.draws.iter().any(|d| d.textures.contains(&index)) {
-                role = Self::Fetched;
+        let of = |pass| roles(pass).into_iter().find(|(i, _)| *i == index);
+        let mut all = Self::Idle;
+        for (_, role) in scene.passes.iter().filter_map(of) {
+            match role {
+                Self::Color => return Self::Color,
+                Self::DepthStencil | Self::Tested => return Self::DepthStencil,
+                Self::Fetched | Self::Idle => all = role,
             }
         }
-        role
+        all
     }
+}
+
+/// What a pass does with its attachments, each named once.
+fn roles(pass: &Pass) -> Vec<(usize, Role)> {
+    let drawn = pass.color.iter().chain(pass.resolve.iter().flatten());
+    let mut roles: Vec<_> = drawn.map(|index| (*index, Role::Color)).collect();
+    let tested = if pass.depth_stencil_read_only {
+        Role::Tested
+    } else {
+        Role::DepthStencil
+    };
+    roles.extend(pass.depth_stencil.map(|index| (index, tested)));
+    for texture in pass.draws.iter().flat_map(|d| &d.textures) {
+        if roles.iter().all(|(index, _)| index != texture) {
+            roles.push((*texture, Role::Fetched));
+        }
+    }
+    roles
+}
+
+/// Whether a shader reads an attachment.
+pub(crate) fn is_fetched(scene: &Scene, index: usize) -> bool {
+    let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
+    draws.any(|d| d.textures.contains(&index))
 }
 
 impl Start {
@@ -148,6 +173,7 @@ impl PassPlan {
         };
         let mut plan = Self {
             size: scene.pass_size(pass),
+            roles: roles(pass),
             color: Vec::with_capacity(pass.color.len()),
             depth_stencil: None,
             draws: Vec::with_capacity(pass.draws.len()),
@@ -177,7 +203,6 @@ impl PassPlan {
         if let Some(index) = pass.depth_stencil {
             let format = scene.attachments.get(index).map(|a| a.format);
             plan.depth_stencil = Some(DepthStencilPlan {
-                attachment: index,
                 view: image(index)?.whole()?,
                 has_depth: format.is_some_and(|f| f.has_depth()),
                 has_stencil: format.is_some_and(|f| f.has_stencil()),
@@ -210,12 +235,13 @@ impl DrawPlan {
     }
 }
 
-/// The image that an attachment needs.
+/// The image that an attachment needs, which shaders fetch from or not, and which is read back or
+/// not.
 pub(crate) fn image_key(
     backend: &VulkanBackend,
     attachment: &Attachment,
     role: Role,
-    read: bool,
+    (fetched, read): (bool, bool),
 ) -> Result<ImageKey, BackendError> {
     let format = attachment.format;
     let Some(native) = backend.natives.get(&format) else {
@@ -223,12 +249,14 @@ pub(crate) fn image_key(
     };
     let mut usage = vk::ImageUsageFlags::TRANSFER_DST;
     match role {
-        Role::Color | Role::DepthStencil if !native.attachment => {
+        Role::Color | Role::DepthStencil | Role::Tested if !native.attachment => {
             return Err(BackendError::NotSupported(Requirement::Drawing(format)));
         }
-        Role::Color | Role::DepthStencil => usage |= attachment_usage(format),
-        Role::Fetched => usage |= vk::ImageUsageFlags::SAMPLED,
-        Role::Idle => {}
+        Role::Color | Role::DepthStencil | Role::Tested => usage |= attachment_usage(format),
+        Role::Fetched | Role::Idle => {}
+    }
+    if fetched {
+        usage |= vk::ImageUsageFlags::SAMPLED;
     }
     match (read, attachment.samples) {
         (false, _) => {}

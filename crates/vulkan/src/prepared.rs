@@ -6,7 +6,7 @@ use crate::descriptors::Descriptors;
 use crate::inputs::Inputs;
 use crate::memory::{Buffer, BufferUse, Image};
 use crate::plan::{
-    AttachmentPlan, DrawPlan, PassPlan, Plan, Role, Start, image_key, internal, targets,
+    AttachmentPlan, DrawPlan, PassPlan, Plan, Role, Start, image_key, internal, is_fetched, targets,
 };
 use crate::read::ReadPlan;
 use crate::record;
@@ -81,8 +81,8 @@ impl<'a> PreparedScene<'a> {
                 }
             }
             let role = Role::of(scene, index);
-            let read = scene.read.contains(&index);
-            let key = image_key(self.backend, attachment, role, read)?;
+            let (fetched, read) = (is_fetched(scene, index), scene.read.contains(&index));
+            let key = image_key(self.backend, attachment, role, (fetched, read))?;
             let image = pools.memory.image(device, key)?;
             self.plan.attachments.push(AttachmentPlan {
                 image: image.raw,

@@ -59,25 +59,41 @@ const ANYTHING: Place = Place {
     access: vk::AccessFlags2::MEMORY_WRITE,
 };
 
-impl AttachmentPlan {
-    /// Where the attachment lies during the passes.
-    fn home(&self) -> Place {
-        match self.role {
-            Role::Color => Place {
-                layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
-                stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
-                access: vk::AccessFlags2::COLOR_ATTACHMENT_READ
-                    | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
-            },
-            Role::DepthStencil => TESTED,
-            Role::Fetched => Place {
-                layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
-                stages: vk::PipelineStageFlags2::VERTEX_SHADER
-                    | vk::PipelineStageFlags2::FRAGMENT_SHADER,
-                access: vk::AccessFlags2::SHADER_SAMPLED_READ,
-            },
-            Role::Idle => TRANSFER_DST,
+const DRAWN: Place = Place {
+    layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
+    stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
+    access: vk::AccessFlags2::from_raw(
+        vk::AccessFlags2::COLOR_ATTACHMENT_READ.as_raw()
+            | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE.as_raw(),
+    ),
+};
+
+const FETCHED: Place = Place {
+    layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+    stages: vk::PipelineStageFlags2::from_raw(
+        vk::PipelineStageFlags2::VERTEX_SHADER.as_raw()
+            | vk::PipelineStageFlags2::FRAGMENT_SHADER.as_raw(),
+    ),
+    access: vk::AccessFlags2::SHADER_SAMPLED_READ,
+};
+
+impl Role {
+    /// Where an attachment lies that has this role.
+    fn place(self) -> Place {
+        match self {
+            Self::Color => DRAWN,
+            Self::DepthStencil => TESTED,
+            Self::Tested => TESTED_ONLY,
+            Self::Fetched => FETCHED,
+            Self::Idle => TRANSFER_DST,
         }
+    }
+}
+
+impl AttachmentPlan {
+    /// Where the attachment lies before the first pass and after the last.
+    fn home(&self) -> Place {
+        self.role.place()
     }
 
     /// Where the attachment lies while it is read back.
@@ -168,24 +184,47 @@ pub(crate) fn start(device: &Device, commands: vk::CommandBuffer, plan: &Plan, i
     barriers(device, commands, &home);
 }
 
-/// Records all passes.
+/// Records all passes. Each finds its attachments where it needs them; at the end all are at home.
 pub(crate) fn passes(device: &Device, commands: vk::CommandBuffer, plan: &Plan, input: vk::Buffer) {
+    let mut roles: Vec<Role> = plan.attachments.iter().map(|a| a.role).collect();
     for (index, pass) in plan.passes.iter().enumerate() {
         if index > 0 {
             between_passes(device, commands);
         }
-        let only_tested = pass.depth_stencil.as_ref().filter(|d| d.read_only);
-        let attachment = only_tested.and_then(|d| plan.attachments.get(d.attachment));
-        if let Some(attachment) = attachment {
-            let barrier = attachment.barrier(attachment.home(), TESTED_ONLY);
-            barriers(device, commands, &[barrier]);
-        }
+        change_roles(
+            device,
+            commands,
+            plan,
+            &mut roles,
+            pass.roles.iter().copied(),
+        );
         self::pass(device, commands, pass, input);
-        if let Some(attachment) = attachment {
-            let barrier = attachment.barrier(TESTED_ONLY, attachment.home());
-            barriers(device, commands, &[barrier]);
+    }
+    let home = plan.attachments.iter().map(|a| a.role).enumerate();
+    change_roles(device, commands, plan, &mut roles, home);
+}
+
+/// Brings attachments to the places of these roles. What has its role already needs no more than
+/// [`between_passes`].
+fn change_roles(
+    device: &Device,
+    commands: vk::CommandBuffer,
+    plan: &Plan,
+    roles: &mut [Role],
+    wanted: impl Iterator<Item = (usize, Role)>,
+) {
+    let mut moved = Vec::new();
+    for (index, role) in wanted {
+        let (Some(attachment), Some(now)) = (plan.attachments.get(index), roles.get_mut(index))
+        else {
+            continue;
+        };
+        if *now != role {
+            moved.push(attachment.barrier(now.place(), role.place()));
+            *now = role;
         }
     }
+    barriers(device, commands, &moved);
 }
 
 /// Makes what a pass wrote visible to the next.

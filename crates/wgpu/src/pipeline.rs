@@ -28,6 +28,8 @@ pub(crate) struct Pipelines {
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub(crate) struct DrawKey {
     shader: Shader,
+    /// What the draw gives, which may be more than its shader asks for.
+    bindings: Bindings,
     early_tests: EarlyTests,
     shape: Shape,
     depth: Option<DepthState>,
@@ -72,6 +74,8 @@ impl DrawKey {
                 Shader::FlatColorDepth => Shader::UniformColor,
                 Shader::CountedDepth => Shader::CountedColor,
                 Shader::FragCoordDepth => Shader::FlatColor,
+                Shader::ExpensiveDepth => Shader::ExpensiveColor,
+                Shader::LinearDepth | Shader::LogarithmicDepth => Shader::FlatColor,
                 // It runs more often than the other, which a counter would tell.
                 Shader::SampleDepth if draw.counters.is_empty() => Shader::UniformColor,
                 other => other,
@@ -82,6 +86,7 @@ impl DrawKey {
         }
         Self {
             shader,
+            bindings: Bindings::of(draw.shader),
             early_tests,
             shape: Shape {
                 topology: draw.topology,
@@ -144,7 +149,7 @@ impl Pipelines {
                 .get((shader, key.early_tests), |(shader, tests)| {
                     compiled(device, errors, shader.name(), shader.wgsl_with(*tests))
                 })?;
-            let layout = self.layouts.draw(device, Bindings::of(shader))?;
+            let layout = self.layouts.draw(device, key.bindings)?;
             let vertices = wgpu::VertexBufferLayout {
                 array_stride: VERTEX_BYTES,
                 step_mode: wgpu::VertexStepMode::Vertex,
@@ -202,27 +207,32 @@ impl Pipelines {
     }
 }
 
-/// The vertex attributes that a shader takes: position, and colour or texture coordinates where it
+/// The vertex attributes that a shader takes: position, and colour and texture coordinates where it
 /// wants them. A validation layer warns of those that it does not.
 fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
-    const COLORED: [wgpu::VertexAttribute; 2] =
-        wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4];
-    const TEXTURED: [wgpu::VertexAttribute; 2] = [
-        COLORED[0],
-        wgpu::VertexAttribute {
-            format: wgpu::VertexFormat::Float32x2,
-            offset: 32,
-            shader_location: 2,
-        },
-    ];
+    const ALL: [wgpu::VertexAttribute; 3] =
+        wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x2];
+    const TEXTURED: [wgpu::VertexAttribute; 2] = [ALL[0], ALL[2]];
     match shader {
+        Shader::EdgeAlpha | Shader::LinearDepth | Shader::LogarithmicDepth => &ALL,
+        Shader::Centroid | Shader::SampledColor | Shader::SampledDiscard => &TEXTURED,
         Shader::CountedDepth
+        | Shader::DualPeel
+        | Shader::ExpensiveColor
+        | Shader::ExpensiveDepth
+        | Shader::ExpensiveDiscard
         | Shader::FlatColor
         | Shader::FlatColorDepth
-        | Shader::FragCoordDepth => &COLORED,
-        Shader::Centroid | Shader::SampledColor => &TEXTURED,
+        | Shader::Fog
+        | Shader::FragCoordDepth
+        | Shader::Peel
+        | Shader::Stochastic
+        | Shader::WeightedAccumulate => &ALL[..2],
         Shader::CountedColor
         | Shader::CountedDiscard
+        | Shader::DepthGrey
+        | Shader::DepthLinearized
+        | Shader::DepthRange
         | Shader::FrontFacing
         | Shader::SampleDepth
         | Shader::SampleIndex
@@ -231,7 +241,8 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::TexelDiscard
         | Shader::TexelDualSource
         | Shader::UintColor
-        | Shader::UniformColor => &COLORED[..1],
+        | Shader::UniformColor
+        | Shader::WeightedResolve => &ALL[..1],
     }
 }
 
@@ -259,4 +270,31 @@ fn compiled(
     });
     errors.check_shader(name)?;
     Ok(module)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The locations of a vertex entry point's arguments.
+    fn locations(wgsl: &str) -> Vec<u32> {
+        let (_, arguments) = wgsl.split_once("fn vs(").expect("a vertex entry point");
+        let (arguments, _) = arguments.split_once("->").expect("its result");
+        let parts = arguments.split("@location(").skip(1);
+        let number = |part: &str| part.split(')').next()?.parse().ok();
+        parts.filter_map(number).collect()
+    }
+
+    #[test]
+    fn shaders_are_given_the_attributes_that_they_take() {
+        for shader in Shader::ALL {
+            let given = attributes(*shader).iter();
+            let given: Vec<_> = given.map(|a| a.shader_location).collect();
+            assert_eq!(given, locations(shader.wgsl()), "{}", shader.name());
+            for attribute in attributes(*shader) {
+                let offset = [0, 16, 32][attribute.shader_location as usize];
+                assert_eq!(attribute.offset, offset, "{}", shader.name());
+            }
+        }
+    }
 }

@@ -57,7 +57,8 @@ impl<'a> Slot<'a> {
             let draws =
                 pass.color.contains(&index) || depth_stencil && !pass.depth_stencil_read_only;
             let resolves = pass.resolve.contains(&Some(index));
-            (draws, resolves, depth_stencil)
+            let fetches = pass.draws.iter().any(|d| d.textures.contains(&index));
+            (draws, resolves, depth_stencil || fetches)
         });
         let first = drawn
             .clone()

@@ -1,6 +1,8 @@
 //! One file per command.
 
 pub(crate) mod adapters;
+pub(crate) mod bench;
+pub(crate) mod diff;
 pub(crate) mod explain;
 pub(crate) mod list;
 pub(crate) mod mutants;
@@ -10,6 +12,7 @@ pub(crate) mod run;
 use crate::args::CaseArguments;
 use crate::failure::Failure;
 use etalon_case::{Case, Library, Profile};
+use etalon_record::AbsentAdapter;
 use std::path::PathBuf;
 
 /// The cases of a folder, or those built in.
@@ -19,6 +22,25 @@ pub(crate) fn library(folder: Option<&PathBuf>) -> Result<Library, Failure> {
         None => Library::built_in(),
     }
     .map_err(Failure::usage)
+}
+
+/// Refuses to go on without an adapter that was named; of others that are absent it tells.
+pub(crate) fn refuse_absent(named: &[String], absent: &[AbsentAdapter]) -> Result<(), Failure> {
+    if !named.is_empty()
+        && let Some(absent) = absent.first()
+    {
+        return Err(Failure::usage(format!(
+            "adapter {} cannot be used: {}; {}",
+            absent.name, absent.reason, absent.remedy
+        )));
+    }
+    for absent in absent {
+        eprintln!(
+            "not here: {}: {}; {}",
+            absent.name, absent.reason, absent.remedy
+        );
+    }
+    Ok(())
 }
 
 /// The chosen cases, built: what is wrong with a case file shows before anything is done.

@@ -13,6 +13,10 @@ use etalon_report::TableOptions;
 use etalon_runner::{Globs, HuntPlan};
 use std::time::{Instant, SystemTime};
 
+/// Areas that take part only where they are named: they measure what the other areas have proven, on
+/// pictures so large that one of them takes as long as hundreds of cases.
+const MEASURING: [&str; 2] = ["methods", "perf"];
+
 /// Hunts the chosen bugs, or lists them.
 pub(crate) fn run(arguments: &MutantsArguments) -> Result<u8, Failure> {
     let chosen = chosen(&arguments.globs)?;
@@ -20,9 +24,11 @@ pub(crate) fn run(arguments: &MutantsArguments) -> Result<u8, Failure> {
         return list(&chosen, arguments.format);
     }
     let library = library(arguments.cases.as_ref())?;
+    let named = !arguments.case_globs.is_empty();
     let cases: Vec<Case> = build(&library, arguments.profile.into(), &arguments.case_globs)?
         .into_iter()
         .filter(|c| c.judged_as.is_none())
+        .filter(|c| named || !MEASURING.contains(&c.area()))
         .collect();
     if cases.is_empty() {
         return Err(Failure::nothing(format!(

@@ -3,20 +3,39 @@
 use crate::args::ReportArguments;
 use crate::failure::Failure;
 use crate::output::{color, print, width};
-use etalon_record::Run;
+use etalon_record::{Bench, FolderKind, Run};
 use etalon_report::TableOptions;
+use std::path::Path;
 
-/// Makes the reports of run folders anew, from the folders alone.
+/// Makes the reports of run and bench folders anew, from the folders alone.
 pub(crate) fn run(arguments: &ReportArguments) -> Result<u8, Failure> {
+    let options = TableOptions {
+        width: width(),
+        color: color(),
+    };
     for folder in &arguments.folders {
-        let run = Run::read(folder).map_err(Failure::usage)?;
-        let written = etalon_report::write(folder).map_err(Failure::usage)?;
-        let options = TableOptions {
-            width: width(),
-            color: color(),
-        };
-        print(&etalon_report::table(&run, options))?;
-        print(&format!("\n{}\n", written.html.display()))?;
+        match FolderKind::of(folder) {
+            Some(FolderKind::Bench) => bench(folder, options)?,
+            // What is neither is told as a missing run.
+            Some(FolderKind::Run) | None => of_run(folder, options)?,
+        }
     }
     Ok(0)
+}
+
+fn of_run(folder: &Path, options: TableOptions) -> Result<(), Failure> {
+    let run = Run::read(folder).map_err(Failure::usage)?;
+    let written = etalon_report::write(folder).map_err(Failure::usage)?;
+    print(&etalon_report::table(&run, options))?;
+    print(&format!("\n{}\n", written.html.display()))
+}
+
+fn bench(folder: &Path, options: TableOptions) -> Result<(), Failure> {
+    let bench = Bench::read(folder).map_err(Failure::usage)?;
+    let written = etalon_report::write_bench(folder).map_err(Failure::usage)?;
+    print(&etalon_report::bench_table(&bench, options))?;
+    for path in [written.html, written.bencher, written.action] {
+        print(&format!("{}\n", path.display()))?;
+    }
+    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::adapters::{Adapters, discover};
 use crate::args::{Format, RunArguments};
-use crate::commands::chosen;
+use crate::commands::{chosen, refuse_absent};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::output::{color, print, print_json, width};
 use etalon_case::Case;
@@ -19,20 +19,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
     let cases = chosen(&arguments.selection)?;
     let expectations = expectations(arguments.expect.as_deref())?;
     let adapters = discover(&arguments.adapters)?;
-    if !arguments.adapters.is_empty()
-        && let Some(absent) = adapters.absent.first()
-    {
-        return Err(Failure::usage(format!(
-            "adapter {} cannot be used: {}; {}",
-            absent.name, absent.reason, absent.remedy
-        )));
-    }
-    for absent in &adapters.absent {
-        eprintln!(
-            "not here: {}: {}; {}",
-            absent.name, absent.reason, absent.remedy
-        );
-    }
+    refuse_absent(&arguments.adapters, &adapters.absent)?;
     let names: Vec<String> = adapters
         .ready
         .iter()
@@ -75,7 +62,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
     })
 }
 
-fn expectations(file: Option<&Path>) -> Result<Expectations, Failure> {
+pub(crate) fn expectations(file: Option<&Path>) -> Result<Expectations, Failure> {
     match file {
         Some(file) => Expectations::read(file),
         None => Expectations::parse(

@@ -9,6 +9,7 @@ use etalon_case::state::{
     BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Shader,
 };
 use etalon_frame::{Aspect, ChannelEncoding};
+use etalon_pipeline::shader::Kept;
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, blend};
 
 /// Declares the replaceable steps: each a field of [`Hooks`] and a function that plants a bug there.
@@ -325,10 +326,10 @@ impl Steps for &Hooks {
         }
     }
 
-    fn kept(&self, value: Real, limit: Real) -> Mask {
+    fn kept(&self, kept: &Kept<Real>) -> Mask {
         match &self.kept {
-            None => Faithful.kept(value, limit),
-            Some(bug) => std::array::from_fn(|i| bug(value[i], limit[i])),
+            None => Faithful.kept(kept),
+            Some(bug) => std::array::from_fn(|i| bug(kept.value[i], kept.limit[i])),
         }
     }
 

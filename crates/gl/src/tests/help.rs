@@ -9,6 +9,7 @@ use std::time::Duration;
 
 pub(super) const SIZE: u32 = 16;
 pub(super) const CLEAR: [u32; 4] = [0, 0, 255, 255];
+pub(super) const NONE: [u32; 4] = [0; 4];
 pub(super) const RED: [u32; 4] = [255, 0, 0, 255];
 pub(super) const GREEN: [u32; 4] = [0, 255, 0, 255];
 

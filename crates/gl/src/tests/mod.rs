@@ -1,13 +1,16 @@
 //! Every check on every software driver, each driver in a process of its own: the environment
 //! chooses it before libEGL is loaded.
 
+mod chains;
 mod checks;
 mod counting;
 mod formats;
 mod help;
+mod layers;
 mod raster;
 mod samples;
 mod sampling;
+mod shaders;
 mod targets;
 
 use crate::{GlBackend, Options, Platform, Profile, Tuning, open_with};
@@ -95,6 +98,9 @@ fn all(backend: &GlBackend) {
     samples::all(backend);
     counting::all(backend);
     sampling::all(backend);
+    chains::all(backend);
+    layers::all(backend);
+    shaders::all(backend);
     assert_eq!(backend.messages(), Vec::<String>::new());
 }
 

@@ -6,10 +6,5 @@ use crate::arithmetic::Arithmetic;
 pub(super) fn fragment<A: Arithmetic>(
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
-    FragmentOutput {
-        color: input.color,
-        second: None,
-        depth: None,
-        kept: None,
-    }
+    FragmentOutput::of(input.color)
 }

@@ -8,9 +8,7 @@ pub(super) fn fragment<A: Arithmetic>(
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
     FragmentOutput {
-        color: input.params.color.map(|v| a.constant(v)),
-        second: None,
         depth: Some(input.color[0]),
-        kept: None,
+        ..FragmentOutput::of(input.params.color.map(|v| a.constant(v)))
     }
 }

@@ -7,9 +7,7 @@ pub(super) fn fragment<A: Arithmetic>(
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
     FragmentOutput {
-        color: input.color,
-        second: None,
         depth: Some(input.depth),
-        kept: None,
+        ..FragmentOutput::of(input.color)
     }
 }

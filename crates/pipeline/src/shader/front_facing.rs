@@ -12,10 +12,5 @@ pub(super) fn fragment<A: Arithmetic>(
     } else {
         input.params.back_color
     };
-    FragmentOutput {
-        color: color.map(|v| a.constant(v)),
-        second: None,
-        depth: None,
-        kept: None,
-    }
+    FragmentOutput::of(color.map(|v| a.constant(v)))
 }

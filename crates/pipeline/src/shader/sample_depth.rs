@@ -9,9 +9,7 @@ pub(super) fn fragment<A: Arithmetic>(
 ) -> FragmentOutput<A::Real> {
     let depth = (input.sample + 1) as f32 / 32.0;
     FragmentOutput {
-        color: input.params.color.map(|v| a.constant(v)),
-        second: None,
         depth: Some(a.constant(depth)),
-        kept: None,
+        ..FragmentOutput::of(input.params.color.map(|v| a.constant(v)))
     }
 }

@@ -8,10 +8,5 @@ pub(super) fn fragment<A: Arithmetic>(
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
     let bit = |n: u32| ((input.sample >> n) & 1) as f32;
-    FragmentOutput {
-        color: [bit(0), bit(1), bit(2), 1.0].map(|v| a.constant(v)),
-        second: None,
-        depth: None,
-        kept: None,
-    }
+    FragmentOutput::of([bit(0), bit(1), bit(2), 1.0].map(|v| a.constant(v)))
 }

@@ -1,6 +1,6 @@
 //! Twin of `shaders/texel_discard.wgsl`.
 
-use super::{FragmentInput, FragmentOutput};
+use super::{FragmentInput, FragmentOutput, Kept};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(
@@ -8,9 +8,10 @@ pub(super) fn fragment<A: Arithmetic>(
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
     FragmentOutput {
-        color: input.texels[0],
-        second: None,
-        depth: None,
-        kept: Some([input.texels[0][3], a.constant(input.params.color[3])]),
+        kept: Some(Kept::unless_below(
+            input.texels[0][3],
+            a.constant(input.params.color[3]),
+        )),
+        ..FragmentOutput::of(input.texels[0])
     }
 }

@@ -7,9 +7,7 @@ pub(super) fn fragment<A: Arithmetic>(
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
     FragmentOutput {
-        color: input.texels[0],
         second: Some(input.texels[1]),
-        depth: None,
-        kept: None,
+        ..FragmentOutput::of(input.texels[0])
     }
 }

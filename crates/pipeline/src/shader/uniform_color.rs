@@ -7,10 +7,5 @@ pub(super) fn fragment<A: Arithmetic>(
     a: &mut A,
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
-    FragmentOutput {
-        color: input.params.color.map(|v| a.constant(v)),
-        second: None,
-        depth: None,
-        kept: None,
-    }
+    FragmentOutput::of(input.params.color.map(|v| a.constant(v)))
 }

@@ -154,6 +154,8 @@ pub struct Rules {
     pub name: &'static str,
     /// Relative error of fixed-function floating-point: viewport, interpolation, blending.
     pub float_error: Permission<f64>,
+    /// Relative error of each result that a shader computes.
+    pub shader_error: Permission<f64>,
     /// Relative error of a normalized code read as a float; 0 and 1 are exact.
     pub decode_error: Permission<f64>,
     /// Vertex snapping.
@@ -231,6 +233,7 @@ mod tests {
             assert_eq!(rules.name, api.name());
             for citation in [
                 rules.float_error.citation,
+                rules.shader_error.citation,
                 rules.decode_error.citation,
                 rules.snap.citation,
                 rules.shared_edge.citation,

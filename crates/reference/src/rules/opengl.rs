@@ -12,6 +12,10 @@ pub(super) fn rules() -> Rules {
             1e-5,
             "OpenGL 4.6: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
         ),
+        shader_error: permit(
+            1e-5,
+            "OpenGL 4.6: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+        ),
         decode_error: permit(
             1e-5,
             "OpenGL 4.6: 2.3.5.1 Conversion from Normalized Fixed-Point to Floating-Point, at the \

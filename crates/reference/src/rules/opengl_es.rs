@@ -12,6 +12,10 @@ pub(super) fn rules() -> Rules {
             1e-5,
             "OpenGL ES 3.2: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
         ),
+        shader_error: permit(
+            3.0 * f64::from(f32::EPSILON),
+            "OpenGL ES Shading Language 3.20: 4.7.1 Range and Precision: sums and products correctly rounded, quotients within 2.5 ULP",
+        ),
         decode_error: permit(
             1e-5,
             "OpenGL ES 3.2: 2.3.5.1 Conversion from Normalized Fixed-Point to Floating-Point, at \

@@ -12,6 +12,10 @@ pub(super) fn rules() -> Rules {
             1e-5,
             "Vulkan: Fundamentals, Floating-Point Computation: accurate to about 1 part in 10^5",
         ),
+        shader_error: permit(
+            3.0 * f64::from(f32::EPSILON),
+            "Vulkan: Precision and Operation of SPIR-V Instructions: sums and products correctly rounded, quotients within 2.5 ULP",
+        ),
         decode_error: permit(
             1e-5,
             "Vulkan: Fundamentals, Conversion from Normalized Fixed-Point to Floating-Point, at the \

@@ -12,6 +12,10 @@ pub(super) fn rules() -> Rules {
             1e-5,
             "WebGPU: silent on fixed-function accuracy; Vulkan and OpenGL: about 1 part in 10^5",
         ),
+        shader_error: permit(
+            3.0 * f64::from(f32::EPSILON),
+            "WGSL: 15.7.4 Floating Point Accuracy: sums and products correctly rounded, quotients within 2.5 ULP",
+        ),
         decode_error: permit(
             1e-5,
             "WebGPU: silent on normalized conversions; Vulkan and OpenGL: about 1 part in 10^5",

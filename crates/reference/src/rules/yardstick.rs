@@ -19,6 +19,10 @@ pub(super) fn rules(api: Api) -> Rules {
             f64::from(f32::EPSILON),
             "Direct3D 11.3: 3.1 Floating Point Rules: 1 ULP",
         ),
+        shader_error: permit(
+            3.0 * f64::from(f32::EPSILON),
+            "Yardstick: 32-bit floats, as Vulkan and WGSL have them: quotients within 2.5 ULP",
+        ),
         decode_error: permit(
             f64::from(f32::EPSILON),
             "Direct3D 11.3: 3.2.3.5 UNORM to FLOAT: 1 ULP",

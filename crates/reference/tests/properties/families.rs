@@ -3,7 +3,7 @@
 use crate::common::{APIS, draw, limits};
 use etalon_case::{Case, Library, Profile};
 use etalon_frame::{AspectStatistics, Limits, compare};
-use etalon_reference::judgements;
+use etalon_reference::{Texels, judgements_of};
 use std::collections::BTreeMap;
 
 /// First, middle and last case of a file's quick profile.
@@ -15,10 +15,13 @@ fn some(file: &etalon_case::CaseFile) -> Vec<Case> {
     built.map(|c| c.expect("built-in cases build")).collect()
 }
 
+/// Large pictures are looked at here and there.
+const TEXELS: Texels = Texels::AtMost(1024);
+
 /// What is asserted of everything that the case reads back.
 fn figures(case: &Case, limits: &Limits) -> AspectStatistics {
     let mut sum = AspectStatistics::default();
-    for judgement in judgements(case.judged_scene(), limits) {
+    for judgement in judgements_of(case.judged_scene(), limits, TEXELS) {
         for (_, aspect) in judgement.legal.statistics() {
             sum.add(aspect);
         }
@@ -35,13 +38,17 @@ fn every_file_asserts_something_under_every_api() {
         for case in some(file) {
             for (api, limits) in &every {
                 let figures = figures(&case, limits);
-                assert!(figures.asserted > 0, "{}: nothing by {api:?}", case.id);
+                // A method may go so far that anything is legal: of that its distance from the truth is told.
+                let some = figures.asserted > 0 || case.method.is_some();
+                assert!(some, "{}: nothing by {api:?}", case.id);
                 let area = areas.entry(case.area().to_owned()).or_default();
                 area.add(figures);
             }
         }
     }
-    for (area, figures) in areas {
+    // Of large pictures most is not looked at, and of methods much is open.
+    let measured = |area: &str| matches!(area, "methods" | "perf");
+    for (area, figures) in areas.into_iter().filter(|(area, _)| !measured(area)) {
         let share = figures.asserted as f64 / figures.channels as f64;
         assert!(share > 0.9, "{area}: {share:.3} is asserted");
         let exact = figures.exact as f64 / figures.asserted as f64;
@@ -71,7 +78,7 @@ fn what_the_rasterizer_draws_of_them_is_legal_under_every_api() {
                 let frame = draw(scene);
                 for (api, limits) in &every {
                     // Of a format whose encoding is open one reading has to fit.
-                    let worst = judgements(scene, limits)
+                    let worst = judgements_of(scene, limits, TEXELS)
                         .iter()
                         .filter_map(|j| compare(&frame, &j.legal, &j.yardstick, 1).ok())
                         .map(|found| found.worst())

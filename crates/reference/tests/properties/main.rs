@@ -7,5 +7,6 @@ mod families;
 mod frames;
 mod golden;
 mod scenes;
+mod textures;
 mod wide;
 mod worlds;

@@ -227,7 +227,10 @@ fn multisample() -> BoxedStrategy<String> {
 
 fn draw(ground: Ground) -> BoxedStrategy<String> {
     let shaders = if ground.targets > 1 {
-        vec![("texel_color_all", r#","textures":["source"]"#)]
+        vec![
+            ("texel_color_all", r#","textures":["source"]"#),
+            ("dual_peel", r#","textures":["source","second"]"#),
+        ]
     } else {
         vec![
             ("flat_color", ""),
@@ -245,6 +248,18 @@ fn draw(ground: Ground) -> BoxedStrategy<String> {
                 r#","textures":["source"],"counters":["any"]"#,
             ),
             ("front_facing", ""),
+            ("depth_grey", ""),
+            ("depth_linearized", ""),
+            ("depth_range", ""),
+            ("edge_alpha", ""),
+            ("expensive_color", ""),
+            ("expensive_depth", ""),
+            ("expensive_discard", ""),
+            ("fog", ""),
+            ("linear_depth", ""),
+            ("logarithmic_depth", ""),
+            ("stochastic", r#","textures":["source"]"#),
+            ("weighted_resolve", r#","textures":["source","second"]"#),
             ("texel_color", r#","textures":["source"]"#),
             ("texel_dual_source", r#","textures":["source","second"]"#),
             ("uniform_color", ""),

@@ -36,7 +36,7 @@ pub(crate) fn breakable(name: &str) -> Markup {
     }
 }
 
-fn details(a: &AdapterRecord) -> Markup {
+pub(crate) fn details(a: &AdapterRecord) -> Markup {
     let kind = if a.software { "software" } else { "hardware" };
     let l = &a.limits;
     html! {

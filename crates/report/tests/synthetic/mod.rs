@@ -1,5 +1,7 @@
 //! A made-up run of a believable shape, for tests and for looking at.
 
+pub(crate) mod methods;
+
 use etalon_frame::{
     Api, Aspect, Band, ChannelEncoding, ChannelMismatch, Feature, FormatSupport, Limits, ReadPath,
     Story, StoryLine, TextureFormat, WrongTexel,

@@ -2,11 +2,14 @@
 //! process starts, so each test runs its body in a child process. A missing driver is a failure.
 
 mod capabilities;
+mod chains;
 mod counting;
 mod harness;
+mod layers;
 mod samples;
 mod sampling;
 mod scenes;
+mod shaders;
 mod whole;
 
 /// The same tests for each driver.
@@ -77,6 +80,23 @@ macro_rules! tests {
                 an_average_of_texels
                 fragments_are_discarded
                 integers_are_stored
+            );
+            tests!(@ chains $driver, $choice,
+                two_attachments_take_turns
+                a_clear_is_read_before_the_first_draw
+                what_was_resolved_is_read
+                a_larger_attachment_is_averaged
+                sampled_fragments_are_discarded
+                invocations_of_all_passes_add_up
+            );
+            tests!(@ layers $driver, $choice,
+                layers_are_peeled_one_by_one
+                layers_are_peeled_from_both_ends
+                weighted_layers_are_summed_and_shown
+                samples_are_discarded_by_thresholds
+            );
+            tests!(@ shaders $driver, $choice,
+                every_shader_draws
             );
             #[test]
             fn validation_is_clean() {

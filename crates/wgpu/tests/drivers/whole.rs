@@ -4,7 +4,7 @@ use crate::scenes::{
     depth_formats_store_what_is_written, passes_keep_contents, stencil_without_depth,
     uploads_keep_their_orientation,
 };
-use crate::{capabilities, counting, samples, sampling};
+use crate::{capabilities, chains, counting, layers, samples, sampling, shaders};
 use etalon_backend::Backend;
 use etalon_case::{Library, Profile};
 use etalon_frame::{Feature, Requirement};
@@ -66,6 +66,12 @@ pub(crate) fn validation_is_clean(backend: &WgpuBackend) {
     said_nothing(backend, "counting");
     sampling::all(backend);
     said_nothing(backend, "sampling");
+    chains::all(backend);
+    said_nothing(backend, "chains");
+    layers::all(backend);
+    said_nothing(backend, "layers");
+    shaders::every_shader_draws(backend);
+    said_nothing(backend, "shaders");
     run_all(backend);
     capabilities::two_sources(backend);
     said_nothing(backend, "two sources");

@@ -1,0 +1,155 @@
+use super::*;
+
+const SIZE: [u32; 2] = [128, 128];
+
+fn area(corners: &[DVec3]) -> f64 {
+    let next = corners.iter().cycle().skip(1);
+    let twice = corners.iter().zip(next).map(|(a, b)| a.x * b.y - b.x * a.y);
+    twice.sum::<f64>() / 2.0
+}
+
+fn corners(polygon: &Polygon) -> Vec<DVec3> {
+    polygon.corners.iter().map(|c| DVec3::from(*c)).collect()
+}
+
+/// A regular polygon, turned.
+fn disc(sides: u32, turn: f64) -> Vec<DVec3> {
+    let corner = |i: u32| {
+        let (sin, cos) = (turn + f64::from(i) / f64::from(sides) * std::f64::consts::TAU).sin_cos();
+        DVec3::new(cos, sin, 0.3 * cos + 0.1)
+    };
+    (0..sides).map(corner).collect()
+}
+
+#[test]
+fn a_clipped_polygon_and_what_was_cut_off_make_the_whole() {
+    for i in 0..200 {
+        let shape = disc(3 + i % 6, f64::from(i) * 0.7);
+        let (sin, cos) = (f64::from(i) * 0.41).sin_cos();
+        let offset = f64::from(i % 9) * 0.3 - 1.2;
+        let side = |p: DVec3| cos * p.x + sin * p.y - offset;
+        let [kept, cut] = [clip(&shape, side), clip(&shape, |p| -side(p))];
+        assert!(kept.iter().all(|p| side(*p) > -1e-12));
+        assert!(cut.iter().all(|p| side(*p) < 1e-12));
+        let whole = area(&kept) + area(&cut);
+        assert!((whole - area(&shape)).abs() < 1e-12, "{whole}");
+        // Still flat.
+        assert!(kept.iter().all(|p| (p.z - 0.3 * p.x - 0.1).abs() < 1e-12));
+    }
+}
+
+#[test]
+fn neighbours_cut_their_common_edge_at_the_same_point() {
+    let [a, b, c, d] =
+        [[0.1, 0.2], [3.7, 5.3], [-2.0, 4.0], [4.0, 0.3]].map(|[x, y]| DVec3::new(x, y, x * y));
+    for i in 0..50 {
+        let offset = 0.3 + f64::from(i) * 0.1;
+        let side = |p: DVec3| p.x * 0.3 + p.y - offset;
+        let left = clip(&[a, b, c], side);
+        let right = clip(&[b, a, d], side);
+        let common = left.iter().filter(|p| right.contains(p)).count();
+        // The upper end of the edge and the cut, or the whole edge.
+        assert_eq!(common, if side(b) >= 0.0 { 2 } else { 0 }, "{offset}");
+    }
+}
+
+#[test]
+fn window_depth_is_0_at_the_near_and_1_at_the_far_plane() {
+    let planes = [0.1, 1000.0];
+    assert_eq!(window_depth(0.1, planes), 0.0);
+    assert_eq!(window_depth(1000.0, planes), 1.0);
+    assert!((window_depth(0.2, planes) - 0.50005).abs() < 1e-6);
+    // Exchanged, the same from the other end.
+    let reversed = window_depth(7.0, [1000.0, 0.1]);
+    assert!((window_depth(7.0, planes) + reversed - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_point_is_seen_where_its_ray_meets_the_picture() {
+    let eye = DVec3::new(0.0, 0.0, 5.0);
+    let view = View::perspective(SIZE, [eye, DVec3::ZERO], 90.0, [1.0, 9.0]);
+    // A square of 2 at distance 5, a fifth of the height that is seen there.
+    let faces = cuboid(
+        DVec3::new(-1.0, -1.0, -1.0),
+        DVec3::new(1.0, 1.0, 0.0),
+        [1.0; 4],
+    );
+    let front: Vec<Polygon> = view.see(&faces[5..]);
+    let [polygon] = &front[..] else {
+        panic!("a single face is seen as a single polygon");
+    };
+    let [low, high] = [64.0 - 12.8, 64.0 + 12.8];
+    for (corner, due) in
+        polygon
+            .corners
+            .iter()
+            .zip([[low, high], [high, high], [high, low], [low, low]])
+    {
+        assert!((corner[0] - due[0]).abs() < 1e-9 && (corner[1] - due[1]).abs() < 1e-9);
+        assert!((corner[2] - window_depth(5.0, [1.0, 9.0])).abs() < 1e-12);
+    }
+    // Seen from its front it is counter-clockwise, which with y down is a negative area.
+    assert!(area(&corners(polygon)) < 0.0);
+}
+
+#[test]
+fn nothing_is_left_beside_the_picture_or_before_the_near_plane() {
+    let faces = cuboid(DVec3::splat(-3.0), DVec3::splat(3.0), [1.0; 4]);
+    for (at, some) in [(2.0, true), (3.05, true), (8.0, true), (-9.0, false)] {
+        let eye = DVec3::new(0.5, 0.2, at);
+        let view = View::perspective(SIZE, [eye, eye - DVec3::Z], 60.0, [0.1, 30.0]);
+        let seen = view.see(&faces);
+        assert_eq!(!seen.is_empty(), some, "{at}");
+        for [x, y, depth] in seen.iter().flat_map(|p| p.corners.iter().copied()) {
+            assert!((-1e-9..=128.000_001).contains(&x) && (-1e-9..=128.000_001).contains(&y));
+            assert!((-1e-9..=1.000_001).contains(&depth), "{depth}");
+        }
+    }
+}
+
+#[test]
+fn settled_triangles_lie_on_the_grid_leave_no_gaps_and_touch_no_centre() {
+    let eye = DVec3::new(1.0, 1.4, 2.6);
+    let view = View::perspective(SIZE, [eye, DVec3::ZERO], 60.0, [0.1, 30.0]);
+    let faces = cuboid(DVec3::splat(-1.0), DVec3::splat(1.0), [1.0; 4]);
+    let seen = view.see(&faces);
+    let triangles = settle(SIZE, &seen);
+    assert!(triangles.len() >= 6 * 3);
+    let grid = |p: &Polygon| {
+        corners(p)
+            .iter()
+            .map(|c| [c.x, c.y].map(|v| (v * GRID) as i64))
+            .collect()
+    };
+    let mut covered = 0.0;
+    for triangle in &triangles {
+        let points: Vec<[i64; 2]> = grid(triangle);
+        for (i, point) in points.iter().enumerate() {
+            let exact = point.map(|v| v as f64 / GRID);
+            assert_eq!(exact, [triangle.corners[i][0], triangle.corners[i][1]]);
+            assert!(!touches_centre(SIZE, *point, points[(i + 1) % 3]));
+        }
+        covered += area(&corners(triangle));
+    }
+    // As much is seen of its front as of its back: the box stays closed.
+    assert!(covered.abs() < 1e-9, "{covered}");
+}
+
+#[test]
+fn an_edge_through_a_centre_is_noticed_and_moved_off() {
+    let texels = |x: f64, y: f64| [(x * GRID) as i64, (y * GRID) as i64];
+    let [a, b] = [texels(10.0, 10.0), texels(40.0, 40.0)];
+    assert!(touches_centre(SIZE, a, b) && touches_centre(SIZE, b, a));
+    assert!(touches_centre(SIZE, texels(0.0, 8.5), texels(128.0, 8.5)));
+    assert!(touches_centre(SIZE, texels(8.5, 0.0), texels(8.5, 9.0)));
+    assert!(!touches_centre(SIZE, texels(8.5, 0.0), texels(8.5, 0.25)));
+    assert!(!touches_centre(SIZE, texels(0.0, 8.0), texels(128.0, 8.0)));
+    let mut points = [a, b];
+    untie(SIZE, &mut points, &[[0, 1]]);
+    assert!(!touches_centre(SIZE, points[0], points[1]));
+    let moved = points
+        .iter()
+        .zip([a, b])
+        .map(|(p, q)| (p[0] - q[0]).abs() + (p[1] - q[1]).abs());
+    assert!(moved.sum::<i64>() <= 2);
+}

@@ -1,0 +1,265 @@
+//! How far the codes of a frame lie from the ideal ones, whether they are legal or not.
+
+use crate::format::{Aspect, ChannelEncoding};
+use crate::legal::{CodeInterval, ImageInfo, TexelSet, WorldBox};
+use serde::{Deserialize, Serialize};
+
+/// What a code that stands for no finite value is away from the ideal, in codes.
+const NOT_FINITE: f64 = 4_294_967_296.0;
+
+/// How far the channels of one aspect lie from the ideal, which is the middle of the yardstick's
+/// interval. Distances are in codes: where the ideal value lies halfway between two codes, both are
+/// half a code away. A float's code is its step at the ideal value, and never less than its step
+/// just below 1, so that noise around 0 does not outweigh everything else.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Accuracy {
+    /// The aspect.
+    pub aspect: Aspect,
+    /// Channels of samples of which the yardstick asserts something.
+    pub channels: u64,
+    /// Their mean distance.
+    pub mean: f64,
+    /// The largest distance; a code that stands for no finite value counts as 2^32 away.
+    pub max: f64,
+}
+
+impl Accuracy {
+    /// Adds another frame's figures of the same aspect.
+    pub fn add(&mut self, other: &Self) {
+        let all = self.channels.saturating_add(other.channels);
+        if other.channels > 0 {
+            let share = other.channels as f64 / all as f64;
+            self.mean += (other.mean - self.mean) * share;
+            self.max = self.max.max(other.max);
+        }
+        self.channels = all;
+    }
+}
+
+/// Sums up the distances of one group's samples.
+#[derive(Debug)]
+pub(crate) struct Distances<'a> {
+    channels: Vec<Channel<'a>>,
+}
+
+#[derive(Debug)]
+struct Channel<'a> {
+    info: &'a ImageInfo,
+    encoding: ChannelEncoding,
+    all: CodeInterval,
+    asserted: u64,
+    sum: f64,
+    max: f64,
+}
+
+impl<'a> Distances<'a> {
+    /// Nothing yet, of the images of one group in the order of their channels.
+    pub(crate) fn new(images: &[(usize, &'a ImageInfo)]) -> Self {
+        let of = |info: &'a ImageInfo| {
+            info.channels.iter().map(move |encoding| Channel {
+                info,
+                encoding: *encoding,
+                all: CodeInterval::new(encoding.min_order(), encoding.max_order()),
+                asserted: 0,
+                sum: 0.0,
+                max: 0.0,
+            })
+        };
+        Self {
+            channels: images.iter().flat_map(|(_, info)| of(info)).collect(),
+        }
+    }
+
+    /// Adds one sample, held against the nearest of the outcomes that the yardstick knows.
+    pub(crate) fn add(&mut self, yardstick: &TexelSet, orders: &[i64]) {
+        let world = match yardstick.worlds.as_slice() {
+            [] => return,
+            [only] => only,
+            several => {
+                let far = |w: &&WorldBox| (w.violations(orders), self.total(w, orders));
+                let nearer = |a: &&WorldBox, b: &&WorldBox| {
+                    let (a, b) = (far(a), far(b));
+                    a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+                };
+                match several.iter().min_by(nearer) {
+                    Some(world) => world,
+                    None => return,
+                }
+            }
+        };
+        for ((channel, interval), order) in
+            self.channels.iter_mut().zip(&world.channels).zip(orders)
+        {
+            if *interval == channel.all {
+                continue;
+            }
+            channel.asserted += 1;
+            let distance = distance(channel.encoding, *interval, *order);
+            if distance > 0.0 {
+                channel.sum += distance;
+                channel.max = channel.max.max(distance);
+            }
+        }
+    }
+
+    fn total(&self, world: &WorldBox, orders: &[i64]) -> f64 {
+        let channels = self.channels.iter().zip(&world.channels).zip(orders);
+        channels
+            .map(|((c, interval), order)| distance(c.encoding, *interval, *order))
+            .sum()
+    }
+
+    /// Adds the group's figures to those of a frame, in the order of aspects.
+    pub(crate) fn into(self, result: &mut Vec<Accuracy>) {
+        for channel in self.channels {
+            let aspect = channel.info.aspect;
+            let own = Accuracy {
+                aspect,
+                channels: channel.asserted,
+                mean: channel.sum / channel.asserted.max(1) as f64,
+                max: channel.max,
+            };
+            match result.binary_search_by_key(&aspect, |a| a.aspect) {
+                Ok(at) => result[at].add(&own),
+                Err(at) => result.insert(at, own),
+            }
+        }
+    }
+}
+
+/// How far a code lies from the middle of an interval, in codes.
+fn distance(encoding: ChannelEncoding, interval: CodeInterval, order: i64) -> f64 {
+    if interval.is_exact() && interval.low == order {
+        return 0.0;
+    }
+    let Some(mantissa) = mantissa(encoding) else {
+        // Halves of codes, which are whole numbers.
+        return (2 * order - interval.low - interval.high).unsigned_abs() as f64 / 2.0;
+    };
+    let [low, high, actual] =
+        [interval.low, interval.high, order].map(|o| encoding.value_of_order(o));
+    let ideal = low + (high - low) / 2.0;
+    let exponent = ideal.abs().log2().floor().max(-1.0);
+    let distance = (actual - ideal).abs() / (exponent - f64::from(mantissa)).exp2();
+    if distance.is_finite() {
+        distance.min(NOT_FINITE)
+    } else {
+        NOT_FINITE
+    }
+}
+
+/// How many bits of a float follow its leading one.
+fn mantissa(encoding: ChannelEncoding) -> Option<u8> {
+    match encoding {
+        ChannelEncoding::Float16 => Some(10),
+        ChannelEncoding::Float32 => Some(23),
+        ChannelEncoding::Ufloat(bits) => Some(bits),
+        ChannelEncoding::Unorm(_)
+        | ChannelEncoding::Snorm(_)
+        | ChannelEncoding::Srgb8
+        | ChannelEncoding::Uint(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::ReadPath;
+
+    fn order(value: f32) -> i64 {
+        ChannelEncoding::Float32.order_of_code(value.to_bits())
+    }
+
+    #[test]
+    fn distances_are_in_codes_of_the_encoding() {
+        let unorm = ChannelEncoding::Unorm(8);
+        let due = CodeInterval::new;
+        assert_eq!(distance(unorm, due(7, 7), 7), 0.0);
+        assert_eq!(distance(unorm, due(7, 7), 9), 2.0);
+        assert_eq!(distance(unorm, due(7, 8), 7), 0.5);
+        assert_eq!(distance(unorm, due(7, 8), 8), 0.5);
+        assert_eq!(distance(unorm, due(7, 9), 8), 0.0);
+        assert_eq!(
+            distance(ChannelEncoding::Snorm(8), due(-128, -128), 127),
+            255.0
+        );
+
+        let float = ChannelEncoding::Float32;
+        let at = |v: f32| CodeInterval::exact(order(v));
+        let next = |v: f32| order(v.next_up());
+        assert_eq!(distance(float, at(1.0), next(1.0)), 1.0);
+        assert_eq!(distance(float, at(0.5), next(0.5)), 1.0);
+        assert_eq!(distance(float, at(1000.0), next(1000.0)), 1.0);
+        // A tenth of a millionth around zero is no thousand million steps away.
+        assert_eq!(distance(float, at(0.0), order(2_f32.powi(-24))), 1.0);
+        assert_eq!(
+            distance(float, at(-0.25), order(0.25)),
+            0.5 * 2_f64.powi(24)
+        );
+        for far in [f32::NAN, f32::INFINITY, f32::MAX] {
+            assert_eq!(distance(float, at(1.0), order(far)), NOT_FINITE, "{far}");
+        }
+        let half = ChannelEncoding::Float16;
+        assert_eq!(distance(half, CodeInterval::exact(0x3c00), 0x3c01), 1.0);
+    }
+
+    #[test]
+    fn the_nearest_outcome_counts_and_what_is_not_asserted_does_not() {
+        let unorm = ChannelEncoding::Unorm(8);
+        let info = ImageInfo {
+            attachment: "color".to_owned(),
+            aspect: Aspect::Color,
+            size: [1, 1],
+            samples: 1,
+            channels: vec![unorm; 2],
+            read: ReadPath::Copy,
+            group: 0,
+            first_channel: 0,
+        };
+        let world = |channels: [(i64, i64); 2]| WorldBox {
+            channels: channels
+                .iter()
+                .map(|(l, h)| CodeInterval::new(*l, *h))
+                .collect(),
+        };
+        let mut distances = Distances::new(&[(0, &info)]);
+        let edge = TexelSet {
+            worlds: vec![world([(0, 0), (0, 0)]), world([(200, 202), (100, 100)])],
+        };
+        distances.add(&edge, &[200, 100]);
+        distances.add(&edge, &[0, 0]);
+        let free = TexelSet {
+            worlds: vec![world([(0, 255), (5, 5)])],
+        };
+        distances.add(&free, &[77, 8]);
+        distances.add(&TexelSet::default(), &[1, 2]);
+        let mut result = Vec::new();
+        distances.into(&mut result);
+        assert_eq!(
+            result,
+            [Accuracy {
+                aspect: Aspect::Color,
+                channels: 5,
+                mean: (1.0 + 3.0) / 5.0,
+                max: 3.0,
+            }]
+        );
+    }
+
+    #[test]
+    fn figures_add_up_by_their_channels() {
+        let of = |channels, mean, max| Accuracy {
+            aspect: Aspect::Depth,
+            channels,
+            mean,
+            max,
+        };
+        let mut sum = of(0, 0.0, 0.0);
+        sum.add(&of(0, 0.0, 0.0));
+        assert_eq!(sum, of(0, 0.0, 0.0));
+        sum.add(&of(30, 1.0, 2.0));
+        sum.add(&of(10, 5.0, 9.0));
+        assert_eq!(sum, of(40, 2.0, 9.0));
+    }
+}

@@ -1,0 +1,21 @@
+//! How far a picture lies from what it should be.
+
+use serde::{Deserialize, Serialize};
+
+/// The distance of a picture from the truth over red, green and blue, in units of full brightness.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Distance {
+    /// Root of the mean squared difference over all texels and channels.
+    pub rmse: f64,
+    /// The largest difference of any channel.
+    pub max: f64,
+    /// Mean of the FLIP difference (Andersson and others 2020) at 67 pixels per degree, 0 to 1. FLIP
+    /// takes 8-bit sRGB: values are held to 0 to 1 and rounded to codes as they are, without the sRGB
+    /// curve, as if a display showed them so.
+    pub flip: f64,
+    /// Share of texels that differ by more than 2 of 255 in some channel, 0 to 1.
+    pub wrong: f64,
+    /// How far the truth itself may be off in any channel of any texel: 0 where it is closed form.
+    pub truth_error: f64,
+}

@@ -1,0 +1,34 @@
+//! Twin of `shaders/expensive_color.wgsl`. The value that is so costly to find out is 0, whatever the
+//! steps; whose time they take is the walker's business. The rest is `flat_color`.
+//!
+//! [`cost`] is the same work for a rasterizer whose times are to mean something.
+
+pub(super) use super::flat_color::fragment;
+
+/// What the shader adds to its colour, for some texels of a row by their columns: 0, after `steps` steps
+/// of work for each. Nothing tells the compiler that the steps are in vain, as long as what comes back is
+/// used.
+pub fn cost<const N: usize>(columns: [u32; N], row: u32, steps: f32) -> [f32; N] {
+    let mut hashes = columns.map(|x| x.wrapping_mul(747_796_405).wrapping_add(row));
+    // `as` holds a float that is no 32-bit integer to the nearest that is.
+    for _ in 0..steps as u32 {
+        for hash in &mut hashes {
+            *hash = hash.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            *hash ^= *hash >> 15;
+        }
+    }
+    // One of two neighbours is even.
+    hashes.map(|hash| (hash.wrapping_mul(hash.wrapping_add(1)) & 1) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_value_that_is_hard_to_find_is_nothing() {
+        for steps in [0.0, 1.0, 7.0, 1000.0, -3.0, f32::NAN] {
+            assert_eq!(cost([0, 1, 17, u32::MAX], 5, steps), [0.0; 4], "{steps}");
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! Twin of `shaders/logarithmic_depth.wgsl`.
+
+use super::{FragmentInput, FragmentOutput};
+use crate::arithmetic::Arithmetic;
+
+pub(super) fn fragment<A: Arithmetic>(
+    a: &mut A,
+    input: &FragmentInput<'_, A::Real>,
+) -> FragmentOutput<A::Real> {
+    let [near, _, scale, _] = input.params.color.map(|v| a.constant(v));
+    let inverse = a.mul(input.uv[0], near);
+    let inverse = a.rounded(inverse);
+    let one = a.constant(1.0);
+    let ratio = a.div(one, inverse);
+    let ratio = a.rounded(ratio);
+    let logarithm = a.log2(ratio);
+    let depth = a.mul(logarithm, scale);
+    FragmentOutput {
+        depth: Some(a.rounded(depth)),
+        ..FragmentOutput::of(input.color)
+    }
+}

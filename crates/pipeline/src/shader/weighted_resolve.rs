@@ -1,0 +1,18 @@
+//! Twin of `shaders/weighted_resolve.wgsl`.
+
+use super::{FragmentInput, FragmentOutput};
+use crate::arithmetic::Arithmetic;
+
+pub(super) fn fragment<A: Arithmetic>(
+    a: &mut A,
+    input: &FragmentInput<'_, A::Real>,
+) -> FragmentOutput<A::Real> {
+    let [sum, left] = input.texels;
+    let least = a.constant(0.00001);
+    let all = a.max(sum[3], least);
+    let mean = |a: &mut A, c: usize| {
+        let value = a.div(sum[c], all);
+        a.rounded(value)
+    };
+    FragmentOutput::of([mean(a, 0), mean(a, 1), mean(a, 2), left[0]])
+}

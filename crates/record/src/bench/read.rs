@@ -1,0 +1,249 @@
+//! Reading a bench folder.
+
+use super::{BENCH_FILE, BENCH_FORMAT, BenchHeader, BenchLine, BenchRecord, Ended, Picture, Round};
+use crate::error::RecordError;
+use crate::expectations::without_position;
+use serde::Deserialize;
+use serde_json::error::Category;
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{BufRead, BufReader, ErrorKind};
+use std::path::Path;
+
+/// A recorded bench.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bench {
+    /// The first line.
+    pub header: BenchHeader,
+    /// Per case and adapter, in the order in which their pictures were judged.
+    pub records: Vec<BenchRecord>,
+    /// Whether the last line was cut off, as a killed bench leaves it; the line is dropped.
+    pub truncated: bool,
+}
+
+const REMEDY: &str = "remove the line, or record the bench again";
+
+#[derive(Deserialize)]
+struct Format {
+    format: u32,
+}
+
+impl Bench {
+    /// Reads `bench.jsonl` in a bench folder. A last line that is not whole JSON is dropped and
+    /// noted; any other line must parse and agree with those before it.
+    ///
+    /// # Errors
+    /// When there is no bench, it is in another format, or a line is damaged or impossible: a time
+    /// that is not above zero, a round of a picture that was not judged or is wrong, an adapter that
+    /// the header does not name.
+    pub fn read(folder: &Path) -> Result<Self, RecordError> {
+        let path = folder.join(BENCH_FILE);
+        let file = File::open(&path).map_err(|e| match e.kind() {
+            ErrorKind::NotFound | ErrorKind::NotADirectory => RecordError::NoBench {
+                path: folder.to_owned(),
+            },
+            _ => RecordError::io("read", &path)(e),
+        })?;
+        let mut lines = BufReader::new(file);
+        let mut line = Vec::new();
+        let mut next = |line: &mut Vec<u8>| {
+            line.clear();
+            lines
+                .read_until(b'\n', line)
+                .map_err(RecordError::io("read", &path))
+        };
+        let at = |number: usize, message: String| RecordError::Parse {
+            path: path.clone(),
+            line: number,
+            message,
+            remedy: REMEDY,
+        };
+
+        next(&mut line)?;
+        let mut assembly = Assembly {
+            header: header(&line, &path)?,
+            records: Vec::new(),
+            places: HashMap::new(),
+        };
+        let mut number = 2;
+        // A damaged line is an error as soon as another line follows it.
+        let mut damaged: Option<RecordError> = None;
+        while next(&mut line)? > 0 {
+            if let Some(error) = damaged {
+                return Err(error);
+            }
+            match serde_json::from_slice::<BenchLine>(&line) {
+                Ok(line) => assembly.take(line).map_err(|why| at(number, why))?,
+                Err(e) => {
+                    let error = at(number, without_position(&e));
+                    // Whole JSON of the wrong shape was not cut off: another hand wrote it.
+                    if e.classify() == Category::Data {
+                        return Err(error);
+                    }
+                    damaged = Some(error);
+                }
+            }
+            number += 1;
+        }
+        Ok(Self {
+            header: assembly.header,
+            records: assembly.records,
+            truncated: damaged.is_some(),
+        })
+    }
+
+    /// What the bench tells of a case on an adapter.
+    pub fn record(&self, case: &str, adapter: &str) -> Option<&BenchRecord> {
+        let mut all = self.records.iter();
+        all.find(|r| r.picture.case == case && r.picture.adapter == adapter)
+    }
+
+    /// How many rounds are missing from a complete bench; a case whose picture may not be timed, or
+    /// whose rounds ended with a reason, lacks none.
+    pub fn missing(&self) -> u64 {
+        let rounds = u64::from(self.header.rounds);
+        let pairs = self
+            .header
+            .cases
+            .saturating_mul(self.header.adapters.len() as u64);
+        let unseen = pairs.saturating_sub(self.records.len() as u64);
+        let short = |r: &BenchRecord| {
+            let due = r.picture.may_be_timed() && r.ended.is_none();
+            if due {
+                rounds.saturating_sub(r.rounds.len() as u64)
+            } else {
+                0
+            }
+        };
+        let seen: u64 = self.records.iter().map(short).sum();
+        unseen.saturating_mul(rounds).saturating_add(seen)
+    }
+}
+
+fn header(line: &[u8], path: &Path) -> Result<BenchHeader, RecordError> {
+    let wrong = |e: serde_json::Error| RecordError::Parse {
+        path: path.to_owned(),
+        line: 1,
+        message: without_position(&e),
+        remedy: REMEDY,
+    };
+    // The format goes first, since another one may have other fields.
+    let format: Format = serde_json::from_slice(line).map_err(wrong)?;
+    if format.format != BENCH_FORMAT {
+        return Err(RecordError::Format {
+            path: path.to_owned(),
+            found: format.format,
+            expected: BENCH_FORMAT,
+        });
+    }
+    serde_json::from_slice(line).map_err(wrong)
+}
+
+/// A bench as far as it was read.
+struct Assembly {
+    header: BenchHeader,
+    records: Vec<BenchRecord>,
+    /// Case and adapter to the record.
+    places: HashMap<(String, String), usize>,
+}
+
+impl Assembly {
+    /// Takes one line, or says why it cannot follow those before it.
+    fn take(&mut self, line: BenchLine) -> Result<(), String> {
+        match line {
+            BenchLine::Picture(picture) => self.picture(picture),
+            BenchLine::Round(round) => self.round(round),
+            BenchLine::Ended(ended) => self.ended(ended),
+        }
+    }
+
+    fn picture(&mut self, picture: Picture) -> Result<(), String> {
+        if self.header.adapter(&picture.adapter).is_none() {
+            let adapter = &picture.adapter;
+            return Err(format!("the header names no adapter {adapter:?}"));
+        }
+        if !(0.0..=1.0).contains(&picture.asserted) {
+            let share = picture.asserted;
+            return Err(format!("the asserted share {share} is not in 0 to 1"));
+        }
+        let key = (picture.case.clone(), picture.adapter.clone());
+        if self.places.insert(key, self.records.len()).is_some() {
+            let (case, adapter) = (&picture.case, &picture.adapter);
+            return Err(format!("a second picture of {case:?} on {adapter:?}"));
+        }
+        self.records.push(BenchRecord {
+            picture,
+            rounds: Vec::new(),
+            ended: None,
+        });
+        Ok(())
+    }
+
+    /// The record that a line belongs to.
+    fn open(&mut self, case: &str, adapter: &str) -> Result<&mut BenchRecord, String> {
+        let key = (case.to_owned(), adapter.to_owned());
+        let place = self.places.get(&key).copied();
+        let record = place.and_then(|at| self.records.get_mut(at));
+        let record = record.ok_or_else(|| {
+            format!("no picture of {case:?} on {adapter:?} was judged before this")
+        })?;
+        if !record.picture.may_be_timed() {
+            let verdict = record.picture.verdict;
+            return Err(format!(
+                "{case:?} on {adapter:?} has the verdict {verdict} and so no frame times"
+            ));
+        }
+        if record.ended.is_some() {
+            return Err(format!("{case:?} on {adapter:?} had ended before this"));
+        }
+        Ok(record)
+    }
+
+    fn round(&mut self, round: Round) -> Result<(), String> {
+        possible(&round)?;
+        let record = self.open(&round.case, &round.adapter)?;
+        let due = record.rounds.len();
+        if round.round as usize != due {
+            return Err(format!("round {} where round {due} is due", round.round));
+        }
+        record.rounds.push(round);
+        Ok(())
+    }
+
+    fn ended(&mut self, ended: Ended) -> Result<(), String> {
+        let record = self.open(&ended.case, &ended.adapter)?;
+        record.ended = Some(ended);
+        Ok(())
+    }
+}
+
+/// Whether a round can be one.
+fn possible(round: &Round) -> Result<(), String> {
+    let frames = round.wall.len();
+    if frames == 0 {
+        return Err("a round without a sample".to_owned());
+    }
+    let as_many = |times: &[f64]| times.len() == frames;
+    if !as_many(&round.cpu) || !(round.gpu.is_empty() || as_many(&round.gpu)) {
+        return Err(format!(
+            "{frames} wall times, {} cpu times and {} gpu times of the same frames",
+            round.cpu.len(),
+            round.gpu.len()
+        ));
+    }
+    let fine = |t: &f64| t.is_finite() && *t > 0.0;
+    let times = [&round.wall, &round.cpu, &round.gpu, &round.read_back];
+    let single = [round.prepare, round.first];
+    let mut all = times
+        .into_iter()
+        .flatten()
+        .chain(&single)
+        .chain(&round.ruler);
+    if let Some(wrong) = all.find(|t| !fine(t)) {
+        return Err(format!("a time of {wrong} s"));
+    }
+    if !round.at.is_finite() || round.at < 0.0 {
+        return Err(format!("a round that began at {} s", round.at));
+    }
+    Ok(())
+}

@@ -1,0 +1,60 @@
+//! Writing a bench folder.
+
+use super::{BENCH_FILE, BenchHeader, BenchLine, FolderKind};
+use crate::error::RecordError;
+use crate::writer::{gone, json_line};
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// What reports put beside a bench.
+const REPORTS: [&str; 3] = ["index.html", "bencher.json", "benchmark-action.json"];
+
+/// Writes a bench folder, line by line. What was appended survives the writer's death.
+#[derive(Debug)]
+pub struct BenchWriter {
+    path: PathBuf,
+    file: File,
+}
+
+impl BenchWriter {
+    /// Begins a bench in a folder, which is made when it does not exist. A bench that the folder
+    /// already holds is replaced, with its reports.
+    ///
+    /// # Errors
+    /// When the folder cannot be written to, or holds a run, whose report would be overwritten.
+    pub fn create(folder: &Path, header: &BenchHeader) -> Result<Self, RecordError> {
+        let path = folder.join(BENCH_FILE);
+        match FolderKind::of(folder) {
+            Some(FolderKind::Run) => {
+                return Err(RecordError::HoldsRun {
+                    path: folder.to_owned(),
+                });
+            }
+            Some(FolderKind::Bench) => {
+                for name in REPORTS {
+                    gone(fs::remove_file(folder.join(name)), folder, name)?;
+                }
+            }
+            None => {}
+        }
+        fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
+        let file = File::create(&path).map_err(RecordError::io("create", &path))?;
+        let mut writer = Self { path, file };
+        writer.write(&json_line("the header", header)?)?;
+        Ok(writer)
+    }
+
+    /// Appends one line in a single write.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn append(&mut self, line: &BenchLine) -> Result<(), RecordError> {
+        self.write(&json_line("a line of a bench", line)?)
+    }
+
+    fn write(&mut self, line: &[u8]) -> Result<(), RecordError> {
+        let written = self.file.write_all(line);
+        written.map_err(RecordError::io("write", &self.path))
+    }
+}

@@ -1,0 +1,64 @@
+//! What was measured of a method case: how far its picture lies from the truth, and what it costs.
+
+use etalon_frame::Distance;
+use serde::{Deserialize, Serialize};
+
+/// Accuracy and cost of one method on one adapter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Measured {
+    /// The question: `transparency`.
+    pub question: String,
+    /// The scene: `windows`.
+    pub scene: String,
+    /// The method: `depth-peeling`.
+    pub method: String,
+    /// What the stability curve of the family runs along, with this case's value.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub parameter: Option<Parameter>,
+    /// Distance from the truth.
+    pub distance: Distance,
+    /// Frame times; `None` where the picture is wrong by the rules, which gets no time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<Times>,
+    /// Render passes.
+    pub passes: u32,
+    /// Draw calls.
+    pub draws: u32,
+    /// Runs of fragment shaders that the adapter's statistics tell, where it has any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fragments: Option<u64>,
+    /// Bytes of all attachments, by their formats' texel sizes.
+    pub bytes: u64,
+    /// A PNG of the picture below the run folder, with `/` between its parts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub picture: Option<String>,
+    /// A PNG of the truth, likewise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub truth: Option<String>,
+}
+
+/// A parameter and its value.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Parameter {
+    /// The axis.
+    pub name: String,
+    /// The value.
+    pub value: f64,
+}
+
+/// Medians of a case's frame times in seconds, while nothing else was drawn or judged.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Times {
+    /// How many frames were timed, after warming up.
+    pub samples: u32,
+    /// Until the device was done.
+    pub wall: f64,
+    /// Until the last call that submits work returned.
+    pub cpu: f64,
+    /// Between GPU timestamps, where there are any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gpu: Option<f64>,
+}

@@ -1,0 +1,230 @@
+//! Bench folders as they are written, cut off and damaged.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use etalon_record::{
+    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Ended, FolderKind, Machine, Picture,
+    RecordError, Round, ShaderCache, Time, Verdict,
+};
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+
+fn header() -> BenchHeader {
+    let adapter = json!({
+        "name": "cpu", "backend": "cpu", "device": "d", "driver": "etalon", "driver_version": "1",
+        "api_version": "1", "software": true,
+        "limits": { "api": "vulkan", "sub_pixel_bits": 8, "max_size": 1024,
+            "max_color_attachments": 8, "formats": {}, "features": [], "sample_positions": {} },
+    });
+    BenchHeader {
+        format: BENCH_FORMAT,
+        etalon: "0.1.0".to_owned(),
+        commit: None,
+        machine: Machine::default(),
+        started: "2026-01-01T00:00:00Z".to_owned(),
+        command: vec!["etalon".to_owned(), "bench".to_owned()],
+        profile: "quick".to_owned(),
+        cases: 1,
+        rounds: 3,
+        shader_cache: ShaderCache::Cold,
+        ruler: "counting".to_owned(),
+        adapters: vec![serde_json::from_value(adapter).unwrap()],
+        absent: Vec::new(),
+    }
+}
+
+fn picture(verdict: Verdict) -> BenchLine {
+    BenchLine::Picture(Picture {
+        case: "perf/a".to_owned(),
+        adapter: "cpu".to_owned(),
+        verdict,
+        asserted: 1.0,
+        message: String::new(),
+    })
+}
+
+fn round(number: u32) -> Round {
+    Round {
+        case: "perf/a".to_owned(),
+        adapter: "cpu".to_owned(),
+        round: number,
+        at: f64::from(number),
+        ruler: [0.002, 0.008],
+        prepare: 0.5,
+        first: 0.25,
+        warm_up: 4,
+        wall: vec![0.1, 0.2],
+        cpu: vec![0.05, 0.06],
+        gpu: Vec::new(),
+        read_back: Vec::new(),
+    }
+}
+
+fn written(folder: &Path, lines: &[BenchLine]) -> Result<Bench, RecordError> {
+    let mut writer = BenchWriter::create(folder, &header()).unwrap();
+    lines.iter().for_each(|l| writer.append(l).unwrap());
+    Bench::read(folder)
+}
+
+#[test]
+fn what_was_written_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("below/bench");
+    let lines = [
+        picture(Verdict::Pass),
+        BenchLine::Round(round(0)),
+        BenchLine::Round(Round {
+            gpu: vec![0.01, 0.02],
+            ..round(1)
+        }),
+    ];
+    let bench = written(&path, &lines).unwrap();
+    assert_eq!(FolderKind::of(&path), Some(FolderKind::Bench));
+    assert_eq!(bench.header, header());
+    assert!(!bench.truncated);
+    assert_eq!(bench.missing(), 1);
+    let record = bench.record("perf/a", "cpu").unwrap();
+    assert_eq!(record.discarded(), 8);
+    assert_eq!(record.samples(Time::Wall), [[0.1, 0.2], [0.1, 0.2]]);
+    assert_eq!(record.samples(Time::Gpu), [[0.01, 0.02]]);
+    assert_eq!(record.samples(Time::Prepare), [[0.5], [0.5]]);
+    assert!(record.samples(Time::ReadBack).is_empty());
+    assert_eq!(
+        (
+            record.rulers(Time::Wall).len(),
+            record.rulers(Time::Gpu).len()
+        ),
+        (2, 1)
+    );
+    assert!((round(0).ruler_time() - 0.004).abs() < 1e-12);
+}
+
+#[test]
+fn a_killed_bench_is_a_readable_prefix() {
+    let folder = tempfile::tempdir().unwrap();
+    let lines = [
+        picture(Verdict::Pass),
+        BenchLine::Round(round(0)),
+        BenchLine::Round(round(1)),
+    ];
+    written(folder.path(), &lines).unwrap();
+    let path = folder.path().join("bench.jsonl");
+    let whole = fs::read(&path).unwrap();
+    fs::write(&path, &whole[..whole.len() - 30]).unwrap();
+    let bench = Bench::read(folder.path()).unwrap();
+    assert!(bench.truncated);
+    assert_eq!(bench.records[0].rounds.len(), 1);
+    // A damaged line in the middle is another matter.
+    let mut more = whole[..whole.len() - 30].to_vec();
+    more.push(b'\n');
+    more.extend_from_slice(b"{}\n");
+    fs::write(&path, more).unwrap();
+    let error = Bench::read(folder.path()).unwrap_err().to_string();
+    assert!(error.contains("bench.jsonl:4:"), "{error}");
+}
+
+#[test]
+fn impossible_lines_are_told_with_file_and_line() {
+    let pass = || picture(Verdict::Pass);
+    let of = |change: &dyn Fn(&mut Round)| {
+        let mut round = round(0);
+        change(&mut round);
+        vec![pass(), BenchLine::Round(round)]
+    };
+    let ended = || {
+        BenchLine::Ended(Ended {
+            case: "perf/a".to_owned(),
+            adapter: "cpu".to_owned(),
+            verdict: Verdict::Crash,
+            message: String::new(),
+        })
+    };
+    let elsewhere = || match pass() {
+        BenchLine::Picture(p) => BenchLine::Picture(Picture {
+            adapter: "gl".to_owned(),
+            ..p
+        }),
+        other => other,
+    };
+    for (lines, at, words) in [
+        (vec![BenchLine::Round(round(0))], 2, "no picture"),
+        (
+            vec![picture(Verdict::Fail), BenchLine::Round(round(0))],
+            3,
+            "no frame times",
+        ),
+        (
+            vec![picture(Verdict::Open), BenchLine::Round(round(0))],
+            3,
+            "no frame times",
+        ),
+        (vec![pass(), pass()], 3, "second picture"),
+        (vec![elsewhere()], 2, "no adapter"),
+        (
+            vec![pass(), BenchLine::Round(round(1))],
+            3,
+            "round 0 is due",
+        ),
+        (
+            vec![pass(), ended(), BenchLine::Round(round(0))],
+            4,
+            "had ended",
+        ),
+        (of(&|r| r.wall[1] = 0.0), 3, "a time of 0 s"),
+        (of(&|r| r.ruler[0] = -1.0), 3, "a time of -1 s"),
+        (of(&|r| r.cpu.truncate(1)), 3, "2 wall times, 1 cpu times"),
+        (of(&|r| r.gpu.push(0.1)), 3, "1 gpu times"),
+        (of(&|r| r.wall.clear()), 3, "without a sample"),
+        (of(&|r| r.at = -1.0), 3, "began at -1 s"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let error = written(folder.path(), &lines).unwrap_err().to_string();
+        assert!(error.contains(&format!("bench.jsonl:{at}:")), "{error}");
+        assert!(error.contains(words), "{words}: {error}");
+    }
+}
+
+#[test]
+fn unknown_keys_and_other_formats_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bench.jsonl");
+    let mut line: Value = serde_json::to_value(header()).unwrap();
+    line["format"] = json!(99);
+    fs::write(&path, line.to_string()).unwrap();
+    let error = Bench::read(folder.path()).unwrap_err();
+    assert!(
+        matches!(error, RecordError::Format { found: 99, .. }),
+        "{error}"
+    );
+    line["format"] = json!(BENCH_FORMAT);
+    line["more"] = json!(1);
+    fs::write(&path, line.to_string()).unwrap();
+    let error = Bench::read(folder.path()).unwrap_err().to_string();
+    assert!(
+        error.contains("bench.jsonl:1:") && error.contains("more"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_bench_replaces_a_bench_and_no_run() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(matches!(
+        Bench::read(folder.path()),
+        Err(RecordError::NoBench { .. })
+    ));
+    written(folder.path(), &[picture(Verdict::Pass)]).unwrap();
+    fs::write(folder.path().join("bencher.json"), "{}").unwrap();
+    fs::write(folder.path().join("mine.txt"), "").unwrap();
+    let bench = written(folder.path(), &[]).unwrap();
+    assert!(bench.records.is_empty());
+    assert!(
+        !folder.path().join("bencher.json").exists() && folder.path().join("mine.txt").exists()
+    );
+
+    let run = tempfile::tempdir().unwrap();
+    fs::write(run.path().join("run.jsonl"), "").unwrap();
+    assert_eq!(FolderKind::of(run.path()), Some(FolderKind::Run));
+    let error = BenchWriter::create(run.path(), &header()).unwrap_err();
+    assert!(matches!(error, RecordError::HoldsRun { .. }), "{error}");
+}

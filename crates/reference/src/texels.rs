@@ -1,0 +1,152 @@
+//! Which texels of an image are judged: all of them, or few that lie everywhere.
+
+/// Which texels a judge looks at. Of the others nothing is asserted, and nothing is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Texels {
+    /// All.
+    All,
+    /// Of each image at most so many, of a lattice that is the same for all images of one size. Where the
+    /// number allows it, every row and every column is met.
+    AtMost(u64),
+    /// One, in column and row.
+    One([u32; 2]),
+}
+
+/// The texels of one size of image that are looked at: one, or each whose column plus five times its
+/// row is a multiple of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Lattice {
+    Step(u64),
+    One([u32; 2]),
+}
+
+/// How far a lattice moves to the side from one row to the next. Prime, as all steps but 1 are, so that
+/// a step of lattice rows meets each column.
+const SHEAR: u64 = 5;
+
+impl Texels {
+    /// Whether nothing is left out.
+    pub fn is_all(self) -> bool {
+        self == Self::All
+    }
+
+    /// Whether a texel of an image of so many columns and rows is looked at.
+    pub fn contains(self, size: [u32; 2], x: u32, y: u32) -> bool {
+        self.lattice(size).contains(x, y)
+    }
+
+    /// How many texels of such an image are looked at.
+    pub fn count(self, size: [u32; 2]) -> u64 {
+        self.lattice(size).count(size)
+    }
+
+    pub(crate) fn lattice(self, size: [u32; 2]) -> Lattice {
+        match self {
+            Self::All => Lattice::ALL,
+            Self::One(at) => Lattice::One(at),
+            Self::AtMost(most) => {
+                let texels = u64::from(size[0]) * u64::from(size[1]);
+                let most = most.max(1);
+                if texels <= most {
+                    return Lattice::ALL;
+                }
+                let fits = |step: &u64| Lattice::Step(*step).count(size) <= most;
+                let primes = (texels.div_ceil(most)..).filter(|n| is_prime(*n) && *n != SHEAR);
+                // Past the number of texels one lattice point is left, so that one step always fits.
+                Lattice::Step(primes.into_iter().find(fits).unwrap_or(texels))
+            }
+        }
+    }
+}
+
+impl Lattice {
+    /// All texels.
+    pub(crate) const ALL: Self = Self::Step(1);
+
+    pub(crate) fn contains(self, x: u32, y: u32) -> bool {
+        self.first(x, y) == Some(x)
+    }
+
+    /// The first column, from one on, that is looked at in a row.
+    pub(crate) fn first(self, from: u32, y: u32) -> Option<u32> {
+        match self {
+            Self::One([x, row]) => (row == y && x >= from).then_some(x),
+            Self::Step(step) => {
+                let past = (u64::from(from) + SHEAR * u64::from(y)) % step;
+                let on = if past == 0 { 0 } else { step - past };
+                u32::try_from(u64::from(from) + on).ok()
+            }
+        }
+    }
+
+    /// Whether a rectangle of left, top, right and bottom, the last two excluded, holds one of them.
+    pub(crate) fn meets(self, [left, top, right, bottom]: [u32; 4]) -> bool {
+        (top..bottom).any(|y| self.first(left, y).is_some_and(|x| x < right))
+    }
+
+    fn count(self, [width, height]: [u32; 2]) -> u64 {
+        match self {
+            Self::One([x, y]) => u64::from(x < width && y < height),
+            Self::Step(1) => u64::from(width) * u64::from(height),
+            Self::Step(step) => {
+                let of_row = |y| match self.first(0, y) {
+                    Some(first) if first < width => u64::from(width - 1 - first) / step + 1,
+                    _ => 0,
+                };
+                (0..height).map(of_row).sum()
+            }
+        }
+    }
+}
+
+fn is_prime(n: u64) -> bool {
+    n > 1
+        && (2..)
+            .take_while(|d| d * d <= n)
+            .all(|d| !n.is_multiple_of(d))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lattice_meets_every_row_and_column_and_no_more_texels_than_asked() {
+        for (size, most) in [
+            ([1920, 1080], 4096),
+            ([1280, 720], 2000),
+            ([128, 128], 1000),
+            ([64, 48], 100),
+            ([16, 16], 50),
+        ] {
+            let texels = Texels::AtMost(most);
+            let (mut rows, mut columns) = (vec![0; size[1] as usize], vec![0; size[0] as usize]);
+            for y in 0..size[1] {
+                for x in 0..size[0] {
+                    if texels.contains(size, x, y) {
+                        rows[y as usize] += 1;
+                        columns[x as usize] += 1;
+                    }
+                }
+            }
+            let count: u64 = rows.iter().sum();
+            assert_eq!(count, texels.count(size), "{size:?}");
+            assert!(count <= most && count * 2 > most, "{size:?}: {count}");
+            assert!(rows.iter().all(|n| *n > 0), "{size:?}: a row is missed");
+            assert!(
+                columns.iter().all(|n: &u64| *n > 0),
+                "{size:?}: a column is missed"
+            );
+        }
+    }
+
+    #[test]
+    fn small_images_are_looked_at_whole_and_tiny_numbers_keep_their_bound() {
+        assert_eq!(Texels::AtMost(256).count([16, 16]), 256);
+        assert_eq!(Texels::AtMost(1).count([16, 16]), 1);
+        assert_eq!(Texels::AtMost(0).count([16, 16]), 1);
+        assert_eq!(Texels::One([3, 4]).count([16, 16]), 1);
+        assert!(Texels::One([3, 4]).contains([16, 16], 3, 4));
+        assert!(!Texels::One([3, 4]).contains([16, 16], 4, 3));
+    }
+}

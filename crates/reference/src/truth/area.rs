@@ -1,0 +1,273 @@
+//! The mean of the picture over a cell.
+//!
+//! The cell is cut along the edges of the surfaces, along the lines where two of them pass through
+//! each other, and where a paint changes its formula, until one formula holds in every piece. Flat
+//! and linear colours are integrated in closed form, others by quadrature that is exact for them.
+
+use super::cell::{Cell, Cut, Point, SLACK};
+use super::order::{self, Members, Relation};
+use super::quadrature;
+use super::surface::Ready;
+use smallvec::SmallVec;
+
+/// Pieces that a texel may have before it is halved.
+const PIECES: usize = 4096;
+
+/// Cuts within cuts that are followed before a texel is halved: they take room on the stack.
+const DEPTH: usize = 200;
+
+/// How often a texel may be halved: to 16 by 16 parts.
+const HALVINGS: u32 = 8;
+
+/// The most textured surfaces over each other that are integrated exactly.
+const EXACT_TEXTURES: usize = 6;
+
+/// Points along a side where there are more, and those of the rule that it is held against.
+const DENSE: [usize; 2] = [6, 4];
+
+/// An integral over a part of the picture.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Integral {
+    /// Colour times area.
+    pub(super) sum: [f64; 3],
+    /// How far any channel of it may be off.
+    pub(super) error: f64,
+}
+
+impl Integral {
+    fn add(&mut self, other: Self) {
+        for (sum, more) in self.sum.iter_mut().zip(other.sum) {
+            *sum += more;
+        }
+        self.error += other.error;
+    }
+}
+
+/// The surfaces that may be seen in a part of the picture.
+pub(super) struct Scene<'a> {
+    pub(super) surfaces: &'a [Ready<'a>],
+    pub(super) background: [f64; 3],
+    /// Those that may be seen there, the nearer first as far as that is known.
+    pub(super) touching: &'a [usize],
+}
+
+impl Scene<'_> {
+    /// The integral of the picture over a cell.
+    ///
+    /// A cell with too many pieces is halved and each half tried anew. What has too many even as a
+    /// 256th of a texel counts as what is seen at its middle, and its area times the widest spread of
+    /// colours as the error: every colour that `over` gives lies between those it is given.
+    pub(super) fn integral(&self, low: Point, high: Point) -> Integral {
+        self.halved(low, high, 0)
+    }
+
+    fn halved(&self, low: Point, high: Point, halvings: u32) -> Integral {
+        let cell = Cell::rectangle(low, high);
+        let mut pieces = Pieces {
+            scene: self,
+            left: (PIECES >> halvings).max(16),
+            depth: 0,
+            integral: Integral::default(),
+        };
+        let mut members = Members::new();
+        if pieces.cover(cell.clone(), 0, &mut members).is_some() {
+            return pieces.integral;
+        }
+        if halvings == HALVINGS {
+            return self.guess(&cell);
+        }
+        let (mut before, mut after) = (high, low);
+        let axis = halvings as usize % 2;
+        before[axis] = low[axis] + (high[axis] - low[axis]) / 2.0;
+        after[axis] = before[axis];
+        let mut both = self.halved(low, before, halvings + 1);
+        both.add(self.halved(after, high, halvings + 1));
+        both
+    }
+
+    fn guess(&self, cell: &Cell) -> Integral {
+        let (area, middle) = cell.area_and_centroid();
+        let covering = self.touching.iter().copied();
+        let mut members: Members = covering
+            .filter(|&i| self.surfaces[i].covers(middle))
+            .collect();
+        order::sort(self.surfaces, &mut members, &[middle]);
+        let color = order::compose(self.surfaces, &members, self.background, middle);
+        let spread = |c: usize| {
+            let tones = self.touching.iter().map(|&i| self.surfaces[i].tones[c]);
+            let ground = (self.background[c], self.background[c]);
+            let (low, high) = tones.fold(ground, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+            high - low
+        };
+        Integral {
+            sum: color.map(|v| v * area),
+            error: area * (0..3).map(spread).fold(0.0, f64::max),
+        }
+    }
+
+    /// Sorts the surfaces that cover all of a cell, leaves out those that nothing is seen of, and
+    /// gives them front to back; or two that cross in it.
+    pub(super) fn visible(&self, cell: &Cell, members: &[usize]) -> Result<Members, [usize; 2]> {
+        let mut sorted = Members::from_slice(members);
+        order::sort(self.surfaces, &mut sorted, cell.corners());
+        let crossing = |a: usize, b: usize| {
+            order::relation(self.surfaces, a, b, cell.corners()) == Relation::Crossing
+        };
+        for (i, &member) in sorted.iter().enumerate() {
+            if self.surfaces[member].opaque {
+                // What lies behind an opaque surface may be in any order, as long as it stays behind.
+                let behind = sorted[i + 1..].iter().find(|&&b| crossing(member, b));
+                if let Some(&behind) = behind {
+                    return Err([member, behind]);
+                }
+                sorted.truncate(i + 1);
+                break;
+            }
+            match sorted.get(i + 1) {
+                Some(&next) if crossing(member, next) => return Err([member, next]),
+                _ => {}
+            }
+        }
+        Ok(sorted)
+    }
+}
+
+/// The pieces of a cell; every function gives `None` once there are too many.
+struct Pieces<'a> {
+    scene: &'a Scene<'a>,
+    left: usize,
+    depth: usize,
+    integral: Integral,
+}
+
+impl Pieces<'_> {
+    /// Goes one cut deeper.
+    fn deeper(&mut self, what: impl FnOnce(&mut Self) -> Option<()>) -> Option<()> {
+        self.left = self.left.checked_sub(1)?;
+        self.depth = (self.depth < DEPTH).then_some(self.depth + 1)?;
+        what(self)?;
+        self.depth -= 1;
+        Some(())
+    }
+
+    /// Adds a cell that `members` cover, and of which the surfaces from `next` on may cover a part.
+    fn cover(&mut self, cell: Cell, next: usize, members: &mut Members) -> Option<()> {
+        let (known, scene) = (members.len(), self.scene);
+        let mut rest = cell;
+        for (i, &candidate) in scene.touching.iter().enumerate().skip(next) {
+            let surface = &scene.surfaces[candidate];
+            if surface.misses(&rest) || self.hidden(candidate, members, &rest) {
+                continue;
+            }
+            let mut covered = true;
+            for edge in 0..surface.edges() {
+                match rest.cut(|p| surface.inside(edge, p), SLACK) {
+                    Cut::Positive => {}
+                    Cut::Negative => {
+                        covered = false;
+                        break;
+                    }
+                    Cut::Both(inside, outside) => {
+                        self.deeper(|pieces| pieces.cover(outside, i + 1, members))?;
+                        rest = inside;
+                    }
+                }
+            }
+            if covered {
+                members.push(candidate);
+            }
+        }
+        self.arrange(&rest, members)?;
+        members.truncate(known);
+        Some(())
+    }
+
+    /// Whether a surface lies behind an opaque one in all of a cell.
+    fn hidden(&self, candidate: usize, members: &[usize], cell: &Cell) -> bool {
+        let surfaces = self.scene.surfaces;
+        members.iter().any(|&member| {
+            surfaces[member].opaque
+                && order::relation(surfaces, member, candidate, cell.corners()) == Relation::Front
+        })
+    }
+
+    /// Adds a cell that all of `members` and no other surface covers.
+    fn arrange(&mut self, cell: &Cell, members: &[usize]) -> Option<()> {
+        let surfaces = self.scene.surfaces;
+        match self.scene.visible(cell, members) {
+            Ok(visible) => self.paint(cell, &visible),
+            Err([a, b]) => {
+                let slack = order::slack(surfaces, a, b);
+                match cell.cut(|p| order::gap(surfaces, a, b, p), slack) {
+                    Cut::Both(one, other) => self.deeper(|pieces| {
+                        pieces.arrange(&one, members)?;
+                        pieces.arrange(&other, members)
+                    }),
+                    Cut::Positive | Cut::Negative => None,
+                }
+            }
+        }
+    }
+
+    /// Adds a cell in which these surfaces are seen, in this order.
+    fn paint(&mut self, cell: &Cell, visible: &[usize]) -> Option<()> {
+        let scene = self.scene;
+        let seen = |p| order::compose(scene.surfaces, visible, scene.background, p);
+        let all = || visible.iter().map(|&i| &scene.surfaces[i]);
+        let textures = all().filter(|s| s.is_textured()).count();
+        let fades = all().any(Ready::fades);
+        if let Some((one, other)) = all().find_map(|s| s.kink(cell)) {
+            return self.deeper(|pieces| {
+                pieces.paint(&one, visible)?;
+                pieces.paint(&other, visible)
+            });
+        }
+        if textures == 0 && !fades {
+            // Linear at most: the mean is what is seen at the centre of gravity.
+            let (area, centroid) = cell.area_and_centroid();
+            self.integral.add(Integral {
+                sum: seen(centroid).map(|v| v * area),
+                error: 0.0,
+            });
+            return Some(());
+        }
+        let by = |points: usize| {
+            let mut sum = [0.0; 3];
+            for triangle in cell.triangles() {
+                let part = quadrature::integral(triangle, points, seen);
+                sum.iter_mut()
+                    .zip(part)
+                    .for_each(|(sum, part)| *sum += part);
+            }
+            sum
+        };
+        // Each texture takes (1 - alpha), of degree 2, from what is behind it, and gives colour times
+        // alpha, of degree 4: together `2 * textures + 2`. Between a distance and its double,
+        // 8 points give 1 over it to 1e-10.
+        let fading = if fades { 6 } else { 0 };
+        self.integral.add(if textures <= EXACT_TEXTURES {
+            Integral {
+                sum: by(textures + 2 + fading),
+                error: 0.0,
+            }
+        } else {
+            let [fine, coarse] = DENSE.map(by);
+            let off = fine.iter().zip(coarse).map(|(a, b)| (a - b).abs());
+            Integral {
+                sum: fine,
+                error: 2.0 * off.fold(0.0, f64::max),
+            }
+        });
+        Some(())
+    }
+}
+
+/// The surfaces by their depth at a point, the nearest first.
+pub(super) fn nearest_first(surfaces: &[Ready<'_>], touching: &[usize], p: Point) -> Vec<usize> {
+    let mut depths: SmallVec<[(f64, usize); 16]> = touching
+        .iter()
+        .map(|&i| (surfaces[i].depth.at(p), i))
+        .collect();
+    depths.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+    depths.into_iter().map(|(_, i)| i).collect()
+}

@@ -1,0 +1,269 @@
+//! `index.html` of a bench: one self-contained page that works offline and has no script.
+
+use super::data::{CaseFigures, Figures, Timed};
+use super::picture::{Scale, drift, strip};
+use super::{KINDS, change, duration};
+use crate::html::adapters::{breakable, details};
+use crate::html::{POLICY, STYLE};
+use crate::words::{self, count};
+use etalon_record::{Bench, BenchRecord, Time};
+use etalon_stats::{CONFIDENCE, MIN_ROUNDS, POWER, Summary};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+const OWN_STYLE: &str = include_str!("bench.css");
+
+/// The frame of a page.
+pub(super) fn frame(title: &str, body: Markup) -> String {
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { (title) }
+                style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) }
+            }
+            body { (body) }
+        }
+    }
+    .into_string()
+}
+
+/// The whole page.
+pub(super) fn page(bench: &Bench, figures: &Figures<'_>) -> String {
+    let body = html! {
+        (head(bench, figures))
+        (explanation())
+        @if figures.cases.is_empty() {
+            p { "No case was drawn, so there is nothing to report." }
+        } @else {
+            @for (kind, title) in KINDS { (overview(figures, kind, title)) }
+            (ruler(bench))
+            section id="cases" {
+                h2 { "Cases" }
+                @for (i, case) in figures.cases.iter().enumerate() { (of_case(case, i)) }
+            }
+        }
+        section id="adapters" {
+            h2 { "Adapters" }
+            @if bench.header.adapters.is_empty() { p { "None." } }
+            @for adapter in &bench.header.adapters { (details(adapter)) }
+            @for absent in &bench.header.absent {
+                p.soft { (absent.name) ": " (absent.reason) "; " (absent.remedy) }
+            }
+        }
+        footer { "Made by etalon from bench.jsonl in this folder." }
+    };
+    frame(&format!("etalon bench {}", bench.header.started), body)
+}
+
+fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
+    let h = &bench.header;
+    let untimed = figures.cases.iter().flat_map(|c| &c.untimed);
+    let bad = untimed.filter(|r| verdict(r).is_bad()).count() as u64;
+    html! {
+        header {
+            h1 { "etalon bench" }
+            p.lead { "How long graphics drivers take for frames that were found to be right." }
+            @if bench.truncated || bench.missing() > 0 {
+                p.state.bad { b { "! Incomplete. " } (count(bench.missing(), "round")) " missing." }
+            }
+            @if bad > 0 {
+                p.state.bad {
+                    b { "✗ " (count(bad, "picture")) " wrong, broken or unjudged" }
+                    ": no frame time, and listed below with the reason."
+                }
+            }
+            dl.facts {
+                dt { "Started" } dd { (h.started) }
+                dt { "Command" } dd { code { (h.command.join(" ")) } }
+                dt { "Machine" } dd { (h.machine.cpu) ", " (count(u64::from(h.machine.cores), "core")) ", " (h.machine.os) }
+                dt { "Suite" } dd {
+                    "etalon " (h.etalon)
+                    @if let Some(commit) = &h.commit { ", commit " code { (commit) } }
+                }
+                dt { "Scope" } dd {
+                    (count(h.cases, "case")) " (" (h.profile) ") on " (count(h.adapters.len() as u64, "adapter"))
+                    ", " (count(u64::from(h.rounds), "round")) " each"
+                }
+                dt { "Shader caches" } dd { (h.shader_cache.name()) }
+                dt { "Ruler" } dd { (h.ruler) }
+            }
+        }
+    }
+}
+
+fn explanation() -> Markup {
+    html! {
+        details {
+            summary { "How to read this" }
+            p {
+                "A round is one fresh preparation of a scene, some frames of warm-up, which are "
+                "discarded and counted, and some timed frames, none of which is discarded. Rounds of all "
+                "cases and adapters interleave, so that whatever drifts hits all alike."
+            }
+            p {
+                b { "Median" } " is the median of the rounds' medians; the " b { "interval" }
+                " holds it with a confidence of " (CONFIDENCE * 100.0) " %, by drawing rounds with replacement (at least "
+                (MIN_ROUNDS) " rounds). " b { "p50" } " and " b { "p95" } " are over all frames. "
+                b { "Visible" } " is the smallest change that a diff with another bench like this one "
+                "finds with a probability of " (POWER) "."
+            }
+            p {
+                b { "Wall" } " lasts until the device is done, " b { "cpu" }
+                " until the last call that submits work has returned, " b { "gpu" }
+                " is between timestamps of the device. " b { "Prepare" } " and " b { "first" }
+                " are what a scene costs once. Adapters with the same rank cannot be told apart. Software "
+                "and hardware have tables of their own."
+            }
+        }
+    }
+}
+
+/// Medians of all cases on all adapters of a kind.
+fn overview(figures: &Figures<'_>, kind: bool, title: &str) -> Markup {
+    let mut adapters: Vec<&str> = Vec::new();
+    for timed in figures.cases.iter().flat_map(|c| c.of_kind(kind)) {
+        if !adapters.contains(&timed.adapter()) {
+            adapters.push(timed.adapter());
+        }
+    }
+    adapters.sort_unstable();
+    let cell = |case: &CaseFigures<'_>, adapter: &str| {
+        let timed = case.of_kind(kind).iter().find(|t| t.adapter() == adapter);
+        html! {
+            @match timed {
+                Some(t) if t.rank == 1 && adapters.len() > 1 => td.num.best { (duration(t.wall.median)) },
+                Some(t) => td.num { (duration(t.wall.median)) },
+                None => td.soft { "–" },
+            }
+        }
+    };
+    html! {
+        @if !adapters.is_empty() {
+            section {
+                h2 { (title) " adapters, wall time per frame" }
+                div.wide { table.times {
+                    thead { tr { th { "Case" } @for a in &adapters { th { (breakable(a)) } } } }
+                    tbody { @for (i, case) in figures.cases.iter().enumerate() {
+                        tr {
+                            th scope="row" { a href={ "#case-" (i) } { (case.case) } }
+                            @for a in &adapters { (cell(case, a)) }
+                        }
+                    } }
+                } }
+                p.cap { "Bold: first rank among these adapters. –: not timed." }
+            }
+        }
+    }
+}
+
+fn ruler(bench: &Bench) -> Markup {
+    html! {
+        section id="ruler" {
+            h2 { "The ruler" }
+            @match drift(bench) {
+                Some(chart) => {
+                    p {
+                        "Fixed work on the processor, timed right before and after each round. Where the line "
+                        "moves, the machine itself has changed its pace."
+                    }
+                    (chart)
+                }
+                None => p { "No round was measured." },
+            }
+        }
+    }
+}
+
+fn of_case(case: &CaseFigures<'_>, number: usize) -> Markup {
+    html! {
+        h3 id={ "case-" (number) } { (case.case) }
+        @for (kind, title) in KINDS {
+            @let rows = case.of_kind(kind);
+            @if !rows.is_empty() { (table(rows, title)) }
+        }
+        @if !case.untimed.is_empty() {
+            ul { @for record in &case.untimed { (untimed(record)) } }
+        }
+    }
+}
+
+fn table(rows: &[Timed<'_>], title: &str) -> Markup {
+    let scale = Scale::of(rows);
+    let shown: Vec<Time> = Time::ALL
+        .into_iter()
+        .filter(|t| rows.iter().any(|r| r.others.contains_key(t)))
+        .collect();
+    html! {
+        div.wide { table.times {
+            thead { tr {
+                th { "Rank" } th { (title) " adapter" } th { "Picture" } th { "Median" } th { "Interval" }
+                th { "p50" } th { "p95" } th { "Rounds × frames" } th { "Discarded" } th { "Visible" }
+                @for time in &shown { th { (time.name()) } }
+                th { "Spread" br; small { (scale.caption()) } }
+            } }
+            tbody { @for row in rows {
+                tr {
+                    td.num { (row.rank) }
+                    th scope="row" { (breakable(row.adapter())) }
+                    td { (words::name(row.record.picture.verdict)) small { " " (share(row.record)) } (ended(row.record)) }
+                    (figures_of(&row.wall))
+                    td.num { (row.wall.rounds) " × " (row.wall.samples / row.wall.rounds.max(1)) }
+                    td.num { (row.record.discarded()) }
+                    td.num { @match row.wall.visible { Some(v) => (change(v)), None => "–" } }
+                    @for time in &shown {
+                        td.num { @match row.others.get(time) { Some(s) => (duration(s.median)), None => "–" } }
+                    }
+                    td { (strip(row, scale)) }
+                }
+            } }
+        } }
+    }
+}
+
+fn figures_of(s: &Summary) -> Markup {
+    html! {
+        td.num { b { (duration(s.median)) } }
+        td.num {
+            @match s.interval {
+                Some([low, high]) => { (duration(low)) " to " (duration(high)) }
+                None => "–",
+            }
+        }
+        td.num { (duration(s.p50)) }
+        td.num { (duration(s.p95)) }
+    }
+}
+
+/// How much of the picture was asserted.
+fn share(record: &BenchRecord) -> String {
+    format!("{:.1} % asserted", record.picture.asserted * 100.0)
+}
+
+fn ended(record: &BenchRecord) -> Markup {
+    html! {
+        @if let Some(ended) = &record.ended {
+            small { ", then " (words::name(ended.verdict)) ": " (ended.message) }
+        }
+    }
+}
+
+fn verdict(record: &BenchRecord) -> etalon_record::Verdict {
+    let ended = record.ended.as_ref().map(|e| e.verdict);
+    ended.unwrap_or(record.picture.verdict)
+}
+
+fn untimed(record: &BenchRecord) -> Markup {
+    let v = verdict(record);
+    let p = &record.picture;
+    let message = record.ended.as_ref().map_or(&p.message, |e| &e.message);
+    html! {
+        li {
+            (breakable(&p.adapter)) ": " (words::symbol(v)) " " (words::name(v)) ", no frame time"
+            @if !message.is_empty() { small { " " (message) } }
+        }
+    }
+}

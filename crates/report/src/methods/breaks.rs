@@ -1,0 +1,168 @@
+//! Where along its parameter a method leaves an error of one percent.
+
+use super::svg;
+
+/// The error that counts as broken: one percent of full brightness.
+pub(super) const LIMIT: f64 = 0.01;
+/// Stands for an error of zero, which has no logarithm.
+const LEAST: f64 = 1e-6;
+
+/// How an error along a parameter lies to [`LIMIT`].
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Break {
+    /// At or below it everywhere.
+    Never,
+    /// Above it everywhere.
+    Always,
+    /// It crosses, in order of the parameter.
+    Crossings(Vec<Crossing>),
+}
+
+/// A place where the error crosses [`LIMIT`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Crossing {
+    /// The parameter's value, interpolated between the logarithms of the errors on both sides.
+    pub(super) value: f64,
+    /// Whether the error is above the limit behind it.
+    pub(super) leaves: bool,
+}
+
+impl Crossing {
+    /// The value in as many digits as an interpolation is good for.
+    pub(super) fn text(self) -> String {
+        svg::digits(self.value, 2)
+    }
+}
+
+/// Finds the break of a curve of value and error in the order of values; `None` for fewer than two
+/// values. `log` says that the parameter grows by factors.
+pub(super) fn find(curve: &[(f64, f64)], log: bool) -> Option<Break> {
+    if curve.len() < 2 {
+        return None;
+    }
+    let beyond = |e: f64| e > LIMIT;
+    let errors = || curve.iter().map(|(_, e)| *e);
+    if !errors().any(beyond) {
+        return Some(Break::Never);
+    }
+    if errors().all(beyond) {
+        return Some(Break::Always);
+    }
+    let mut crossings = Vec::new();
+    for pair in curve.windows(2) {
+        let [(x0, e0), (x1, e1)] = [pair[0], pair[1]];
+        if beyond(e0) == beyond(e1) {
+            continue;
+        }
+        let [l0, l1] = [e0, e1].map(|e| e.max(LEAST).ln());
+        let t = (LIMIT.ln() - l0) / (l1 - l0);
+        let value = if log && x0 > 0.0 {
+            (x0.ln() + t * (x1.ln() - x0.ln())).exp()
+        } else {
+            x0 + t * (x1 - x0)
+        };
+        crossings.push(Crossing {
+            value,
+            leaves: beyond(e1),
+        });
+    }
+    Some(Break::Crossings(crossings))
+}
+
+impl Break {
+    /// The break in words: `weighted-blended leaves 1 % RMSE at alpha 0.63`.
+    pub(super) fn sentence(&self, method: &str, parameter: &str, range: &str) -> String {
+        match self {
+            Self::Never => format!("{method} is never beyond 1\u{a0}% RMSE, {range}"),
+            Self::Always => format!("{method} is always beyond 1\u{a0}% RMSE, {range}"),
+            Self::Crossings(crossings) => {
+                let parts: Vec<String> = crossings
+                    .iter()
+                    .enumerate()
+                    .map(|(i, c)| {
+                        let verb = if c.leaves { "leaves" } else { "comes within" };
+                        let of = if i == 0 { " 1\u{a0}% RMSE" } else { " it" };
+                        format!("{verb}{of} at {parameter} {}", c.text())
+                    })
+                    .collect();
+                format!("{method} {}", parts.join(", "))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn crossings(curve: &[(f64, f64)], log: bool) -> Vec<(f64, bool)> {
+        match find(curve, log) {
+            Some(Break::Crossings(all)) => all.iter().map(|c| (c.value, c.leaves)).collect(),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn breaks_are_interpolated_between_logarithms() {
+        // Halfway between 0.001 and 0.1 on a logarithmic scale.
+        let [(at, leaves)] = crossings(&[(0.0, 0.001), (1.0, 0.1)], false)[..] else {
+            panic!()
+        };
+        assert!((at - 0.5).abs() < 1e-12 && leaves);
+        // A quarter of the way, falling.
+        let [(at, leaves)] = crossings(&[(2.0, 0.1), (6.0, 1e-5)], false)[..] else {
+            panic!()
+        };
+        assert!((at - 3.0).abs() < 1e-12 && !leaves);
+        // By factors: the middle of 1 and 100 is 10.
+        let [(at, _)] = crossings(&[(1.0, 0.1), (100.0, 0.001)], true)[..] else {
+            panic!()
+        };
+        assert!((at - 10.0).abs() < 1e-9);
+        // An error of zero is a millionth.
+        let [(at, _)] = crossings(&[(0.0, 0.0), (1.0, 1.0)], false)[..] else {
+            panic!()
+        };
+        assert!((at - 4.0 / 6.0).abs() < 1e-12);
+        let there_and_back = [(0.0, 0.001), (1.0, 0.1), (2.0, 0.001)];
+        assert_eq!(
+            crossings(&there_and_back, false)
+                .iter()
+                .map(|c| c.1)
+                .collect::<Vec<_>>(),
+            [true, false]
+        );
+    }
+
+    #[test]
+    fn exactly_one_percent_is_not_beyond() {
+        let never = find(&[(0.0, 0.01), (1.0, 0.002)], false);
+        assert_eq!(never, Some(Break::Never));
+        let always = find(&[(0.0, 0.02), (1.0, 0.5)], false);
+        assert_eq!(always, Some(Break::Always));
+        assert_eq!(find(&[(0.0, 1.0)], false), None);
+        // From the limit itself it leaves at once.
+        assert_eq!(crossings(&[(3.0, 0.01), (4.0, 0.5)], false), [(3.0, true)]);
+    }
+
+    #[test]
+    fn breaks_are_told_in_sentences() {
+        let sentence = |curve: &[(f64, f64)]| {
+            let found = find(curve, false).unwrap();
+            found.sentence("m", "alpha", "alpha 0 to 1")
+        };
+        assert_eq!(
+            sentence(&[(0.0, 0.001), (1.0, 0.1)]),
+            "m leaves 1\u{a0}% RMSE at alpha 0.5"
+        );
+        assert_eq!(
+            sentence(&[(0.0, 0.1), (1.0, 0.001), (2.0, 0.1)]),
+            "m comes within 1\u{a0}% RMSE at alpha 0.5, leaves it at alpha 1.5"
+        );
+        assert_eq!(
+            sentence(&[(0.0, 0.001), (1.0, 0.0)]),
+            "m is never beyond 1\u{a0}% RMSE, alpha 0 to 1"
+        );
+        assert!(sentence(&[(0.0, 0.1), (1.0, 0.2)]).starts_with("m is always beyond"));
+    }
+}

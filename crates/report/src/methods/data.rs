@@ -1,0 +1,358 @@
+//! The method records of a run, sorted by question, scene and method.
+
+use etalon_record::{Measured, Record, Run};
+use std::collections::BTreeMap;
+
+/// Everything that the records tell of methods.
+pub(crate) struct Methods<'a> {
+    /// Adapters that drew some method, in the header's order.
+    pub(crate) adapters: Vec<Adapter<'a>>,
+    /// By name.
+    pub(crate) questions: Vec<Question<'a>>,
+}
+
+/// An adapter of the charts.
+pub(crate) struct Adapter<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) kind: Kind,
+}
+
+/// What an adapter draws with: these never share a ranking.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Kind {
+    /// The processor.
+    Software,
+    /// A device of its own.
+    Hardware,
+    /// The run does not tell.
+    Unknown,
+}
+
+impl Kind {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Software => "software",
+            Self::Hardware => "hardware",
+            Self::Unknown => "unknown",
+        }
+    }
+
+    /// The kind of an adapter of a run.
+    pub(crate) fn of(run: &Run, adapter: &str) -> Self {
+        match run.header.adapter(adapter) {
+            Some(a) if a.software => Self::Software,
+            Some(_) => Self::Hardware,
+            None => Self::Unknown,
+        }
+    }
+}
+
+/// All scenes of a question.
+pub(crate) struct Question<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) scenes: Vec<Scene<'a>>,
+    /// Method names in order: a method looks the same in all charts of its question.
+    pub(crate) methods: Vec<&'a str>,
+}
+
+/// One family of cases: a scene, drawn by many methods along one parameter at most. Two families may
+/// draw the same scene along two parameters.
+pub(crate) struct Scene<'a> {
+    pub(crate) question: &'a str,
+    /// The last part of the case file's name, which is that of the scene but for a suffix.
+    pub(crate) name: &'a str,
+    /// In the order of methods and variants.
+    pub(crate) series: Vec<Series<'a>>,
+}
+
+/// A method with its settings, along a parameter where it has one.
+pub(crate) struct Series<'a> {
+    pub(crate) method: &'a str,
+    /// Axis values beyond the method and the parameter that are not the same in the whole scene:
+    /// `format=rgba16float`.
+    pub(crate) variant: String,
+    /// The parameter's name.
+    pub(crate) parameter: Option<&'a str>,
+    /// In the order of the parameter's values, then of adapters.
+    pub(crate) points: Vec<Point<'a>>,
+}
+
+/// One record.
+pub(crate) struct Point<'a> {
+    /// Position in [`Methods::adapters`].
+    pub(crate) adapter: usize,
+    /// The parameter's value.
+    pub(crate) value: Option<f64>,
+    pub(crate) record: &'a Record,
+    pub(crate) measured: &'a Measured,
+}
+
+/// The records of a family of cases.
+type Family<'a> = Vec<(&'a Record, &'a Measured)>;
+
+/// Numbers that a chart can show; a run folder may hold any.
+pub(crate) fn usable(value: f64) -> bool {
+    value.is_finite() && value.abs() <= 1e12
+}
+
+impl Point<'_> {
+    /// The error, where it is a number that can be drawn.
+    pub(crate) fn error(&self) -> Option<f64> {
+        let rmse = self.measured.distance.rmse;
+        (usable(rmse) && rmse >= 0.0).then_some(rmse)
+    }
+
+    /// The frame time in seconds, where there is one that can be drawn.
+    pub(crate) fn wall(&self) -> Option<f64> {
+        let wall = self.measured.time?.wall;
+        (usable(wall) && wall >= 1e-12).then_some(wall)
+    }
+}
+
+impl<'a> Series<'a> {
+    /// Method and variant in one text.
+    pub(crate) fn name(&self) -> String {
+        match self.variant.as_str() {
+            "" => self.method.to_owned(),
+            variant => format!("{} ({variant})", self.method),
+        }
+    }
+
+    /// The parameter's values in order, each once.
+    pub(crate) fn values(&self) -> Vec<f64> {
+        let mut values: Vec<f64> = self.points.iter().filter_map(|p| p.value).collect();
+        values.dedup();
+        values
+    }
+
+    /// The value that stands for the whole series where only one can: the middle one.
+    pub(crate) fn middle(&self) -> Option<f64> {
+        let values = self.values();
+        values.get(values.len().saturating_sub(1) / 2).copied()
+    }
+
+    /// The points of one adapter in the order of values.
+    pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = &Point<'a>> {
+        self.points.iter().filter(move |p| p.adapter == adapter)
+    }
+
+    /// Along the parameter: value and error on one adapter.
+    pub(crate) fn curve(&self, adapter: usize) -> Vec<(f64, f64)> {
+        self.on(adapter)
+            .filter_map(|p| Some((p.value?, p.error()?)))
+            .collect()
+    }
+}
+
+impl Question<'_> {
+    /// The position of a method, which gives it its colour and its shape.
+    pub(crate) fn style(&self, method: &str) -> usize {
+        self.methods.iter().position(|m| *m == method).unwrap_or(0)
+    }
+}
+
+impl<'a> Methods<'a> {
+    /// The method records of a run; `None` where it has none.
+    pub(crate) fn of(run: &'a Run) -> Option<Self> {
+        let measured: Vec<(&Record, &Measured)> = run
+            .records
+            .iter()
+            .filter_map(|r| Some((r, r.measured.as_ref()?)))
+            .collect();
+        if measured.is_empty() {
+            return None;
+        }
+        let mut adapters: Vec<Adapter<'a>> = Vec::new();
+        let from_header = run.header.adapters.iter().map(|a| a.name.as_str());
+        for name in from_header.chain(measured.iter().map(|(r, _)| r.adapter.as_str())) {
+            let known = adapters.iter().any(|a| a.name == name);
+            if !known && measured.iter().any(|(r, _)| r.adapter == name) {
+                let kind = Kind::of(run, name);
+                adapters.push(Adapter { name, kind });
+            }
+        }
+        let mut sorted: BTreeMap<&str, BTreeMap<&str, Family<'_>>> = BTreeMap::new();
+        for (record, m) in measured {
+            let scenes = sorted.entry(&m.question).or_default();
+            scenes
+                .entry(family(record, m))
+                .or_default()
+                .push((record, m));
+        }
+        let questions = sorted.into_iter().map(|(name, scenes)| {
+            let mut methods: Vec<&str> =
+                scenes.values().flatten().map(|(_, m)| &*m.method).collect();
+            methods.sort_unstable();
+            methods.dedup();
+            let scenes = scenes.into_iter();
+            Question {
+                name,
+                scenes: scenes
+                    .map(|(s, all)| scene(name, s, &all, &adapters))
+                    .collect(),
+                methods,
+            }
+        });
+        let questions = questions.collect();
+        Some(Self {
+            adapters,
+            questions,
+        })
+    }
+
+    /// Every scene of every question.
+    pub(crate) fn scenes(&self) -> impl Iterator<Item = &Scene<'a>> {
+        self.questions.iter().flat_map(|q| &q.scenes)
+    }
+
+    /// The kinds of adapters there are, in order.
+    pub(crate) fn kinds(&self) -> Vec<Kind> {
+        let mut kinds: Vec<Kind> = self.adapters.iter().map(|a| a.kind).collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        kinds
+    }
+}
+
+/// The family that a record belongs to.
+fn family<'a>(record: &'a Record, m: &'a Measured) -> &'a str {
+    let file = record.case_file();
+    match file.rsplit_once('/') {
+        Some((_, name)) if !name.contains('=') => name,
+        _ => &m.scene,
+    }
+}
+
+fn scene<'a>(
+    question: &'a str,
+    name: &'a str,
+    records: &[(&'a Record, &'a Measured)],
+    adapters: &[Adapter<'a>],
+) -> Scene<'a> {
+    // An axis that has one value in the whole scene tells nothing.
+    let mut values: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for (record, m) in records {
+        for (axis, value) in settings(record, m) {
+            let of_axis = values.entry(axis).or_default();
+            if !of_axis.contains(&value) {
+                of_axis.push(value);
+            }
+        }
+    }
+    let variant = |record: &'a Record, m: &'a Measured| {
+        let telling = settings(record, m).filter(|(axis, _)| values[axis].len() > 1);
+        let parts: Vec<String> = telling
+            .map(|(axis, value)| format!("{axis}={value}"))
+            .collect();
+        parts.join(" ")
+    };
+    let mut sorted: BTreeMap<(&str, String, Option<&str>), Vec<Point<'a>>> = BTreeMap::new();
+    for (record, measured) in records {
+        let Some(adapter) = adapters.iter().position(|a| a.name == record.adapter) else {
+            continue;
+        };
+        let parameter = measured.parameter.as_ref().filter(|p| usable(p.value));
+        let name = parameter.map(|p| p.name.as_str());
+        let key = (&*measured.method, variant(record, measured), name);
+        sorted.entry(key).or_default().push(Point {
+            adapter,
+            value: parameter.map(|p| p.value),
+            record,
+            measured,
+        });
+    }
+    let series = sorted
+        .into_iter()
+        .map(|((method, variant, parameter), mut points)| {
+            let place = |p: &Point<'_>| (p.value.unwrap_or(0.0), p.adapter);
+            points.sort_by(|a, b| {
+                let (a, b) = (place(a), place(b));
+                a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
+            });
+            // A run has one record per case and adapter; should it have two, the first one counts.
+            points.dedup_by(|a, b| place(a) == place(b));
+            Series {
+                method,
+                variant,
+                parameter,
+                points,
+            }
+        });
+    Scene {
+        question,
+        name,
+        series: series.collect(),
+    }
+}
+
+/// The axis values of a case's id beyond its method and its parameter.
+fn settings<'a>(record: &'a Record, m: &'a Measured) -> impl Iterator<Item = (&'a str, &'a str)> {
+    let axes = record
+        .case
+        .split('/')
+        .filter_map(|part| part.split_once('='));
+    axes.filter(|(axis, _)| {
+        let parameter = m.parameter.as_ref().is_some_and(|p| p.name == *axis);
+        *axis != "method" && !parameter
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::methods::made::{Made, run};
+
+    #[test]
+    fn records_are_sorted_into_families_and_series() {
+        let of = |id: &str, value| Made::new(id).at("alpha", value);
+        let run = run(&[
+            of("t/windows/format=f/method=b/size=4", 0.9),
+            of("t/windows/format=f/method=b/size=4", 0.1).on("hw:a"),
+            of("t/windows/format=f/method=b/size=4", 0.1),
+            of("t/windows/format=f/method=b/size=8", 0.5),
+            of("t/windows/format=f/method=a/size=4", 0.5),
+            Made::new("t/windows-k/method=a").at("k", 2.0),
+            Made::new("s/mirror/method=a"),
+        ]);
+        let methods = Methods::of(&run).unwrap();
+        let names: Vec<(&str, &str)> = methods.scenes().map(|s| (s.question, s.name)).collect();
+        assert_eq!(
+            names,
+            [("s", "mirror"), ("t", "windows"), ("t", "windows-k")]
+        );
+        let windows = methods.scenes().nth(1).unwrap();
+        let series: Vec<String> = windows.series.iter().map(Series::name).collect();
+        assert_eq!(series, ["a (size=4)", "b (size=4)", "b (size=8)"]);
+        let values: Vec<_> = windows.series[1]
+            .points
+            .iter()
+            .map(|p| (p.value, p.adapter))
+            .collect();
+        assert_eq!(values, [(Some(0.1), 0), (Some(0.1), 1), (Some(0.9), 0)]);
+        assert_eq!(windows.series[1].middle(), Some(0.1));
+        assert_eq!(methods.kinds(), [Kind::Software, Kind::Hardware]);
+        assert_eq!(methods.questions[1].style("b"), 1);
+    }
+
+    #[test]
+    fn numbers_that_no_chart_can_show_are_left_out() {
+        let odd = |rmse, wall, value| Made {
+            rmse,
+            wall: Some(wall),
+            ..Made::new("q/s/method=a").at("p", value)
+        };
+        let run = run(&[
+            odd(-1.0, 0.0, 1.0),
+            odd(f64::NAN, -3.0, 2.0),
+            odd(f64::INFINITY, 1e300, 3.0),
+            odd(0.5, 0.1, 1e300),
+        ]);
+        let methods = Methods::of(&run).unwrap();
+        let scene = methods.scenes().next().unwrap();
+        let points: Vec<&Point<'_>> = scene.series.iter().flat_map(|s| &s.points).collect();
+        assert_eq!(points.len(), 4);
+        assert_eq!(points.iter().filter(|p| p.error().is_some()).count(), 1);
+        assert_eq!(points.iter().filter(|p| p.wall().is_some()).count(), 1);
+        assert_eq!(points.iter().filter(|p| p.value.is_some()).count(), 3);
+    }
+}

@@ -1,0 +1,248 @@
+//! How accurate drivers are: how far their codes lie from the ideal ones, beside their speed.
+
+use super::svg::{self, LEFT, RIGHT, Scale, TOP, n};
+use crate::grid::Grid;
+use crate::html::breakable;
+use etalon_frame::{Accuracy, Aspect};
+use etalon_record::{Record, Verdict};
+use maud::{Markup, html};
+use std::collections::BTreeMap;
+
+/// What one adapter's frames of one area and aspect come to.
+#[derive(Clone, Copy, Default)]
+struct Figures {
+    /// Of frames that are legal.
+    legal: Option<Accuracy>,
+    /// Of frames that are not; their distances would drown all others.
+    wrong: Option<Accuracy>,
+}
+
+impl Figures {
+    fn add(&mut self, accuracy: &Accuracy, legal: bool) {
+        let sum = if legal {
+            &mut self.legal
+        } else {
+            &mut self.wrong
+        };
+        match sum {
+            Some(sum) => sum.add(accuracy),
+            None => *sum = Some(*accuracy),
+        }
+    }
+}
+
+/// A line of the table: an area's aspect on every adapter.
+type Rows<'a> = BTreeMap<(&'a str, Aspect), Vec<Figures>>;
+
+fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
+    let mut rows: Rows<'a> = BTreeMap::new();
+    for area in &grid.areas {
+        for column in 0..grid.adapters.len() {
+            for index in area.on(column) {
+                let record = grid.record(index);
+                // A selftest's frame is held against something wrong on purpose.
+                if record.due_fail {
+                    continue;
+                }
+                let legal = match record.verdict {
+                    Verdict::Pass | Verdict::Imprecise | Verdict::Measured => true,
+                    Verdict::Fail => false,
+                    _ => continue,
+                };
+                for accuracy in record.accuracy.iter().filter(|a| drawable(a)) {
+                    let row = rows
+                        .entry((area.name, accuracy.aspect))
+                        .or_insert_with(|| vec![Figures::default(); grid.adapters.len()]);
+                    row[column].add(accuracy, legal);
+                }
+            }
+        }
+    }
+    rows
+}
+
+/// Whether the numbers of a record make sense; a run folder may hold any.
+fn drawable(a: &Accuracy) -> bool {
+    let fine = |v: f64| v.is_finite() && (0.0..=1e12).contains(&v);
+    a.channels > 0 && fine(a.mean) && fine(a.max)
+}
+
+/// How fast an adapter went through the run.
+struct Speed {
+    cases_per_second: Option<f64>,
+    /// Median of drawing and reading back over all cases that were judged.
+    draw: Option<f64>,
+    /// Median frame time of method cases.
+    frame: Option<f64>,
+}
+
+fn speed(grid: &Grid<'_>, adapter: &str) -> Speed {
+    let own: Vec<&Record> = grid
+        .run
+        .records
+        .iter()
+        .filter(|r| r.adapter == adapter)
+        .collect();
+    let seconds: f64 = own.iter().map(|r| r.seconds.draw + r.seconds.judge).sum();
+    let judged = own.iter().filter(|r| r.verdict.is_judged());
+    let times = own
+        .iter()
+        .filter_map(|r| Some(r.measured.as_ref()?.time?.wall));
+    Speed {
+        cases_per_second: (seconds > 0.0).then(|| own.len() as f64 / seconds),
+        draw: median(judged.map(|r| r.seconds.draw)),
+        frame: median(times),
+    }
+}
+
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.filter(|v| v.is_finite()).collect();
+    values.sort_by(f64::total_cmp);
+    let last = values.len().checked_sub(1)?;
+    Some(f64::midpoint(values[last / 2], values[last.div_ceil(2)]))
+}
+
+/// The section of `index.html`; `None` where no record has a distance.
+pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
+    let rows = rows(grid);
+    if rows.is_empty() {
+        return None;
+    }
+    let aspects: Vec<Aspect> = [Aspect::Color, Aspect::Depth, Aspect::Stencil]
+        .into_iter()
+        .filter(|a| rows.keys().any(|(_, aspect)| aspect == a))
+        .collect();
+    let section = html! {
+        section id="accuracy" {
+            h2 { "Accuracy and speed of drivers" }
+            p {
+                "How far the codes of legal frames lie from the ideal ones, the middle of the yardstick's "
+                "interval, in codes: an ideal value halfway between two codes leaves either of them half a code away. "
+                "Each mark is an adapter's mean over an area."
+            }
+            p.legend {
+                @for (i, adapter) in grid.adapters.iter().enumerate() {
+                    span.key { (svg::key(i)) " " (breakable(adapter)) }
+                }
+            }
+            div.charts {
+                @for aspect in aspects.iter().filter(|a| **a != Aspect::Stencil) { (chart(grid, &rows, *aspect)) }
+            }
+            details open[rows.len() <= 12] {
+                summary { "Table and command" }
+                p.again { "Drawn by " code { (grid.run.header.command.join(" ")) } }
+                p.note {
+                    "Mean and, behind a stroke, the largest distance in codes of legal frames. In brackets, where there "
+                    "are any, the largest of frames that failed. A draw time is of one case, drawing and reading "
+                    "back, its pipelines made anew; a frame time is of a method case that was drawn again and again."
+                }
+                (table(grid, &rows))
+            }
+        }
+    };
+    Some(section)
+}
+
+fn table(grid: &Grid<'_>, rows: &Rows<'_>) -> Markup {
+    let speeds: Vec<Speed> = grid.adapters.iter().map(|a| speed(grid, a)).collect();
+    let time = |t: Option<f64>| t.map_or_else(|| "–".to_owned(), svg::seconds);
+    html! {
+        div.wide { table.numbers {
+            thead { tr {
+                th { "Area" } th { "Aspect" }
+                @for adapter in &grid.adapters { th { (breakable(adapter)) } }
+            } }
+            tbody {
+                @for ((area, aspect), figures) in rows {
+                    tr {
+                        th scope="row" { (area) } td { (aspect.name()) }
+                        @for f in figures { (cell(f)) }
+                    }
+                }
+                tr.sum {
+                    th scope="row" colspan="2" { "cases per second" }
+                    @for s in &speeds { td { @if let Some(rate) = s.cases_per_second { (svg::digits(rate, 3)) } @else { "–" } } }
+                }
+                tr {
+                    th scope="row" colspan="2" { "median draw time" }
+                    @for s in &speeds { td { (time(s.draw)) } }
+                }
+                @if speeds.iter().any(|s| s.frame.is_some()) {
+                    tr {
+                        th scope="row" colspan="2" { "median frame time of methods" }
+                        @for s in &speeds { td { (time(s.frame)) } }
+                    }
+                }
+            }
+        } }
+    }
+}
+
+fn cell(figures: &Figures) -> Markup {
+    html! {
+        td {
+            @if let Some(legal) = &figures.legal {
+                (svg::digits(legal.mean, 2)) " / " (svg::digits(legal.max, 3))
+            } @else { "–" }
+            @if let Some(wrong) = &figures.wrong {
+                " (" (svg::digits(wrong.max, 3)) ")"
+            }
+        }
+    }
+}
+
+/// A row per area, a mark per adapter at its mean distance.
+fn chart(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
+    const ROW: f64 = 24.0;
+    const NAMES: f64 = 96.0;
+    const ZERO: f64 = 30.0;
+    let of_aspect: Vec<(&str, &Vec<Figures>)> = rows
+        .iter()
+        .filter(|((_, a), _)| *a == aspect)
+        .map(|((area, _), figures)| (*area, figures))
+        .collect();
+    let means = of_aspect
+        .iter()
+        .flat_map(|(_, f)| f.iter().filter_map(|f| Some(f.legal?.mean)));
+    let scale = Scale::log(means.filter(|m| *m > 0.0).chain([0.1, 0.5]));
+    let start = LEFT + NAMES - 40.0;
+    let x = |mean: f64| {
+        if mean > 0.0 {
+            start + ZERO + scale.at(mean) * (RIGHT - start - ZERO)
+        } else {
+            start + ZERO / 2.0
+        }
+    };
+    let bottom = TOP + ROW * of_aspect.len() as f64;
+    let body = html! {
+        rect.zero x=(n(start)) y=(n(TOP)) width=(n(ZERO)) height=(n(bottom - TOP)) {}
+        text.tick x=(n(start + ZERO / 2.0)) y=(n(bottom + 14.0)) text-anchor="middle" { "exact" }
+        @for tick in scale.ticks(5) {
+            path.grid d={ "M" (n(x(tick))) " " (n(TOP)) "V" (n(bottom)) } {}
+            @if x(tick) > start + ZERO + 14.0 {
+                text.tick x=(n(x(tick))) y=(n(bottom + 14.0)) text-anchor="middle" { (svg::digits(tick, 2)) }
+            }
+        }
+        rect.box x=(n(start)) y=(n(TOP)) width=(n(RIGHT - start)) height=(n(bottom - TOP)) {}
+        text.axis x=(n(f64::midpoint(start, RIGHT))) y=(n(bottom + 32.0)) text-anchor="middle" { "mean distance in codes" }
+        @for (i, (area, figures)) in of_aspect.iter().enumerate() {
+            @let y = TOP + ROW * (i as f64 + 0.5);
+            text.tick x=(n(start - 5.0)) y=(n(y + 3.5)) text-anchor="end" { (crate::words::plain(area, 18)) }
+            @if i > 0 { path.grid d={ "M" (n(start)) " " (n(y - ROW / 2.0)) "H" (n(RIGHT)) } {} }
+            @for (adapter, f) in figures.iter().enumerate() {
+                @if let Some(legal) = &f.legal {
+                    // Marks of equal means lie one below the other.
+                    @let shift = (adapter as f64 + 0.5) / figures.len() as f64 - 0.5;
+                    @let text = format!("{}, {area}: mean {}, largest {} codes", grid.adapters[adapter], svg::digits(legal.mean, 2), svg::digits(legal.max, 3));
+                    (svg::marker(adapter, (x(legal.mean), y + shift * (ROW - 10.0)), true, &text))
+                }
+            }
+        }
+    };
+    let title = format!(
+        "{}: distance from the ideal",
+        super::page::title(aspect.name())
+    );
+    let about = "A row per area, a mark per adapter at its mean distance in codes.";
+    svg::chart(bottom + 42.0, &title, about, &body)
+}

@@ -1,0 +1,184 @@
+//! One round of frame times of one case on one worker.
+
+use crate::process::{DRAW_TIMEOUT, Link, Loss};
+use crate::protocol::{Payload, Request, Response};
+use etalon_backend::{BackendError, FrameTime};
+use etalon_case::Scene;
+use etalon_frame::Frame;
+use std::hash::{DefaultHasher, Hasher};
+use std::time::{Duration, Instant};
+
+/// The slot in which a round's scene is prepared: one at a time, so that big frames do not add up.
+const SLOT: u32 = 0;
+/// Frames in each of the two stretches that are compared to tell whether a driver has warmed up.
+const STRETCH: usize = 5;
+/// How far the medians of the two stretches may lie apart.
+const STEADY: f64 = 0.05;
+/// The most frames of a warm-up.
+const MOST_WARM_UP: usize = 60;
+/// The fewest and the most timed frames of a round: more rounds tell more than more frames in each.
+const FRAMES: [u32; 2] = [3, 25];
+/// The most times that a frame is read back in a round.
+const MOST_READ_BACKS: usize = 3;
+
+/// What a round came to.
+pub(crate) struct Measured {
+    pub(crate) prepare: f64,
+    pub(crate) first: f64,
+    pub(crate) warm_up: u32,
+    pub(crate) frames: Vec<FrameTime>,
+    pub(crate) read_back: Vec<f64>,
+    /// What tells the picture after the round from others.
+    pub(crate) picture: u64,
+}
+
+/// Why there is no round.
+pub(crate) enum Stopped {
+    /// The backend's word.
+    Backend(BackendError),
+    /// The worker is gone.
+    Lost(Loss),
+}
+
+impl From<Loss> for Stopped {
+    fn from(loss: Loss) -> Self {
+        Self::Lost(loss)
+    }
+}
+
+impl Link {
+    /// Prepares a scene, warms up, times frames for about so long, and reads back.
+    ///
+    /// Warm-up ends when the median of the last five frames lies within 5 % of that of the five before,
+    /// after 60 frames, or when it has taken as long as the timed frames may. Drivers compile at the
+    /// first frame and some once more at the second, so two frames are never timed.
+    pub(crate) fn round(&mut self, scene: &Scene, budget: Duration) -> Result<Measured, Stopped> {
+        let (_, prepare) = self.ask(&Request::Prepare {
+            slot: SLOT,
+            scene: Box::new(scene.clone()),
+        })?;
+        let outcome = self.prepared_round(prepare, budget);
+        if !matches!(outcome, Err(Stopped::Lost(_))) {
+            self.ask(&Request::Drop { slot: SLOT })?;
+        }
+        outcome
+    }
+
+    fn prepared_round(&mut self, prepare: Duration, budget: Duration) -> Result<Measured, Stopped> {
+        let warming = Instant::now();
+        let mut warm: Vec<Duration> = Vec::new();
+        while warm.len() < MOST_WARM_UP && !steady(&warm) {
+            let number = if warm.len() < 2 { 1 } else { 2 };
+            warm.extend(self.draw_frames(number)?.iter().map(|t| t.wall));
+            if warm.len() >= 2 && warming.elapsed() > budget {
+                break;
+            }
+        }
+        let recent = median(warm.get(warm.len().saturating_sub(3)..).unwrap_or_default());
+        let [fewest, most] = FRAMES;
+        let fit = (budget.as_secs_f64() / seconds(recent)) as u32;
+        let frames = self.draw_frames(fit.clamp(fewest, most))?;
+        let mut read_back = Vec::new();
+        let mut picture = 0;
+        let reading = Instant::now();
+        while read_back.is_empty()
+            || (read_back.len() < MOST_READ_BACKS && reading.elapsed() < budget / 4)
+        {
+            let (payload, took) = self.ask(&Request::ReadBack { slot: SLOT })?;
+            let Payload::Frame(frame) = payload else {
+                return Err(unasked());
+            };
+            read_back.push(seconds(took));
+            picture = fingerprint(&frame);
+        }
+        Ok(Measured {
+            prepare: seconds(prepare),
+            first: warm.first().copied().map_or(0.0, seconds),
+            warm_up: warm.len() as u32,
+            frames,
+            read_back,
+            picture,
+        })
+    }
+
+    fn draw_frames(&mut self, times: u32) -> Result<Vec<FrameTime>, Stopped> {
+        match self.ask(&Request::Submit { slot: SLOT, times })? {
+            (Payload::Submitted(all), _) if all.len() == times as usize => Ok(all),
+            _ => Err(unasked()),
+        }
+    }
+
+    /// The answer to a request, and how long the worker took over it, without the pipe.
+    fn ask(&mut self, request: &Request) -> Result<(Payload, Duration), Stopped> {
+        self.request(request);
+        match self.response(DRAW_TIMEOUT)? {
+            Response::Done {
+                outcome, elapsed, ..
+            } => match outcome {
+                Ok(payload) => Ok((payload, elapsed)),
+                Err(error) => Err(Stopped::Backend(error)),
+            },
+            Response::Hello(_) => Err(Loss::Garbage("a second greeting".to_owned()).into()),
+        }
+    }
+}
+
+fn unasked() -> Stopped {
+    Loss::Garbage("an answer to another request".to_owned()).into()
+}
+
+/// A duration in seconds. One that no clock could see counts as its finest step.
+pub(crate) fn seconds(time: Duration) -> f64 {
+    time.as_secs_f64().max(1e-9)
+}
+
+fn median(times: &[Duration]) -> Duration {
+    let mut sorted = times.to_vec();
+    sorted.sort_unstable();
+    sorted.get(sorted.len() / 2).copied().unwrap_or_default()
+}
+
+/// Whether the last frames take as long as those before them.
+fn steady(warm: &[Duration]) -> bool {
+    let Some(from) = warm.len().checked_sub(2 * STRETCH) else {
+        return false;
+    };
+    let (before, last) = warm[from..].split_at(STRETCH);
+    let (before, last) = (seconds(median(before)), seconds(median(last)));
+    (last - before).abs() <= STEADY * before
+}
+
+/// What tells a frame's images from others, without keeping them: frames of a whole bench would not fit
+/// into memory.
+pub(crate) fn fingerprint(frame: &Frame) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    for image in &frame.images {
+        for side in image.size {
+            hasher.write_u32(side);
+        }
+        for code in &image.codes {
+            hasher.write_u32(*code);
+        }
+    }
+    hasher.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_driver_is_warm_when_it_gets_no_faster() {
+        let frames = |millis: &[u64]| -> Vec<Duration> {
+            millis.iter().map(|m| Duration::from_millis(*m)).collect()
+        };
+        assert!(!steady(&frames(&[100; 9])));
+        assert!(steady(&frames(&[100; 10])));
+        assert!(steady(&frames(&[
+            900, 100, 100, 104, 100, 99, 100, 300, 100, 100, 101
+        ])));
+        assert!(!steady(&frames(&[
+            150, 150, 150, 150, 150, 100, 100, 100, 100, 100
+        ])));
+    }
+}

@@ -1,0 +1,183 @@
+//! Method cases: how far a picture lies from the truth, and what it costs.
+
+use crate::process::{DRAW_TIMEOUT, Drawn, Link, Loss};
+use crate::protocol::{Payload, Request, Response};
+use etalon_backend::FrameTime;
+use etalon_case::{Case, Method, Scene, Truth};
+use etalon_frame::{CounterKind, Feature, Frame, Limits};
+use etalon_record::{Measured, Parameter, Times};
+use etalon_reference::{TruthPicture, distance, truth};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::Duration;
+
+/// Frames that are drawn after the first and before any is timed: drivers compile and allocate at the
+/// first, and some once more at the second. A frame as long as the budget needs none of it.
+const WARM_UP: u32 = 2;
+/// How long the timed frames of a case take together, as far as their number allows.
+const BUDGET: Duration = Duration::from_millis(40);
+/// The fewest and the most frames that are timed.
+const FRAMES: [u32; 2] = [3, 31];
+
+/// The truths of a run's method cases, each computed once for all methods and adapters.
+#[derive(Debug, Default)]
+pub(crate) struct Truths {
+    /// By question and scene.
+    scenes: Mutex<HashMap<(String, String), Vec<Known>>>,
+}
+
+/// What is asked for, and what comes of it once it has been computed.
+type Known = (Truth, Arc<OnceLock<Arc<TruthPicture>>>);
+
+impl Truths {
+    /// What a method's picture should be. Methods that should show the same share it.
+    pub(crate) fn get(&self, method: &Method) -> Arc<TruthPicture> {
+        let entry = {
+            let mut scenes = self.scenes.lock().unwrap_or_else(PoisonError::into_inner);
+            let key = (method.question.clone(), method.scene.clone());
+            let known = scenes.entry(key).or_default();
+            match known.iter().find(|(truth, _)| *truth == method.truth) {
+                Some((_, entry)) => Arc::clone(entry),
+                None => {
+                    let entry = Arc::default();
+                    known.push((method.truth.clone(), Arc::clone(&entry)));
+                    entry
+                }
+            }
+        };
+        let picture = entry.get_or_init(|| Arc::new(truth(&method.truth)));
+        Arc::clone(picture)
+    }
+}
+
+/// What a case's picture is worth: its distance from the truth and the costs that need no device.
+/// `None` where the frame has no picture to compare.
+pub(crate) fn measured(case: &Case, truth: &TruthPicture, frame: &Frame) -> Option<Measured> {
+    let method = case.method.as_ref()?;
+    let distance = distance(truth, frame.images.first()?)?;
+    let draws: usize = case.scene.passes.iter().map(|p| p.draws.len()).sum();
+    Some(Measured {
+        question: method.question.clone(),
+        scene: method.scene.clone(),
+        method: method.name.clone(),
+        parameter: method.parameter.as_ref().map(|p| Parameter {
+            name: p.name.clone(),
+            value: p.value,
+        }),
+        distance,
+        time: None,
+        passes: case.scene.passes.len() as u32,
+        draws: draws as u32,
+        fragments: None,
+        bytes: case.scene.bytes(),
+        picture: None,
+        truth: None,
+    })
+}
+
+/// What timing a scene came to.
+pub(crate) enum Timed {
+    Times(Option<Times>, Option<u64>),
+    Lost(Loss),
+}
+
+impl Link {
+    /// Times frames of a scene, and where the adapter has statistics counts its fragments in a frame
+    /// of their own, since counting costs time. Nothing may be in flight.
+    pub(crate) fn time(&mut self, slot: u32, scene: &Scene, limits: &Limits) -> Timed {
+        let times = match self.frames(slot, scene) {
+            Ok(times) => times,
+            Err(loss) => return Timed::Lost(loss),
+        };
+        if !limits.features.contains(&Feature::FragmentInvocations) {
+            return Timed::Times(times, None);
+        }
+        self.draw(slot, &scene.counting(CounterKind::FragmentInvocations));
+        match self.drawn(1, DRAW_TIMEOUT).0 {
+            Drawn::Frames(frames) => {
+                let count = frames.first().and_then(|f| f.counters.first().copied());
+                Timed::Times(times, count)
+            }
+            // The picture was drawn and timed: a count that fails takes nothing from that.
+            Drawn::Error(_) => Timed::Times(times, None),
+            Drawn::Lost(loss) => Timed::Lost(loss),
+        }
+    }
+
+    fn frames(&mut self, slot: u32, scene: &Scene) -> Result<Option<Times>, Loss> {
+        self.request(&Request::Prepare {
+            slot,
+            scene: Box::new(scene.clone()),
+        });
+        let prepared = self.answer()?.is_some();
+        let mut times = None;
+        if prepared {
+            let mut warm = self.submit(slot, 1)?;
+            if warm.first().is_some_and(|first| first.wall < BUDGET) {
+                warm = self.submit(slot, WARM_UP)?;
+            }
+            if let Some(last) = warm.last() {
+                let one = last.wall.as_secs_f64().max(1e-6);
+                let [fewest, most] = FRAMES;
+                let fit = (BUDGET.as_secs_f64() / one) as u32;
+                times = Some(self.submit(slot, fit.clamp(fewest, most))?);
+            }
+        }
+        self.request(&Request::Drop { slot });
+        self.answer()?;
+        Ok(times.and_then(|all| medians(&all)))
+    }
+
+    fn submit(&mut self, slot: u32, times: u32) -> Result<Vec<FrameTime>, Loss> {
+        self.request(&Request::Submit { slot, times });
+        Ok(match self.answer()? {
+            Some(Payload::Submitted(times)) => times,
+            _ => Vec::new(),
+        })
+    }
+
+    /// The next answer; `None` where the backend could not do what was asked.
+    fn answer(&mut self) -> Result<Option<Payload>, Loss> {
+        match self.response(DRAW_TIMEOUT)? {
+            Response::Done { outcome, .. } => Ok(outcome.ok()),
+            Response::Hello(_) => Err(Loss::Garbage("a second greeting".to_owned())),
+        }
+    }
+}
+
+/// The medians of some frame times.
+fn medians(all: &[FrameTime]) -> Option<Times> {
+    let median = |mut values: Vec<Duration>| -> Option<f64> {
+        values.sort_unstable();
+        values.get(values.len() / 2).map(Duration::as_secs_f64)
+    };
+    Some(Times {
+        samples: all.len() as u32,
+        wall: median(all.iter().map(|t| t.wall).collect())?,
+        cpu: median(all.iter().map(|t| t.cpu).collect())?,
+        gpu: median(all.iter().filter_map(|t| t.gpu).collect()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn medians_stand_in_the_middle_and_nothing_has_none() {
+        assert_eq!(medians(&[]), None);
+        let time = |wall: u64, gpu: Option<u64>| FrameTime {
+            cpu: Duration::from_millis(1),
+            gpu: gpu.map(Duration::from_millis),
+            wall: Duration::from_millis(wall),
+        };
+        let found = medians(&[time(9, None), time(2, Some(3)), time(4, None)]);
+        let due = Times {
+            samples: 3,
+            wall: 0.004,
+            cpu: 0.001,
+            gpu: Some(0.003),
+        };
+        assert_eq!(found, Some(due));
+    }
+}

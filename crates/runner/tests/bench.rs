@@ -1,0 +1,322 @@
+//! Benches of workers that are right, wrong, mortal or fickle. No time is asserted, only what is told
+//! of whom and in which order.
+//!
+//! A worker is this test's own executable: the ignored test `worker` serves the rasterizer under a name,
+//! with a fault. libtest prints to standard output, so the protocol goes to descriptor 3.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
+use etalon_case::{Case, Library, Profile, Scene};
+use etalon_cpu::CpuBackend;
+use etalon_frame::{Frame, Limits};
+use etalon_record::{
+    BENCH_FORMAT, Bench, BenchHeader, Expectations, Machine, ShaderCache, Verdict,
+};
+use etalon_runner::{BenchEvent, BenchOutcome, BenchPlan, Launch, Worker};
+use std::fs::{self, File, OpenOptions};
+use std::io::BufReader;
+use std::path::Path;
+use std::time::Duration;
+use tempfile::TempDir;
+
+/// The adapter's name.
+const NAME: &str = "ETALON_TEST_NAME";
+/// What goes wrong.
+const FAULT: &str = "ETALON_TEST_FAULT";
+/// The height of the scene that goes wrong.
+const MARKED: u32 = 2;
+const CASES: u32 = 3;
+const ROUNDS: u32 = 3;
+
+struct Faulty {
+    inner: CpuBackend,
+    fault: String,
+}
+
+struct FaultyScene<'a> {
+    inner: Box<dyn Prepared + 'a>,
+    fault: &'a str,
+    frames: u32,
+}
+
+impl Backend for Faulty {
+    fn adapter(&self) -> &AdapterInfo {
+        self.inner.adapter()
+    }
+
+    fn limits(&self) -> &Limits {
+        self.inner.limits()
+    }
+
+    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
+        let marked = scene.attachments[0].size[1] == MARKED;
+        Ok(Box::new(FaultyScene {
+            inner: self.inner.prepare(scene)?,
+            fault: if marked { &self.fault } else { "" },
+            frames: 0,
+        }))
+    }
+}
+
+impl Prepared for FaultyScene<'_> {
+    fn submit(&mut self) -> Result<FrameTime, BackendError> {
+        self.frames += 1;
+        // One frame is drawn to be judged, several are when they are timed.
+        match (self.fault, self.frames) {
+            ("dies", 2) | ("dies at once", 1) => std::process::abort(),
+            ("lost", 2) => Err(BackendError::DeviceLost("planted".to_owned())),
+            _ => self.inner.submit(),
+        }
+    }
+
+    fn read_back(&mut self) -> Result<Frame, BackendError> {
+        let mut frame = self.inner.read_back()?;
+        if self.fault == "wrong" || (self.fault == "fickle" && self.frames > 1) {
+            frame.images[0].codes[0] ^= 0x80;
+        }
+        Ok(frame)
+    }
+}
+
+#[test]
+#[ignore = "the worker's side, which the other tests start"]
+fn worker() {
+    let (Ok(name), Ok(fault)) = (std::env::var(NAME), std::env::var(FAULT)) else {
+        return;
+    };
+    let protocol = OpenOptions::new().write(true).open("/proc/self/fd/3");
+    let mut protocol: File = protocol.unwrap();
+    let inner = CpuBackend::new(&name);
+    let open = || Ok(Box::new(Faulty { inner, fault }) as Box<dyn Backend>);
+    let mut input = BufReader::new(std::io::stdin());
+    etalon_runner::serve(open, &mut input, &mut protocol).unwrap();
+}
+
+fn adapter(name: &str, fault: &str) -> (Launch, Worker) {
+    let program = std::env::current_exe().unwrap();
+    let script = r#"exec "$0" worker --exact --ignored --nocapture 3>&1 1>&2"#;
+    let launch = Launch {
+        adapter: name.to_owned(),
+        program: "/bin/sh".into(),
+        arguments: vec![
+            "-c".to_owned(),
+            script.to_owned(),
+            program.to_str().unwrap().to_owned(),
+        ],
+        environment: [(NAME, name), (FAULT, fault)]
+            .map(|(key, value)| (key.to_owned(), Some(value.to_owned())))
+            .to_vec(),
+    };
+    let worker = Worker::start(&launch).unwrap_or_else(|e| panic!("{e}"));
+    (launch, worker)
+}
+
+/// Cases whose heights count up from 1.
+fn cases(folder: &Path) -> Vec<Case> {
+    let text = r#"{
+        "about": "An attachment is filled.", "spec": ["none"],
+        "axes": { "height": { "from": 1, "count": 3 } },
+        "scene": {
+            "attachments": { "color": { "format": "rgba8unorm", "size": [4, "$height"] } },
+            "passes": [{ "color": ["color"], "draws": [
+                { "mesh": { "kind": "full" }, "shader": "uniform_color", "params": { "color": [1, 0, 0, 1] } }
+            ] }],
+            "read": ["color"]
+        }
+    }"#;
+    fs::write(folder.join("fill.json"), text).unwrap();
+    let library = Library::from_folder(folder).unwrap();
+    let built = library.cases(Profile::Full).map(|c| c.build().unwrap());
+    built.collect()
+}
+
+/// Benches all cases; the bench as it was read back, and what was told as `what adapter case` in order.
+fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchOutcome, Vec<String>) {
+    let folder: TempDir = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("cases")).unwrap();
+    let cases = cases(&folder.path().join("cases"));
+    assert_eq!(cases.len() as u32, CASES);
+    let out = folder.path().join("out");
+    let header = BenchHeader {
+        format: BENCH_FORMAT,
+        etalon: String::new(),
+        commit: None,
+        machine: Machine::default(),
+        started: String::new(),
+        command: Vec::new(),
+        profile: "full".to_owned(),
+        cases: cases.len() as u64,
+        rounds: ROUNDS,
+        shader_cache: ShaderCache::Warm,
+        ruler: etalon_runner::ruler().to_owned(),
+        adapters: adapters.iter().map(|(_, w)| w.into()).collect(),
+        absent: Vec::new(),
+    };
+    let plan = BenchPlan {
+        cases: &cases,
+        adapters,
+        budget: Duration::from_millis(2),
+        expectations: &Expectations::default(),
+        folder: &out,
+        header,
+    };
+    let mut told = Vec::new();
+    let outcome = etalon_runner::bench(plan, &mut |event| {
+        told.push(match event {
+            BenchEvent::Judged { picture, .. } => {
+                format!("judged {} {}", picture.adapter, picture.case)
+            }
+            BenchEvent::Timed { case, adapter } => format!("timed {adapter} {case}"),
+            BenchEvent::Ended { ended, missing } => {
+                format!("ended {} {} {missing}", ended.adapter, ended.case)
+            }
+        });
+    })
+    .unwrap();
+    let bench = Bench::read(&out).unwrap();
+    assert!(!bench.truncated);
+    (bench, outcome, told)
+}
+
+#[test]
+fn adapters_take_turns_case_after_case_and_round_after_round() {
+    let names = ["a", "b", "c"];
+    let (bench, outcome, told) = bench(names.map(|n| adapter(n, "")).into());
+    let turns = |what: &str| -> Vec<String> {
+        let heights = 1..=CASES;
+        heights
+            .flat_map(|h| names.map(|n| format!("{what} {n} fill/height={h}")))
+            .collect()
+    };
+    let mut due = turns("judged");
+    for _ in 0..ROUNDS {
+        due.extend(turns("timed"));
+    }
+    assert_eq!(told, due);
+    let nine = u64::from(CASES) * 3;
+    let all_fine = BenchOutcome {
+        pictures: nine,
+        timed: nine,
+        unexpected: 0,
+    };
+    assert_eq!(outcome, all_fine);
+    assert_eq!(bench.missing(), 0);
+    assert_eq!(bench.records.len() as u64, nine);
+    for record in &bench.records {
+        assert_eq!(record.picture.verdict, Verdict::Pass, "{record:?}");
+        assert_eq!(record.picture.asserted, 1.0);
+        assert_eq!(record.ended, None);
+        let numbers: Vec<u32> = record.rounds.iter().map(|r| r.round).collect();
+        assert_eq!(numbers, [0, 1, 2]);
+        for round in &record.rounds {
+            assert!(round.warm_up >= 2, "{round:?}");
+            assert!((3..=25).contains(&round.wall.len()), "{round:?}");
+            assert_eq!(round.cpu.len(), round.wall.len());
+            // The rasterizer has no timestamps.
+            assert_eq!(round.gpu, [0.0; 0]);
+            assert!((1..=3).contains(&round.read_back.len()), "{round:?}");
+        }
+    }
+    // The order of measuring is that of the clock.
+    let rounds = |n: usize| bench.records.iter().map(move |r| r.rounds[n].at);
+    let times: Vec<f64> = (0..ROUNDS as usize).flat_map(rounds).collect();
+    assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{times:?}");
+}
+
+/// The bench of a faulty adapter beside a good one: the record of the marked case. All others are
+/// complete.
+fn marked(fault: &str) -> (etalon_record::BenchRecord, BenchOutcome) {
+    let (bench, outcome, _) = bench(vec![adapter("faulty", fault), adapter("good", "")]);
+    let mut found = None;
+    for record in bench.records {
+        let picture = &record.picture;
+        if picture.adapter == "faulty" && picture.case == format!("fill/height={MARKED}") {
+            found = Some(record);
+            continue;
+        }
+        assert_eq!(picture.verdict, Verdict::Pass, "{fault}: {picture:?}");
+        assert_eq!(record.rounds.len() as u32, ROUNDS, "{fault}: {picture:?}");
+        assert_eq!(record.ended, None, "{fault}");
+    }
+    (found.unwrap(), outcome)
+}
+
+#[test]
+fn a_wrong_picture_has_no_time() {
+    let (record, outcome) = marked("wrong");
+    assert_eq!(record.picture.verdict, Verdict::Fail);
+    assert!(record.picture.message.contains("(0, 0)"), "{record:?}");
+    assert_eq!(record.rounds, []);
+    assert_eq!((outcome.timed, outcome.unexpected), (5, 1));
+}
+
+#[test]
+fn a_worker_that_dies_while_it_is_judged_costs_one_case() {
+    let (record, outcome) = marked("dies at once");
+    assert_eq!(record.picture.verdict, Verdict::Crash);
+    assert!(record.picture.message.contains("abort"), "{record:?}");
+    assert_eq!(record.rounds, []);
+    assert_eq!((outcome.timed, outcome.unexpected), (5, 1));
+}
+
+#[test]
+fn a_worker_that_dies_while_it_is_timed_costs_one_case() {
+    for (fault, verdict, words) in [
+        ("dies", Verdict::Crash, "abort"),
+        ("lost", Verdict::DeviceLost, "planted"),
+    ] {
+        let (record, outcome) = marked(fault);
+        assert_eq!(record.picture.verdict, Verdict::Pass);
+        assert_eq!(record.rounds, []);
+        let ended = record.ended.unwrap();
+        assert_eq!(ended.verdict, verdict);
+        assert!(ended.message.contains(words), "{ended:?}");
+        assert_eq!((outcome.timed, outcome.unexpected), (6, 1));
+    }
+}
+
+#[test]
+fn a_picture_that_changes_is_flaky() {
+    let (record, outcome) = marked("fickle");
+    assert_eq!(record.picture.verdict, Verdict::Pass);
+    assert_eq!(record.rounds.len(), 1);
+    let ended = record.ended.unwrap();
+    assert_eq!(ended.verdict, Verdict::Flaky);
+    assert!(ended.message.contains("Invariance"), "{ended:?}");
+    assert_eq!(outcome.unexpected, 1);
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_to_is_told_before_anything_is_timed() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = cases(folder.path());
+    let blocked = folder.path().join("fill.json");
+    let one = adapter("a", "");
+    let plan = BenchPlan {
+        cases: &cases,
+        budget: Duration::from_millis(1),
+        expectations: &Expectations::default(),
+        folder: &blocked,
+        header: BenchHeader {
+            format: BENCH_FORMAT,
+            etalon: String::new(),
+            commit: None,
+            machine: Machine::default(),
+            started: String::new(),
+            command: Vec::new(),
+            profile: "full".to_owned(),
+            cases: cases.len() as u64,
+            rounds: 1,
+            shader_cache: ShaderCache::Warm,
+            ruler: String::new(),
+            adapters: vec![(&one.1).into()],
+            absent: Vec::new(),
+        },
+        adapters: vec![one],
+    };
+    let outcome = etalon_runner::bench(plan, &mut |event| panic!("{event:?}"));
+    assert!(
+        matches!(outcome, Err(etalon_runner::BenchError::Folder(_))),
+        "{outcome:?}"
+    );
+}

@@ -1,0 +1,138 @@
+//! Whether one bench is faster than another.
+
+use crate::rank::{MIN_ROUNDS, Shift, shift};
+use crate::samples::Samples;
+
+/// The largest probability with which two benches of the same thing are called different: the level
+/// of the two-sided test behind [`compare`], for one comparison.
+pub const LEVEL: f64 = 0.001;
+
+/// The least change, as a ratio, that is worth a word. Less than this comes from where a program's
+/// code and data happen to lie, and tells nothing about a driver. It is part of the hypothesis: a
+/// change is reported when one of up to this size is rejected at [`LEVEL`], not when the estimate
+/// exceeds it.
+pub const MINIMUM: f64 = 1.01;
+
+/// A ratio of times, after over before, with the interval that holds it with a confidence of
+/// 1 - [`LEVEL`]; from 0 to infinity where there are too few rounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ratio {
+    /// The estimate: the median over all pairs of rounds.
+    pub estimate: f64,
+    /// Lower bound.
+    pub low: f64,
+    /// Upper bound.
+    pub high: f64,
+}
+
+impl From<Shift> for Ratio {
+    fn from(logs: Shift) -> Self {
+        Self {
+            estimate: logs.estimate.exp(),
+            low: logs.low.exp(),
+            high: logs.high.exp(),
+        }
+    }
+}
+
+/// What two benches say of each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comparison {
+    /// The ratio of the times as measured.
+    pub ratio: Ratio,
+    /// The ratio of the times in units of the ruler, where both benches have one.
+    pub ruled: Option<Ratio>,
+    /// What may be said.
+    pub outcome: Outcome,
+}
+
+/// What may be said about two benches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// The second one takes less time.
+    Faster,
+    /// The second one takes more time.
+    Slower,
+    /// Neither is shown.
+    CannotTell(Why),
+}
+
+impl Outcome {
+    /// The words in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Faster => "faster",
+            Self::Slower => "slower",
+            Self::CannotTell(_) => "cannot tell",
+        }
+    }
+}
+
+/// Why neither faster nor slower is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// One bench has fewer than [`MIN_ROUNDS`] rounds.
+    TooFewRounds,
+    /// If there is a change, it is smaller than [`MINIMUM`]: as close to "the same" as it gets.
+    Small,
+    /// The times differ, but not in units of the ruler: the machine itself has changed its pace.
+    Drift,
+    /// A change of zero and one above [`MINIMUM`] are both possible.
+    Noise,
+}
+
+impl Why {
+    /// The reason in words.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::TooFewRounds => "too few rounds: each bench needs at least 7",
+            Self::Small => "any change is below 1 %",
+            Self::Drift => "the machine drifted: the ruler moved along",
+            Self::Noise => "too much noise for a change of this size",
+        }
+    }
+}
+
+/// Holds two benches of the same case and adapter against each other.
+///
+/// A change counts when the whole interval lies beyond [`MINIMUM`], for the times as measured *and*
+/// for the times in units of the ruler. Each alone has the level [`LEVEL`] for two benches whose
+/// rounds may be exchanged; both together can only have a smaller one. A machine that slows down
+/// moves the first and not the second; a disturbed ruler moves the second and not the first.
+pub fn compare(before: &Samples, after: &Samples) -> Comparison {
+    let raw = shift(before.logs(), after.logs(), LEVEL);
+    let ruled = before.ruled().zip(after.ruled());
+    let ruled = ruled.map(|(b, a)| shift(b, a, LEVEL));
+    let least = MINIMUM.ln();
+    let side = |s: Shift| match s {
+        s if s.low > least => Side::Slower,
+        s if s.high < -least => Side::Faster,
+        s if s.low >= -least && s.high <= least => Side::Small,
+        _ => Side::Open,
+    };
+    // Without a ruler nothing guards the times as measured.
+    let guard = ruled.map_or(side(raw), side);
+    let outcome = match (side(raw), guard) {
+        _ if before.rounds().min(after.rounds()) < MIN_ROUNDS => {
+            Outcome::CannotTell(Why::TooFewRounds)
+        }
+        (Side::Slower, Side::Slower) => Outcome::Slower,
+        (Side::Faster, Side::Faster) => Outcome::Faster,
+        (Side::Small, Side::Small) => Outcome::CannotTell(Why::Small),
+        (Side::Slower | Side::Faster, _) => Outcome::CannotTell(Why::Drift),
+        _ => Outcome::CannotTell(Why::Noise),
+    };
+    Comparison {
+        ratio: raw.into(),
+        ruled: ruled.map(Ratio::from),
+        outcome,
+    }
+}
+
+/// Where an interval lies.
+enum Side {
+    Slower,
+    Faster,
+    Small,
+    Open,
+}

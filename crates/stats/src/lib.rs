@@ -1,0 +1,28 @@
+//! What frame times say: medians with intervals, and whether one bench is faster than another.
+//!
+//! Frames that follow each other are no independent samples: they share the state of the machine, the
+//! addresses that the process got, the clock that the processor chose. So the **round**, one fresh
+//! preparation with a few frames, is the unit of everything here, and its median stands for it. More
+//! frames make a round's median steadier; only more rounds tell more about the next bench.
+//!
+//! [`summarize`] describes one bench. [`compare`] holds two against each other, with the interval
+//! of the Wilcoxon–Mann–Whitney test turned around (Hodges and Lehmann 1963): it assumes nothing of
+//! the shape of the noise, its level is exact for any number of rounds, and single disturbed rounds
+//! hardly move it. [`smallest_visible`] tells which change that comparison would find.
+
+#![cfg_attr(
+    test,
+    expect(clippy::unwrap_used, reason = "a test that panics has failed")
+)]
+
+mod compare;
+mod rank;
+mod samples;
+mod summary;
+mod visible;
+
+pub use compare::{Comparison, LEVEL, MINIMUM, Outcome, Ratio, Why, compare};
+pub use rank::MIN_ROUNDS;
+pub use samples::{SampleError, Samples, quantile};
+pub use summary::{CONFIDENCE, Summary, summarize};
+pub use visible::{POWER, smallest_visible};

@@ -1,0 +1,34 @@
+// The vertex colour, after as many steps of work as the second parameter's red says.
+
+struct Params {
+    color: vec4f,
+    back_color: vec4f,
+}
+
+@group(0) @binding(0) var<uniform> params: Params;
+
+struct Varying {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(flat) color: vec4f,
+}
+
+@vertex
+fn vs(@location(0) position: vec4f, @location(1) color: vec4f) -> Varying {
+    return Varying(position, color);
+}
+
+// A value that is 0 and takes so many dependent steps to find out.
+fn cost(position: vec4f, steps: f32) -> f32 {
+    var hash = u32(position.x) * 747796405u + u32(position.y);
+    for (var i = 0u; i < u32(steps); i++) {
+        hash = hash * 1664525u + 1013904223u;
+        hash = hash ^ (hash >> 15u);
+    }
+    // One of two neighbours is even.
+    return f32((hash * (hash + 1u)) & 1u);
+}
+
+@fragment
+fn fs(in: Varying) -> @location(0) vec4f {
+    return in.color + vec4f(cost(in.position, params.back_color.r));
+}

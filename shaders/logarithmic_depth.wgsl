@@ -1,0 +1,35 @@
+// The vertex colour. The depth grows with the logarithm of the distance, whose inverse is the first
+// texture coordinate: 0 at the near plane, whose distance is the parameter's red. The parameter's blue
+// is 1 over the binary logarithm of far over near.
+
+struct Params {
+    color: vec4f,
+    back_color: vec4f,
+}
+
+@group(0) @binding(0) var<uniform> params: Params;
+
+struct Varying {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(flat) color: vec4f,
+    @location(1) uv: vec2f,
+}
+
+@vertex
+fn vs(
+    @location(0) position: vec4f,
+    @location(1) color: vec4f,
+    @location(2) uv: vec2f,
+) -> Varying {
+    return Varying(position, color, uv);
+}
+
+struct Output {
+    @location(0) color: vec4f,
+    @builtin(frag_depth) depth: f32,
+}
+
+@fragment
+fn fs(in: Varying) -> Output {
+    return Output(in.color, log2(1.0 / (in.uv.x * params.color.r)) * params.color.b);
+}
