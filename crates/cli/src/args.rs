@@ -79,7 +79,7 @@ impl From<CaseProfile> for etalon_case::Profile {
 #[derive(Clone, Debug, Args)]
 pub(crate) struct CaseArguments {
     /// Which cases: globs over ids in which `*` also matches `/`; a plain name stands for all below
-    /// it; none for all
+    /// it; none for all (`run`: for all but the areas `methods` and `perf`, which want to be named)
     #[arg(value_name = "GLOB")]
     pub(crate) globs: Vec<String>,
     /// Read case files from this folder instead of those built in

@@ -364,7 +364,7 @@ fn wrong_usage_is_64_and_help_is_not() {
         &[][..],
         &["lst"],
         &["list", "--globs"],
-        &["bench"],
+        &["fuzz"],
         &["run", "--frobnicate"],
         &["run", "--format", "xml"],
         &["run", "--adapter"],

@@ -95,12 +95,20 @@ fn the_quick_methods_are_measured_on_a_rasterizer_and_a_driver() {
 #[test]
 fn exact_methods_agree_with_the_truth() {
     let out = tempfile::tempdir().unwrap();
-    let globs = ["methods/transparency/windows", "methods/transparency/nested-glass"];
+    let globs = [
+        "methods/transparency/windows",
+        "methods/transparency/nested-glass",
+    ];
     let run = run(out.path(), &[&globs[..], &["--adapter", "cpu"]].concat());
     for scene in ["windows", "nested-glass"] {
         let exact: &[&str] = match scene {
             // Of glass in glass both faces of a box are one object.
-            "windows" => &["sorted", "front-to-back", "depth-peeling", "dual-depth-peeling"],
+            "windows" => &[
+                "sorted",
+                "front-to-back",
+                "depth-peeling",
+                "dual-depth-peeling",
+            ],
             _ => &["depth-peeling", "dual-depth-peeling"],
         };
         for method in exact {
@@ -111,6 +119,9 @@ fn exact_methods_agree_with_the_truth() {
         }
         let unsorted = of(&run, "transparency", scene, "unsorted");
         let worst = unsorted.iter().map(|r| measured(r).distance.rmse);
-        assert!(worst.fold(0.0, f64::max) > 0.01, "{scene}: order must matter");
+        assert!(
+            worst.fold(0.0, f64::max) > 0.01,
+            "{scene}: order must matter"
+        );
     }
 }

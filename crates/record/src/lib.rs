@@ -3,8 +3,8 @@
 //! A run folder holds `run.jsonl`, one [`Header`] line and then one [`Record`] line per case and
 //! adapter, and below `frames/` one [`FrameFile`] per frame that is worth looking at. [`RunWriter`]
 //! writes such a folder, [`Run`] reads it; reports are made from it alone. [`Expectations`] name
-//! the verdicts that are known and explained. A [`Hunt`] tells what became of planted bugs. A bench folder holds
-//! `bench.jsonl`, the raw frame times that [`BenchWriter`] writes and [`Bench`] reads.
+//! the verdicts that are known and explained. A [`Hunt`] tells what became of planted bugs. A bench
+//! folder holds `bench.jsonl`, the raw frame times that [`BenchWriter`] writes and [`Bench`] reads.
 
 #![cfg_attr(
     test,

@@ -10,11 +10,11 @@ use etalon_frame::{Frame, Limits};
 use etalon_record::{
     AdapterRecord, Expectations, Header, Record, RecordError, RunWriter, Seconds, Verdict,
 };
+use etalon_reference::TruthPicture;
 use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError, RwLock};
-use etalon_reference::TruthPicture;
 use std::thread;
 use std::time::{Duration, Instant};
 use thiserror::Error;
@@ -98,7 +98,10 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<Outcome, R
         truths: Truths::default(),
         quiet: RwLock::new(()),
         pictures: in_the_middle(plan.cases),
-        painter: plan.adapters.first().map_or_else(String::new, |(l, _)| l.adapter.clone()),
+        painter: plan
+            .adapters
+            .first()
+            .map_or_else(String::new, |(l, _)| l.adapter.clone()),
         events,
     };
     let jobs = plan.jobs.max(1);
@@ -143,7 +146,8 @@ fn lost(loss: &Loss) -> Verdict {
 /// Of each method's cases in a scene the one in the middle of its parameter's range: the one whose
 /// picture is kept.
 fn in_the_middle(cases: &[Case]) -> HashSet<usize> {
-    let mut families: BTreeMap<(&str, &str, &str), Vec<(f64, usize)>> = BTreeMap::new();
+    type Family<'a> = (&'a str, &'a str, &'a str);
+    let mut families: BTreeMap<Family<'_>, Vec<(f64, usize)>> = BTreeMap::new();
     for (number, case) in cases.iter().enumerate() {
         if let Some(method) = &case.method {
             let family = (&*method.question, &*method.scene, &*method.name);

@@ -115,7 +115,8 @@ impl Judge {
         let counters = record.counters.iter().filter(|c| c.is_asserted()).count();
         // Of a method whose outcome the rules leave open somewhere only the distance from the truth is
         // told.
-        let unasserted = record.texels.open > record.texels.total.saturating_sub(judgement.looked_at);
+        let unasserted =
+            record.texels.open > record.texels.total.saturating_sub(judgement.looked_at);
         record.verdict = match worst {
             Some(Band::Fail) => Verdict::Fail,
             _ if case.method.is_some() && (unasserted || texels == 0) => Verdict::Measured,

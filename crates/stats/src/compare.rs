@@ -13,6 +13,9 @@ pub const LEVEL: f64 = 0.001;
 /// exceeds it.
 pub const MINIMUM: f64 = 1.01;
 
+/// How many times as far as the ruler, in logarithms, times must have moved to count as changed.
+pub const BEYOND_RULER: f64 = 2.0;
+
 /// A ratio of times, after over before, with the interval that holds it with a confidence of
 /// 1 - [`LEVEL`]; from 0 to infinity where there are too few rounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,8 +78,11 @@ pub enum Why {
     TooFewRounds,
     /// If there is a change, it is smaller than [`MINIMUM`]: as close to "the same" as it gets.
     Small,
-    /// The times differ, but not in units of the ruler: the machine itself has changed its pace.
+    /// The times differ, but not in units of the ruler, which has moved as well: the machine itself has
+    /// changed its pace.
     Drift,
+    /// The times differ, but the ruler is so unsteady that the machine may have changed its pace.
+    Ruler,
     /// A change of zero and one above [`MINIMUM`] are both possible.
     Noise,
 }
@@ -88,6 +94,7 @@ impl Why {
             Self::TooFewRounds => "too few rounds: each bench needs at least 7",
             Self::Small => "any change is below 1 %",
             Self::Drift => "the machine drifted: the ruler moved along",
+            Self::Ruler => "the ruler is too unsteady to rule out that the machine drifted",
             Self::Noise => "too much noise for a change of this size",
         }
     }
@@ -99,6 +106,10 @@ impl Why {
 /// for the times in units of the ruler. Each alone has the level [`LEVEL`] for two benches whose
 /// rounds may be exchanged; both together can only have a smaller one. A machine that slows down
 /// moves the first and not the second; a disturbed ruler moves the second and not the first.
+///
+/// No ruler feels a machine's pace exactly as the drawing does: how much a neighbour on the same core
+/// takes depends on the work. So a change must also be [`BEYOND_RULER`] times as large, in logarithms, as
+/// what the ruler has moved by itself.
 pub fn compare(before: &Samples, after: &Samples) -> Comparison {
     let raw = shift(before.logs(), after.logs(), LEVEL);
     let ruled = before.ruled().zip(after.ruled());
@@ -112,20 +123,39 @@ pub fn compare(before: &Samples, after: &Samples) -> Comparison {
     };
     // Without a ruler nothing guards the times as measured.
     let guard = ruled.map_or(side(raw), side);
+    let drifted = drift(before, after).is_some_and(|s| raw.estimate.abs() < BEYOND_RULER * s.abs());
     let outcome = match (side(raw), guard) {
         _ if before.rounds().min(after.rounds()) < MIN_ROUNDS => {
             Outcome::CannotTell(Why::TooFewRounds)
         }
+        (Side::Slower, Side::Slower) | (Side::Faster, Side::Faster) if drifted => {
+            Outcome::CannotTell(Why::Drift)
+        }
         (Side::Slower, Side::Slower) => Outcome::Slower,
         (Side::Faster, Side::Faster) => Outcome::Faster,
         (Side::Small, Side::Small) => Outcome::CannotTell(Why::Small),
-        (Side::Slower | Side::Faster, _) => Outcome::CannotTell(Why::Drift),
+        (Side::Slower | Side::Faster, _) => Outcome::CannotTell(moved(before, after)),
         _ => Outcome::CannotTell(Why::Noise),
     };
     Comparison {
         ratio: raw.into(),
         ruled: ruled.map(Ratio::from),
         outcome,
+    }
+}
+
+/// By how much the ruler has moved, as a logarithm, where both benches have one.
+fn drift(before: &Samples, after: &Samples) -> Option<f64> {
+    before.ruled().zip(after.ruled())?;
+    Some(shift(&before.rulers(), &after.rulers(), LEVEL).estimate)
+}
+
+/// Why times that differ do not in units of the ruler.
+fn moved(before: &Samples, after: &Samples) -> Why {
+    let (before, after) = (before.rulers(), after.rulers());
+    match shift(&before, &after, LEVEL) {
+        s if s.low > 0.0 || s.high < 0.0 => Why::Drift,
+        _ => Why::Ruler,
     }
 }
 

@@ -107,6 +107,12 @@ impl Samples {
         &self.logs
     }
 
+    /// Logarithms of the ruler's times; empty without one.
+    pub(crate) fn rulers(&self) -> Vec<f64> {
+        let ruled = self.ruled.iter().flatten();
+        self.logs.iter().zip(ruled).map(|(t, r)| t - r).collect()
+    }
+
     /// Logarithms of the rounds' medians in units of the ruler.
     pub(crate) fn ruled(&self) -> Option<&[f64]> {
         self.ruled.as_deref()

@@ -15,6 +15,15 @@ use etalon_case::{Case, Library, Profile};
 use etalon_record::AbsentAdapter;
 use std::path::PathBuf;
 
+/// Areas that take part in runs and hunts only where they are named: they measure what the other areas
+/// have proven, on pictures so large that one of them takes as long as hundreds of cases.
+const MEASURING: [&str; 2] = ["methods", "perf"];
+
+/// Whether a case is there to be measured.
+pub(crate) fn is_measuring(case: &Case) -> bool {
+    MEASURING.contains(&case.area())
+}
+
 /// The cases of a folder, or those built in.
 pub(crate) fn library(folder: Option<&PathBuf>) -> Result<Library, Failure> {
     match folder {

@@ -2,7 +2,7 @@
 
 use crate::args::{Format, MutantsArguments};
 use crate::commands::run::{machine, progress};
-use crate::commands::{build, library};
+use crate::commands::{build, is_measuring, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::output::{color, print, print_json, width};
 use etalon_backend::Backend;
@@ -12,10 +12,6 @@ use etalon_record::{HUNT_FORMAT, Hunt, MutantInfo};
 use etalon_report::TableOptions;
 use etalon_runner::{Globs, HuntPlan};
 use std::time::{Instant, SystemTime};
-
-/// Areas that take part only where they are named: they measure what the other areas have proven, on
-/// pictures so large that one of them takes as long as hundreds of cases.
-const MEASURING: [&str; 2] = ["methods", "perf"];
 
 /// Hunts the chosen bugs, or lists them.
 pub(crate) fn run(arguments: &MutantsArguments) -> Result<u8, Failure> {
@@ -28,7 +24,7 @@ pub(crate) fn run(arguments: &MutantsArguments) -> Result<u8, Failure> {
     let cases: Vec<Case> = build(&library, arguments.profile.into(), &arguments.case_globs)?
         .into_iter()
         .filter(|c| c.judged_as.is_none())
-        .filter(|c| named || !MEASURING.contains(&c.area()))
+        .filter(|c| named || !is_measuring(c))
         .collect();
     if cases.is_empty() {
         return Err(Failure::nothing(format!(

@@ -2,7 +2,7 @@
 
 use crate::adapters::{Adapters, discover};
 use crate::args::{Format, RunArguments};
-use crate::commands::{chosen, refuse_absent};
+use crate::commands::{chosen, is_measuring, refuse_absent};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::output::{color, print, print_json, width};
 use etalon_case::Case;
@@ -16,7 +16,12 @@ use std::time::SystemTime;
 
 /// Draws the chosen cases on the chosen adapters, judges, records and reports.
 pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
-    let cases = chosen(&arguments.selection)?;
+    let mut cases = chosen(&arguments.selection)?;
+    if arguments.selection.globs.is_empty() {
+        // A folder that holds nothing else means them.
+        let measuring_alone = cases.iter().all(is_measuring);
+        cases.retain(|case| measuring_alone || !is_measuring(case));
+    }
     let expectations = expectations(arguments.expect.as_deref())?;
     let adapters = discover(&arguments.adapters)?;
     refuse_absent(&arguments.adapters, &adapters.absent)?;

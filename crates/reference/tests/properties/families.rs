@@ -15,13 +15,18 @@ fn some(file: &etalon_case::CaseFile) -> Vec<Case> {
     built.map(|c| c.expect("built-in cases build")).collect()
 }
 
-/// Large pictures are looked at here and there.
-const TEXELS: Texels = Texels::AtMost(1024);
+/// The large pictures of what is measured are looked at here and there, all others whole.
+fn texels(case: &Case) -> Texels {
+    match case.area() {
+        "methods" | "perf" => Texels::AtMost(1024),
+        _ => Texels::All,
+    }
+}
 
 /// What is asserted of everything that the case reads back.
 fn figures(case: &Case, limits: &Limits) -> AspectStatistics {
     let mut sum = AspectStatistics::default();
-    for judgement in judgements_of(case.judged_scene(), limits, TEXELS) {
+    for judgement in judgements_of(case.judged_scene(), limits, texels(case)) {
         for (_, aspect) in judgement.legal.statistics() {
             sum.add(aspect);
         }
@@ -78,7 +83,7 @@ fn what_the_rasterizer_draws_of_them_is_legal_under_every_api() {
                 let frame = draw(scene);
                 for (api, limits) in &every {
                     // Of a format whose encoding is open one reading has to fit.
-                    let worst = judgements_of(scene, limits, TEXELS)
+                    let worst = judgements_of(scene, limits, texels(&case))
                         .iter()
                         .filter_map(|j| compare(&frame, &j.legal, &j.yardstick, 1).ok())
                         .map(|found| found.worst())

@@ -6,7 +6,7 @@ use etalon_record::Bench;
 use maud::{Markup, html};
 
 /// Width and height of a strip.
-const STRIP: (f64, f64) = (240.0, 22.0);
+const STRIP: (f64, f64) = (180.0, 22.0);
 
 /// The scale that strips of one table share, logarithmic.
 #[derive(Clone, Copy)]

@@ -139,7 +139,7 @@ pub fn diff_table(diff: &Diff, options: TableOptions) -> String {
     }
     let n = diff.changes.len();
     text.push_str(&format!(
-        "{} slower, {} faster, {} cannot be told. Of {n} comparisons of unchanged things at most {:.2} \
+        "{} slower, {} faster, {} cannot be told. Of {n} comparisons of unchanged things at most {:.3} \
          would be called a change on average ({} each).\n",
         diff.count("slower"),
         diff.count("faster"),

@@ -125,10 +125,11 @@ impl<'a> Series<'a> {
         values
     }
 
-    /// The value that stands for the whole series where only one can: the middle one.
+    /// The value that stands for the whole series where only one can: the middle one, of an even number
+    /// the larger of both.
     pub(crate) fn middle(&self) -> Option<f64> {
         let values = self.values();
-        values.get(values.len().saturating_sub(1) / 2).copied()
+        values.get(values.len() / 2).copied()
     }
 
     /// The points of one adapter in the order of values.
@@ -329,7 +330,7 @@ mod tests {
             .map(|p| (p.value, p.adapter))
             .collect();
         assert_eq!(values, [(Some(0.1), 0), (Some(0.1), 1), (Some(0.9), 0)]);
-        assert_eq!(windows.series[1].middle(), Some(0.1));
+        assert_eq!(windows.series[1].middle(), Some(0.9));
         assert_eq!(methods.kinds(), [Kind::Software, Kind::Hardware]);
         assert_eq!(methods.questions[1].style("b"), 1);
     }

@@ -10,15 +10,20 @@ use std::collections::BTreeMap;
 
 /// What one adapter's frames of one area and aspect come to.
 #[derive(Clone, Copy, Default)]
-struct Figures {
+struct Figures<'a> {
     /// Of frames that are legal.
     legal: Option<Accuracy>,
+    /// The case of the largest of those distances.
+    farthest: &'a str,
     /// Of frames that are not; their distances would drown all others.
     wrong: Option<Accuracy>,
 }
 
-impl Figures {
-    fn add(&mut self, accuracy: &Accuracy, legal: bool) {
+impl<'a> Figures<'a> {
+    fn add(&mut self, case: &'a str, accuracy: &Accuracy, legal: bool) {
+        if legal && self.legal.is_none_or(|sum| accuracy.max > sum.max) {
+            self.farthest = case;
+        }
         let sum = if legal {
             &mut self.legal
         } else {
@@ -32,7 +37,7 @@ impl Figures {
 }
 
 /// A line of the table: an area's aspect on every adapter.
-type Rows<'a> = BTreeMap<(&'a str, Aspect), Vec<Figures>>;
+type Rows<'a> = BTreeMap<(&'a str, Aspect), Vec<Figures<'a>>>;
 
 fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
     let mut rows: Rows<'a> = BTreeMap::new();
@@ -53,7 +58,7 @@ fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
                     let row = rows
                         .entry((area.name, accuracy.aspect))
                         .or_insert_with(|| vec![Figures::default(); grid.adapters.len()]);
-                    row[column].add(accuracy, legal);
+                    row[column].add(&record.case, accuracy, legal);
                 }
             }
         }
@@ -134,7 +139,9 @@ pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
                 p.note {
                     "Mean and, behind a stroke, the largest distance in codes of legal frames. In brackets, where there "
                     "are any, the largest of frames that failed. A draw time is of one case, drawing and reading "
-                    "back, its pipelines made anew; a frame time is of a method case that was drawn again and again."
+                    "back, its pipelines made anew; a frame time is of a method case that was drawn again and again. Hover "
+                    "over a cell for the case that is farthest off: a depth bias counts in steps that a driver may double, which "
+                    "is legal and millions of codes away."
                 }
                 (table(grid, &rows))
             }
@@ -178,9 +185,9 @@ fn table(grid: &Grid<'_>, rows: &Rows<'_>) -> Markup {
     }
 }
 
-fn cell(figures: &Figures) -> Markup {
+fn cell(figures: &Figures<'_>) -> Markup {
     html! {
-        td {
+        td title=[figures.legal.map(|_| format!("The largest: {}", figures.farthest))] {
             @if let Some(legal) = &figures.legal {
                 (svg::digits(legal.mean, 2)) " / " (svg::digits(legal.max, 3))
             } @else { "–" }
@@ -196,7 +203,7 @@ fn chart(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
     const ROW: f64 = 24.0;
     const NAMES: f64 = 96.0;
     const ZERO: f64 = 30.0;
-    let of_aspect: Vec<(&str, &Vec<Figures>)> = rows
+    let of_aspect: Vec<(&str, &Vec<Figures<'_>>)> = rows
         .iter()
         .filter(|((_, a), _)| *a == aspect)
         .map(|((area, _), figures)| (*area, figures))

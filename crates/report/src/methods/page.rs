@@ -301,23 +301,35 @@ struct Pictures<'a> {
 }
 
 impl Pictures<'_> {
-    /// The truth and what each method drew at its middle value, on the first adapter that did.
+    /// The truth and what each method drew, at its middle value where there is a picture of that.
     fn strip(&mut self, scene: &Scene<'_>) -> Markup {
         let mut figures: Vec<(String, String)> = Vec::new();
         for series in &scene.series {
             let middle = series.middle();
-            let mut shown = series.points.iter().filter(|p| p.value == middle);
-            let Some(m) = shown.find_map(|p| p.measured.picture.as_ref().map(|_| p.measured))
+            let drawn = || {
+                series
+                    .points
+                    .iter()
+                    .filter(|p| p.measured.picture.is_some())
+            };
+            let Some(point) = drawn()
+                .find(|p| p.value == middle)
+                .or_else(|| drawn().next())
             else {
                 continue;
             };
+            let m = point.measured;
             if figures.is_empty()
                 && let Some(truth) = m.truth.as_deref().and_then(|t| self.read(t))
             {
                 figures.push(("truth".to_owned(), truth));
             }
             if let Some(picture) = m.picture.as_deref().and_then(|p| self.read(p)) {
-                figures.push((series.name(), picture));
+                let name = match (series.parameter, point.value) {
+                    (Some(p), Some(v)) => format!("{}, {p} {}", series.name(), value_text(v)),
+                    _ => series.name(),
+                };
+                figures.push((name, picture));
             }
         }
         html! {

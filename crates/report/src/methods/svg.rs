@@ -390,8 +390,10 @@ mod tests {
     #[test]
     fn labels_cover_nothing() {
         let mut labels = Labels::new([(100.0, 100.0), (112.0, 100.0)]);
-        let (left, _) = labels.place("a method", (100.0, 100.0)).unwrap();
-        assert!(left < 112.0 - 40.0 || left > 100.0);
+        let (left, base) = labels.place("a method", (100.0, 100.0)).unwrap();
+        let across = left < 117.0 && left + 8.0 * 5.6 > 107.0;
+        let along = base - 8.5 < 105.0 && base + 2.0 > 95.0;
+        assert!(!(across && along), "{left} {base}");
         let places: Vec<_> = (0..20)
             .map_while(|_| labels.place("a method", (100.0, 100.0)))
             .collect();

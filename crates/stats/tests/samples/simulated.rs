@@ -342,3 +342,16 @@ fn a_summary_tells_what_is_in_the_samples() {
     assert!(summary.p95 > 11.0 && summary.p95 <= 14.0);
     assert_eq!(summarize(&Samples::new(&rounds).unwrap()), summary);
 }
+
+#[test]
+fn an_unsteady_ruler_is_told_from_one_that_moved() {
+    let mut random = Rand64::new(9);
+    let unsteady = Noise {
+        ruler: 0.3,
+        ..QUIET
+    };
+    let before = bench(&mut random, unsteady, 12, 1.0);
+    let after = bench(&mut random, unsteady, 12, 1.1);
+    let outcome = compare(&before, &after).outcome;
+    assert_eq!(outcome, Outcome::CannotTell(Why::Ruler));
+}

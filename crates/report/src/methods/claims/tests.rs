@@ -207,6 +207,12 @@ fn front_to_back_is_held_against_the_prepass() {
         outcome("Drawing front", &of(1000, 1000)),
         Outcome::NotReproduced
     );
+    // An adapter that counts what the depth test rejects is judged by its times.
+    let mut blind = of(1000, 2000).to_vec();
+    blind.push(fragments("visibility-cost/rooms/method=no-test", 1000).at("layers", 8.0));
+    assert_eq!(outcome("Drawing front", &blind), Outcome::NotReproduced);
+    blind[1].wall = Some(0.0005);
+    assert_eq!(outcome("Drawing front", &blind), Outcome::Reproduced);
 }
 
 #[test]
