@@ -64,7 +64,7 @@ fn the_quick_methods_are_measured_on_a_rasterizer_and_a_driver() {
         );
         let measured = measured(record);
         let distance = &measured.distance;
-        assert!(distance.rmse <= distance.max, "{name}");
+        assert!(distance.rmse <= distance.max + 1e-12, "{name}");
         assert!((0.0..=1.0).contains(&distance.flip), "{name}");
         assert!((0.0..=1.0).contains(&distance.wrong), "{name}");
         // The truth must be far better than what is measured against it.
@@ -74,7 +74,8 @@ fn the_quick_methods_are_measured_on_a_rasterizer_and_a_driver() {
             assert!(measured.time.unwrap().wall > 0.0, "{name}");
         }
         if record.adapter == "cpu" {
-            assert!(measured.fragments.unwrap() > 0, "{name}");
+            // None at all where everything is culled.
+            assert!(measured.fragments.is_some(), "{name}");
         }
     }
     for page in ["index.html", "methods.html"] {
@@ -96,10 +97,11 @@ fn the_quick_methods_are_measured_on_a_rasterizer_and_a_driver() {
 fn exact_methods_agree_with_the_truth() {
     let out = tempfile::tempdir().unwrap();
     let globs = [
-        "methods/transparency/windows",
+        "methods/transparency/windows/*alpha=0.4",
         "methods/transparency/nested-glass",
     ];
-    let run = run(out.path(), &[&globs[..], &["--adapter", "cpu"]].concat());
+    let others = ["--profile", "full", "--adapter", "cpu"];
+    let run = run(out.path(), &[&globs[..], &others].concat());
     for scene in ["windows", "nested-glass"] {
         let exact: &[&str] = match scene {
             // Of glass in glass both faces of a box are one object.

@@ -1,4 +1,4 @@
-//! Rounds that a real machine with busy neighbours took for the same work (see `examples/sample.rs`).
+//! Rounds that a real machine with busy neighbours took for the same work (see `examples/rounds.rs`).
 //! During `drifting.csv` its clock slowed down in steps: the last rounds took a tenth longer than the
 //! first. `steady.csv` is from a calmer minute.
 

@@ -2,7 +2,7 @@
 //! before and after, then the frames, in seconds. This made the files in `tests/data`:
 //!
 //! ```sh
-//! cargo run --release -p etalon-stats --example sample -- 40 > crates/stats/tests/data/steady.csv
+//! cargo run --release -p etalon-stats --example rounds -- 40 > crates/stats/tests/data/steady.csv
 //! ```
 
 use std::env;
