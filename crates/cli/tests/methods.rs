@@ -11,7 +11,7 @@ const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
 
 fn etalon(arguments: &[&str]) -> Command {
     let mut command = Command::new(BINARY);
-    command.args(arguments).timeout(Duration::from_secs(240));
+    command.args(arguments).timeout(Duration::from_secs(600));
     command
 }
 
