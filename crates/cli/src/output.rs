@@ -1,6 +1,7 @@
 //! Standard output and the terminal.
 
 use crate::failure::Failure;
+use etalon_report::TableOptions;
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 
@@ -33,4 +34,12 @@ pub(crate) fn width() -> usize {
         .map(|size| usize::from(size.ws_col))
         .filter(|columns| *columns >= 40);
     known.unwrap_or(120)
+}
+
+/// How tables are drawn on this terminal.
+pub(crate) fn table_options() -> TableOptions {
+    TableOptions {
+        width: width(),
+        color: color(),
+    }
 }

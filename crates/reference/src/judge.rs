@@ -42,6 +42,7 @@ pub fn judgements(scene: &Scene, limits: &Limits) -> Vec<Judgement> {
 /// As [`judgements`], of some texels only; of the others nothing is asserted. Counters are sums over all
 /// texels: unless all are looked at, nothing is asserted of them either.
 pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judgement> {
+    let texels = texels.of(scene);
     limits
         .alternatives(&scene.formats())
         .into_iter()

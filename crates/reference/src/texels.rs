@@ -1,5 +1,8 @@
 //! Which texels of an image are judged: all of them, or few that lie everywhere.
 
+use etalon_case::Scene;
+use etalon_case::scene::Attachment;
+
 /// Which texels a judge looks at. Of the others nothing is asserted, and nothing is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Texels {
@@ -28,6 +31,15 @@ impl Texels {
     /// Whether nothing is left out.
     pub fn is_all(self) -> bool {
         self == Self::All
+    }
+
+    /// The same of a scene, as [`Texels::All`] where nothing in it is left out.
+    pub(crate) fn of(self, scene: &Scene) -> Self {
+        let whole = |a: &Attachment| self.lattice(a.size) == Lattice::ALL;
+        match scene.attachments.iter().all(whole) {
+            true => Self::All,
+            false => self,
+        }
     }
 
     /// Whether a texel of an image of so many columns and rows is looked at.

@@ -211,7 +211,7 @@ impl Judge {
         let sets = Arc::clone(entry.get_or_init(|| {
             fresh = true;
             let scene = judged_scene(case, index);
-            Arc::new(judgements_of(scene, limits, looked_at(scene)))
+            Arc::new(judgements_of(scene, limits, Texels::AtMost(MOST_TEXELS)))
         }));
         if fresh {
             let weight = |all: &[Judgement]| -> usize {
@@ -233,16 +233,6 @@ impl Judge {
             }
         }
         sets
-    }
-}
-
-/// Which texels of a scene are judged. Only where all are, counters are too.
-fn looked_at(scene: &Scene) -> Texels {
-    let texels = |[width, height]: [u32; 2]| u64::from(width) * u64::from(height);
-    let most = scene.attachments.iter().map(|a| texels(a.size)).max();
-    match most {
-        Some(most) if most > MOST_TEXELS => Texels::AtMost(MOST_TEXELS),
-        _ => Texels::All,
     }
 }
 

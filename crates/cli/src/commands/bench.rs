@@ -5,9 +5,8 @@ use crate::args::{BenchArguments, CaseProfile, Format};
 use crate::commands::run::{expectations, machine, progress};
 use crate::commands::{chosen, refuse_absent};
 use crate::failure::{Failure, UNEXPECTED};
-use crate::output::{color, print, print_json, width};
+use crate::output::{print, print_json, table_options};
 use etalon_record::{BENCH_FORMAT, Bench, BenchHeader, ShaderCache};
-use etalon_report::TableOptions;
 use etalon_runner::{BenchError, BenchEvent, BenchPlan};
 use serde_json::json;
 use std::collections::BTreeSet;
@@ -122,10 +121,7 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
         }))?;
     } else {
         let bench = Bench::read(&arguments.out).map_err(Failure::incomplete)?;
-        let options = TableOptions {
-            width: width(),
-            color: color(),
-        };
+        let options = table_options();
         print(&etalon_report::bench_table(&bench, options))?;
         print(&format!("\nReport: {}\n", written.html.display()))?;
     }

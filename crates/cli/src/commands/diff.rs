@@ -2,9 +2,8 @@
 
 use crate::args::{DiffArguments, DiffTime, Format};
 use crate::failure::{Failure, UNEXPECTED};
-use crate::output::{color, print, print_json, width};
+use crate::output::{print, print_json, table_options};
 use etalon_record::{Bench, FolderKind, Time};
-use etalon_report::TableOptions;
 use std::path::Path;
 
 /// Says what became faster or slower from one bench to another.
@@ -25,10 +24,7 @@ pub(crate) fn run(arguments: &DiffArguments) -> Result<u8, Failure> {
     if arguments.format == Format::Json {
         print_json(&diff)?;
     } else {
-        let options = TableOptions {
-            width: width(),
-            color: color(),
-        };
+        let options = table_options();
         print(&etalon_report::diff_table(&diff, options))?;
         if let Some(page) = page {
             print(&format!("\nReport: {}\n", page.display()))?;

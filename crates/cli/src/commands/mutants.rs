@@ -4,12 +4,11 @@ use crate::args::{Format, MutantsArguments};
 use crate::commands::run::{machine, progress};
 use crate::commands::{build, is_measuring, library};
 use crate::failure::{Failure, UNEXPECTED};
-use crate::output::{color, print, print_json, width};
+use crate::output::{print, print_json, table_options};
 use etalon_backend::Backend;
 use etalon_case::Case;
 use etalon_cpu::{MutantBackend, mutants};
 use etalon_record::{HUNT_FORMAT, Hunt, MutantInfo};
-use etalon_report::TableOptions;
 use etalon_runner::{Globs, HuntPlan};
 use std::time::{Instant, SystemTime};
 
@@ -37,10 +36,7 @@ pub(crate) fn run(arguments: &MutantsArguments) -> Result<u8, Failure> {
     if arguments.format == Format::Json {
         print_json(&hunt)?;
     } else {
-        let options = TableOptions {
-            width: width(),
-            color: color(),
-        };
+        let options = table_options();
         print(&etalon_report::hunt_table(&hunt, options))?;
         print(&format!("\nReport: {}\n", written.html.display()))?;
     }

@@ -2,17 +2,14 @@
 
 use crate::args::ReportArguments;
 use crate::failure::Failure;
-use crate::output::{color, print, width};
+use crate::output::{print, table_options};
 use etalon_record::{Bench, FolderKind, Run};
 use etalon_report::TableOptions;
 use std::path::Path;
 
 /// Makes the reports of run and bench folders anew, from the folders alone.
 pub(crate) fn run(arguments: &ReportArguments) -> Result<u8, Failure> {
-    let options = TableOptions {
-        width: width(),
-        color: color(),
-    };
+    let options = table_options();
     for folder in &arguments.folders {
         match FolderKind::of(folder) {
             Some(FolderKind::Bench) => bench(folder, options)?,

@@ -4,10 +4,9 @@ use crate::adapters::{Adapters, discover};
 use crate::args::{Format, RunArguments};
 use crate::commands::{chosen, is_measuring, refuse_absent};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
-use crate::output::{color, print, print_json, width};
+use crate::output::{print, print_json, table_options};
 use etalon_case::Case;
 use etalon_record::{Expectations, Header, Machine, Run};
-use etalon_report::TableOptions;
 use etalon_runner::{Event, Outcome, Plan, RunError};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
@@ -49,10 +48,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
         }))?;
     } else {
         let run = Run::read(&arguments.out).map_err(Failure::incomplete)?;
-        let options = TableOptions {
-            width: width(),
-            color: color(),
-        };
+        let options = table_options();
         print(&etalon_report::table(&run, options))?;
         print(&format!("\nReport: {}\n", written.html.display()))?;
     }
