@@ -24,6 +24,10 @@ pub struct AdapterInfo {
     pub driver: String,
     /// The driver's version, as far as it tells.
     pub driver_version: String,
+    /// What tells the driver from others for programs: `VkDriverId` and PCI ids in Vulkan; empty where
+    /// the API tells none.
+    #[serde(default)]
+    pub driver_id: String,
     /// The API's version.
     pub api_version: String,
     /// Whether the device is the processor.

@@ -183,6 +183,7 @@ fn info(name: &str, context: &Context) -> AdapterInfo {
         device: context.names.renderer.clone(),
         driver: context.names.vendor.clone(),
         driver_version: context.names.driver_version().to_owned(),
+        driver_id: String::new(),
         api_version: if context.caps.es {
             format!("OpenGL ES {major}.{minor}")
         } else {

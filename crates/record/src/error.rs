@@ -43,7 +43,7 @@ pub enum RecordError {
     },
     /// The run was written in another format.
     #[error(
-        "{} is in format {found} where this etalon reads format {expected}; \
+        "{} is in format {found} where this etalon reads formats up to {expected}; \
          read it with the version that wrote it, or record the run again",
         path.display()
     )]

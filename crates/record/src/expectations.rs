@@ -138,7 +138,8 @@ impl Expectations {
             return Expectation::Agrees(entry);
         }
         // A case that is not supported any more has not become better.
-        let good = !verdict.is_bad() && verdict != Verdict::NotSupported;
+        let good =
+            !verdict.is_bad() && !matches!(verdict, Verdict::NotSupported | Verdict::Skipped);
         match matching().find(|(entry, _)| entry.verdict.is_bad()) {
             Some((entry, _)) if good => Expectation::Better(entry),
             _ => Expectation::None,
@@ -174,6 +175,7 @@ mod tests {
             device: String::new(),
             driver: driver.to_owned(),
             driver_version: version.to_owned(),
+            driver_id: String::new(),
             api_version: String::new(),
             software: true,
             limits: Limits {

@@ -30,10 +30,12 @@ pub use bench::{
 pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations};
 pub use frame_file::{FrameFile, FrameImage};
-pub use header::{AbsentAdapter, AdapterRecord, FORMAT, Header, Machine};
+pub use header::{AbsentAdapter, AdapterRecord, FORMAT, Header, Machine, Settings, Shard};
 pub use hunt::{AreaTally, Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, Sighting};
 pub use measured::{Measured, Parameter, Times};
-pub use record::{Assertion, Expected, MAX_WRONG_TEXELS, Record, Seconds};
+pub use record::{
+    Assertion, Expected, LossKind, MAX_VALIDATION, MAX_WRONG_TEXELS, ProcessEnd, Record, Seconds,
+};
 pub use run::Run;
 pub use verdict::Verdict;
-pub use writer::{MAX_LINE, RunWriter};
+pub use writer::{CASES_FILE, MAX_LINE, RunWriter};

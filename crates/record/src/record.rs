@@ -11,6 +11,8 @@ use serde::{Deserialize, Serialize};
 
 /// The most wrong texels that a record lists.
 pub const MAX_WRONG_TEXELS: usize = 64;
+/// The most validation messages that a record keeps.
+pub const MAX_VALIDATION: usize = 16;
 
 /// What became of one case on one adapter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -58,9 +60,58 @@ pub struct Record {
     /// What was measured, of a method case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Measured>,
+    /// How the process that drew the case was lost.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub process: Option<ProcessEnd>,
+    /// What validation layers and debug output said, at most [`MAX_VALIDATION`] messages.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub validation: Vec<String>,
+    /// The verdicts of all repetitions in fresh processes, where there were any; the first drawing's
+    /// verdict is not among them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub repeats: Vec<Verdict>,
+    /// The cases that must be drawn before in the same process for this verdict, in their order; alone
+    /// the case does better.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub after: Vec<String>,
 }
 
-fn is_false(value: &bool) -> bool {
+/// How a process came to be lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LossKind {
+    /// It ended by itself or by a signal.
+    Died,
+    /// It did not answer in time.
+    Timeout,
+    /// It held more memory than it may.
+    Memory,
+    /// It wrote what is no message.
+    Garbage,
+    /// It could not be started again.
+    NotStarted,
+}
+
+/// How the process that drew a case was lost.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ProcessEnd {
+    /// What happened.
+    pub kind: LossKind,
+    /// The signal that it died of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub signal: Option<i32>,
+    /// The exit status that it ended with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub exit: Option<i32>,
+    /// The last lines that it wrote to standard error.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub stderr: String,
+    /// Seconds from the case's turn until the loss was noticed.
+    pub seconds: f64,
+}
+
+pub(crate) fn is_false(value: &bool) -> bool {
     !value
 }
 
@@ -84,6 +135,10 @@ impl Record {
             frame: None,
             seconds: Seconds::default(),
             measured: None,
+            process: None,
+            validation: Vec::new(),
+            repeats: Vec::new(),
+            after: Vec::new(),
         }
     }
 
@@ -109,7 +164,10 @@ impl Record {
             return false;
         }
         if self.due_fail {
-            !matches!(self.verdict, Verdict::Fail | Verdict::NotSupported)
+            !matches!(
+                self.verdict,
+                Verdict::Fail | Verdict::NotSupported | Verdict::Skipped
+            )
         } else {
             self.verdict.is_bad()
         }
@@ -257,7 +315,10 @@ mod tests {
         for verdict in Verdict::ALL {
             let mut record = Record::new("selftest/a", "cpu", verdict);
             record.due_fail = true;
-            let due = matches!(verdict, Verdict::Fail | Verdict::NotSupported);
+            let due = matches!(
+                verdict,
+                Verdict::Fail | Verdict::NotSupported | Verdict::Skipped
+            );
             assert_eq!(record.unexpected(), !due, "{verdict}");
         }
     }

@@ -137,7 +137,7 @@ fn below(frame: &str) -> Result<PathBuf, RecordError> {
 fn parse_header(line: &[u8], path: &Path) -> Result<Header, RecordError> {
     // The format goes first, since another one may have other fields.
     let format: Format = serde_json::from_slice(line).map_err(|e| parse_error(path, 1, &e))?;
-    if format.format != FORMAT {
+    if format.format == 0 || format.format > FORMAT {
         return Err(RecordError::Format {
             path: path.to_owned(),
             found: format.format,

@@ -19,6 +19,8 @@ pub enum Verdict {
     Measured,
     /// The adapter lacks something that the scene needs.
     NotSupported,
+    /// The expectations forbid drawing the case on this adapter.
+    Skipped,
     /// The same case gave different frames.
     Flaky,
     /// The process that drew the case died.
@@ -35,13 +37,14 @@ pub enum Verdict {
 
 impl Verdict {
     /// Every verdict, in declaration order.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Pass,
         Self::Imprecise,
         Self::Fail,
         Self::Open,
         Self::Measured,
         Self::NotSupported,
+        Self::Skipped,
         Self::Flaky,
         Self::Crash,
         Self::Timeout,
@@ -59,6 +62,7 @@ impl Verdict {
             Self::Open => "open",
             Self::Measured => "measured",
             Self::NotSupported => "not-supported",
+            Self::Skipped => "skipped",
             Self::Flaky => "flaky",
             Self::Crash => "crash",
             Self::Timeout => "timeout",
@@ -71,7 +75,9 @@ impl Verdict {
     /// Whether the verdict speaks against a run unless it was expected.
     pub fn is_bad(self) -> bool {
         match self {
-            Self::Pass | Self::Imprecise | Self::Measured | Self::NotSupported => false,
+            Self::Pass | Self::Imprecise | Self::Measured | Self::NotSupported | Self::Skipped => {
+                false
+            }
             Self::Fail
             | Self::Open
             | Self::Flaky
@@ -94,18 +100,19 @@ impl Verdict {
     /// How bad the verdict is, for picking the worst of several: larger is worse.
     pub fn severity(self) -> u8 {
         match self {
-            Self::NotSupported => 0,
-            Self::Measured => 1,
-            Self::Pass => 2,
-            Self::Imprecise => 3,
-            Self::Open => 4,
-            Self::Flaky => 5,
-            Self::ResourceError => 6,
-            Self::InternalError => 7,
-            Self::Timeout => 8,
-            Self::Crash => 9,
-            Self::DeviceLost => 10,
-            Self::Fail => 11,
+            Self::Skipped => 0,
+            Self::NotSupported => 1,
+            Self::Measured => 2,
+            Self::Pass => 3,
+            Self::Imprecise => 4,
+            Self::Open => 5,
+            Self::Flaky => 6,
+            Self::ResourceError => 7,
+            Self::InternalError => 8,
+            Self::Timeout => 9,
+            Self::Crash => 10,
+            Self::DeviceLost => 11,
+            Self::Fail => 12,
         }
     }
 }

@@ -12,6 +12,8 @@ use std::path::{Path, PathBuf};
 
 /// The most bytes of a record's line, its newline among them.
 pub const MAX_LINE: usize = 64 * 1024;
+/// The file of a run folder that lists the selected ids, one per line, before sharding.
+pub const CASES_FILE: &str = "cases.txt";
 
 /// Writes a run folder, line by line. What was appended survives the writer's death.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use etalon_frame::{
 use etalon_record::{
     AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header, MAX_LINE,
     MAX_WRONG_TEXELS, Machine, Measured, Parameter, Record, RecordError, Run, RunWriter, Seconds,
-    Times, Verdict,
+    Settings, Times, Verdict,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -23,12 +23,14 @@ fn header() -> Header {
         started: "2026-01-02T03:04:05Z".to_owned(),
         command: vec!["etalon".to_owned(), "run".to_owned()],
         cases: 3,
+        settings: Settings::default(),
         adapters: vec![AdapterRecord {
             name: "gl:es:soft".to_owned(),
             backend: "gl".to_owned(),
             device: "d".to_owned(),
             driver: "Mesa".to_owned(),
             driver_version: "25".to_owned(),
+            driver_id: "7".to_owned(),
             api_version: "3.2".to_owned(),
             software: true,
             limits: Limits {
@@ -246,10 +248,10 @@ fn folders_without_a_readable_header_are_refused() {
     fs::write(&path, "").unwrap();
     let error = Run::read(folder.path()).unwrap_err().to_string();
     assert!(error.contains("run.jsonl:1: "), "{error}");
-    fs::write(&path, "{\"format\":2,\"new\":true}\n").unwrap();
+    fs::write(&path, "{\"format\":99,\"new\":true}\n").unwrap();
     assert!(matches!(
         Run::read(folder.path()),
-        Err(RecordError::Format { found: 2, .. })
+        Err(RecordError::Format { found: 99, .. })
     ));
 }
 

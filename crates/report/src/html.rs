@@ -179,7 +179,7 @@ fn class(verdict: Verdict, tone: Tone) -> &'static str {
         (Verdict::Fail, Tone::Plain) => "f",
         (Verdict::Open, Tone::Plain) => "o",
         (Verdict::Measured, Tone::Plain) => "n",
-        (Verdict::NotSupported, Tone::Plain) => "u",
+        (Verdict::NotSupported | Verdict::Skipped, Tone::Plain) => "u",
         (_, Tone::Plain) => "b",
     }
 }

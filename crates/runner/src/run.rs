@@ -171,6 +171,7 @@ pub(crate) fn adapter_record(worker: &Worker) -> AdapterRecord {
         device: info.device.clone(),
         driver: info.driver.clone(),
         driver_version: info.driver_version.clone(),
+        driver_id: info.driver_id.clone(),
         api_version: info.api_version.clone(),
         software: info.software,
         limits: worker.hello.limits.clone(),

@@ -265,6 +265,7 @@ fn run(launch: Launch) -> (Vec<Record>, Outcome) {
             started: String::new(),
             command: Vec::new(),
             cases: cases.len() as u64,
+            settings: Default::default(),
             adapters: vec![(&worker).into()],
             absent: Vec::new(),
         },

@@ -63,6 +63,10 @@ pub(crate) fn identify(instance: &Instance, physical: vk::PhysicalDevice) -> Ide
         } else {
             driver_info
         },
+        driver_id: format!(
+            "{:?}, {:04x}:{:04x}",
+            driver.driver_id, properties.vendor_id, properties.device_id
+        ),
         api_version: version(properties.api_version),
         software: properties.device_type == vk::PhysicalDeviceType::CPU,
     };

@@ -221,6 +221,7 @@ fn info(via: Via, found: &wgpu::AdapterInfo) -> AdapterInfo {
         device: found.name.clone(),
         driver: named,
         driver_version: found.driver_info.clone(),
+        driver_id: String::new(),
         api_version: format!("WebGPU (wgpu 30 over {})", api(via)),
         software,
     }

@@ -91,6 +91,7 @@ fn execute(
             .chain(std::env::args().skip(1))
             .collect(),
         cases: cases.len() as u64,
+        settings: Default::default(),
         adapters: adapters.ready.iter().map(|(_, w)| w.into()).collect(),
         absent: adapters.absent,
     };

@@ -101,6 +101,7 @@ pub(crate) fn run(made: &[Made]) -> Run {
         device: String::new(),
         driver: String::new(),
         driver_version: String::new(),
+        driver_id: String::new(),
         api_version: String::new(),
         software: !name.starts_with("hw"),
         limits: Limits {
@@ -122,6 +123,7 @@ pub(crate) fn run(made: &[Made]) -> Run {
             started: String::new(),
             command: vec!["etalon".to_owned()],
             cases: made.len() as u64,
+            settings: Default::default(),
             adapters: names.into_iter().map(adapter).collect(),
             absent: Vec::new(),
         },

@@ -8,7 +8,7 @@ use etalon_frame::{
 };
 use etalon_record::{
     AbsentAdapter, AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header,
-    Machine, Record, RunWriter, Seconds, Verdict,
+    Machine, Record, RunWriter, Seconds, Settings, Verdict,
 };
 use std::path::Path;
 
@@ -58,6 +58,7 @@ pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
         device: format!("{name} (LLVM 19.1.7, 256 bits)"),
         driver: "Mesa".to_owned(),
         driver_version: "25.0.7".to_owned(),
+        driver_id: String::new(),
         api_version: "1.4.305".to_owned(),
         software: true,
         limits: Limits {
@@ -94,6 +95,7 @@ pub(crate) fn header(cases: u64, adapters: Vec<AdapterRecord>) -> Header {
             .map(str::to_owned)
             .to_vec(),
         cases,
+        settings: Settings::default(),
         adapters,
         absent: vec![AbsentAdapter {
             name: "vulkan:radv".to_owned(),
