@@ -1,6 +1,7 @@
 //! Commands and flags.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use etalon_record::Shard;
 use std::path::PathBuf;
 
 /// Tells whether a graphics driver does per-fragment operations right: draws cases on every driver
@@ -29,6 +30,8 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Make the reports of run and bench folders anew
     Report(ReportArguments),
+    /// Make one run of several, shards or adapters, and prove that nothing is missing
+    Merge(MergeArguments),
     /// Time the frames of cases whose pictures are right, interleaved over adapters
     Bench(BenchArguments),
     /// Say what became faster or slower from one bench to another
@@ -51,8 +54,27 @@ pub(crate) enum Format {
     Json,
 }
 
+/// Which adapters there are.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct AdapterFileArguments {
+    /// Also know the adapters that this JSON file describes, in the form of the built-in adapters.json
+    #[arg(long = "adapters", value_name = "FILE")]
+    pub(crate) adapter_file: Option<PathBuf>,
+}
+
+/// What the drivers' shader caches on disk hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CacheState {
+    /// Nothing, and nothing is kept: every process compiles everything.
+    Cold,
+    /// What earlier processes left.
+    Warm,
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct AdaptersArguments {
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
     /// For people or for programs (a JSON array, one object per adapter that can be used)
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
@@ -103,12 +125,49 @@ pub(crate) struct RunArguments {
     /// Run on this adapter (repeat for several); without it, on all that are found
     #[arg(long = "adapter", value_name = "NAME")]
     pub(crate) adapters: Vec<String>,
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
     /// Where records and reports go
     #[arg(long, value_name = "DIR", default_value = "reports/latest")]
     pub(crate) out: PathBuf,
+    /// Go on with the run that the folder holds: draw what is missing
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+    /// Replace the run that the folder holds
+    #[arg(long)]
+    pub(crate) force: bool,
     /// Expectations to hold verdicts against, instead of those built in
     #[arg(long, value_name = "FILE")]
     pub(crate) expect: Option<PathBuf>,
+    /// Write what this run showed into the expectations file: what was unexpected is expected from now
+    /// on, what is better goes. Refused where the variable CI is set
+    #[arg(long)]
+    pub(crate) bless: bool,
+    /// Draw part M of N, chosen by a hash of the id; without it, the part that GitLab, Bazel, Slurm or a
+    /// Kubernetes indexed job asks for in its variables; 1/1 for all
+    #[arg(long, value_name = "M/N", value_parser = crate::shard::parse)]
+    pub(crate) shard: Option<Shard>,
+    /// Seconds that one case may take before its process is given up (methods and perf: four times that)
+    #[arg(long, value_name = "S", default_value = "60", value_parser = parse_timeout)]
+    pub(crate) timeout: f64,
+    /// MiB of memory that one worker may hold before it is given up
+    #[arg(long, value_name = "MIB", default_value = "4096", value_parser = clap::value_parser!(u64).range(64..=1 << 20))]
+    pub(crate) memory: u64,
+    /// How many workers draw at the same time; without it, one per processor
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) jobs: Option<u16>,
+    /// Draw each case so many times, each time in a fresh process; verdicts that differ make it flaky
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(crate) repeat: u32,
+    /// Draw the cases in the order of this seed; a case that fails only after others names them
+    #[arg(long, value_name = "SEED")]
+    pub(crate) shuffle: Option<u64>,
+    /// Whether the drivers' shader caches on disk may be used
+    #[arg(long, value_enum, default_value = "warm")]
+    pub(crate) shader_cache: CacheState,
+    /// Have validation layers and GL debug output listen; a case of which they say something is an error
+    #[arg(long)]
+    pub(crate) validate: bool,
     /// For people or for programs
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
@@ -118,6 +177,8 @@ pub(crate) struct RunArguments {
 pub(crate) struct BenchArguments {
     #[command(flatten)]
     pub(crate) selection: CaseArguments,
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
     /// Time this adapter (repeat for several); without it, all that are found
     #[arg(long = "adapter", value_name = "NAME")]
     pub(crate) adapters: Vec<String>,
@@ -143,6 +204,22 @@ pub(crate) struct ReportArguments {
     /// Run and bench folders
     #[arg(value_name = "DIR", required = true)]
     pub(crate) folders: Vec<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MergeArguments {
+    /// Run folders of one selection of cases
+    #[arg(value_name = "DIR", required = true)]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Where the merged run goes
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Replace the run that the folder holds
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// For people or for programs
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
 }
 
 /// Which time of a bench is compared.
@@ -183,6 +260,8 @@ pub(crate) struct DiffArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct ExplainArguments {
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
     /// The case's id
     #[arg(value_name = "CASE")]
     pub(crate) case: String,
@@ -233,6 +312,15 @@ pub(crate) struct WorkerArguments {
     /// List the devices of a backend as JSON
     #[arg(long)]
     pub(crate) enumerate: Option<String>,
+}
+
+fn parse_timeout(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().unwrap_or(f64::NAN);
+    if (0.1..=86_400.0).contains(&seconds) {
+        Ok(seconds)
+    } else {
+        Err("seconds lie between 0.1 and 86400".to_owned())
+    }
 }
 
 fn parse_seconds(text: &str) -> Result<f64, String> {

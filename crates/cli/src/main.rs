@@ -5,6 +5,7 @@ mod args;
 mod commands;
 mod failure;
 mod output;
+mod shard;
 mod slower;
 mod worker;
 
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
         Command::Schema => commands::list::schema(),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
+        Command::Merge(arguments) => commands::merge::run(&arguments),
         Command::Bench(arguments) => commands::bench::run(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),

@@ -6,9 +6,9 @@ use etalon_frame::{
     Distance, Limits, Story, StoryLine, TexelCounts, WrongTexel,
 };
 use etalon_record::{
-    AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header, MAX_LINE,
-    MAX_WRONG_TEXELS, Machine, Measured, Parameter, Record, RecordError, Run, RunWriter, Seconds,
-    Settings, Times, Verdict,
+    AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header, LossKind, MAX_LINE,
+    MAX_WRONG_TEXELS, Machine, Measured, Parameter, ProcessEnd, Record, RecordError, Run,
+    RunWriter, Seconds, Settings, Times, Verdict,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -124,6 +124,10 @@ prop_compose! {
         story in prop::option::of(story()),
         frame in prop::option::of(".*"),
         seconds in any::<[u32; 2]>(),
+        (lost, said) in (
+            prop::option::of((prop::option::of(any::<i32>()), ".*")),
+            prop::collection::vec(".*", 0..3),
+        ),
     ) -> Record {
         let assertion = |f: [u64; 7]| Assertion {
             aspect: Aspect::Stencil,
@@ -134,6 +138,12 @@ prop_compose! {
             aspect: Aspect::Depth, channels: f[0], mean: eighths(f[1]), max: eighths(f[2]),
         };
         Record {
+            process: lost.map(|(signal, stderr)| ProcessEnd {
+                kind: LossKind::Died, signal, exit: signal.map(|s| !s), stderr, seconds: 0.25,
+            }),
+            validation: said.clone(),
+            after: said,
+            repeats: improves.into_iter().collect(),
             case, adapter, verdict, improves, due_fail, message, story, frame,
             expected: expected.map(|reason| Expected { reason }),
             texels: TexelCounts { total: counts[0], wrong: counts[1], imprecise: counts[2], open: counts[3] },

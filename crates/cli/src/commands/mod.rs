@@ -5,6 +5,7 @@ pub(crate) mod bench;
 pub(crate) mod diff;
 pub(crate) mod explain;
 pub(crate) mod list;
+pub(crate) mod merge;
 pub(crate) mod mutants;
 pub(crate) mod report;
 pub(crate) mod run;

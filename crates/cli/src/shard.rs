@@ -1,0 +1,191 @@
+//! Which part of the cases this process draws: from the flag, or from the variables of the systems that
+//! start many processes.
+
+use crate::failure::Failure;
+use etalon_record::Shard;
+use std::path::PathBuf;
+
+/// A shard as `--shard` takes it: `2/5`.
+pub(crate) fn parse(text: &str) -> Result<Shard, String> {
+    let wrong = || "a shard is given as M/N with 1 <= M <= N, as 2/5".to_owned();
+    let (index, count) = text.split_once('/').ok_or_else(wrong)?;
+    let number = |t: &str| t.parse::<u32>().map_err(|_| wrong());
+    let shard = Shard {
+        index: number(index)?,
+        count: number(count)?,
+    };
+    (1..=shard.count)
+        .contains(&shard.index)
+        .then_some(shard)
+        .ok_or_else(wrong)
+}
+
+/// What the environment asks for.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(crate) struct Asked {
+    /// The shard, where there is more than one.
+    pub(crate) shard: Option<Shard>,
+    /// A file that tells Bazel that shards are known here.
+    pub(crate) status_file: Option<PathBuf>,
+}
+
+/// The shard that the variables of GitLab, Bazel, Slurm arrays and Kubernetes indexed jobs ask for.
+/// `variable` looks one up.
+///
+/// # Errors
+/// When a system's variables contradict themselves or each other.
+pub(crate) fn asked(variable: impl Fn(&str) -> Option<String>) -> Result<Asked, Failure> {
+    let number = |name: &str| -> Result<Option<u32>, Failure> {
+        match variable(name).filter(|v| !v.is_empty()) {
+            None => Ok(None),
+            Some(text) => text.parse().map(Some).map_err(|_| {
+                Failure::usage(format!(
+                    "the variable {name} is `{text}`, no whole number; give --shard M/N, or 1/1 for all"
+                ))
+            }),
+        }
+    };
+    let mut found: Vec<(&str, Shard)> = Vec::new();
+    let mut add = |system: &'static str, index: Option<u32>, count: Option<u32>, wants: &str| {
+        let (Some(index), Some(count)) = (index, count) else {
+            return Err(Failure::usage(format!(
+                "{system} asks for a shard, but {wants} is not set; set it, or give --shard M/N"
+            )));
+        };
+        if !(1..=count).contains(&index) {
+            return Err(Failure::usage(format!(
+                "{system} asks for shard {index} of {count}; give --shard M/N"
+            )));
+        }
+        found.push((system, Shard { index, count }));
+        Ok(())
+    };
+    // GitLab sets the total of every job, the index only of parallel ones.
+    if let Some(index) = number("CI_NODE_INDEX")? {
+        add(
+            "GitLab",
+            Some(index),
+            number("CI_NODE_TOTAL")?,
+            "CI_NODE_TOTAL",
+        )?;
+    }
+    let mut status_file = None;
+    if let Some(index) = number("TEST_SHARD_INDEX")? {
+        let index = index.checked_add(1);
+        add(
+            "Bazel",
+            index,
+            number("TEST_TOTAL_SHARDS")?,
+            "TEST_TOTAL_SHARDS",
+        )?;
+        status_file = variable("TEST_SHARD_STATUS_FILE").map(PathBuf::from);
+    }
+    if let Some(id) = number("SLURM_ARRAY_TASK_ID")? {
+        let first = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(0);
+        let step = number("SLURM_ARRAY_TASK_STEP")?.unwrap_or(1).max(1);
+        let count = number("SLURM_ARRAY_TASK_COUNT")?;
+        let index = id.checked_sub(first).map(|n| n / step + 1);
+        let whole = id >= first && (id - first).is_multiple_of(step);
+        add(
+            "Slurm",
+            index.filter(|_| whole),
+            count,
+            "SLURM_ARRAY_TASK_COUNT",
+        )?;
+    }
+    if let Some(index) = number("JOB_COMPLETION_INDEX")? {
+        // Kubernetes tells the index alone; the job's file sets the total beside it.
+        let index = index.checked_add(1);
+        add(
+            "Kubernetes",
+            index,
+            number("JOB_COMPLETIONS")?,
+            "JOB_COMPLETIONS",
+        )?;
+    }
+    if let [(one, a), (other, b), ..] = found.as_slice()
+        && a != b
+    {
+        return Err(Failure::usage(format!(
+            "{one} asks for shard {a}, {other} for shard {b}; give --shard M/N, or 1/1 for all"
+        )));
+    }
+    Ok(Asked {
+        shard: found.first().map(|(_, s)| *s).filter(|s| s.count > 1),
+        status_file,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asked_with(variables: &[(&str, &str)]) -> Result<Option<Shard>, String> {
+        let find = |name: &str| {
+            let found = variables.iter().find(|(n, _)| *n == name);
+            found.map(|(_, value)| (*value).to_owned())
+        };
+        asked(find).map(|a| a.shard).map_err(|e| format!("{e:?}"))
+    }
+
+    #[test]
+    fn each_system_counts_in_its_own_way() {
+        let two_of_five = Some(Shard { index: 2, count: 5 });
+        for variables in [
+            &[("CI_NODE_INDEX", "2"), ("CI_NODE_TOTAL", "5")][..],
+            &[("TEST_SHARD_INDEX", "1"), ("TEST_TOTAL_SHARDS", "5")],
+            &[
+                ("SLURM_ARRAY_TASK_ID", "13"),
+                ("SLURM_ARRAY_TASK_MIN", "10"),
+                ("SLURM_ARRAY_TASK_STEP", "3"),
+                ("SLURM_ARRAY_TASK_COUNT", "5"),
+            ],
+            &[
+                ("SLURM_ARRAY_TASK_ID", "1"),
+                ("SLURM_ARRAY_TASK_MIN", "0"),
+                ("SLURM_ARRAY_TASK_COUNT", "5"),
+            ],
+            &[("JOB_COMPLETION_INDEX", "1"), ("JOB_COMPLETIONS", "5")],
+        ] {
+            assert_eq!(asked_with(variables), Ok(two_of_five), "{variables:?}");
+        }
+        assert_eq!(asked_with(&[]), Ok(None));
+        // A GitLab job without `parallel`.
+        assert_eq!(asked_with(&[("CI_NODE_TOTAL", "1")]), Ok(None));
+    }
+
+    #[test]
+    fn what_cannot_be_meant_is_refused() {
+        for variables in [
+            &[("CI_NODE_INDEX", "6"), ("CI_NODE_TOTAL", "5")][..],
+            &[("CI_NODE_INDEX", "0"), ("CI_NODE_TOTAL", "5")],
+            &[("TEST_SHARD_INDEX", "x"), ("TEST_TOTAL_SHARDS", "5")],
+            &[
+                ("TEST_SHARD_INDEX", "4294967295"),
+                ("TEST_TOTAL_SHARDS", "5"),
+            ],
+            &[("JOB_COMPLETION_INDEX", "1")],
+            &[
+                ("SLURM_ARRAY_TASK_ID", "2"),
+                ("SLURM_ARRAY_TASK_MIN", "10"),
+                ("SLURM_ARRAY_TASK_COUNT", "5"),
+            ],
+            &[
+                ("CI_NODE_INDEX", "1"),
+                ("CI_NODE_TOTAL", "5"),
+                ("JOB_COMPLETION_INDEX", "1"),
+                ("JOB_COMPLETIONS", "5"),
+            ],
+        ] {
+            assert!(asked_with(variables).is_err(), "{variables:?}");
+        }
+    }
+
+    #[test]
+    fn the_flag_counts_from_one() {
+        assert_eq!(parse("2/5"), Ok(Shard { index: 2, count: 5 }));
+        for text in ["0/5", "6/5", "1", "1/0", "-1/5", "1/5/6", "a/b"] {
+            assert!(parse(text).is_err(), "{text}");
+        }
+    }
+}
