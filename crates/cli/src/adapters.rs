@@ -1,7 +1,9 @@
 //! Which adapters there are: software drivers from the data file, hardware found by enumeration.
 
+mod hidden;
+
 use crate::failure::Failure;
-use crate::slower;
+use hidden::Hidden;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, StartError, Worker};
 use serde::{Deserialize, Serialize};
@@ -30,9 +32,9 @@ pub(crate) struct Open {
     pub(crate) backend: BackendName,
     /// The device in the backend's own order; without it, the default one.
     pub(crate) device: Option<usize>,
-    /// How many per cent longer each frame is made to take.
+    /// What is planted in an adapter that no list names.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) slower: Option<f64>,
+    pub(crate) hidden: Option<Hidden>,
 }
 
 /// A device that a backend's enumeration found.
@@ -82,10 +84,10 @@ const MANIFEST_FOLDERS: [&str; 6] = [
 pub(crate) fn discover(names: &[String]) -> Result<Adapters, Failure> {
     let mut candidates = candidates()?;
     for name in names {
-        if let Some(percent) = slower::percent(name)
+        if let Some(hidden) = Hidden::named(name)
             && !candidates.iter().any(|c| c.name() == name)
         {
-            candidates.push(Candidate::slower(name, percent));
+            candidates.push(Candidate::hidden(name, hidden));
         }
     }
     let wanted = |name: &str| names.is_empty() || names.iter().any(|n| n == name);
@@ -141,7 +143,7 @@ fn candidates() -> Result<Vec<Candidate>, Failure> {
                 name: d.name,
                 backend: d.backend,
                 device: None,
-                slower: None,
+                hidden: None,
             },
             environment: d.environment,
             manifests: d.manifests,
@@ -172,7 +174,7 @@ fn candidates() -> Result<Vec<Candidate>, Failure> {
                     name: device.name,
                     backend,
                     device: Some(device.device),
-                    slower: None,
+                    hidden: None,
                 },
                 environment: BTreeMap::new(),
                 manifests: Vec::new(),
@@ -213,14 +215,14 @@ fn quiet() -> Option<(String, String)> {
 }
 
 impl Candidate {
-    /// The rasterizer, slowed down.
-    fn slower(name: &str, percent: f64) -> Self {
+    /// An adapter that no list names.
+    fn hidden(name: &str, hidden: Hidden) -> Self {
         Self {
             open: Open {
                 name: name.to_owned(),
                 backend: BackendName::Cpu,
                 device: None,
-                slower: Some(percent),
+                hidden: Some(hidden),
             },
             environment: BTreeMap::new(),
             manifests: Vec::new(),

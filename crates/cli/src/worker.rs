@@ -3,7 +3,6 @@
 use crate::adapters::{BackendName, Found, Open};
 use crate::args::WorkerArguments;
 use crate::failure::Failure;
-use crate::slower::Slower;
 use etalon_backend::{Backend, Unavailable};
 use etalon_cpu::CpuBackend;
 use std::fs::File;
@@ -63,9 +62,9 @@ fn open(what: &Open) -> Result<Box<dyn Backend>, Unavailable> {
         etalon_wgpu::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
     match what.backend {
-        BackendName::Cpu => Ok(match what.slower {
+        BackendName::Cpu => Ok(match &what.hidden {
             None => Box::new(CpuBackend::new(name)),
-            Some(percent) => Box::new(Slower::new(CpuBackend::new("cpu"), percent)),
+            Some(hidden) => hidden.open(),
         }),
         BackendName::Vulkan => {
             let options = etalon_vulkan::Options {
