@@ -41,6 +41,40 @@ pub enum RecordError {
         /// The folder.
         path: PathBuf,
     },
+    /// Another process writes into the folder.
+    #[error(
+        "another etalon is writing into {}; wait for its end, or choose another folder with --out",
+        path.display()
+    )]
+    InUse {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder holds a run that was not asked to go on or to go away.
+    #[error(
+        "{} holds a run already, with {records} of {expected} records; --resume draws what is missing, \
+         --force replaces it",
+        path.display()
+    )]
+    Occupied {
+        /// The folder.
+        path: PathBuf,
+        /// Records that it holds.
+        records: u64,
+        /// Records of the whole run.
+        expected: u64,
+    },
+    /// The run in the folder is another one than that which should go on.
+    #[error(
+        "the run in {} cannot go on: {reason}; --force begins a new one in its place",
+        path.display()
+    )]
+    Another {
+        /// The folder.
+        path: PathBuf,
+        /// What is different.
+        reason: String,
+    },
     /// The run was written in another format.
     #[error(
         "{} is in format {found} where this etalon reads formats up to {expected}; \

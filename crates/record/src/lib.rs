@@ -17,9 +17,11 @@ mod expectations;
 mod frame_file;
 mod header;
 mod hunt;
+mod lock;
 mod measured;
 mod record;
 mod run;
+mod selection;
 mod verdict;
 mod writer;
 
@@ -32,10 +34,12 @@ pub use expectations::{Entry, Expectation, Expectations};
 pub use frame_file::{FrameFile, FrameImage};
 pub use header::{AbsentAdapter, AdapterRecord, FORMAT, Header, Machine, Settings, Shard};
 pub use hunt::{AreaTally, Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, Sighting};
+pub use lock::FolderLock;
 pub use measured::{Measured, Parameter, Times};
 pub use record::{
     Assertion, Expected, LossKind, MAX_VALIDATION, MAX_WRONG_TEXELS, ProcessEnd, Record, Seconds,
 };
 pub use run::Run;
+pub use selection::{read_cases, selection_digest, shard_of};
 pub use verdict::Verdict;
 pub use writer::{CASES_FILE, MAX_LINE, RunWriter};

@@ -5,9 +5,10 @@ use crate::expectations::without_position;
 use crate::frame_file::FrameFile;
 use crate::header::{FORMAT, Header};
 use crate::record::Record;
+use crate::writer::MAX_LINE;
 use serde::Deserialize;
 use serde_json::error::Category;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 
@@ -24,6 +25,10 @@ pub struct Run {
 
 /// How every PNG file begins.
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
+/// The most bytes of a header's line: some thousand adapters.
+const MAX_HEADER: usize = 16 << 20;
+/// The most bytes of a frame file that are read; what is longer does not parse.
+const MAX_FRAME: u64 = 512 << 20;
 const REMEDY: &str = "remove the line, or record the run again";
 
 #[derive(Deserialize)]
@@ -38,6 +43,11 @@ impl Run {
     /// # Errors
     /// When there is no run, it is in another format, or a line is damaged.
     pub fn read(folder: &Path) -> Result<Self, RecordError> {
+        Ok(Self::read_prefix(folder)?.0)
+    }
+
+    /// [`Run::read`], with the number of bytes that the header and the whole records take.
+    pub(crate) fn read_prefix(folder: &Path) -> Result<(Self, u64), RecordError> {
         let path = folder.join("run.jsonl");
         let file = File::open(&path).map_err(|e| match e.kind() {
             ErrorKind::NotFound => RecordError::NoRun {
@@ -47,14 +57,16 @@ impl Run {
         })?;
         let mut lines = BufReader::new(file);
         let mut line = Vec::new();
-        let mut next = |line: &mut Vec<u8>| {
+        // A file of one endless line may not take the memory.
+        let mut next = |line: &mut Vec<u8>, most: usize| {
             line.clear();
-            lines
+            (&mut lines)
+                .take(most as u64 + 1)
                 .read_until(b'\n', line)
                 .map_err(RecordError::io("read", &path))
         };
 
-        next(&mut line)?;
+        next(&mut line, MAX_HEADER)?;
         let header = parse_header(&line, &path)?;
         let mut run = Self {
             header,
@@ -62,14 +74,26 @@ impl Run {
             truncated: false,
         };
         let mut number = 2;
+        let mut whole = line.len() as u64;
         // A damaged line is an error as soon as another line follows it.
         let mut damaged: Option<RecordError> = None;
-        while next(&mut line)? > 0 {
+        while next(&mut line, MAX_LINE)? > 0 {
             if let Some(error) = damaged {
                 return Err(error);
             }
+            if line.len() > MAX_LINE {
+                return Err(RecordError::Parse {
+                    path,
+                    line: number,
+                    message: format!("the line is longer than {MAX_LINE} bytes"),
+                    remedy: REMEDY,
+                });
+            }
             match serde_json::from_slice::<Record>(&line) {
-                Ok(record) => run.records.push(record),
+                Ok(record) => {
+                    run.records.push(record);
+                    whole += line.len() as u64;
+                }
                 Err(e) => {
                     let error = parse_error(&path, number, &e);
                     // Whole JSON of the wrong shape was not cut off: another hand wrote it.
@@ -82,7 +106,7 @@ impl Run {
             number += 1;
         }
         run.truncated = damaged.is_some();
-        Ok(run)
+        Ok((run, whole))
     }
 
     /// How many records are missing from a complete run.
@@ -98,7 +122,10 @@ impl Run {
     /// When the path leaves the folder, or the file cannot be read or does not parse.
     pub fn read_frame(folder: &Path, frame: &str) -> Result<FrameFile, RecordError> {
         let path = folder.join(below(frame)?);
-        let bytes = fs::read(&path).map_err(RecordError::io("read", &path))?;
+        let mut bytes = Vec::new();
+        File::open(&path)
+            .and_then(|file| file.take(MAX_FRAME).read_to_end(&mut bytes))
+            .map_err(RecordError::io("read", &path))?;
         serde_json::from_slice(&bytes).map_err(|e| parse_error(&path, e.line(), &e))
     }
 

@@ -4,11 +4,14 @@ use crate::error::RecordError;
 use crate::frame_file::FrameFile;
 use crate::header::Header;
 use crate::record::{MAX_WRONG_TEXELS, Record};
+use crate::run::Run;
+use crate::selection::{fnv, write_cases};
 use etalon_frame::StoryLine;
 use serde::Serialize;
 use std::fs::{self, File};
-use std::io::{ErrorKind, Write};
+use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 /// The most bytes of a record's line, its newline among them.
 pub const MAX_LINE: usize = 64 * 1024;
@@ -21,7 +24,22 @@ pub struct RunWriter {
     folder: PathBuf,
     path: PathBuf,
     file: File,
+    synced: Instant,
 }
+
+/// How much of a run a power cut may take: so long a time's records.
+const SYNC_EVERY: Duration = Duration::from_secs(1);
+/// What belongs to a run beside its records.
+const FOLDERS: [&str; 3] = ["frames", "pictures", "results"];
+const FILES: [&str; 7] = [
+    "index.html",
+    "methods.html",
+    "junit.xml",
+    "ctrf.json",
+    "summary.md",
+    CASES_FILE,
+    "run.jsonl",
+];
 
 impl RunWriter {
     /// Begins a run in a folder, which is made when it does not exist. A run that the folder
@@ -34,23 +52,79 @@ impl RunWriter {
         let path = folder.join("run.jsonl");
         if path.is_file() {
             // The run goes last: while it is there, the rest is known to be ours to remove.
-            for name in ["frames", "pictures"] {
+            for name in FOLDERS {
                 gone(fs::remove_dir_all(folder.join(name)), folder, name)?;
             }
-            for name in ["index.html", "methods.html", "junit.xml", "run.jsonl"] {
+            for name in FILES {
                 gone(fs::remove_file(folder.join(name)), folder, name)?;
             }
         }
         fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
-        let mut file = File::create(&path).map_err(RecordError::io("create", &path))?;
+        // Renamed into place, so that no run ever has half a header.
+        let beside = folder.join(format!(".run.jsonl.{}", std::process::id()));
+        let mut file = File::create(&beside).map_err(RecordError::io("create", &beside))?;
         let line = json_line("the header", header)?;
         file.write_all(&line)
+            .and_then(|()| file.sync_data())
+            .and_then(|()| fs::rename(&beside, &path))
             .map_err(RecordError::io("write", &path))?;
-        Ok(Self {
+        Ok(Self::new(folder, path, file))
+    }
+
+    /// Goes on with the run that a folder holds; a last record that was cut off is cut away. Also gives
+    /// what the run holds.
+    ///
+    /// # Errors
+    /// When there is no run, it is damaged, or it is another run than that of the header.
+    pub fn resume(folder: &Path, header: &Header) -> Result<(Self, Run), RecordError> {
+        let (mut run, whole) = Run::read_prefix(folder)?;
+        if let Some(reason) = another(&run.header, header) {
+            return Err(RecordError::Another {
+                path: folder.to_owned(),
+                reason,
+            });
+        }
+        let path = folder.join("run.jsonl");
+        let mut file = File::options()
+            .read(true)
+            .write(true)
+            .open(&path)
+            .map_err(RecordError::io("write", &path))?;
+        let cut = |file: &mut File| -> std::io::Result<()> {
+            file.set_len(whole)?;
+            file.seek(SeekFrom::Start(whole.saturating_sub(1)))?;
+            let mut last = [0];
+            file.read_exact(&mut last)?;
+            // A record may lack no more than its newline.
+            if last != *b"\n" {
+                file.write_all(b"\n")?;
+            }
+            Ok(())
+        };
+        cut(&mut file).map_err(RecordError::io("write", &path))?;
+        run.truncated = false;
+        Ok((Self::new(folder, path, file), run))
+    }
+
+    fn new(folder: &Path, path: PathBuf, file: File) -> Self {
+        Self {
             folder: folder.to_owned(),
             path,
             file,
-        })
+            synced: Instant::now(),
+        }
+    }
+
+    /// Writes the list of selected ids beside the run, before sharding and in the case files' order. It
+    /// must be the selection that the header's digest names.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_cases<'a>(
+        &self,
+        ids: impl IntoIterator<Item = &'a str>,
+    ) -> Result<(), RecordError> {
+        write_cases(&self.folder, ids)
     }
 
     /// Appends one record in a single write. A record longer than [`MAX_LINE`] is shortened: wrong
@@ -62,7 +136,22 @@ impl RunWriter {
         let line = fit(record)?;
         self.file
             .write_all(&line)
-            .map_err(RecordError::io("write", &self.path))
+            .map_err(RecordError::io("write", &self.path))?;
+        if self.synced.elapsed() >= SYNC_EVERY {
+            self.sync()?;
+        }
+        Ok(())
+    }
+
+    /// Has the system put everything that was appended where a power cut leaves it; [`RunWriter::append`]
+    /// does so about once a second.
+    ///
+    /// # Errors
+    /// When the system cannot.
+    pub fn sync(&mut self) -> Result<(), RecordError> {
+        self.synced = Instant::now();
+        let synced = self.file.sync_data();
+        synced.map_err(RecordError::io("write", &self.path))
     }
 
     /// Writes a frame file and returns its path below the run folder, for [`Record::frame`]. Call
@@ -107,6 +196,34 @@ impl RunWriter {
     pub fn folder(&self) -> &Path {
         &self.folder
     }
+}
+
+/// What makes the run of one header another than that of the other.
+fn another(there: &Header, here: &Header) -> Option<String> {
+    if let Some(conflict) = there.conflict(here) {
+        return Some(conflict);
+    }
+    let shard = |h: &Header| match h.settings.shard {
+        Some(shard) => format!("shard {shard}"),
+        None => "not sharded".to_owned(),
+    };
+    if shard(there) != shard(here) {
+        return Some(format!("it is {} and not {}", shard(there), shard(here)));
+    }
+    for adapter in &there.adapters {
+        match here.adapter(&adapter.name) {
+            None => return Some(format!("{} was there and is not here", adapter.name)),
+            Some(now) => {
+                if let Some(conflict) = adapter.conflict(now) {
+                    return Some(conflict);
+                }
+            }
+        }
+    }
+    let new = here.adapters.iter();
+    new.map(|a| &a.name)
+        .find(|name| there.adapter(name).is_none())
+        .map(|name| format!("{name} is here and was not there"))
 }
 
 pub(crate) fn gone(
@@ -161,16 +278,9 @@ fn safe(part: &str) -> String {
         name.replace_range(..1, "_");
     }
     if name.is_empty() || name != part.replace(':', "_") {
-        name.push_str(&format!("-{:016x}", fnv1a(part.as_bytes())));
+        name.push_str(&format!("-{:016x}", fnv(part.bytes())));
     }
     name
-}
-
-/// FNV-1a, 64 bits: stable over releases, unlike the standard library's hasher.
-fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
 }
 
 /// The record's line, shortened until it fits.

@@ -8,7 +8,7 @@ use etalon_frame::{
 use etalon_record::{
     AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header, LossKind, MAX_LINE,
     MAX_WRONG_TEXELS, Machine, Measured, Parameter, ProcessEnd, Record, RecordError, Run,
-    RunWriter, Seconds, Settings, Times, Verdict,
+    RunWriter, Seconds, Settings, Shard, Times, Verdict, read_cases, selection_digest,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -192,6 +192,88 @@ proptest! {
         let partial = bytes[end - 1] != b'\n' && bytes[end] != b'\n';
         prop_assert_eq!(run.truncated, partial);
     }
+
+    #[test]
+    fn a_run_cut_anywhere_goes_on_and_ends_as_if_nothing_had_happened(
+        records in prop::collection::vec(record(), 1..5),
+        at in any::<prop::sample::Index>(),
+        zeros in 0_usize..3,
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let mut writer = RunWriter::create(folder.path(), &header()).unwrap();
+        records.iter().for_each(|r| writer.append(r).unwrap());
+        drop(writer);
+        let path = folder.path().join("run.jsonl");
+        let due = fs::read(&path).unwrap();
+        let first = due.iter().position(|b| *b == b'\n').unwrap() + 1;
+        let end = first + at.index(due.len() - first);
+        // Some file systems leave zeros behind what a power cut took.
+        let mut cut = due[..end].to_vec();
+        cut.extend(vec![0; zeros]);
+        fs::write(&path, cut).unwrap();
+        let (mut writer, run) = RunWriter::resume(folder.path(), &header()).unwrap();
+        prop_assert!(!run.truncated);
+        records[run.records.len()..].iter().for_each(|r| writer.append(r).unwrap());
+        prop_assert_eq!(fs::read(&path).unwrap(), due);
+    }
+}
+
+#[test]
+fn only_the_same_run_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    drop(RunWriter::create(folder.path(), &header()).unwrap());
+    let before = fs::read(folder.path().join("run.jsonl")).unwrap();
+    let refused = |change: &dyn Fn(&mut Header)| {
+        let mut other = header();
+        change(&mut other);
+        let error = RunWriter::resume(folder.path(), &other).unwrap_err();
+        assert!(matches!(error, RecordError::Another { .. }), "{error}");
+        error.to_string()
+    };
+    assert!(refused(&|h| h.settings.selection = "1-0".to_owned()).contains("selection"));
+    assert!(refused(&|h| h.settings.shard = Some(Shard { index: 2, count: 3 })).contains("2/3"));
+    assert!(
+        refused(&|h| h.settings.shuffle = Some(7)).contains("--shuffle was none there and is 7")
+    );
+    assert!(refused(&|h| h.settings.validate = true).contains("--validate"));
+    assert!(refused(&|h| h.adapters[0].driver_version = "26".to_owned()).contains("Mesa 26"));
+    assert!(refused(&|h| h.adapters[0].limits.sub_pixel_bits = 4).contains("limits"));
+    assert!(refused(&|h| h.adapters.clear()).contains("is not here"));
+    assert!(refused(&|h| h.etalon = "0.2.0".to_owned()).contains("0.2.0"));
+    let mut later = header();
+    later.started = "2027-01-01T00:00:00Z".to_owned();
+    later.settings.timeout = Some(1.0);
+    RunWriter::resume(folder.path(), &later).unwrap();
+    assert_eq!(fs::read(folder.path().join("run.jsonl")).unwrap(), before);
+}
+
+#[test]
+fn a_line_without_end_is_refused_before_it_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = written(folder.path(), &[Verdict::Pass]);
+    let long = "x".repeat(3 * MAX_LINE);
+    fs::write(
+        folder.path().join("run.jsonl"),
+        format!("{text}{long}\n{long}"),
+    )
+    .unwrap();
+    let error = Run::read(folder.path()).unwrap_err().to_string();
+    assert!(error.contains("run.jsonl:3: the line is longer"), "{error}");
+}
+
+#[test]
+fn a_list_of_cases_is_the_one_that_the_header_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut header = header();
+    header.settings.selection = selection_digest(["a/1", "a/2"]);
+    let writer = RunWriter::create(folder.path(), &header).unwrap();
+    assert_eq!(read_cases(folder.path(), &header).unwrap(), None);
+    writer.write_cases(["a/2", "a/1"]).unwrap();
+    let ids = read_cases(folder.path(), &header).unwrap().unwrap();
+    assert_eq!(ids, ["a/2", "a/1"]);
+    writer.write_cases(["a/2"]).unwrap();
+    let error = read_cases(folder.path(), &header).unwrap_err().to_string();
+    assert!(error.contains("cases.txt:1: "), "{error}");
 }
 
 fn written(folder: &Path, verdicts: &[Verdict]) -> String {
