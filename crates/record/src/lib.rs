@@ -12,6 +12,7 @@
 )]
 
 mod bench;
+mod driver_version;
 mod error;
 mod expectations;
 mod frame_file;

@@ -154,6 +154,15 @@ impl Record {
                     None,
                 ),
                 Expectation::Better(entry) => (None, Some(entry.verdict)),
+                Expectation::Expired(entry) => {
+                    let day = entry.expires.as_deref().unwrap_or_default();
+                    let note = format!("the expectation expired on {day}: {}", entry.reason);
+                    self.message = match self.message.as_str() {
+                        "" => note,
+                        before => format!("{before}; {note}"),
+                    };
+                    (None, None)
+                }
             };
     }
 

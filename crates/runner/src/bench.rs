@@ -8,7 +8,9 @@
 mod round;
 mod ruler;
 
-use crate::process::{DRAW_TIMEOUT, Drawn, Launch, Link, Loss, StartError, Worker};
+use crate::link::{Link, Patience};
+use crate::loss::Loss;
+use crate::process::{DRAW_TIMEOUT, Drawn, Launch, StartError, Worker};
 use crate::run::adapter_record;
 use crate::verdict::Judge;
 use etalon_backend::BackendError;
@@ -182,12 +184,9 @@ impl Adapter {
                 (verdict(&error), error.to_string())
             }
             Stopped::Lost(loss) => {
-                let verdict = match loss {
-                    Loss::Timeout(_) => Verdict::Timeout,
-                    Loss::Garbage(_) | Loss::Died => Verdict::Crash,
-                };
+                let verdict = loss.verdict();
                 let message = match self.link.take() {
-                    Some(mut link) => link.obituary(loss),
+                    Some(mut link) => link.obituary(loss).message,
                     None => self.last_words.clone(),
                 };
                 (verdict, message)
@@ -291,10 +290,13 @@ impl Bench<'_, '_> {
         let Some(link) = adapter.link() else {
             return failed(Verdict::Crash, adapter.last_words.clone());
         };
+        let asked = Instant::now();
         for scene in case.scenes() {
             link.draw(0, scene);
         }
-        let stopped = match link.drawn(case.scene_count(), DRAW_TIMEOUT).0 {
+        let patience = Patience::of(DRAW_TIMEOUT);
+        let drawing = link.drawn(0, case.scene_count(), asked, patience);
+        let stopped = match drawing.drawn {
             Drawn::Frames(frames) => {
                 let judged = judge.judge(number, case, &name, &limits, &frames);
                 return (judged.record, frames.first().map(fingerprint));

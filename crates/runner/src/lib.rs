@@ -8,6 +8,8 @@
 mod bench;
 mod event;
 mod hunt;
+mod link;
+mod loss;
 mod measure;
 mod process;
 mod protocol;
@@ -22,7 +24,7 @@ pub use event::Event;
 pub use hunt::{HuntPlan, hunt};
 pub use process::{DrawError, Launch, StartError, Worker};
 pub use protocol::Hello;
-pub use run::{Outcome, Plan, RunError, run};
+pub use run::{Options, Outcome, Plan, RunError, run};
 pub use select::{Globs, SelectError, Selection, select};
 pub use verdict::{Judge, Judged};
 pub use worker::serve;

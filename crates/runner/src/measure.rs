@@ -1,6 +1,8 @@
 //! Method cases: how far a picture lies from the truth, and what it costs.
 
-use crate::process::{DRAW_TIMEOUT, Drawn, Link, Loss};
+use crate::link::{Link, Patience};
+use crate::loss::Loss;
+use crate::process::Drawn;
 use crate::protocol::{Payload, Request, Response};
 use etalon_backend::FrameTime;
 use etalon_case::{Case, Method, Scene, Truth};
@@ -9,7 +11,7 @@ use etalon_record::{Measured, Parameter, Times};
 use etalon_reference::{TruthPicture, distance, truth};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Frames that are drawn after the first and before any is timed: drivers compile and allocate at the
 /// first, and some once more at the second. A frame as long as the budget needs none of it.
@@ -84,16 +86,23 @@ pub(crate) enum Timed {
 impl Link {
     /// Times frames of a scene, and where the adapter has statistics counts its fragments in a frame
     /// of their own, since counting costs time. Nothing may be in flight.
-    pub(crate) fn time(&mut self, slot: u32, scene: &Scene, limits: &Limits) -> Timed {
-        let times = match self.frames(slot, scene) {
+    pub(crate) fn time(
+        &mut self,
+        slot: u32,
+        scene: &Scene,
+        limits: &Limits,
+        timeout: Duration,
+    ) -> Timed {
+        let times = match self.frames(slot, scene, timeout) {
             Ok(times) => times,
             Err(loss) => return Timed::Lost(loss),
         };
         if !limits.features.contains(&Feature::FragmentInvocations) {
             return Timed::Times(times, None);
         }
+        let asked = Instant::now();
         self.draw(slot, &scene.counting(CounterKind::FragmentInvocations));
-        match self.drawn(1, DRAW_TIMEOUT).0 {
+        match self.drawn(slot, 1, asked, Patience::of(timeout)).drawn {
             Drawn::Frames(frames) => {
                 let count = frames.first().and_then(|f| f.counters.first().copied());
                 Timed::Times(times, count)
@@ -104,41 +113,46 @@ impl Link {
         }
     }
 
-    fn frames(&mut self, slot: u32, scene: &Scene) -> Result<Option<Times>, Loss> {
+    fn frames(
+        &mut self,
+        slot: u32,
+        scene: &Scene,
+        timeout: Duration,
+    ) -> Result<Option<Times>, Loss> {
         self.request(&Request::Prepare {
             slot,
             scene: Box::new(scene.clone()),
         });
-        let prepared = self.answer()?.is_some();
+        let prepared = self.answer(timeout)?.is_some();
         let mut times = None;
         if prepared {
-            let mut warm = self.submit(slot, 1)?;
+            let mut warm = self.submit(slot, 1, timeout)?;
             if warm.first().is_some_and(|first| first.wall < BUDGET) {
-                warm = self.submit(slot, WARM_UP)?;
+                warm = self.submit(slot, WARM_UP, timeout)?;
             }
             if let Some(last) = warm.last() {
                 let one = last.wall.as_secs_f64().max(1e-6);
                 let [fewest, most] = FRAMES;
                 let fit = (BUDGET.as_secs_f64() / one) as u32;
-                times = Some(self.submit(slot, fit.clamp(fewest, most))?);
+                times = Some(self.submit(slot, fit.clamp(fewest, most), timeout)?);
             }
         }
         self.request(&Request::Drop { slot });
-        self.answer()?;
+        self.answer(timeout)?;
         Ok(times.and_then(|all| medians(&all)))
     }
 
-    fn submit(&mut self, slot: u32, times: u32) -> Result<Vec<FrameTime>, Loss> {
+    fn submit(&mut self, slot: u32, times: u32, timeout: Duration) -> Result<Vec<FrameTime>, Loss> {
         self.request(&Request::Submit { slot, times });
-        Ok(match self.answer()? {
+        Ok(match self.answer(timeout)? {
             Some(Payload::Submitted(times)) => times,
             _ => Vec::new(),
         })
     }
 
     /// The next answer; `None` where the backend could not do what was asked.
-    fn answer(&mut self) -> Result<Option<Payload>, Loss> {
-        match self.response(DRAW_TIMEOUT)? {
+    fn answer(&mut self, timeout: Duration) -> Result<Option<Payload>, Loss> {
+        match self.response(timeout)? {
             Response::Done { outcome, .. } => Ok(outcome.ok()),
             Response::Hello(_) => Err(Loss::Garbage("a second greeting".to_owned())),
         }

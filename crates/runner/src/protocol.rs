@@ -31,6 +31,8 @@ pub(crate) enum Response {
     Hello(Result<Box<Hello>, Unavailable>),
     /// The answer to a request.
     Done {
+        /// The request's slot.
+        slot: u32,
         outcome: Result<Payload, BackendError>,
         /// How long the worker took.
         elapsed: Duration,
@@ -57,14 +59,32 @@ pub struct Hello {
     pub limits: Limits,
 }
 
-pub(crate) fn send<T: Serialize>(to: &mut impl Write, message: &T) -> io::Result<()> {
+impl Request {
+    /// The scene that the request is about.
+    pub(crate) fn slot(&self) -> u32 {
+        match self {
+            Self::Prepare { slot, .. }
+            | Self::Submit { slot, .. }
+            | Self::ReadBack { slot }
+            | Self::Drop { slot } => *slot,
+        }
+    }
+}
+
+/// A message as it goes through a pipe.
+pub(crate) fn encode<T: Serialize>(message: &T) -> io::Result<Vec<u8>> {
     let bytes = postcard::to_stdvec(message).map_err(io::Error::other)?;
     let length = u32::try_from(bytes.len())
         .ok()
         .filter(|n| *n <= MAX_MESSAGE)
         .ok_or_else(|| io::Error::other("the message is too long"))?;
-    to.write_all(&length.to_le_bytes())?;
-    to.write_all(&bytes)?;
+    let mut whole = length.to_le_bytes().to_vec();
+    whole.extend(bytes);
+    Ok(whole)
+}
+
+pub(crate) fn send<T: Serialize>(to: &mut impl Write, message: &T) -> io::Result<()> {
+    to.write_all(&encode(message)?)?;
     to.flush()
 }
 

@@ -6,15 +6,21 @@ use std::any::Any;
 use std::collections::HashMap;
 use std::io::{self, Read, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::time::Instant;
+use std::sync::mpsc::{Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
 
-/// Opens a backend and answers requests until `input` ends.
+/// How long a worker whose parent has gone may take to end by itself.
+const GRACE: Duration = Duration::from_secs(5);
+
+/// Opens a backend and answers requests until `input` ends. A driver that hangs does not outlive the
+/// parent: some seconds after the end of `input` the process exits, whatever it is at.
 ///
 /// # Errors
 /// When the pipe to the parent breaks.
 pub fn serve(
     open: impl FnOnce() -> Result<Box<dyn Backend>, Unavailable>,
-    input: &mut impl Read,
+    input: impl Read + Send + 'static,
     output: &mut impl Write,
 ) -> io::Result<()> {
     let backend = match open() {
@@ -27,7 +33,11 @@ pub fn serve(
     };
     send(output, &Response::Hello(Ok(Box::new(hello))))?;
     let mut slots: HashMap<u32, Box<dyn Prepared + '_>> = HashMap::new();
-    while let Some(request) = receive::<Request>(input)? {
+    let (sender, requests) = channel();
+    thread::spawn(move || read(input, sender));
+    while let Ok(request) = requests.recv() {
+        let request: Request = request?;
+        let slot = request.slot();
         let start = Instant::now();
         // A panic is the suite's own bug and no crash of the driver. The parent starts another
         // worker behind it, so that nothing half done is used again.
@@ -36,6 +46,7 @@ pub fn serve(
         }))
         .unwrap_or_else(|panic| Err(BackendError::Internal(words(panic.as_ref()))));
         let response = Response::Done {
+            slot,
             outcome,
             elapsed: start.elapsed(),
             messages: backend.messages(),
@@ -43,6 +54,21 @@ pub fn serve(
         send(output, &response)?;
     }
     Ok(())
+}
+
+/// Hands requests on until there are no more, and sees to it that the process ends then.
+fn read(mut input: impl Read, requests: Sender<io::Result<Request>>) {
+    loop {
+        let message = receive::<Request>(&mut input).transpose();
+        let Some(message) = message else { break };
+        let failed = message.is_err();
+        if requests.send(message).is_err() || failed {
+            break;
+        }
+    }
+    drop(requests);
+    thread::sleep(GRACE);
+    std::process::exit(0);
 }
 
 /// What a panic said.

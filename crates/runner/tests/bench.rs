@@ -88,8 +88,8 @@ fn worker() {
     let mut protocol: File = protocol.unwrap();
     let inner = CpuBackend::new(&name);
     let open = || Ok(Box::new(Faulty { inner, fault }) as Box<dyn Backend>);
-    let mut input = BufReader::new(std::io::stdin());
-    etalon_runner::serve(open, &mut input, &mut protocol).unwrap();
+    let input = BufReader::new(std::io::stdin());
+    etalon_runner::serve(open, input, &mut protocol).unwrap();
 }
 
 fn adapter(name: &str, fault: &str) -> (Launch, Worker) {

@@ -9,11 +9,13 @@ use etalon_case::{Case, Library, Profile, Scene};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Feature, Frame, Limits, Requirement};
 use etalon_record::{Expectations, FORMAT, Header, Machine, Record, Run, Verdict};
-use etalon_runner::{Event, Launch, Outcome, Plan, StartError, Worker};
+use etalon_runner::{Event, Launch, Options, Outcome, Plan, StartError, Worker};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, Write};
 use std::path::Path;
 use std::sync::Mutex;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 /// What goes wrong: `<what>@<step>`, or a word for [`worker`] itself.
 const FAULT: &str = "ETALON_TEST_FAULT";
@@ -144,8 +146,8 @@ fn worker() {
             fault,
         }) as Box<dyn Backend>),
     };
-    let mut input = BufReader::new(io::stdin());
-    etalon_runner::serve(open, &mut input, &mut protocol()).unwrap();
+    let input = BufReader::new(io::stdin());
+    etalon_runner::serve(open, input, &mut protocol()).unwrap();
 }
 
 fn launch(fault: &str) -> Launch {
@@ -270,9 +272,17 @@ fn run(launch: Launch) -> (Vec<Record>, Outcome) {
             absent: Vec::new(),
         },
         adapters: vec![(launch, worker)],
-        jobs: 1,
+        options: Options {
+            // A second look starts workers of its own, which these tests count.
+            look_again: false,
+            timeout: Duration::from_secs(10),
+            ..Options::default()
+        },
         expectations: &Expectations::default(),
         folder: &out,
+        selection: None,
+        resume: false,
+        stop: &AtomicBool::new(false),
     };
     let told = Mutex::new(Vec::new());
     let outcome = etalon_runner::run(plan, &|event| {

@@ -1,6 +1,8 @@
 //! One round of frame times of one case on one worker.
 
-use crate::process::{DRAW_TIMEOUT, Link, Loss};
+use crate::link::Link;
+use crate::loss::Loss;
+use crate::process::DRAW_TIMEOUT;
 use crate::protocol::{Payload, Request, Response};
 use etalon_backend::{BackendError, FrameTime};
 use etalon_case::Scene;
