@@ -4,6 +4,7 @@ mod adapters;
 mod args;
 mod commands;
 mod failure;
+mod faults;
 mod output;
 mod shard;
 mod slower;

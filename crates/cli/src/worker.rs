@@ -22,9 +22,10 @@ pub(crate) fn run(arguments: &WorkerArguments) -> Result<u8, Failure> {
         return Err(Failure::usage("a worker needs --open or --enumerate"));
     };
     let what: Open = parse(text)?;
-    let mut input = BufReader::new(io::stdin().lock());
+    let input = BufReader::new(io::stdin());
+    let pipe = output.try_clone()?;
     let mut output = BufWriter::new(output);
-    etalon_runner::serve(|| open(&what), &mut input, &mut output)?;
+    etalon_runner::serve(|| open(&what, pipe), input, &mut output)?;
     Ok(0)
 }
 
@@ -39,7 +40,7 @@ fn private_output() -> Result<File, Failure> {
     Ok(File::from(private))
 }
 
-fn open(what: &Open) -> Result<Box<dyn Backend>, Unavailable> {
+fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
     let name = &what.name;
     let device = what.device.unwrap_or(0);
     let gl = |profile| {
@@ -49,7 +50,8 @@ fn open(what: &Open) -> Result<Box<dyn Backend>, Unavailable> {
                 None => etalon_gl::Platform::Surfaceless,
                 Some(index) => etalon_gl::Platform::Device(index),
             },
-            debug: false,
+            library: what.egl.clone(),
+            debug: what.validate,
         };
         etalon_gl::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
@@ -57,19 +59,19 @@ fn open(what: &Open) -> Result<Box<dyn Backend>, Unavailable> {
         let options = etalon_wgpu::Options {
             via,
             device,
-            validate: false,
+            validate: what.validate,
         };
         etalon_wgpu::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
     match what.backend {
         BackendName::Cpu => Ok(match &what.hidden {
             None => Box::new(CpuBackend::new(name)),
-            Some(hidden) => hidden.open(),
+            Some(hidden) => hidden.open(name, pipe),
         }),
         BackendName::Vulkan => {
             let options = etalon_vulkan::Options {
                 device,
-                validate: false,
+                validate: what.validate,
             };
             etalon_vulkan::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
         }
@@ -104,12 +106,8 @@ fn enumerate(backend: BackendName) -> Result<Vec<Found>, Unavailable> {
             let devices = etalon_gl::enumerate()?;
             let hardware = devices.into_iter().filter(|d| !d.software);
             Ok(hardware
-                .enumerate()
-                .map(|(n, d)| Found {
-                    name: match n {
-                        0 => format!("{prefix}:gpu"),
-                        n => format!("{prefix}:gpu-{n}"),
-                    },
+                .map(|d| Found {
+                    name: format!("{prefix}:{}", d.driver.as_deref().unwrap_or("gpu")),
                     device: d.index,
                 })
                 .collect())

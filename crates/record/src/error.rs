@@ -75,6 +75,24 @@ pub enum RecordError {
         /// What is different.
         reason: String,
     },
+    /// Two folders do not hold parts of one run.
+    #[error("{} and {} cannot be merged: {reason}", one.display(), other.display())]
+    Apart {
+        /// A folder.
+        one: PathBuf,
+        /// The other.
+        other: PathBuf,
+        /// What is different.
+        reason: String,
+    },
+    /// A folder cannot be merged with any other.
+    #[error("{} cannot be merged: {reason}", path.display())]
+    Unmergeable {
+        /// The folder.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
     /// The run was written in another format.
     #[error(
         "{} is in format {found} where this etalon reads formats up to {expected}; \

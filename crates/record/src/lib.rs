@@ -20,6 +20,7 @@ mod header;
 mod hunt;
 mod lock;
 mod measured;
+mod merge;
 mod record;
 mod run;
 mod selection;
@@ -37,10 +38,11 @@ pub use header::{AbsentAdapter, AdapterRecord, FORMAT, Header, Machine, Settings
 pub use hunt::{AreaTally, Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, Sighting};
 pub use lock::FolderLock;
 pub use measured::{Measured, Parameter, Times};
+pub use merge::{Merge, Merged};
 pub use record::{
     Assertion, Expected, LossKind, MAX_VALIDATION, MAX_WRONG_TEXELS, ProcessEnd, Record, Seconds,
 };
 pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
 pub use verdict::Verdict;
-pub use writer::{CASES_FILE, MAX_LINE, RunWriter};
+pub use writer::{CASES_FILE, MAX_LINE, MISSING_FILE, RunWriter};

@@ -149,7 +149,7 @@ impl Run {
     }
 }
 
-fn below(frame: &str) -> Result<PathBuf, RecordError> {
+pub(crate) fn below(frame: &str) -> Result<PathBuf, RecordError> {
     let path = PathBuf::from(frame);
     let plain = |c: Component<'_>| matches!(c, Component::Normal(_));
     if !frame.is_empty() && path.components().all(plain) {

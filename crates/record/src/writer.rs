@@ -18,6 +18,9 @@ pub const MAX_LINE: usize = 64 * 1024;
 /// The file of a run folder that lists the selected ids, one per line, before sharding.
 pub const CASES_FILE: &str = "cases.txt";
 
+/// The file of a merged run that lists the records that no part has: adapter, space, case.
+pub const MISSING_FILE: &str = "missing.txt";
+
 /// Writes a run folder, line by line. What was appended survives the writer's death.
 #[derive(Debug)]
 pub struct RunWriter {
@@ -31,12 +34,13 @@ pub struct RunWriter {
 const SYNC_EVERY: Duration = Duration::from_secs(1);
 /// What belongs to a run beside its records.
 const FOLDERS: [&str; 3] = ["frames", "pictures", "results"];
-const FILES: [&str; 7] = [
+const FILES: [&str; 8] = [
     "index.html",
     "methods.html",
     "junit.xml",
     "ctrf.json",
     "summary.md",
+    MISSING_FILE,
     CASES_FILE,
     "run.jsonl",
 ];

@@ -1,9 +1,122 @@
 //! `etalon merge`.
 
-use crate::args::MergeArguments;
-use crate::failure::Failure;
+use crate::args::{Format, MergeArguments};
+use crate::failure::{Failure, IMPROVED, UNEXPECTED};
+use crate::output::{print, print_json, table_options};
+use etalon_record::{FolderKind, FolderLock, MISSING_FILE, Merge, Merged, RecordError, Run};
+use serde_json::json;
+use std::fs;
+use std::path::Path;
+
+/// How many missing records are named on the terminal.
+const NAMED: usize = 20;
 
 /// Makes one run of several, and proves that nothing is missing.
 pub(crate) fn run(arguments: &MergeArguments) -> Result<u8, Failure> {
-    Err(Failure::usage(format!("{arguments:?}")))
+    let out = &arguments.out;
+    for folder in &arguments.folders {
+        if same(folder, out) {
+            return Err(Failure::usage(format!(
+                "{} is a part and cannot be the whole; choose another --out",
+                out.display()
+            )));
+        }
+    }
+    let mut merge = Merge::read(&arguments.folders).map_err(Failure::usage)?;
+    merge.header_mut().command = std::iter::once("etalon".to_owned())
+        .chain(std::env::args().skip(1))
+        .collect();
+    let _lock = FolderLock::acquire(out).map_err(Failure::usage)?;
+    if FolderKind::of(out) == Some(FolderKind::Run) && !arguments.force {
+        return Err(Failure::usage(occupied(out)));
+    }
+    let merged = merge.write(out).map_err(Failure::incomplete)?;
+    let written = etalon_report::write(out).map_err(Failure::incomplete)?;
+    if arguments.format == Format::Json {
+        let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
+        print_json(&json!({
+            "records": merged.records,
+            "missing": merged.missing.iter().map(pair).collect::<Vec<_>>(),
+            "empty": merged.empty,
+            "twice": merged.twice,
+            "disagreeing": merged.disagreeing.iter().map(pair).collect::<Vec<_>>(),
+            "unexpected": merged.unexpected,
+            "improvements": merged.improvements,
+            "folder": out,
+            "report": written.html,
+        }))?;
+    } else {
+        let run = Run::read(out).map_err(Failure::incomplete)?;
+        print(&etalon_report::table(&run, table_options()))?;
+        print(&format!("\nReport: {}\n", written.html.display()))?;
+    }
+    tell(&merged);
+    if !merged.missing.is_empty() || !merged.empty.is_empty() {
+        return Err(Failure::incomplete(holes(&merged, out)));
+    }
+    Ok(match merged {
+        Merged {
+            unexpected: 1.., ..
+        } => UNEXPECTED,
+        Merged {
+            improvements: 1.., ..
+        } => IMPROVED,
+        _ => 0,
+    })
+}
+
+/// Whether two paths name one folder.
+fn same(one: &Path, other: &Path) -> bool {
+    match (fs::canonicalize(one), fs::canonicalize(other)) {
+        (Ok(one), Ok(other)) => one == other,
+        _ => one == other,
+    }
+}
+
+fn occupied(out: &Path) -> String {
+    let (records, expected) = match Run::read(out) {
+        Ok(run) => (run.records.len() as u64, run.header.expected_records()),
+        Err(_) => (0, 0),
+    };
+    let error = RecordError::Occupied {
+        path: out.to_owned(),
+        records,
+        expected,
+    };
+    // Parts are merged anew, never gone on with.
+    error
+        .to_string()
+        .replace("--resume draws what is missing, ", "")
+}
+
+fn tell(merged: &Merged) {
+    if merged.twice > 0 {
+        eprintln!(
+            "{} records are in more than one part, with the same verdict; one of each was kept",
+            merged.twice
+        );
+    }
+    for (adapter, case) in merged.disagreeing.iter().take(NAMED) {
+        eprintln!("flaky: parts disagree about {case} on {adapter}");
+    }
+}
+
+fn holes(merged: &Merged, out: &Path) -> String {
+    let mut text = String::new();
+    for folder in &merged.empty {
+        text.push_str(&format!("{} holds no run\n", folder.display()));
+    }
+    for (adapter, case) in merged.missing.iter().take(NAMED) {
+        text.push_str(&format!("missing: {adapter} {case}\n"));
+    }
+    let more = merged.missing.len().saturating_sub(NAMED);
+    if more > 0 {
+        let file = out.join(MISSING_FILE);
+        text.push_str(&format!("and {more} more, in {}\n", file.display()));
+    }
+    format!(
+        "the merged run is incomplete: {} records are missing\n{}",
+        merged.missing.len(),
+        text.trim_end()
+    )
 }

@@ -1,17 +1,26 @@
 //! `etalon run`.
 
-use crate::adapters::{Adapters, discover};
-use crate::args::{Format, RunArguments};
+use crate::adapters::{Adapters, Wanted, cache, discover};
+use crate::args::{CacheState, Format, RunArguments};
 use crate::commands::{chosen, is_measuring, refuse_absent};
-use crate::failure::{Failure, IMPROVED, UNEXPECTED};
+use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
 use crate::output::{print, print_json, table_options};
+use crate::shard;
 use etalon_case::Case;
-use etalon_record::{Expectations, Header, Machine, Run};
-use etalon_runner::{Event, Outcome, Plan, RunError};
+use etalon_record::{
+    Expectations, FolderKind, FolderLock, Header, Machine, RecordError, Run, Settings, ShaderCache,
+    Shard, selection_digest, shard_of,
+};
+use etalon_runner::{Event, Options, Outcome, Plan, RunError};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
+use std::fs;
 use std::path::Path;
-use std::time::SystemTime;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, SystemTime};
+
+/// The folder that each run without `--out` replaces.
+const LATEST: &str = "reports/latest";
 
 /// Draws the chosen cases on the chosen adapters, judges, records and reports.
 pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
@@ -21,36 +30,86 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
         let measuring_alone = cases.iter().all(is_measuring);
         cases.retain(|case| measuring_alone || !is_measuring(case));
     }
-    let expectations = expectations(arguments.expect.as_deref())?;
-    let adapters = discover(&arguments.adapters)?;
+    let selection: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
+    let shard = shard(arguments)?;
+    if let Some(shard) = shard {
+        cases.retain(|case| shard_of(&case.id, shard.count) == shard.index);
+        eprintln!(
+            "shard {shard}: {} of {} cases",
+            cases.len(),
+            selection.len()
+        );
+    }
+    if let Some(seed) = arguments.shuffle {
+        shuffle(&mut cases, seed);
+    }
+    let expectations = expectations(arguments.expect.as_deref())?.on(&today());
+    // Nothing may be lost that another run, or one before, has written.
+    let _lock = FolderLock::acquire(&arguments.out).map_err(Failure::usage)?;
+    let resume = resumes(arguments)?;
+    let stop = interrupts()?;
+    let adapters = discover(&Wanted {
+        names: &arguments.adapters,
+        file: arguments.file.adapter_file.as_deref(),
+        validate: arguments.validate,
+        cold: arguments.shader_cache == CacheState::Cold,
+    })?;
     refuse_absent(&arguments.adapters, &adapters.absent)?;
-    let names: Vec<String> = adapters
-        .ready
-        .iter()
-        .map(|(l, _)| l.adapter.clone())
-        .collect();
+    let header = header(arguments, &cases, &selection, shard, &adapters);
+    let names: Vec<String> = header.adapters.iter().map(|a| a.name.clone()).collect();
+    let plan = Plan {
+        cases: &cases,
+        selection: Some(&selection),
+        adapters: adapters.ready,
+        options: Options {
+            jobs: arguments.jobs.map_or_else(processors, usize::from),
+            timeout: Duration::from_secs_f64(arguments.timeout),
+            memory: Some(arguments.memory),
+            repeat: arguments.repeat,
+            look_again: true,
+        },
+        expectations: &expectations,
+        folder: &arguments.out,
+        header,
+        resume,
+        stop,
+    };
     let bar = progress(cases.len() as u64 * names.len() as u64);
-    let outcome = execute(arguments, &cases, adapters, &expectations, &bar);
+    let outcome = execute(plan, &bar);
     bar.finish_and_clear();
     let outcome = outcome.map_err(|error| match error {
         RunError::Folder(error) => Failure::usage(error),
-        RunError::Write(_) => Failure::incomplete(error),
+        RunError::Write(_) => Failure::incomplete(format!("{error}; {}", how_to_resume())),
     })?;
     let written = etalon_report::write(&arguments.out).map_err(Failure::incomplete)?;
+    let run = Run::read(&arguments.out).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         print_json(&json!({
             "records": outcome.records,
+            "missing": run.missing(),
             "unexpected": outcome.unexpected,
             "improvements": outcome.improvements,
+            "interrupted": outcome.interrupted,
             "adapters": names,
             "folder": arguments.out,
             "report": written.html,
         }))?;
     } else {
-        let run = Run::read(&arguments.out).map_err(Failure::incomplete)?;
-        let options = table_options();
-        print(&etalon_report::table(&run, options))?;
+        print(&etalon_report::table(&run, table_options()))?;
         print(&format!("\nReport: {}\n", written.html.display()))?;
+    }
+    if run.missing() > 0 {
+        let interrupted = if outcome.interrupted {
+            "interrupted: "
+        } else {
+            ""
+        };
+        return Err(Failure::incomplete(format!(
+            "{interrupted}{} of {} records are missing; {}",
+            run.missing(),
+            run.header.expected_records(),
+            how_to_resume()
+        )));
     }
     Ok(match outcome {
         Outcome {
@@ -61,6 +120,138 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
         } => IMPROVED,
         _ => 0,
     })
+}
+
+/// The part of the cases that the flag or the environment asks for.
+fn shard(arguments: &RunArguments) -> Result<Option<Shard>, Failure> {
+    if let Some(shard) = arguments.shard {
+        return Ok((shard.count > 1).then_some(shard));
+    }
+    let asked = shard::asked(|name| std::env::var(name).ok())?;
+    if let Some(path) = asked.status_file {
+        // Bazel wants to see that the process knows of shards.
+        fs::write(&path, "").map_err(|e| {
+            Failure::usage(format!(
+                "cannot write {}, which TEST_SHARD_STATUS_FILE names: {e}",
+                path.display()
+            ))
+        })?;
+    }
+    Ok(asked.shard)
+}
+
+/// Fisher and Yates' shuffle.
+fn shuffle(cases: &mut [Case], seed: u64) {
+    let mut random = oorandom::Rand64::new(u128::from(seed));
+    for last in (1..cases.len()).rev() {
+        let other = random.rand_range(0..last as u64 + 1);
+        cases.swap(last, other as usize);
+    }
+}
+
+/// Whether to go on with the run in the folder; refuses to replace one without being told.
+fn resumes(arguments: &RunArguments) -> Result<bool, Failure> {
+    let folder = &arguments.out;
+    if FolderKind::of(folder) != Some(FolderKind::Run) {
+        return Ok(false);
+    }
+    let replaced = arguments.force || folder == Path::new(LATEST);
+    if arguments.resume || replaced {
+        return Ok(arguments.resume);
+    }
+    let run = Run::read(folder).map_err(|e| {
+        Failure::usage(format!(
+            "{e}; or replace the run in {} by --force",
+            folder.display()
+        ))
+    })?;
+    Err(Failure::usage(RecordError::Occupied {
+        path: folder.clone(),
+        records: run.records.len() as u64,
+        expected: run.header.expected_records(),
+    }))
+}
+
+/// The command that goes on with this run.
+fn how_to_resume() -> String {
+    let own = std::env::args()
+        .skip(1)
+        .filter(|a| a != "--force" && a != "--resume");
+    let words = std::iter::once("etalon".to_owned())
+        .chain(own)
+        .chain(["--resume".to_owned()]);
+    let quoted: Vec<String> = words.map(|w| quoted(&w)).collect();
+    format!("go on with: {}", quoted.join(" "))
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "/._=+-:,@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+/// Set at the first Ctrl-C, or when the process is asked to terminate; a second one ends it at once.
+fn interrupts() -> Result<&'static AtomicBool, Failure> {
+    static STOP: AtomicBool = AtomicBool::new(false);
+    ctrlc::set_handler(|| {
+        if STOP.swap(true, Ordering::Relaxed) {
+            std::process::exit(i32::from(INCOMPLETE));
+        }
+        eprintln!("\nstopping; once more to stop at once");
+    })
+    .map_err(|e| Failure::incomplete(format!("cannot listen for interrupts: {e}")))?;
+    Ok(&STOP)
+}
+
+fn processors() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// The day, in UTC, as `2027-01-31`.
+pub(crate) fn today() -> String {
+    let now = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
+    now.chars().take(10).collect()
+}
+
+fn header(
+    arguments: &RunArguments,
+    cases: &[Case],
+    selection: &[String],
+    shard: Option<Shard>,
+    adapters: &Adapters,
+) -> Header {
+    Header {
+        format: etalon_record::FORMAT,
+        etalon: env!("CARGO_PKG_VERSION").to_owned(),
+        commit: option_env!("ETALON_COMMIT").map(str::to_owned),
+        machine: machine(),
+        started: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
+        command: std::iter::once("etalon".to_owned())
+            .chain(std::env::args().skip(1))
+            .collect(),
+        cases: cases.len() as u64,
+        settings: Settings {
+            selection: selection_digest(selection.iter().map(String::as_str)),
+            shard,
+            shuffle: arguments.shuffle,
+            repeat: (arguments.repeat > 1).then_some(arguments.repeat),
+            shader_cache: Some(
+                match arguments.shader_cache == CacheState::Cold || cache::is_off() {
+                    true => ShaderCache::Cold,
+                    false => ShaderCache::Warm,
+                },
+            ),
+            validate: arguments.validate,
+            timeout: Some(arguments.timeout),
+            memory: Some(arguments.memory),
+        },
+        adapters: adapters.ready.iter().map(|(_, w)| w.into()).collect(),
+        absent: adapters.absent.clone(),
+    }
 }
 
 pub(crate) fn expectations(file: Option<&Path>) -> Result<Expectations, Failure> {
@@ -74,35 +265,14 @@ pub(crate) fn expectations(file: Option<&Path>) -> Result<Expectations, Failure>
     .map_err(Failure::usage)
 }
 
-fn execute(
-    arguments: &RunArguments,
-    cases: &[Case],
-    adapters: Adapters,
-    expectations: &Expectations,
-    bar: &ProgressBar,
-) -> Result<Outcome, RunError> {
-    let header = Header {
-        format: etalon_record::FORMAT,
-        etalon: env!("CARGO_PKG_VERSION").to_owned(),
-        commit: option_env!("ETALON_COMMIT").map(str::to_owned),
-        machine: machine(),
-        started: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-        command: std::iter::once("etalon".to_owned())
-            .chain(std::env::args().skip(1))
-            .collect(),
-        cases: cases.len() as u64,
-        settings: Default::default(),
-        adapters: adapters.ready.iter().map(|(_, w)| w.into()).collect(),
-        absent: adapters.absent,
+fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<Outcome, RunError> {
+    let before = if plan.resume {
+        Run::read(plan.folder).map_or(0, |run| run.records.len() as u64)
+    } else {
+        0
     };
-    let plan = Plan {
-        cases,
-        adapters: adapters.ready,
-        jobs: std::thread::available_parallelism().map_or(1, usize::from),
-        expectations,
-        folder: &arguments.out,
-        header,
-    };
+    bar.inc(before);
+    bar.reset_eta();
     etalon_runner::run(plan, &|event| match event {
         Event::AdapterStarted { adapter, .. } => bar.set_message(adapter),
         Event::Recorded(record) => {

@@ -1,0 +1,289 @@
+//! One run of several: shards of a selection, or adapters that ran elsewhere.
+
+use crate::error::RecordError;
+use crate::header::Header;
+use crate::record::Record;
+use crate::run::{Run, below};
+use crate::selection::read_cases;
+use crate::verdict::Verdict;
+use crate::writer::{MISSING_FILE, RunWriter};
+use std::collections::{BTreeSet, HashMap};
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// Parts of a run that fit together, ready to be written.
+#[derive(Debug)]
+pub struct Merge {
+    header: Header,
+    ids: Vec<String>,
+    /// By place of the adapter in the header and of the case in the list: the record, and its folder.
+    records: HashMap<(usize, usize), (Record, PathBuf)>,
+    merged: Merged,
+}
+
+/// What merging came to.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Merged {
+    /// Records written.
+    pub records: u64,
+    /// Records that speak against the run.
+    pub unexpected: u64,
+    /// Verdicts better than the expectations.
+    pub improvements: u64,
+    /// Adapter and case of each record that no part has.
+    pub missing: Vec<(String, String)>,
+    /// Folders that hold no run.
+    pub empty: Vec<PathBuf>,
+    /// Records that several parts have, with the same verdict; one is kept.
+    pub twice: u64,
+    /// Adapter and case of each record of which parts disagree; it becomes Flaky.
+    pub disagreeing: Vec<(String, String)>,
+}
+
+impl Merge {
+    /// Reads run folders and holds them against each other. Nothing is written.
+    ///
+    /// # Errors
+    /// When a run is damaged, its selection is not known, or two are not parts of one run: another
+    /// selection, other settings, another version of the suite or of a driver.
+    pub fn read(folders: &[PathBuf]) -> Result<Self, RecordError> {
+        let mut merged = Merged::default();
+        let mut parts: Vec<(&PathBuf, Run)> = Vec::new();
+        for folder in folders {
+            match Run::read(folder) {
+                Ok(run) => parts.push((folder, run)),
+                Err(RecordError::NoRun { .. }) => merged.empty.push(folder.clone()),
+                Err(error) => return Err(error),
+            }
+        }
+        let Some((first, _)) = parts.first() else {
+            return Err(RecordError::NoRun {
+                path: folders.first().cloned().unwrap_or_default(),
+            });
+        };
+        let ids = selection(&parts)?;
+        let header = header(first, &parts)?;
+        let mut merge = Self {
+            header,
+            ids,
+            records: HashMap::new(),
+            merged,
+        };
+        for (folder, run) in parts {
+            merge.take(folder, run)?;
+        }
+        Ok(merge)
+    }
+
+    fn take(&mut self, folder: &Path, run: Run) -> Result<(), RecordError> {
+        let cases: HashMap<&str, usize> = places(self.ids.iter());
+        let adapters: HashMap<&str, usize> = places(self.header.adapters.iter().map(|a| &a.name));
+        for record in run.records {
+            let (Some(adapter), Some(case)) = (
+                adapters.get(record.adapter.as_str()),
+                cases.get(record.case.as_str()),
+            ) else {
+                return Err(RecordError::Unmergeable {
+                    path: folder.to_owned(),
+                    reason: format!(
+                        "it has a record of {} on {}, which its header does not announce",
+                        record.case, record.adapter
+                    ),
+                });
+            };
+            let place = (*adapter, *case);
+            let kept = match self.records.remove(&place) {
+                None => (record, folder.to_owned()),
+                Some(other) if other.0.verdict == record.verdict => {
+                    self.merged.twice += 1;
+                    other
+                }
+                Some(other) => {
+                    let names = (record.adapter.clone(), record.case.clone());
+                    self.merged.disagreeing.push(names);
+                    disagreeing(other, (record, folder.to_owned()))
+                }
+            };
+            self.records.insert(place, kept);
+        }
+        Ok(())
+    }
+
+    /// The folders of the parts and the header of the whole, whose command and start the caller may
+    /// replace.
+    pub fn header_mut(&mut self) -> &mut Header {
+        &mut self.header
+    }
+
+    /// Writes the whole as a run folder: records by adapter and case in the list's order, their frames and
+    /// pictures, and the names of those that are missing.
+    ///
+    /// # Errors
+    /// When a file cannot be read or written, or a record names one outside its folder.
+    pub fn write(mut self, out: &Path) -> Result<Merged, RecordError> {
+        let mut writer = RunWriter::create(out, &self.header)?;
+        writer.write_cases(self.ids.iter().map(String::as_str))?;
+        let mut merged = self.merged;
+        for (a, adapter) in self.header.adapters.iter().enumerate() {
+            for (c, case) in self.ids.iter().enumerate() {
+                let Some((record, folder)) = self.records.remove(&(a, c)) else {
+                    merged.missing.push((adapter.name.clone(), case.clone()));
+                    continue;
+                };
+                let measured = record.measured.as_ref();
+                let pictures = measured
+                    .into_iter()
+                    .flat_map(|m| [m.picture.as_ref(), m.truth.as_ref()]);
+                for file in pictures.chain([record.frame.as_ref()]).flatten() {
+                    copy(&folder, out, file)?;
+                }
+                writer.append(&record)?;
+                merged.records += 1;
+                merged.unexpected += u64::from(record.unexpected());
+                merged.improvements += u64::from(record.improvement());
+            }
+        }
+        writer.sync()?;
+        if !merged.missing.is_empty() {
+            let lines = merged.missing.iter();
+            let text: String = lines.map(|(a, c)| format!("{a} {c}\n")).collect();
+            let path = out.join(MISSING_FILE);
+            fs::write(&path, text).map_err(RecordError::io("write", &path))?;
+        }
+        Ok(merged)
+    }
+}
+
+fn places<'a>(names: impl Iterator<Item = &'a String>) -> HashMap<&'a str, usize> {
+    names.enumerate().map(|(i, n)| (n.as_str(), i)).collect()
+}
+
+/// The list of cases that all parts are of.
+fn selection(parts: &[(&PathBuf, Run)]) -> Result<Vec<String>, RecordError> {
+    let mut list = None;
+    for (folder, run) in parts {
+        if run.header.settings.selection.is_empty() {
+            return Err(RecordError::Unmergeable {
+                path: (*folder).clone(),
+                reason: "it does not tell which cases were selected; record it with this etalon"
+                    .to_owned(),
+            });
+        }
+        if list.is_none() {
+            list = read_cases(folder, &run.header)?;
+        }
+    }
+    let first = parts.first().map(|(folder, _)| (*folder).clone());
+    list.ok_or_else(|| RecordError::Unmergeable {
+        path: first.unwrap_or_default(),
+        reason:
+            "neither it nor any other part has its list of cases, cases.txt; copy the folders whole"
+                .to_owned(),
+    })
+}
+
+/// The header of the whole.
+fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError> {
+    let mut whole: Option<Header> = None;
+    // Where each adapter was seen first.
+    let mut seen: HashMap<String, &Path> = HashMap::new();
+    for (folder, run) in parts {
+        let header = &run.header;
+        let whole = match &mut whole {
+            None => {
+                let mut begun = header.clone();
+                begun.settings.shard = None;
+                begun.adapters.clear();
+                begun.absent.clear();
+                whole.insert(begun)
+            }
+            Some(whole) => whole,
+        };
+        let apart = |one: &Path, reason| RecordError::Apart {
+            one: one.to_owned(),
+            other: (*folder).clone(),
+            reason,
+        };
+        if let Some(reason) = whole.conflict(header) {
+            return Err(apart(first, reason));
+        }
+        if header.started < whole.started {
+            whole.started.clone_from(&header.started);
+        }
+        for adapter in &header.adapters {
+            match whole.adapter(&adapter.name) {
+                None => {
+                    seen.insert(adapter.name.clone(), folder);
+                    whole.adapters.push(adapter.clone());
+                }
+                Some(known) => {
+                    if let Some(reason) = known.conflict(adapter) {
+                        let one = seen.get(&adapter.name).copied().unwrap_or(first);
+                        return Err(apart(one, reason));
+                    }
+                }
+            }
+        }
+        for absent in &header.absent {
+            if !whole.absent.iter().any(|a| a.name == absent.name) {
+                whole.absent.push(absent.clone());
+            }
+        }
+        if header.machine != whole.machine {
+            let join = |all: &mut String, one: &str| {
+                if !all.split("; ").any(|known| known == one) {
+                    *all = format!("{all}; {one}");
+                }
+            };
+            join(&mut whole.machine.os, &header.machine.os);
+            join(&mut whole.machine.cpu, &header.machine.cpu);
+            whole.machine.cores = whole.machine.cores.max(header.machine.cores);
+        }
+    }
+    let mut whole = whole.ok_or_else(|| RecordError::NoRun {
+        path: first.to_owned(),
+    })?;
+    let here: BTreeSet<String> = whole.adapters.iter().map(|a| a.name.clone()).collect();
+    whole.absent.retain(|a| !here.contains(&a.name));
+    let digest = &whole.settings.selection;
+    let count = digest.split('-').next().and_then(|n| n.parse().ok());
+    whole.cases = count.unwrap_or(whole.cases);
+    Ok(whole)
+}
+
+/// The record of a case that came out differently in two parts.
+fn disagreeing(one: (Record, PathBuf), other: (Record, PathBuf)) -> (Record, PathBuf) {
+    let told = format!(
+        "{} in one part, {} in another",
+        one.0.verdict, other.0.verdict
+    );
+    let (mut worse, better) = if one.0.verdict.severity() >= other.0.verdict.severity() {
+        (one, other.0)
+    } else {
+        (other, one.0)
+    };
+    let record = &mut worse.0;
+    record.repeats.push(better.verdict);
+    record.verdict = Verdict::Flaky;
+    record.expected = None;
+    record.improves = None;
+    record.message = match record.message.as_str() {
+        "" => told,
+        message => format!("{told}; {message}"),
+    };
+    worse
+}
+
+/// Copies a file that a record names; one that is not there is told by the report.
+fn copy(from: &Path, to: &Path, file: &str) -> Result<(), RecordError> {
+    let relative = below(file)?;
+    let (from, to) = (from.join(&relative), to.join(&relative));
+    if let Some(parent) = to.parent() {
+        fs::create_dir_all(parent).map_err(RecordError::io("create", parent))?;
+    }
+    match fs::copy(&from, &to) {
+        Err(e) if e.kind() != ErrorKind::NotFound => Err(RecordError::io("copy", &from)(e)),
+        _ => Ok(()),
+    }
+}
