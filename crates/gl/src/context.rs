@@ -58,7 +58,12 @@ impl Context {
         let extra = Extra::load(&egl, es, version, known);
         let mut caps = Caps::query(&gl, es, version);
         caps.clip_control = extra.clip_control.is_some() && tuning.clip_control;
-        let debug = options.debug && extra.debug_callback.is_some();
+        if options.debug && extra.debug_callback.is_none() {
+            return Err(Unavailable::new(
+                "the driver has no debug output (KHR_debug)",
+                "use a newer driver, or do without validation",
+            ));
+        }
         let mut context = Self {
             gl,
             caps,
@@ -78,7 +83,7 @@ impl Context {
         context.caps.samples_passed = samples_passed && context.counts(glow::SAMPLES_PASSED);
         context.caps.fragment_invocations =
             fragment_invocations && context.counts(glow::FRAGMENT_SHADER_INVOCATIONS);
-        if debug {
+        if options.debug {
             context.start_debug_output();
         }
         context
@@ -96,6 +101,14 @@ impl Context {
                 BackendError::Internal(format!("eglMakeCurrent failed: {message}"))
             }
         })
+    }
+
+    /// EGL's name of the driver, and the vendor.
+    pub(crate) fn driver_id(&self) -> String {
+        match self.egl.driver() {
+            Some(driver) => format!("{driver}, {}", self.names.vendor),
+            None => self.names.vendor.clone(),
+        }
     }
 
     /// Whether the processor does the drawing, by the names that Mesa, SwiftShader and ANGLE use.
@@ -261,15 +274,10 @@ extern "system" fn debug_message(
     message: *const c_char,
     user: *const c_void,
 ) {
-    let kind = match kind {
-        glow::DEBUG_TYPE_ERROR => "error",
-        glow::DEBUG_TYPE_UNDEFINED_BEHAVIOR => "undefined behaviour",
-        glow::DEBUG_TYPE_DEPRECATED_BEHAVIOR => "deprecated",
-        glow::DEBUG_TYPE_PORTABILITY => "portability",
-        _ => return,
+    let Some(kind) = grave(kind, severity) else {
+        return;
     };
-    let grave = [glow::DEBUG_SEVERITY_HIGH, glow::DEBUG_SEVERITY_MEDIUM].contains(&severity);
-    if !grave || message.is_null() {
+    if message.is_null() {
         return;
     }
     let length = usize::try_from(length).unwrap_or(0);
@@ -287,6 +295,21 @@ extern "system" fn debug_message(
             "{kind} {id}: {}",
             String::from_utf8_lossy(bytes).trim()
         ));
+    }
+}
+
+/// What a kind of message is called, if it tells of a mistake: errors and undefined behaviour always,
+/// what is outdated or not portable unless it is a trifle, other words where they are called grave.
+fn grave(kind: u32, severity: u32) -> Option<&'static str> {
+    let high = severity == glow::DEBUG_SEVERITY_HIGH;
+    let medium = high || severity == glow::DEBUG_SEVERITY_MEDIUM;
+    match kind {
+        glow::DEBUG_TYPE_ERROR => Some("error"),
+        glow::DEBUG_TYPE_UNDEFINED_BEHAVIOR => Some("undefined behaviour"),
+        glow::DEBUG_TYPE_DEPRECATED_BEHAVIOR if medium => Some("deprecated"),
+        glow::DEBUG_TYPE_PORTABILITY if medium => Some("portability"),
+        glow::DEBUG_TYPE_OTHER if high => Some("other"),
+        _ => None,
     }
 }
 
@@ -330,6 +353,20 @@ fn parse_version(text: &str) -> Option<(u32, u32)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn mistakes_are_told_and_hints_are_not() {
+        let low = glow::DEBUG_SEVERITY_LOW;
+        let medium = glow::DEBUG_SEVERITY_MEDIUM;
+        let high = glow::DEBUG_SEVERITY_HIGH;
+        assert!(grave(glow::DEBUG_TYPE_ERROR, low).is_some());
+        assert!(grave(glow::DEBUG_TYPE_UNDEFINED_BEHAVIOR, low).is_some());
+        assert!(grave(glow::DEBUG_TYPE_PORTABILITY, medium).is_some());
+        assert!(grave(glow::DEBUG_TYPE_PORTABILITY, low).is_none());
+        assert!(grave(glow::DEBUG_TYPE_OTHER, high).is_some());
+        assert!(grave(glow::DEBUG_TYPE_OTHER, medium).is_none());
+        assert!(grave(glow::DEBUG_TYPE_PERFORMANCE, high).is_none());
+    }
 
     #[test]
     fn versions_are_parsed() {

@@ -9,13 +9,15 @@ use khronos_egl::{Dynamic, EGL1_4};
 use libloading::Library;
 use std::collections::HashSet;
 use std::ffi::{CStr, c_char, c_void};
-use std::sync::{Arc, OnceLock};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 type Display = *mut c_void;
 type Config = *mut c_void;
 type ContextHandle = *mut c_void;
 type Device = *mut c_void;
 
+const VENDOR: i32 = 0x3053;
 const EXTENSIONS: i32 = 0x3055;
 const NONE: i32 = 0x3038;
 const SURFACE_TYPE: i32 = 0x3033;
@@ -42,6 +44,8 @@ const DRM_RENDER_NODE_FILE_EXT: i32 = 0x3377;
 const RENDERER_EXT: i32 = 0x335F;
 const CONTEXT_LOST: i32 = 0x300E;
 
+/// The system's library, which passes calls on to the drivers' own.
+const SYSTEM: &str = "libEGL.so.1";
 const INSTALL_EGL: &str = "apt-get install libegl1 libgl1-mesa-dri";
 
 /// Through which EGL platform a driver is reached.
@@ -65,6 +69,9 @@ pub struct EglDevice {
     pub drm_node: Option<String>,
     /// The renderer's name, where EGL tells it before a context exists (`EGL_EXT_device_query_name`).
     pub renderer: Option<String>,
+    /// The driver's short name in small letters: `radeonsi`, `nvidia`. `None` for a software device, which
+    /// is not opened, and where EGL tells none.
+    pub driver: Option<String>,
 }
 
 type GetProcAddress = unsafe extern "system" fn(*const c_char) -> *const c_void;
@@ -72,6 +79,7 @@ type GetPlatformDisplay = unsafe extern "system" fn(u32, *mut c_void, *const i32
 type QueryDevices = unsafe extern "system" fn(i32, *mut Device, *mut i32) -> u32;
 type QueryDeviceString = unsafe extern "system" fn(Device, i32) -> *const c_char;
 type QueryDisplayAttrib = unsafe extern "system" fn(Display, i32, *mut isize) -> u32;
+type GetDisplayDriverName = unsafe extern "system" fn(Display) -> *const c_char;
 
 /// The loaded library. It stays for the life of the process: drivers do not survive unloading.
 pub(crate) struct Egl {
@@ -81,10 +89,18 @@ pub(crate) struct Egl {
     extensions: HashSet<String>,
 }
 
-/// The entry points, loaded at the first call.
-pub(crate) fn egl() -> Result<&'static Egl, Unavailable> {
-    static EGL: OnceLock<Result<Egl, Unavailable>> = OnceLock::new();
-    EGL.get_or_init(Egl::load).as_ref().map_err(Clone::clone)
+/// The entry points of a library, the system's where none is named; loaded at the first call.
+pub(crate) fn egl(library: Option<&Path>) -> Result<&'static Egl, Unavailable> {
+    type Loaded = (PathBuf, Result<&'static Egl, Unavailable>);
+    static LOADED: Mutex<Vec<Loaded>> = Mutex::new(Vec::new());
+    let path = library.unwrap_or(Path::new(SYSTEM));
+    let mut loaded = LOADED.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, egl)) = loaded.iter().find(|(p, _)| p == path) {
+        return egl.clone();
+    }
+    let egl = Egl::load(path).map(|egl| &*Box::leak(Box::new(egl)));
+    loaded.push((path.to_owned(), egl.clone()));
+    egl
 }
 
 /// What a context is asked to be.
@@ -95,13 +111,19 @@ pub(crate) struct Wanted {
 }
 
 impl Egl {
-    fn load() -> Result<Self, Unavailable> {
+    fn load(path: &Path) -> Result<Self, Unavailable> {
+        let name = path.display();
         // SAFETY: libEGL's initialisers have no preconditions.
-        let library = unsafe { Library::new("libEGL.so.1") }
-            .map_err(|_| Unavailable::new("libEGL.so.1 not found", INSTALL_EGL))?;
+        let library = unsafe { Library::new(path) }.map_err(|e| {
+            let reason = match path == Path::new(SYSTEM) {
+                true => format!("{name} not found"),
+                false => format!("{name} cannot be loaded: {e}"),
+            };
+            Unavailable::new(reason, INSTALL_EGL)
+        })?;
         let library = Arc::new(library);
         let unusable =
-            |e: String| Unavailable::new(format!("libEGL.so.1 is not usable: {e}"), INSTALL_EGL);
+            |e: String| Unavailable::new(format!("{name} is not usable: {e}"), INSTALL_EGL);
         // SAFETY: a library of this name has the types of the EGL headers.
         let functions = unsafe { Dynamic::<_, EGL1_4>::load_required(Arc::clone(&library)) }
             .map_err(|e| unusable(e.to_string()))?;
@@ -246,6 +268,43 @@ impl Egl {
         self.is_software(device as Device)
     }
 
+    /// The driver's short name of an initialised display, or else its vendor's first word.
+    fn driver_name(&self, display: Display) -> Option<String> {
+        let address = self.proc_address(c"eglGetDisplayDriverName");
+        let known = self.display_extensions(display);
+        let name = if known.contains("EGL_MESA_query_driver") && !address.is_null() {
+            // SAFETY: the extension gives this name this type.
+            let get =
+                unsafe { std::mem::transmute::<*const c_void, GetDisplayDriverName>(address) };
+            // SAFETY: the display is initialised.
+            unsafe { text(get(display)) }
+        } else {
+            // SAFETY: as above.
+            unsafe { text(self.functions.eglQueryString(display, VENDOR)) }
+        };
+        if name.is_none() {
+            self.error();
+        }
+        let name = name?.split_whitespace().next()?.to_lowercase();
+        Some(name)
+    }
+
+    /// The driver's short name of a device that nobody has opened yet.
+    fn device_driver(&self, index: usize) -> Option<String> {
+        let display = self.display(Platform::Device(index)).ok()?;
+        // SAFETY: the display came from EGL; the version need not be told.
+        if unsafe {
+            self.functions
+                .eglInitialize(display, std::ptr::null_mut(), std::ptr::null_mut())
+        } == 0
+        {
+            self.error();
+            return None;
+        }
+        // Terminating it would take it from a context that the process may have on the same display.
+        self.driver_name(display)
+    }
+
     /// Opens the display and makes a context of the highest version from `versions`.
     pub(crate) fn context(
         &'static self,
@@ -333,6 +392,7 @@ impl Egl {
                         display,
                         context,
                         software: self.display_is_software(display),
+                        driver: self.driver_name(display),
                     };
                     context.make_current().map_err(|(_, e)| {
                         Unavailable::new(
@@ -381,7 +441,7 @@ impl Egl {
 /// # Errors
 /// When there is no EGL, or it cannot enumerate devices.
 pub fn enumerate() -> Result<Vec<EglDevice>, Unavailable> {
-    let egl = egl()?;
+    let egl = egl(None)?;
     let mut result = Vec::new();
     for (index, device) in egl.devices()?.into_iter().enumerate() {
         let extensions = words(egl.device_string(device, EXTENSIONS));
@@ -389,9 +449,11 @@ pub fn enumerate() -> Result<Vec<EglDevice>, Unavailable> {
             let known = extensions.contains(extension);
             known.then(|| egl.device_string(device, name)).flatten()
         };
+        let software = extensions.contains("EGL_MESA_device_software");
         result.push(EglDevice {
             index,
-            software: extensions.contains("EGL_MESA_device_software"),
+            software,
+            driver: (!software).then(|| egl.device_driver(index)).flatten(),
             drm_node: query("EGL_EXT_device_drm_render_node", DRM_RENDER_NODE_FILE_EXT)
                 .or_else(|| query("EGL_EXT_device_drm", DRM_DEVICE_FILE_EXT)),
             renderer: query("EGL_EXT_device_query_name", RENDERER_EXT),
@@ -406,6 +468,7 @@ pub(crate) struct EglContext {
     display: Display,
     context: ContextHandle,
     software: bool,
+    driver: Option<String>,
 }
 
 impl EglContext {
@@ -430,6 +493,11 @@ impl EglContext {
     /// Whether EGL says that the processor does the drawing.
     pub(crate) fn is_software(&self) -> bool {
         self.software
+    }
+
+    /// The driver's short name, as EGL tells it.
+    pub(crate) fn driver(&self) -> Option<&str> {
+        self.driver.as_deref()
     }
 
     /// See [`Egl::proc_address`].

@@ -46,6 +46,7 @@ use etalon_frame::{Api, Limits, TextureFormat};
 use glow::HasContext;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// Which OpenGL to open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -63,6 +64,8 @@ pub struct Options {
     pub profile: Profile,
     /// The way to the driver.
     pub platform: Platform,
+    /// The EGL library: a path, or a name that the system's loader looks for; without it, `libEGL.so.1`.
+    pub library: Option<PathBuf>,
     /// Whether to collect the driver's debug messages, see [`Backend::messages`].
     pub debug: bool,
 }
@@ -119,7 +122,8 @@ pub(crate) fn open_with(
         debug: options.debug,
     };
     let versions: &[(i32, i32)] = if es { &ES } else { &CORE };
-    let egl_context = egl()?.context(options.platform, wanted, versions)?;
+    let egl_context =
+        egl(options.library.as_deref())?.context(options.platform, wanted, versions)?;
     let context = Context::new(egl_context, options, tuning)?;
     state::reset(&context);
     let unusable = |e: BackendError| Unavailable::new(e.to_string(), "use another driver");
@@ -183,7 +187,7 @@ fn info(name: &str, context: &Context) -> AdapterInfo {
         device: context.names.renderer.clone(),
         driver: context.names.vendor.clone(),
         driver_version: context.names.driver_version().to_owned(),
-        driver_id: String::new(),
+        driver_id: context.driver_id(),
         api_version: if context.caps.es {
             format!("OpenGL ES {major}.{minor}")
         } else {

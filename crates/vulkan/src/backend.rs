@@ -50,7 +50,7 @@ pub(crate) struct Pools {
 }
 
 /// All physical devices that the installed drivers offer, in the order of [`Options::device`]. The
-/// name is `vulkan:<driver>`; a driver's second device gets `vulkan:<driver>:1`.
+/// name is `vulkan:<driver>`; two devices of one driver have the same.
 ///
 /// A device may be listed that [`open`] then refuses, for want of Vulkan 1.3.
 ///
@@ -58,18 +58,8 @@ pub(crate) struct Pools {
 /// When there is no Vulkan loader, no driver, or none that lists a device.
 pub fn enumerate() -> Result<Vec<AdapterInfo>, Unavailable> {
     let instance = Instance::new(false)?;
-    let mut infos: Vec<AdapterInfo> = Vec::new();
-    for physical in instance.physical_devices()? {
-        let mut info = identify(&instance, physical).info;
-        let own = info.name.clone();
-        let mut number = 0;
-        while infos.iter().any(|i| i.name == info.name) {
-            number += 1;
-            info.name = format!("{own}:{number}");
-        }
-        infos.push(info);
-    }
-    Ok(infos)
+    let devices = instance.physical_devices()?.into_iter();
+    Ok(devices.map(|d| identify(&instance, d).info).collect())
 }
 
 /// Opens a device under a name, which becomes [`AdapterInfo::name`].
@@ -142,7 +132,32 @@ impl Drop for VulkanBackend {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ash::vk;
     use etalon_case::{Library, Profile};
+
+    /// The layer listens: without this, its silence elsewhere would prove nothing.
+    #[test]
+    fn a_planted_mistake_is_told() {
+        let options = Options {
+            device: 0,
+            validate: true,
+        };
+        let backend = open("vulkan:0", &options).expect("this test needs a Vulkan driver");
+        assert_eq!(backend.messages(), Vec::<String>::new());
+        // SAFETY: the layer stops at the usage, which is none, and the driver makes an empty buffer or
+        // refuses it.
+        let buffer = unsafe {
+            let info = vk::BufferCreateInfo::default().size(16);
+            backend.device.raw.create_buffer(&info, None)
+        };
+        let messages = backend.messages();
+        assert!(messages.iter().any(|m| m.contains("usage")), "{messages:?}");
+        assert_eq!(backend.messages(), Vec::<String>::new());
+        if let Ok(buffer) = buffer {
+            // SAFETY: just made, and used by nothing.
+            unsafe { backend.device.raw.destroy_buffer(buffer, None) };
+        }
+    }
 
     /// The validation layer names every object that outlives its device.
     #[test]

@@ -31,7 +31,7 @@ pub(crate) struct Device {
     pub(crate) timestamp_bits: u32,
 }
 
-/// Who a physical device is; its name carries no index yet.
+/// Who a physical device is; its name is that of its driver.
 pub(crate) fn identify(instance: &Instance, physical: vk::PhysicalDevice) -> Identity {
     // SAFETY: `physical` is of this instance.
     let properties = unsafe { instance.raw().get_physical_device_properties(physical) };

@@ -172,16 +172,13 @@ fn messenger(
     messages: *mut Messages,
 ) -> Result<Messenger, Unavailable> {
     let functions = ext::debug_utils::Instance::new(entry, instance);
-    // General messages are the loader's chatter about drivers, not about our calls.
+    // General messages are the loader's chatter about drivers, and hints about speed are no mistakes.
     let info = vk::DebugUtilsMessengerCreateInfoEXT::default()
         .message_severity(
             vk::DebugUtilsMessageSeverityFlagsEXT::WARNING
                 | vk::DebugUtilsMessageSeverityFlagsEXT::ERROR,
         )
-        .message_type(
-            vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION
-                | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE,
-        )
+        .message_type(vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION)
         .pfn_user_callback(Some(on_message))
         .user_data(messages.cast());
     // SAFETY: `messages` stays valid until the messenger is destroyed.
@@ -205,8 +202,14 @@ fn messenger(
 
 /// Messages that speak of what is legal and meant: a depth-only pass has no use for a shader's colour.
 fn is_meant(id: &CStr) -> bool {
-    id.to_bytes()
-        .starts_with(b"Undefined-Value-ShaderOutputNotConsumed")
+    let id = id.to_bytes();
+    // The second is what the layer has called it since 1.4.
+    [
+        &b"Undefined-Value-ShaderOutputNotConsumed"[..],
+        b"WARNING-Shader-OutputNotConsumed",
+    ]
+    .iter()
+    .any(|known| id.starts_with(known))
 }
 
 unsafe extern "system" fn on_message(

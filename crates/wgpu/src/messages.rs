@@ -29,6 +29,9 @@ impl Log for Collector {
         }
         let text = record.args().to_string();
         if record.level() <= Level::Warn {
+            if !is_grave(&text) {
+                return;
+            }
             let mut messages = locked(&self.messages);
             if messages.len() < MOST {
                 messages.push(text);
@@ -39,6 +42,29 @@ impl Log for Collector {
     }
 
     fn flush(&self) {}
+}
+
+/// Whether a record of wgpu's tells of a mistake. It begins with the kind of the message, in Vulkan as
+/// flags and in OpenGL behind the source: `VALIDATION [id (number)]`, `GLES: [API/Error]`. Its other records
+/// are the objects of the message before, chatter of loader and driver, hints about speed, and wgpu's own
+/// thoughts about the machine.
+fn is_grave(text: &str) -> bool {
+    // A depth-only pass has no use for a shader's colour.
+    let meant = ["ShaderOutputNotConsumed", "Shader-OutputNotConsumed"];
+    let mistakes = [
+        "/Error]",
+        "/Undefined Behavior]",
+        "/Deprecated Behavior]",
+        "/Portability]",
+    ];
+    let head = text.lines().next().unwrap_or_default();
+    match head.strip_prefix("GLES: ") {
+        Some(rest) => {
+            let kind = rest.split_inclusive(']').next().unwrap_or_default();
+            mistakes.iter().any(|m| kind.ends_with(m))
+        }
+        None => head.starts_with("VALIDATION") && !meant.iter().any(|m| head.contains(m)),
+    }
 }
 
 /// Collects warnings and errors from now on, unless the program has a logger of its own: then they
@@ -64,4 +90,33 @@ pub(crate) fn misses_layer(create: impl FnOnce()) -> bool {
     create();
     log::set_max_level(level);
     COLLECTOR.no_layer.load(Ordering::Relaxed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mistakes_are_kept_and_chatter_is_not() {
+        for text in [
+            "VALIDATION [VUID-VkBufferCreateInfo-size-00912 (0x7de4ae4d)]\n\tno size",
+            "VALIDATION | PERFORMANCE [x (0x1)]\n\tboth",
+            "GLES: [API/Error] ID 1 : GL_INVALID_ENUM",
+            "GLES: [ShaderCompiler/Undefined Behavior] ID 2 : read before it was written",
+        ] {
+            assert!(is_grave(text), "{text}");
+        }
+        for text in [
+            "",
+            "\tobjects: (type: BUFFER, hndl: 0x1, name: ?)",
+            "GENERAL [Loader Message (0x0)]\n\tVALIDATION of a manifest",
+            "PERFORMANCE [UNASSIGNED-BestPractices (0x1)]\n\tslow",
+            "VALIDATION [Undefined-Value-ShaderOutputNotConsumed (0x1)]\n\tattachment 0",
+            "GLES: [API/Performance] ID 3 : [API/Error] in a shader's name",
+            "GLES: [Other/Other] ID 4 : hello",
+            "EGL has no surface",
+        ] {
+            assert!(!is_grave(text), "{text}");
+        }
+    }
 }

@@ -46,7 +46,7 @@ pub struct WgpuBackend {
 /// When there is none.
 pub fn enumerate(via: Via) -> Result<Vec<AdapterInfo>, Unavailable> {
     let adapters = adapters(via, InstanceFlags::empty())?;
-    let infos = adapters.iter().map(|a| info(via, &a.get_info()));
+    let infos = adapters.iter().map(|a| info(via, a));
     Ok(infos.collect())
 }
 
@@ -75,7 +75,7 @@ pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
             "choose one from `etalon adapters`",
         ));
     };
-    let mut info = info(options.via, &adapter.get_info());
+    let mut info = info(options.via, &adapter);
     name.clone_into(&mut info.name);
     let gpu = device(&adapter).map_err(|reason| {
         Unavailable::new(
@@ -200,7 +200,16 @@ fn remedy(via: Via) -> &'static str {
     }
 }
 
-fn info(via: Via, found: &wgpu::AdapterInfo) -> AdapterInfo {
+/// The driver's version where it tells wgpu none in words: Vulkan's number, as `etalon-vulkan` writes it.
+fn version_number(adapter: &wgpu::Adapter) -> Option<String> {
+    // SAFETY: the properties are only read.
+    let native = unsafe { adapter.as_hal::<wgpu::hal::api::Vulkan>() }?;
+    let properties = native.physical_device_capabilities().properties();
+    Some(format!("{:#x}", properties.driver_version))
+}
+
+fn info(via: Via, adapter: &wgpu::Adapter) -> AdapterInfo {
+    let found = adapter.get_info();
     let words = format!("{} {}", found.name, found.driver).to_lowercase();
     let emulates = ["llvmpipe", "softpipe", "swiftshader"];
     let software = found.device_type == wgpu::DeviceType::Cpu
@@ -220,8 +229,11 @@ fn info(via: Via, found: &wgpu::AdapterInfo) -> AdapterInfo {
         backend: "wgpu".to_owned(),
         device: found.name.clone(),
         driver: named,
-        driver_version: found.driver_info.clone(),
-        driver_id: String::new(),
+        driver_version: match found.driver_info.as_str() {
+            "" => version_number(adapter).unwrap_or_default(),
+            words => words.to_owned(),
+        },
+        driver_id: format!("{}, {:04x}:{:04x}", api(via), found.vendor, found.device),
         api_version: format!("WebGPU (wgpu 30 over {})", api(via)),
         software,
     }
@@ -251,6 +263,57 @@ fn driver(via: Via, words: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn watched(via: Via) -> WgpuBackend {
+        let options = Options {
+            via,
+            device: 0,
+            validate: true,
+        };
+        let backend = open("wgpu", &options).expect("this test needs a driver and its validation");
+        assert_eq!(backend.messages(), Vec::<String>::new());
+        backend
+    }
+
+    /// The layer listens: without this, its silence elsewhere would prove nothing.
+    #[test]
+    fn a_mistake_planted_below_wgpu_is_told_by_the_layer() {
+        let backend = watched(Via::Vulkan);
+        // SAFETY: the layer stops at the size, which is zero; what the driver makes of it is leaked.
+        let made = unsafe {
+            let device = backend.gpu.device.as_hal::<wgpu::hal::api::Vulkan>();
+            let device = device.expect("the device is Vulkan's");
+            device.raw_device().create_buffer(&Default::default(), None)
+        };
+        let messages = backend.messages();
+        assert!(
+            messages
+                .iter()
+                .any(|m| m.contains("VUID-VkBufferCreateInfo")),
+            "{messages:?} after {made:?}"
+        );
+        assert_eq!(backend.messages(), Vec::<String>::new());
+    }
+
+    /// As above, of OpenGL's debug output.
+    #[test]
+    fn a_mistake_planted_below_wgpu_is_told_by_opengl() {
+        let backend = watched(Via::Gl);
+        // SAFETY: the context is current while it is locked, and GL gives this name this type.
+        unsafe {
+            let device = backend.gpu.device.as_hal::<wgpu::hal::api::Gles>();
+            let device = device.expect("the device is OpenGL's");
+            let egl = device.context().egl_instance().expect("it came from EGL");
+            let enable = egl.get_proc_address("glEnable").expect("all of GL has it");
+            let enable =
+                std::mem::transmute::<extern "system" fn(), unsafe extern "system" fn(u32)>(enable);
+            let _current = device.context().lock();
+            enable(0xFFFF);
+        }
+        let messages = backend.messages();
+        assert_eq!(messages.len(), 1, "{messages:?}");
+        assert!(messages[0].contains("/Error]"), "{messages:?}");
+    }
 
     #[test]
     fn drivers_get_the_names_users_know() {

@@ -1,19 +1,40 @@
 //! `etalon adapters`.
 
-use crate::adapters::discover;
+use crate::adapters::{Origin, Wanted, discover};
 use crate::args::{AdaptersArguments, Format};
 use crate::failure::Failure;
 use crate::output::{print, print_json};
 use etalon_record::AdapterRecord;
+use serde::Serialize;
+
+/// All that is known of an adapter: who it is, what it can do, and how it is reached.
+#[derive(Serialize)]
+struct Facts<'a> {
+    #[serde(flatten)]
+    record: AdapterRecord,
+    #[serde(flatten)]
+    origin: Option<&'a Origin>,
+}
 
 /// Lists what can be used and what cannot, why, and what would help.
 pub(crate) fn run(arguments: &AdaptersArguments) -> Result<u8, Failure> {
-    let adapters = discover(&[])?;
-    let ready: Vec<AdapterRecord> = adapters.ready.iter().map(|(_, w)| w.into()).collect();
+    let adapters = discover(&Wanted {
+        file: arguments.file.adapter_file.as_deref(),
+        ..Wanted::default()
+    })?;
+    let ready: Vec<Facts<'_>> = adapters
+        .ready
+        .iter()
+        .map(|(launch, worker)| Facts {
+            record: worker.into(),
+            origin: adapters.origins.get(&launch.adapter),
+        })
+        .collect();
     if arguments.format == Format::Json {
         print_json(&ready)?;
         return Ok(0);
     }
+    let ready: Vec<&AdapterRecord> = ready.iter().map(|facts| &facts.record).collect();
     let mut text = String::new();
     let width = ready.iter().map(|a| a.name.len()).max().unwrap_or(0);
     for adapter in &ready {
@@ -31,6 +52,15 @@ pub(crate) fn run(arguments: &AdaptersArguments) -> Result<u8, Failure> {
             text.push_str(&format!(
                 "  {}: {}\n      {}\n",
                 absent.name, absent.reason, absent.remedy
+            ));
+        }
+    }
+    if !adapters.unasked.is_empty() {
+        text.push('\n');
+        for unasked in &adapters.unasked {
+            text.push_str(&format!(
+                "Not asked for: {}: {}\n",
+                unasked.name, unasked.remedy
             ));
         }
     }

@@ -1,6 +1,6 @@
 //! `etalon bench`.
 
-use crate::adapters::discover;
+use crate::adapters::{Wanted, cache, discover};
 use crate::args::{BenchArguments, CaseProfile, Format};
 use crate::commands::run::{expectations, machine, progress};
 use crate::commands::{chosen, refuse_absent};
@@ -14,8 +14,6 @@ use std::time::{Duration, SystemTime};
 
 /// What is timed where nothing is named.
 const DEFAULT: &str = "perf/*";
-/// Mesa's word for drivers without a shader cache on disk.
-const NO_CACHE: &str = "MESA_SHADER_CACHE_DISABLE";
 
 /// Judges the chosen cases' pictures, times those that are right, records and reports.
 pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
@@ -25,20 +23,21 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
     }
     let cases = chosen(&selection)?;
     let expectations = expectations(None)?;
-    let mut adapters = discover(&arguments.adapters)?;
+    let adapters = discover(&Wanted {
+        names: &arguments.adapters,
+        file: arguments.file.adapter_file.as_deref(),
+        cold: arguments.cold,
+        ..Wanted::default()
+    })?;
     refuse_absent(&arguments.adapters, &adapters.absent)?;
     let mut names = BTreeSet::new();
-    for (launch, worker) in &mut adapters.ready {
+    for (_, worker) in &adapters.ready {
         let name = &worker.hello.info.name;
         if !names.insert(name.clone()) {
             return Err(Failure::usage(format!(
                 "two of the adapters answer as {name}; bench one after the other and compare them with \
                  `etalon diff`"
             )));
-        }
-        if arguments.cold {
-            let off = (NO_CACHE.to_owned(), Some("true".to_owned()));
-            launch.environment.push(off);
         }
     }
     let header = BenchHeader {
@@ -56,7 +55,7 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
         },
         cases: cases.len() as u64,
         rounds: arguments.rounds,
-        shader_cache: match arguments.cold || cache_is_off() {
+        shader_cache: match arguments.cold || cache::is_off() {
             true => ShaderCache::Cold,
             false => ShaderCache::Warm,
         },
@@ -130,10 +129,4 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
     } else {
         0
     })
-}
-
-/// Whether the user's environment switches Mesa's shader cache off, by Mesa's own reading of it.
-fn cache_is_off() -> bool {
-    let value = std::env::var(NO_CACHE).unwrap_or_default();
-    ["1", "true", "yes", "y"].contains(&value.to_lowercase().as_str())
 }

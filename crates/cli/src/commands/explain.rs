@@ -1,6 +1,6 @@
 //! `etalon explain`.
 
-use crate::adapters::discover;
+use crate::adapters::{Wanted, discover};
 use crate::args::ExplainArguments;
 use crate::commands::library;
 use crate::failure::{Failure, UNEXPECTED};
@@ -11,6 +11,7 @@ use etalon_cpu::CpuBackend;
 use etalon_frame::{Frame, LegalSet, Limits};
 use etalon_reference::{Rules, Sample, explain, judge};
 use std::fmt::Write;
+use std::path::Path;
 
 /// Tells the story of one texel by the rules and by the yardstick; with an adapter, also what came
 /// back and whether it is legal.
@@ -40,7 +41,7 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<u8, Failure> {
     let (limits, frame) = match &arguments.adapter {
         None => (CpuBackend::new("cpu").limits().clone(), None),
         Some(name) => {
-            let (limits, frame) = draw(name, &case)?;
+            let (limits, frame) = draw(name, arguments.file.adapter_file.as_deref(), &case)?;
             (limits, Some(frame))
         }
     };
@@ -172,8 +173,12 @@ fn fits(
     all
 }
 
-fn draw(name: &str, case: &Case) -> Result<(Limits, Frame), Failure> {
-    let adapters = discover(&[name.to_owned()])?;
+fn draw(name: &str, file: Option<&Path>, case: &Case) -> Result<(Limits, Frame), Failure> {
+    let adapters = discover(&Wanted {
+        names: &[name.to_owned()],
+        file,
+        ..Wanted::default()
+    })?;
     if let Some(absent) = adapters.absent.first() {
         return Err(Failure::usage(format!(
             "adapter {name} cannot be used: {}; {}",

@@ -66,6 +66,7 @@ fn adapter(profile: Profile, driver: &str, clip_control: bool) -> GlBackend {
     let options = Options {
         profile,
         platform: Platform::Surfaceless,
+        library: None,
         debug: true,
     };
     let backend = match open_with("gl:test", &options, Tuning { clip_control }) {
@@ -186,6 +187,7 @@ fn devices_are_enumerated_and_open() {
         let options = Options {
             profile: Profile::Core,
             platform: Platform::Device(software.index),
+            library: None,
             debug: false,
         };
         let backend = crate::open("gl:device", &options).expect("the software device opens");
@@ -196,6 +198,29 @@ fn devices_are_enumerated_and_open() {
         };
         assert!(crate::open("gl:none", &none).is_err());
     });
+}
+
+/// Debug output listens: without this, its silence elsewhere would prove nothing.
+#[test]
+fn a_planted_mistake_is_told() {
+    for (test, environment) in [("llvmpipe", LLVMPIPE), ("softpipe", SOFTPIPE)] {
+        // The child knows its driver by its environment.
+        in_child("a_planted_mistake_is_told", environment, || {
+            let driver = std::env::var("GALLIUM_DRIVER").expect("set by the parent");
+            for profile in [Profile::Core, Profile::Es] {
+                let backend = adapter(profile, &driver, true);
+                assert_eq!(backend.messages(), Vec::<String>::new());
+                // SAFETY: the context is current; the call is a mistake that GL defines.
+                unsafe { glow::HasContext::enable(&backend.context.gl, 0xFFFF) };
+                let messages = backend.messages();
+                assert_eq!(messages.len(), 1, "{messages:?}");
+                assert!(messages[0].starts_with("error "), "{messages:?}");
+                assert!(backend.context.check("the mistake").is_err());
+                assert_eq!(backend.messages(), Vec::<String>::new());
+            }
+        });
+        println!("{test} tells");
+    }
 }
 
 #[test]

@@ -135,12 +135,12 @@ fn limits_tell_what_the_device_has() {
 }
 
 #[test]
-fn adapters_have_names_of_their_own() {
+fn adapters_are_named_by_their_drivers() {
     let adapters = enumerate().expect("these tests need a Vulkan driver");
-    for (i, adapter) in adapters.iter().enumerate() {
-        assert!(adapter.name.starts_with("vulkan:"));
+    for adapter in &adapters {
+        assert!(adapter.name.len() > "vulkan:".len() && adapter.name.starts_with("vulkan:"));
         assert_eq!(adapter.backend, "vulkan");
-        assert!(adapters[..i].iter().all(|a| a.name != adapter.name));
+        assert!(!adapter.driver_id.is_empty());
     }
 }
 

@@ -1,0 +1,448 @@
+//! The form of files that describe adapters: the built-in one and a user's own.
+
+use super::BackendName;
+use crate::failure::Failure;
+use serde::Deserialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// The longest file that is read, in bytes.
+const MAX_BYTES: u64 = 1 << 20;
+/// The most entries of a file; each is a process at start.
+const MAX_ENTRIES: usize = 64;
+/// The longest name of an adapter, in characters.
+pub(super) const MAX_NAME: usize = 64;
+
+/// Where Vulkan driver manifests lie, beside what the environment names.
+const MANIFEST_FOLDERS: [&str; 6] = [
+    "/etc/vulkan/icd.d",
+    "/usr/local/etc/vulkan/icd.d",
+    "/usr/local/share/vulkan/icd.d",
+    "/usr/share/vulkan/icd.d",
+    "/usr/lib/chromium",
+    "/usr/lib64/chromium",
+];
+
+/// An entry of such a file. `${NAME}` in paths and in values of the environment stands for a variable of
+/// the user's; a relative path with a `/` starts at the file's folder.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Description {
+    /// The adapter's name: ASCII letters, digits, `:`, `-`, `_` and `.`, at most [`MAX_NAME`].
+    pub(super) name: String,
+    pub(super) backend: BackendName,
+    /// Environment variables of the worker; `null` takes one away that the user may have set.
+    #[serde(default)]
+    environment: BTreeMap<String, Option<String>>,
+    /// Vulkan driver manifests, of which the first one found is used: paths, or file names that are
+    /// looked for where manifests lie.
+    #[serde(default)]
+    manifests: Vec<String>,
+    /// The EGL library to open instead of `libEGL.so.1`; of the backends `gl` and `gl-es`.
+    egl: Option<String>,
+    /// Folders in which libraries are looked for before the system's.
+    #[serde(default)]
+    library_path: Vec<String>,
+    /// The device's place in the backend's own order; without it, the first, and in OpenGL whatever the
+    /// environment chooses.
+    pub(super) device: Option<usize>,
+    /// A word that device or driver must name themselves by: an environment that chooses a driver is
+    /// ignored where that driver is missing, and another one answers.
+    pub(super) answers: Option<String>,
+    /// How to get the driver.
+    #[serde(default)]
+    pub(super) remedy: String,
+}
+
+/// What an entry comes to on this machine.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Resolved {
+    pub(super) environment: Vec<(String, Option<String>)>,
+    pub(super) manifest: Option<PathBuf>,
+    pub(super) egl: Option<PathBuf>,
+    pub(super) library_path: Vec<PathBuf>,
+}
+
+/// Why an entry comes to nothing here.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub(super) enum Unresolved {
+    /// A variable of the user's is not set.
+    #[error("the variable {0} is not set")]
+    Variable(String),
+    /// `${` without a name and `}` behind it.
+    #[error("`{0}` holds `${{` without the name of a variable and `}}`")]
+    Form(String),
+    /// A file or folder is not there.
+    #[error("{0}")]
+    Missing(String),
+}
+
+/// The built-in file's entries.
+pub(super) fn built_in() -> Result<Vec<Description>, Failure> {
+    parse(
+        include_str!("../../adapters.json"),
+        "the built-in adapters.json",
+    )
+}
+
+/// The entries of a user's file.
+pub(super) fn read(path: &Path) -> Result<Vec<Description>, Failure> {
+    let what = path.display().to_string();
+    let unreadable = |e: std::io::Error| {
+        Failure::usage(format!(
+            "{what}: {e}; --adapters takes a JSON file in the form of crates/cli/adapters.json"
+        ))
+    };
+    let file = File::open(path).map_err(unreadable)?;
+    let mut bytes = Vec::new();
+    file.take(MAX_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(unreadable)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(Failure::usage(format!(
+            "{what}: longer than 1 MiB, which is no list of adapters"
+        )));
+    }
+    let text = String::from_utf8(bytes)
+        .map_err(|e| Failure::usage(format!("{what}: not a text in UTF-8: {e}")))?;
+    parse(&text, &what)
+}
+
+/// The entries of a text; `what` is its name in messages.
+fn parse(text: &str, what: &str) -> Result<Vec<Description>, Failure> {
+    let entries: Vec<Description> = serde_json::from_str(text).map_err(|e| {
+        Failure::usage(format!(
+            "{what}: {e}; a file of adapters is a JSON array of objects with name and backend"
+        ))
+    })?;
+    if entries.len() > MAX_ENTRIES {
+        return Err(Failure::usage(format!(
+            "{what}: {} entries, and at most {MAX_ENTRIES} are taken; make two files of it",
+            entries.len()
+        )));
+    }
+    let mut names = BTreeSet::new();
+    for (index, entry) in entries.iter().enumerate() {
+        let refused = |why: &str| {
+            // What is wrong with a name must not reach a terminal as it is.
+            let name = entry.name.escape_default();
+            Failure::usage(format!("{what}: entry {} (`{name}`): {why}", index + 1))
+        };
+        entry.check().map_err(|why| refused(&why))?;
+        if !names.insert(entry.name.as_str()) {
+            return Err(refused("an entry before it has the same name; rename one"));
+        }
+    }
+    Ok(entries)
+}
+
+/// Whether a text can be an adapter's name.
+pub(super) fn is_name(text: &str) -> bool {
+    let inside = |c: char| c.is_ascii_alphanumeric() || [':', '-', '_', '.'].contains(&c);
+    text.len() <= MAX_NAME
+        && text.starts_with(|c: char| c.is_ascii_alphanumeric())
+        && text.chars().all(inside)
+}
+
+impl Description {
+    /// What no machine could make sense of.
+    fn check(&self) -> Result<(), String> {
+        if !is_name(&self.name) {
+            return Err(format!(
+                "a name starts with an ASCII letter or digit and goes on with letters, digits, `:`, `-`, `_` \
+                 and `.`, at most {MAX_NAME} in all"
+            ));
+        }
+        for (name, value) in &self.environment {
+            let value = value.as_deref().unwrap_or_default();
+            if name.is_empty() || name.contains(['=', '\0']) || value.contains('\0') {
+                return Err(format!(
+                    "`{}` and its value cannot be an environment variable",
+                    name.escape_default()
+                ));
+            }
+        }
+        let paths = self.manifests.iter().chain(&self.egl);
+        if paths
+            .chain(&self.library_path)
+            .any(|p| p.is_empty() || p.contains('\0'))
+        {
+            return Err("a path is empty or holds a zero".to_owned());
+        }
+        let is_gl = matches!(self.backend, BackendName::Gl | BackendName::GlEs);
+        if self.egl.is_some() && !is_gl {
+            return Err(
+                "`egl` is for the backends gl and gl-es; name its folder in `library_path`"
+                    .to_owned(),
+            );
+        }
+        let chooses = self.device.is_some() || !self.manifests.is_empty();
+        if self.backend == BackendName::Cpu && chooses {
+            return Err(
+                "the backend cpu has no `device` and no `manifests`; remove them".to_owned(),
+            );
+        }
+        Ok(())
+    }
+
+    /// The entry on this machine; `folder` is where the file that it stands in lies.
+    pub(super) fn resolve(
+        &self,
+        folder: &Path,
+        variable: &dyn Fn(&str) -> Option<String>,
+    ) -> Result<Resolved, Unresolved> {
+        let mut resolved = Resolved::default();
+        for (name, value) in &self.environment {
+            let value = value.as_deref().map(|v| expand(v, variable)).transpose()?;
+            resolved.environment.push((name.clone(), value));
+        }
+        let path = |text: &str| -> Result<PathBuf, Unresolved> {
+            let text = expand(text, variable)?;
+            // A name without a folder is looked for by whoever opens it.
+            let is_path = text.contains('/');
+            Ok(if is_path {
+                folder.join(text)
+            } else {
+                PathBuf::from(text)
+            })
+        };
+        for text in &self.library_path {
+            let found = folder.join(path(text)?);
+            if !found.is_dir() {
+                return Err(missing(format!(
+                    "the folder {} is not there",
+                    found.display()
+                )));
+            }
+            resolved.library_path.push(found);
+        }
+        if let Some(text) = &self.egl {
+            let found = path(text)?;
+            if found.components().count() > 1 && !found.is_file() {
+                return Err(missing(format!(
+                    "the library {} is not there",
+                    found.display()
+                )));
+            }
+            resolved.egl = Some(found);
+        }
+        let manifests = self.manifests.iter().map(|text| path(text));
+        let manifests = manifests.collect::<Result<Vec<_>, _>>()?;
+        if let Some(first) = manifests.first() {
+            let found = manifest(&manifests, variable).ok_or_else(|| {
+                missing(format!(
+                    "no Vulkan driver manifest {} found",
+                    first.display()
+                ))
+            })?;
+            resolved.manifest = Some(found);
+        }
+        Ok(resolved)
+    }
+}
+
+fn missing(what: String) -> Unresolved {
+    Unresolved::Missing(what)
+}
+
+/// The first manifest that exists: as a path, in the folder the user's data variable names, then in the
+/// system's.
+fn manifest(wanted: &[PathBuf], variable: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
+    let home = variable("XDG_DATA_HOME")
+        .map(PathBuf::from)
+        .or_else(|| variable("HOME").map(|h| PathBuf::from(h).join(".local/share")))
+        .map(|data| data.join("vulkan/icd.d"));
+    let folders: Vec<PathBuf> = home
+        .into_iter()
+        .chain(MANIFEST_FOLDERS.iter().map(PathBuf::from))
+        .collect();
+    let (paths, names): (Vec<&PathBuf>, Vec<&PathBuf>) =
+        wanted.iter().partition(|p| p.components().count() > 1);
+    let named = folders
+        .iter()
+        .flat_map(|folder| names.iter().map(move |name| folder.join(name)));
+    paths
+        .into_iter()
+        .cloned()
+        .chain(named)
+        .find(|path| path.is_file())
+}
+
+/// The text with the user's variables in it.
+fn expand(text: &str, variable: &dyn Fn(&str) -> Option<String>) -> Result<String, Unresolved> {
+    let mut expanded = String::new();
+    let mut rest = text;
+    while let Some((before, behind)) = rest.split_once("${") {
+        expanded.push_str(before);
+        let (name, after) = behind
+            .split_once('}')
+            .filter(|(name, _)| is_variable(name))
+            .ok_or_else(|| Unresolved::Form(text.to_owned()))?;
+        let value = variable(name).filter(|value| !value.is_empty());
+        expanded.push_str(&value.ok_or_else(|| Unresolved::Variable(name.to_owned()))?);
+        rest = after;
+    }
+    expanded.push_str(rest);
+    Ok(expanded)
+}
+
+fn is_variable(name: &str) -> bool {
+    !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::failure::USAGE;
+
+    fn variable(name: &str) -> Option<String> {
+        match name {
+            "A" => Some("a".to_owned()),
+            "EMPTY" => Some(String::new()),
+            _ => None,
+        }
+    }
+
+    #[test]
+    fn the_built_in_file_is_well_formed_and_names_remedies() {
+        let all = built_in().unwrap();
+        assert!(all.len() >= 9);
+        for entry in &all {
+            let needs = entry.backend != BackendName::Cpu;
+            assert_eq!(needs, !entry.remedy.is_empty(), "{}", entry.name);
+            assert_eq!(needs, entry.answers.is_some(), "{}", entry.name);
+        }
+    }
+
+    #[test]
+    fn names_are_plain() {
+        let longest = "a".repeat(MAX_NAME);
+        for good in ["cpu", "gl:es:llvmpipe-25", "vulkan:radv_1.2", "9", &longest] {
+            assert!(is_name(good), "{good}");
+        }
+        let longer = "a".repeat(MAX_NAME + 1);
+        for bad in [
+            "", "-v", ":", ".", "..", "a b", "a/b", "a\n", "a,b", "ä", "a%", "<b>", &longer,
+        ] {
+            assert!(!is_name(bad), "{bad:?}");
+        }
+    }
+
+    #[test]
+    fn variables_are_put_in() {
+        assert_eq!(expand("x", &variable), Ok("x".to_owned()));
+        assert_eq!(expand("${A}/$/${A}$", &variable), Ok("a/$/a$".to_owned()));
+        for unset in ["EMPTY", "B"] {
+            let wanted = Err(Unresolved::Variable(unset.to_owned()));
+            assert_eq!(expand(&format!("${{A}}${{{unset}}}"), &variable), wanted);
+        }
+        for wrong in ["${", "${A", "${}", "${A B}", "${${A}}"] {
+            assert_eq!(
+                expand(wrong, &variable),
+                Err(Unresolved::Form(wrong.to_owned()))
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_with_an_entry_is_said() {
+        let long: Vec<String> = (0..=MAX_ENTRIES)
+            .map(|n| format!(r#"{{"name":"n{n}","backend":"cpu"}}"#))
+            .collect();
+        let long = format!("[{}]", long.join(","));
+        for (text, word) in [
+            ("", "EOF"),
+            ("{}", "expected a sequence"),
+            (
+                r#"[{"name":"a","backend":"cpu","colour":1}]"#,
+                "unknown field `colour`",
+            ),
+            (
+                r#"[{"name":"a","backend":"metal"}]"#,
+                "unknown variant `metal`",
+            ),
+            (r#"[{"backend":"cpu"}]"#, "missing field `name`"),
+            (
+                r#"[{"name":"a","backend":"cpu"},{"name":"a","backend":"gl"}]"#,
+                "entry 2 (`a`)",
+            ),
+            (
+                "[{\"name\":\"\\u001b[31m\",\"backend\":\"cpu\"}]",
+                r"`\u{1b}[31m`",
+            ),
+            (
+                r#"[{"name":"a","backend":"gl","environment":{"A=B":"c"}}]"#,
+                "environment variable",
+            ),
+            (
+                r#"[{"name":"a","backend":"gl","environment":{"A":"\u0000"}}]"#,
+                "environment variable",
+            ),
+            (
+                r#"[{"name":"a","backend":"gl","library_path":[""]}]"#,
+                "a path is empty",
+            ),
+            (
+                r#"[{"name":"a","backend":"vulkan","egl":"x.so"}]"#,
+                "gl and gl-es",
+            ),
+            (
+                r#"[{"name":"a","backend":"cpu","device":0}]"#,
+                "backend cpu",
+            ),
+            (&long, "at most 64"),
+        ] {
+            let error = parse(text, "mine.json").map(|_| ()).unwrap_err();
+            let Failure::Told {
+                code: USAGE,
+                message,
+            } = error
+            else {
+                panic!("{text}: {error:?}");
+            };
+            assert!(message.contains(word), "{text}: {message}");
+            assert!(message.contains("mine.json"), "{message}");
+        }
+    }
+
+    #[test]
+    fn paths_start_at_the_file_and_names_are_looked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("driver.json"), "{}").unwrap();
+        std::fs::create_dir(folder.path().join("a")).unwrap();
+        let text = r#"[{"name":"a","backend":"gl-es","library_path":["${A}"],"egl":"libEGL.so.9",
+            "manifests":["nobody_has_this.json","./driver.json"],"environment":{"X":null,"Y":"${A}b"}}]"#;
+        let entry = &parse(text, "t").unwrap()[0];
+        let resolved = entry.resolve(folder.path(), &variable).unwrap();
+        assert_eq!(
+            resolved,
+            Resolved {
+                environment: vec![
+                    ("X".to_owned(), None),
+                    ("Y".to_owned(), Some("ab".to_owned()))
+                ],
+                manifest: Some(folder.path().join("./driver.json")),
+                egl: Some(PathBuf::from("libEGL.so.9")),
+                library_path: vec![folder.path().join("a")],
+            }
+        );
+        for (key, word) in [
+            (r#""egl":"./none.so""#, "none.so is not there"),
+            (r#""library_path":["none"]"#, "none is not there"),
+            (
+                r#""manifests":["nobody_has_this.json"]"#,
+                "no Vulkan driver manifest",
+            ),
+        ] {
+            let text = format!(r#"[{{"name":"a","backend":"gl",{key}}}]"#);
+            let error = parse(&text, "t").unwrap()[0]
+                .resolve(folder.path(), &variable)
+                .unwrap_err();
+            assert!(matches!(error, Unresolved::Missing(_)), "{error}");
+            assert!(error.to_string().contains(word), "{error}");
+        }
+    }
+}

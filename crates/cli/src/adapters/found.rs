@@ -1,0 +1,173 @@
+//! Devices that backends find by themselves, and what they are called.
+
+use super::description::{MAX_NAME, is_name};
+use super::{BackendName, quiet};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use std::io::Read;
+use std::process::{Command, Stdio};
+use std::sync::mpsc::channel;
+use std::thread;
+use std::time::Duration;
+
+/// How long listing devices may take.
+const LIMIT: Duration = Duration::from_secs(60);
+/// The most bytes that a list of devices may have.
+const MAX_BYTES: u64 = 1 << 20;
+
+/// A device that a backend's enumeration found; its name is not unique yet.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Found {
+    pub(crate) name: String,
+    pub(crate) device: usize,
+}
+
+/// The backends that find devices, by the word that the worker takes and the start of their names.
+pub(super) const BACKENDS: [(&str, &str, BackendName); 5] = [
+    ("vulkan", "vulkan", BackendName::Vulkan),
+    ("gl", "gl", BackendName::Gl),
+    ("gl-es", "gl:es", BackendName::GlEs),
+    ("wgpu-vulkan", "wgpu:vulkan", BackendName::WgpuVulkan),
+    ("wgpu-gl", "wgpu:gl", BackendName::WgpuGl),
+];
+
+/// Asks a backend for hardware, in a process of its own: a driver may crash or hang while it is listed.
+///
+/// # Errors
+/// How the process ended, where it did not end well.
+pub(super) fn enumerate(backend: &str) -> Result<Vec<Found>, String> {
+    let program = std::env::current_exe().map_err(|e| format!("etalon cannot find itself: {e}"))?;
+    let mut child = Command::new(program)
+        .args(["worker", "--enumerate", backend])
+        .envs(quiet())
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .map_err(|e| format!("listing devices cannot be started: {e}"))?;
+    let mut pipe = child.stdout.take();
+    let (sender, receiver) = channel();
+    thread::spawn(move || {
+        let mut bytes = Vec::new();
+        if let Some(pipe) = &mut pipe {
+            // A pipe that breaks leaves a text that does not parse.
+            let _ = pipe.take(MAX_BYTES).read_to_end(&mut bytes);
+        }
+        // Nobody listens any more once the time is up.
+        let _ = sender.send(bytes);
+    });
+    let Ok(bytes) = receiver.recv_timeout(LIMIT) else {
+        // It may have ended by itself; then there is nothing to kill.
+        let _ = child.kill();
+        let _ = child.wait();
+        return Err(format!(
+            "listing devices took more than {} s",
+            LIMIT.as_secs()
+        ));
+    };
+    let status = child
+        .wait()
+        .map_err(|e| format!("listing devices ended oddly: {e}"))?;
+    if !status.success() {
+        return Err(format!("listing devices ended with {status}"));
+    }
+    serde_json::from_slice(&bytes).map_err(|e| format!("listing devices gave no list: {e}"))
+}
+
+/// Gives devices names that nobody else has: the second of a name is called `-2`, the third `-3`. `taken`
+/// are the names of described adapters, which keep theirs.
+pub(super) fn name(taken: &BTreeSet<String>, found: Vec<Found>) -> Vec<Found> {
+    let mut taken = taken.clone();
+    found
+        .into_iter()
+        .map(|found| {
+            let base = plain(&found.name);
+            let name = (1_usize..)
+                .map(|n| match n {
+                    1 => base.clone(),
+                    n => format!("{base}-{n}"),
+                })
+                .find(|name| !taken.contains(name))
+                .unwrap_or_else(|| base.clone());
+            taken.insert(name.clone());
+            Found { name, ..found }
+        })
+        .collect()
+}
+
+/// A driver's words as a name can have them, with room for a number.
+fn plain(name: &str) -> String {
+    let plain: String = name
+        .chars()
+        .map(|c| if is_name(&format!("a{c}")) { c } else { '-' })
+        .take(MAX_NAME - 4)
+        .collect();
+    if is_name(&plain) {
+        plain
+    } else {
+        "gpu".to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn named(taken: &[&str], found: &[&str]) -> Vec<String> {
+        let taken = taken.iter().map(|n| (*n).to_owned()).collect();
+        let found = found.iter().enumerate().map(|(device, name)| Found {
+            name: (*name).to_owned(),
+            device,
+        });
+        let named = name(&taken, found.collect());
+        for (device, found) in named.iter().enumerate() {
+            assert_eq!(found.device, device);
+            assert!(is_name(&found.name), "{}", found.name);
+        }
+        named.into_iter().map(|f| f.name).collect()
+    }
+
+    #[test]
+    fn devices_of_one_driver_are_numbered() {
+        let same = ["vulkan:radv", "vulkan:nvidia", "vulkan:radv", "vulkan:radv"];
+        assert_eq!(
+            named(&["cpu"], &same),
+            [
+                "vulkan:radv",
+                "vulkan:nvidia",
+                "vulkan:radv-2",
+                "vulkan:radv-3"
+            ]
+        );
+    }
+
+    #[test]
+    fn no_two_names_are_the_same() {
+        // A driver may call itself by what another's second device would be called.
+        let found = ["gl:a", "gl:a-2", "gl:a", "gl:zink", "gl:a", "gl:a-2"];
+        let names = named(&["gl:zink", "gl:a-3"], &found);
+        assert_eq!(
+            names,
+            [
+                "gl:a",
+                "gl:a-2",
+                "gl:a-4",
+                "gl:zink-2",
+                "gl:a-5",
+                "gl:a-2-2"
+            ]
+        );
+    }
+
+    #[test]
+    fn what_a_driver_says_becomes_a_plain_name() {
+        let long = format!("vulkan:{}", "x".repeat(200));
+        let names = named(&[], &["gl:<b>&", "", &long, &long, "-v", "gl:\u{1b}é"]);
+        assert_eq!(names[0], "gl:-b--");
+        assert_eq!(names[1], "gpu");
+        assert_eq!(names[3], format!("{}-2", names[2]));
+        assert_eq!(names[4], "gpu-2");
+        assert_eq!(names[5], "gl:--");
+    }
+}
