@@ -29,9 +29,7 @@ impl Hidden {
     pub(crate) fn open(&self, name: &str, pipe: File) -> Box<dyn Backend> {
         match self {
             Self::Slower(percent) => Box::new(Slower::new(CpuBackend::new("cpu"), *percent)),
-            Self::Fault(fault) => {
-                Box::new(Faulty::new(CpuBackend::new(name), name, *fault, pipe))
-            }
+            Self::Fault(fault) => Box::new(Faulty::new(CpuBackend::new(name), name, *fault, pipe)),
         }
     }
 }
