@@ -17,17 +17,20 @@ const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
 /// What every adapter can draw.
 const CASE: &str = "depth/clear/clear=1/format=depth32float";
 /// Software drivers whose packages `ci/test` installs.
-const DUE: [&str; 10] = [
+const DUE: [&str; 13] = [
     "cpu",
     "gl:es:llvmpipe",
     "gl:es:softpipe",
+    "gl:es:zink",
     "gl:llvmpipe",
     "gl:softpipe",
     "gl:zink",
     "vulkan:lavapipe",
     "vulkan:swiftshader",
     "wgpu:gl:llvmpipe",
+    "wgpu:gl:zink",
     "wgpu:vulkan:lavapipe",
+    "wgpu:vulkan:swiftshader",
 ];
 
 fn etalon(arguments: &[&str]) -> Command {
