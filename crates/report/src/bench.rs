@@ -57,7 +57,7 @@ fn software(adapter: Option<&AdapterRecord>) -> bool {
 }
 
 /// `1.234 ms`: four digits, in the unit that leaves one to three before the point.
-fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s >= 1.0 => (s, "s"),
         s if s >= 1e-3 => (s * 1e3, "ms"),
@@ -73,7 +73,7 @@ fn duration(seconds: f64) -> String {
 }
 
 /// A ratio as a signed change: `+3.1 %`; as a factor from two on.
-fn change(ratio: f64) -> String {
+pub(crate) fn change(ratio: f64) -> String {
     if !ratio.is_finite() {
         "∞".to_owned()
     } else if ratio >= 2.0 {

@@ -1,19 +1,21 @@
 //! `junit.xml`, for continuous integration.
 //!
 //! One suite per adapter, one test case per case. What speaks against the run is a failure (Fail,
-//! Open, Flaky and a selftest that did not fail) or an error (Crash and its kin); NotSupported is
-//! skipped. A bad verdict that was expected or due is a success with a note, since a viewer shows
-//! skipped cases as not run, and these did run. A last suite, `etalon`, holds one case that fails
-//! when the run is empty or incomplete: what was not run must not look green.
+//! Open, Flaky and a selftest that did not fail) or an error (Crash and its kin); NotSupported and
+//! Skipped are skipped. A bad verdict that was expected or due is a success with a note, since a viewer
+//! shows skipped cases as not run, and these did run. How a process was lost, what repetitions came to,
+//! which cases must be drawn before and what validation said stands with the failure, or in
+//! `system-out` where there is none; what a lost process wrote is `system-err`. A last suite, `etalon`,
+//! holds one case that fails when the run is empty or incomplete: what was not run must not look green.
 
+use crate::formats::{Outcome, account, incomplete, note, particulars, seconds};
 use crate::grid::Grid;
-use crate::words::{Tone, headline, name};
-use etalon_record::{Record, Run, Verdict};
+use crate::words::{headline, name};
+use etalon_record::{Record, Run};
 use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite};
 use std::time::Duration;
 
-pub(crate) fn xml(run: &Run) -> Result<String, SerializeError> {
-    let grid = Grid::new(run);
+pub(crate) fn xml(run: &Run, grid: &Grid<'_>) -> Result<String, SerializeError> {
     let mut report = Report::new("etalon");
     for (column, adapter) in grid.adapters.iter().enumerate() {
         let mut suite = TestSuite::new(*adapter);
@@ -35,77 +37,52 @@ pub(crate) fn xml(run: &Run) -> Result<String, SerializeError> {
 }
 
 fn test_case(record: &Record) -> TestCase {
-    let mut case = TestCase::new(record.case.as_str(), status(record));
+    let outcome = Outcome::of(record);
+    let mut case = TestCase::new(record.case.as_str(), status(record, outcome));
     case.set_classname(record.case_file());
-    let seconds = record.seconds.draw + record.seconds.judge;
-    case.set_time(Duration::try_from_secs_f64(seconds).unwrap_or_default());
-    let note = match (&record.expected, record.improves) {
-        (Some(expected), _) => Some(format!("expected: {}", expected.reason)),
-        (None, Some(verdict)) => Some(format!(
-            "better than expected: {} is no longer due",
-            name(verdict)
-        )),
-        _ if Tone::of(record) == Tone::Excused => Some("due to fail, and fails".to_owned()),
-        _ if record.verdict == Verdict::Imprecise => Some("legal, not precise".to_owned()),
-        _ => None,
-    };
-    if let Some(note) = note {
-        let headline = headline(record);
-        case.set_system_out(format!("{}; {note}\n{headline}", name(record.verdict)));
+    case.set_time(Duration::try_from_secs_f64(seconds(record)).unwrap_or_default());
+    let against = matches!(outcome, Outcome::Failed | Outcome::Broken);
+    let mut lines = Vec::new();
+    if let Some(note) = note(record) {
+        lines.push(format!("{}; {note}", name(record.verdict)));
+        lines.push(headline(record));
+    }
+    if !against {
+        lines.extend(particulars(record));
+    }
+    if !lines.is_empty() {
+        case.set_system_out(lines.join("\n"));
+    }
+    let stderr = record.process.as_ref().map(|end| end.stderr.as_str());
+    if let Some(stderr) = stderr.filter(|text| !text.is_empty()) {
+        case.set_system_err(stderr);
     }
     case
 }
 
-fn status(record: &Record) -> TestCaseStatus {
-    if !record.unexpected() {
-        if !matches!(record.verdict, Verdict::NotSupported | Verdict::Skipped) {
+fn status(record: &Record, outcome: Outcome) -> TestCaseStatus {
+    let kind = match outcome {
+        Outcome::Broken => NonSuccessKind::Error,
+        Outcome::Failed => NonSuccessKind::Failure,
+        Outcome::Skipped => {
+            let mut status = TestCaseStatus::skipped();
+            status.set_type(record.verdict.name());
+            status.set_message(headline(record));
+            return status;
+        }
+        Outcome::Passed | Outcome::Due | Outcome::Excused | Outcome::Measured => {
             return TestCaseStatus::success();
         }
-        let mut status = TestCaseStatus::skipped();
-        status.set_type(record.verdict.name());
-        status.set_message(headline(record));
-        return status;
-    }
-    let kind = match record.verdict {
-        Verdict::Crash
-        | Verdict::Timeout
-        | Verdict::DeviceLost
-        | Verdict::ResourceError
-        | Verdict::InternalError => NonSuccessKind::Error,
-        _ => NonSuccessKind::Failure,
     };
     let mut status = TestCaseStatus::non_success(kind);
     status.set_type(record.verdict.name());
     status.set_message(format!("{}: {}", name(record.verdict), headline(record)));
-    let mut text = record.message.clone();
-    if let Some(story) = &record.story {
-        if !text.is_empty() {
-            text.push_str("\n\n");
-        }
-        text.push_str(&story.to_string());
-    }
-    if let Some(frame) = &record.frame {
-        text.push_str(&format!("\nframe: {frame}\n"));
-    }
-    status.set_description(text);
+    status.set_description(account(record));
     status
 }
 
 fn completeness(run: &Run) -> TestSuite {
-    let missing = run.missing();
-    let message = if run.records.is_empty() {
-        Some("no case was run".to_owned())
-    } else if missing > 0 {
-        Some(format!(
-            "{missing} of {} records are missing",
-            run.header.expected_records()
-        ))
-    } else if run.truncated {
-        Some("the last record was cut off".to_owned())
-    } else {
-        None
-    };
-    let status = match message {
+    let status = match incomplete(run) {
         None => TestCaseStatus::success(),
         Some(message) => {
             let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);

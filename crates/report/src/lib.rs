@@ -1,9 +1,10 @@
-//! HTML, JUnit and terminal reports, made from a run folder alone.
+//! Pages, files for other programs and terminal tables, made from a run folder alone.
 //!
-//! [`write()`] puts `index.html` and `junit.xml` beside a recorded run, and `methods.html` where it drew
-//! methods; [`table()`] is the summary for a terminal. [`write_hunt`] and [`hunt_table`] do the same for
-//! planted bugs, [`write_bench`], [`bench_table`] and [`diff()`] for frame times. None of them knows
-//! anything that the folder does not tell.
+//! [`write()`] puts `index.html`, `junit.xml`, `ctrf.json`, `summary.md` and deqp-runner's lists beside a
+//! recorded run, and `methods.html` where it drew methods; [`table()`] is the summary for a terminal.
+//! [`write_hunt`] and [`hunt_table`] do the same for planted bugs, [`write_bench`], [`bench_table`] and
+//! [`diff()`] for frame times; [`runs`] holds two runs against each other. None of them knows anything
+//! that the folder does not tell.
 
 #![cfg_attr(
     test,
@@ -11,12 +12,17 @@
 )]
 
 mod bench;
+mod ctrf;
+mod deqp;
+mod formats;
 mod grid;
 mod html;
 mod hunt;
 mod junit;
+mod markdown;
 mod methods;
 mod picture;
+pub mod runs;
 mod table;
 mod words;
 
@@ -27,6 +33,7 @@ pub use hunt::{WrittenHunt, hunt_table, write_hunt};
 pub use table::{TableOptions, table};
 
 use etalon_record::{RecordError, Run};
+use grid::Grid;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -37,10 +44,31 @@ use thiserror::Error;
 pub struct Written {
     /// The page for people.
     pub html: PathBuf,
-    /// The file for continuous integration.
-    pub junit: PathBuf,
     /// The page of methods, where the run has any.
     pub methods: Option<PathBuf>,
+    /// The JUnit file, for continuous integration.
+    pub junit: PathBuf,
+    /// The run in the Common Test Report Format.
+    pub ctrf: PathBuf,
+    /// The summary in Markdown for a job's page, of less than 1,000,000 bytes.
+    pub summary: PathBuf,
+    /// deqp-runner's `results.csv`, one per adapter.
+    pub results: Vec<PathBuf>,
+}
+
+impl Written {
+    /// Every file, the page for people first.
+    pub fn all(&self) -> impl Iterator<Item = &Path> {
+        let single = [
+            Some(&self.html),
+            self.methods.as_ref(),
+            Some(&self.junit),
+            Some(&self.ctrf),
+            Some(&self.summary),
+        ];
+        let all = single.into_iter().flatten().chain(&self.results);
+        all.map(PathBuf::as_path)
+    }
 }
 
 /// Why a report could not be made.
@@ -69,11 +97,32 @@ pub enum ReportError {
         /// The path.
         path: PathBuf,
     },
+    /// A run was asked for an adapter that it does not have.
+    #[error("{} has no adapter {adapter}; it has {known}", path.display())]
+    NoAdapter {
+        /// The run folder.
+        path: PathBuf,
+        /// The adapter.
+        adapter: String,
+        /// Those that it has.
+        known: String,
+    },
+    /// Two runs have no adapter of the same name.
+    #[error(
+        "the runs have no adapter of the same name: {before} before, {after} after; say which are to be \
+         held against each other with --adapter-before and --adapter-after"
+    )]
+    NoCommonAdapter {
+        /// The first run's.
+        before: String,
+        /// The second run's.
+        after: String,
+    },
 }
 
-/// Writes `index.html` and `junit.xml` into a run folder, and `methods.html` where it has records of
-/// methods. Each is written beside its place and then
-/// renamed, so that a reader never sees half a report.
+/// Writes the reports of a run into its folder: `index.html`, `junit.xml`, `ctrf.json`, `summary.md`,
+/// `results/<adapter>.csv`, and `methods.html` where it has records of methods. Each is written beside
+/// its place and then renamed, so that a reader never sees half a report.
 ///
 /// # Errors
 /// When the folder holds no readable run, or cannot be written to. A frame file that is missing or
@@ -90,12 +139,32 @@ pub fn write(folder: &Path) -> Result<Written, ReportError> {
         }
         None => None,
     };
-    let junit = replace(folder, "junit.xml", junit::xml(&run)?.as_bytes())?;
+    let grid = Grid::new(&run);
+    let junit = replace(folder, "junit.xml", junit::xml(&run, &grid)?.as_bytes())?;
+    let ctrf = replace(folder, "ctrf.json", &ctrf::json(&run, &grid)?)?;
+    let summary = replace(folder, "summary.md", markdown::summary(&run).as_bytes())?;
+    let results = lists(folder, &run, &grid)?;
     Ok(Written {
         html,
-        junit,
         methods,
+        junit,
+        ctrf,
+        summary,
+        results,
     })
+}
+
+/// deqp-runner's lists, in a folder of their own.
+fn lists(folder: &Path, run: &Run, grid: &Grid<'_>) -> Result<Vec<PathBuf>, ReportError> {
+    let below = folder.join(deqp::FOLDER);
+    fs::create_dir_all(&below).map_err(|source| ReportError::Io {
+        path: below.clone(),
+        source,
+    })?;
+    let lists = deqp::lists(folder, run, grid).into_iter();
+    lists
+        .map(|list| replace(&below, &list.name, list.text.as_bytes()))
+        .collect()
 }
 
 fn replace(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, ReportError> {

@@ -1,7 +1,7 @@
 //! How verdicts, codes and texels are put in words; shared by all reports.
 
 use etalon_frame::{Aspect, Band, ChannelEncoding, ChannelMismatch, WrongTexel};
-use etalon_record::{Record, Verdict};
+use etalon_record::{LossKind, ProcessEnd, Record, Settings, Verdict};
 
 /// How a record's verdict is to be taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -88,6 +88,97 @@ pub(crate) fn meaning(verdict: Verdict) -> &'static str {
 /// `1 case`, `2 cases`.
 pub(crate) fn count(n: u64, noun: &str) -> String {
     format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
+}
+
+/// How a process was lost, in one sentence.
+pub(crate) fn process_end(end: &ProcessEnd) -> String {
+    let what = match end.kind {
+        LossKind::Died => "The process died",
+        LossKind::Timeout => "The process did not answer in time",
+        LossKind::Memory => "The process held more memory than it may",
+        LossKind::Garbage => "The process wrote what is no message",
+        LossKind::NotStarted => "The process could not be started again",
+    };
+    let mut text = what.to_owned();
+    if let Some(signal) = end.signal {
+        text.push_str(&format!(", ended by signal {signal}"));
+        if let Some(name) = signal_name(signal) {
+            text.push_str(&format!(" ({name})"));
+        }
+    }
+    if let Some(exit) = end.exit {
+        text.push_str(&format!(", exit status {exit}"));
+    }
+    text.push_str(&format!(", after {}.", seconds(end.seconds)));
+    text
+}
+
+/// The name of a signal that ends processes, as Linux numbers them on most machines.
+fn signal_name(signal: i32) -> Option<&'static str> {
+    Some(match signal {
+        1 => "SIGHUP",
+        2 => "SIGINT",
+        3 => "SIGQUIT",
+        4 => "SIGILL",
+        5 => "SIGTRAP",
+        6 => "SIGABRT",
+        7 => "SIGBUS",
+        8 => "SIGFPE",
+        9 => "SIGKILL",
+        11 => "SIGSEGV",
+        13 => "SIGPIPE",
+        14 => "SIGALRM",
+        15 => "SIGTERM",
+        24 => "SIGXCPU",
+        25 => "SIGXFSZ",
+        31 => "SIGSYS",
+        _ => return None,
+    })
+}
+
+/// `12.3 s`, `4.5 ms`.
+pub(crate) fn seconds(value: f64) -> String {
+    match value.abs() {
+        v if v >= 1e6 => format!("{value:.1e} s"),
+        v if v >= 1.0 => format!("{value:.1} s"),
+        _ => format!("{:.1} ms", value * 1e3),
+    }
+}
+
+/// The verdicts of a record's repetitions: `pass, 2 × fail`.
+pub(crate) fn repetitions(verdicts: &[Verdict]) -> String {
+    let runs = verdicts.chunk_by(|a, b| a == b).map(|same| {
+        let word = same.first().map_or("", |v| name(*v));
+        match same.len() {
+            1 => word.to_owned(),
+            n => format!("{n} × {word}"),
+        }
+    });
+    runs.collect::<Vec<_>>().join(", ")
+}
+
+/// How a run was drawn, one text per setting that is not as it is by itself.
+pub(crate) fn settings(settings: &Settings) -> Vec<String> {
+    let mut texts = Vec::new();
+    let mut add = |text: Option<String>| texts.extend(text);
+    add(settings.shard.map(|s| format!("shard {s}")));
+    add(settings.shuffle.map(|s| format!("shuffled with seed {s}")));
+    add(settings
+        .repeat
+        .map(|n| count(u64::from(n), "drawing") + " of each case"));
+    add(settings
+        .shader_cache
+        .map(|c| format!("shader cache {}", c.name())));
+    add(settings
+        .validate
+        .then(|| "validation layers listened".to_owned()));
+    add(settings
+        .timeout
+        .map(|s| format!("at most {} per case", seconds(s))));
+    add(settings
+        .memory
+        .map(|m| format!("at most {m} MiB per worker")));
+    texts
 }
 
 /// The channel's name in its aspect.
@@ -299,6 +390,52 @@ mod tests {
         all.sort_unstable();
         all.dedup();
         assert_eq!(all.len(), Verdict::ALL.len());
+    }
+
+    #[test]
+    fn a_lost_process_is_told_in_one_sentence() {
+        let mut end = ProcessEnd {
+            kind: LossKind::Died,
+            signal: Some(6),
+            exit: None,
+            stderr: String::new(),
+            seconds: 0.25,
+        };
+        let text = "The process died, ended by signal 6 (SIGABRT), after 250.0 ms.";
+        assert_eq!(process_end(&end), text);
+        (end.kind, end.signal) = (LossKind::Garbage, Some(-7));
+        (end.exit, end.seconds) = (Some(3), 20.0);
+        let text = "The process wrote what is no message, ended by signal -7, exit status 3, after 20.0 s.";
+        assert_eq!(process_end(&end), text);
+        end.seconds = 1e300;
+        assert!(process_end(&end).len() < 120);
+    }
+
+    #[test]
+    fn repetitions_are_counted_in_their_order() {
+        use Verdict::{Fail, Pass};
+        assert_eq!(
+            repetitions(&[Pass, Fail, Fail, Pass]),
+            "pass, 2 × fail, pass"
+        );
+        assert_eq!(repetitions(&[]), "");
+    }
+
+    #[test]
+    fn settings_are_told_where_they_are_set() {
+        assert!(settings(&Settings::default()).is_empty());
+        let some = Settings {
+            repeat: Some(3),
+            validate: true,
+            timeout: Some(20.0),
+            ..Settings::default()
+        };
+        let texts = [
+            "3 drawings of each case",
+            "validation layers listened",
+            "at most 20.0 s per case",
+        ];
+        assert_eq!(settings(&some), texts);
     }
 
     #[test]

@@ -24,7 +24,11 @@ fn of_run(folder: &Path, options: TableOptions) -> Result<(), Failure> {
     let run = Run::read(folder).map_err(Failure::usage)?;
     let written = etalon_report::write(folder).map_err(Failure::usage)?;
     print(&etalon_report::table(&run, options))?;
-    print(&format!("\n{}\n", written.html.display()))
+    print("\n")?;
+    for path in written.all() {
+        print(&format!("{}\n", path.display()))?;
+    }
+    Ok(())
 }
 
 fn bench(folder: &Path, options: TableOptions) -> Result<(), Failure> {
