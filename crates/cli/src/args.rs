@@ -34,7 +34,7 @@ pub(crate) enum Command {
     Merge(MergeArguments),
     /// Time the frames of cases whose pictures are right, interleaved over adapters
     Bench(BenchArguments),
-    /// Say what became faster or slower from one bench to another
+    /// Say what changed from one run or bench to another: verdicts, pixels, times
     Diff(DiffArguments),
     /// Tell the story of one texel, operation by operation, with rule and citation
     Explain(ExplainArguments),
@@ -241,15 +241,22 @@ pub(crate) enum DiffTime {
 
 #[derive(Debug, Args)]
 pub(crate) struct DiffArguments {
-    /// The bench folder to compare with
+    /// The run or bench folder to compare with
     #[arg(value_name = "BEFORE")]
     pub(crate) before: PathBuf,
-    /// The bench folder to judge
+    /// The run or bench folder to judge
     #[arg(value_name = "AFTER")]
     pub(crate) after: PathBuf,
-    /// Which time
-    #[arg(long, value_enum, default_value = "wall")]
-    pub(crate) time: DiffTime,
+    /// Of runs: hold this adapter of the first against that of the second; without both, adapters of the
+    /// same name, or the only one of each
+    #[arg(long, value_name = "NAME", requires = "adapter_after")]
+    pub(crate) adapter_before: Option<String>,
+    /// Of runs: the adapter of the second
+    #[arg(long, value_name = "NAME", requires = "adapter_before")]
+    pub(crate) adapter_after: Option<String>,
+    /// Of benches: which time (wall, where none is named)
+    #[arg(long, value_enum)]
+    pub(crate) time: Option<DiffTime>,
     /// Also write a page here
     #[arg(long, value_name = "FILE.html")]
     pub(crate) out: Option<PathBuf>,

@@ -1,10 +1,10 @@
-//! `etalon diff` and `etalon report` of bench folders, as a user meets them.
+//! `etalon diff` of runs and of benches, and `etalon report` of benches, as a user meets them.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use assert_cmd::Command;
 use etalon_record::{
-    BENCH_FORMAT, BenchHeader, BenchLine, BenchWriter, Machine, Picture, Round, ShaderCache,
-    Verdict,
+    AdapterRecord, BENCH_FORMAT, BenchHeader, BenchLine, BenchWriter, Expectations, FORMAT, Header,
+    Machine, Picture, Record, Round, RunWriter, Settings, ShaderCache, Verdict,
 };
 use predicates::prelude::*;
 use predicates::str::contains;
@@ -15,14 +15,18 @@ fn etalon() -> Command {
     Command::new(env!("CARGO_BIN_EXE_etalon"))
 }
 
-/// A bench of one case on `cpu` with nine rounds of about so many seconds a frame.
-fn bench(folder: &Path, seconds: f64) {
+fn adapter(name: &str) -> AdapterRecord {
     let adapter = json!({
-        "name": "cpu", "backend": "cpu", "device": "d", "driver": "etalon", "driver_version": "1",
+        "name": name, "backend": "cpu", "device": "d", "driver": "etalon", "driver_version": "1",
         "api_version": "1", "software": true,
         "limits": { "api": "vulkan", "sub_pixel_bits": 8, "max_size": 1024,
             "max_color_attachments": 8, "formats": {}, "features": [], "sample_positions": {} },
     });
+    serde_json::from_value(adapter).unwrap()
+}
+
+/// A bench of one case on `cpu` with nine rounds of about so many seconds a frame.
+fn bench(folder: &Path, seconds: f64) {
     let header = BenchHeader {
         format: BENCH_FORMAT,
         etalon: "0.1.0".to_owned(),
@@ -35,7 +39,7 @@ fn bench(folder: &Path, seconds: f64) {
         rounds: 9,
         shader_cache: ShaderCache::Warm,
         ruler: "counting".to_owned(),
-        adapters: vec![serde_json::from_value(adapter).unwrap()],
+        adapters: vec![adapter("cpu")],
         absent: Vec::new(),
     };
     let mut writer = BenchWriter::create(folder, &header).unwrap();
@@ -73,11 +77,6 @@ fn a_slower_bench_gives_one_and_any_other_nothing() {
     let (fast, slow) = (folder.path().join("fast"), folder.path().join("slow"));
     bench(&fast, 0.001);
     bench(&slow, 0.00105);
-    let diff = |a: &Path, b: &Path| {
-        let mut command = etalon();
-        command.arg("diff").arg(a).arg(b);
-        command
-    };
     diff(&fast, &slow)
         .assert()
         .code(1)
@@ -106,24 +105,164 @@ fn a_slower_bench_gives_one_and_any_other_nothing() {
         .stderr(contains("gpu time"));
 }
 
+/// A run of one adapter with a case per verdict.
+fn run(folder: &Path, name: &str, verdicts: &[Verdict]) {
+    let header = Header {
+        format: FORMAT,
+        etalon: "0.1.0".to_owned(),
+        commit: None,
+        machine: Machine::default(),
+        started: "2026-01-01T00:00:00Z".to_owned(),
+        command: vec!["etalon".to_owned(), "run".to_owned()],
+        cases: verdicts.len() as u64,
+        settings: Settings::default(),
+        adapters: vec![adapter(name)],
+        absent: Vec::new(),
+    };
+    let mut writer = RunWriter::create(folder, &header).unwrap();
+    for (i, verdict) in verdicts.iter().enumerate() {
+        let mut record = Record::new(format!("depth/f/case={i}"), name, *verdict);
+        record.expect(&Expectations::default(), &header.adapters[0]);
+        writer.append(&record).unwrap();
+    }
+}
+
+fn diff(before: &Path, after: &Path) -> Command {
+    let mut command = etalon();
+    command.arg("diff").arg(before).arg(after);
+    command
+}
+
+#[test]
+fn runs_that_are_worse_give_one_better_two_and_others_nothing() {
+    use Verdict::{Fail, Imprecise, Pass};
+    let folder = tempfile::tempdir().unwrap();
+    let made = |name: &str, verdicts: &[Verdict]| {
+        let path = folder.path().join(name);
+        run(&path, "cpu", verdicts);
+        path
+    };
+    let bad = made("bad", &[Pass, Fail, Pass]);
+    let good = made("good", &[Pass, Pass, Pass]);
+    let other = made("other", &[Pass, Pass, Imprecise]);
+    diff(&good, &good)
+        .assert()
+        .code(0)
+        .stdout(contains("0 worse, 0 better, 0 other, 3 the same"));
+    diff(&good, &bad)
+        .assert()
+        .code(1)
+        .stdout(contains("✗ pass → fail  cpu  depth/f/case=1").and(contains("1 worse")));
+    diff(&bad, &good)
+        .assert()
+        .code(2)
+        .stdout(contains("✓ fail → pass  cpu  depth/f/case=1"));
+    diff(&good, &other)
+        .assert()
+        .code(0)
+        .stdout(contains("pass → imprecise").and(contains("1 other, 2 the same")));
+    // Something worse outweighs what is better.
+    let both = made("both", &[Fail, Pass, Pass]);
+    diff(&bad, &both).assert().code(1);
+}
+
+#[test]
+fn runs_are_written_as_json_and_as_a_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let (a, b) = (folder.path().join("a"), folder.path().join("b"));
+    run(&a, "gl:x", &[Verdict::Pass, Verdict::Pass]);
+    run(&b, "gl:y", &[Verdict::Pass, Verdict::Crash]);
+    let page = folder.path().join("diff.html");
+    let output = diff(&a, &b)
+        .args(["--format", "json", "--out"])
+        .arg(&page)
+        .assert()
+        .code(1)
+        .get_output()
+        .stdout
+        .clone();
+    let json: Value = serde_json::from_slice(&output).unwrap();
+    assert_eq!(json["kind"], "runs");
+    assert_eq!(json["pairs"][0]["adapter"], json!(["gl:x", "gl:y"]));
+    assert_eq!(json["changes"][0]["verdict"], json!(["pass", "crash"]));
+    let html = std::fs::read_to_string(&page).unwrap();
+    assert!(html.contains("depth/f/case=1") && html.contains("1 worse"));
+    diff(&a, &b)
+        .args([
+            "--adapter-before",
+            "gl:x",
+            "--adapter-after",
+            "gl:y",
+            "--out",
+        ])
+        .arg(&page)
+        .assert()
+        .code(1)
+        .stdout(contains("Report: ").and(contains("gl:x → gl:y")));
+}
+
 #[test]
 fn other_folders_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let fast = folder.path().join("fast");
     bench(&fast, 0.001);
-    let run = folder.path().join("run");
-    std::fs::create_dir(&run).unwrap();
-    std::fs::write(run.join("run.jsonl"), "{}\n").unwrap();
-    for (other, words) in [
-        (&run, "no runs yet"),
-        (&folder.path().join("nothing"), "holds no bench.jsonl"),
+    let good = folder.path().join("good");
+    run(&good, "cpu", &[Verdict::Pass; 2]);
+    let damaged = folder.path().join("damaged");
+    run(&damaged, "cpu", &[Verdict::Pass; 2]);
+    let path = damaged.join("run.jsonl");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.replacen("\"verdict\"", "\"verdct\"", 1)).unwrap();
+    let empty = folder.path().join("empty");
+    run(&empty, "cpu", &[]);
+    let nothing = folder.path().join("nothing");
+    for (before, after, arguments, code, words) in [
+        (&fast, &good, vec![], 64, "two runs or two benches"),
+        (&good, &fast, vec![], 64, "two runs or two benches"),
+        (&fast, &nothing, vec![], 64, "nothing holds neither"),
+        (&nothing, &good, vec![], 64, "nothing holds neither"),
+        (&good, &damaged, vec![], 64, "run.jsonl:2: "),
+        (
+            &good,
+            &good,
+            vec!["--time", "gpu"],
+            64,
+            "--time is for two benches",
+        ),
+        (
+            &good,
+            &good,
+            vec!["--adapter-before", "cpu"],
+            64,
+            "--adapter-after",
+        ),
+        (
+            &good,
+            &good,
+            vec!["--adapter-before", "cpu", "--adapter-after", "gl:z"],
+            64,
+            "has no adapter gl:z; it has cpu",
+        ),
+        (
+            &fast,
+            &fast,
+            vec!["--adapter-before", "cpu", "--adapter-after", "cpu"],
+            64,
+            "are for two runs",
+        ),
+        (
+            &good,
+            &good,
+            vec!["--out", "/nowhere/diff.html"],
+            3,
+            "cannot write",
+        ),
+        (&empty, &empty, vec![], 4, "neither run holds a record"),
     ] {
-        etalon()
-            .arg("diff")
-            .arg(&fast)
-            .arg(other)
+        diff(before, after)
+            .args(arguments)
             .assert()
-            .code(64)
+            .code(code)
             .stderr(contains(words));
     }
 }

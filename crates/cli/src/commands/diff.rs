@@ -1,16 +1,87 @@
 //! `etalon diff`.
 
 use crate::args::{DiffArguments, DiffTime, Format};
-use crate::failure::{Failure, UNEXPECTED};
+use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::output::{print, print_json, table_options};
 use etalon_record::{Bench, FolderKind, Time};
-use std::path::Path;
+use etalon_report::runs::{self, RunDiff};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
 
-/// Says what became faster or slower from one bench to another.
+/// Says what changed from one run to another, or what became faster or slower from one bench to another.
 pub(crate) fn run(arguments: &DiffArguments) -> Result<u8, Failure> {
-    let before = bench(&arguments.before)?;
-    let after = bench(&arguments.after)?;
-    let diff = etalon_report::diff(&before, &after, arguments.time.into());
+    let [before, after] = [&arguments.before, &arguments.after];
+    match [before, after].map(|folder| FolderKind::of(folder)) {
+        [Some(FolderKind::Run), Some(FolderKind::Run)] => of_runs(arguments),
+        [Some(FolderKind::Bench), Some(FolderKind::Bench)] => of_benches(arguments),
+        [Some(FolderKind::Run), Some(FolderKind::Bench)] => Err(mixed(before, after)),
+        [Some(FolderKind::Bench), Some(FolderKind::Run)] => Err(mixed(after, before)),
+        [first, _] => {
+            let folder = if first.is_none() { before } else { after };
+            Err(Failure::usage(format!(
+                "{} holds neither run.jsonl nor bench.jsonl; name folders that `etalon run --out` or \
+                 `etalon bench --out` wrote",
+                folder.display()
+            )))
+        }
+    }
+}
+
+fn mixed(run: &Path, bench: &Path) -> Failure {
+    Failure::usage(format!(
+        "{} holds a run and {} a bench; diff compares two runs or two benches",
+        run.display(),
+        bench.display()
+    ))
+}
+
+fn of_runs(arguments: &DiffArguments) -> Result<u8, Failure> {
+    if arguments.time.is_some() {
+        return Err(Failure::usage(
+            "--time is for two benches; a run takes each time once, beside other work, and proves none",
+        ));
+    }
+    let adapters = (&arguments.adapter_before, &arguments.adapter_after);
+    let adapters = match adapters {
+        (Some(before), Some(after)) => Some([before.as_str(), after]),
+        _ => None,
+    };
+    let folders: [&Path; 2] = [&arguments.before, &arguments.after];
+    let diff = runs::diff(folders[0], folders[1], adapters).map_err(Failure::usage)?;
+    if diff.compared() == 0 && diff.only.is_empty() {
+        return Err(Failure::nothing("neither run holds a record"));
+    }
+    let page = match &arguments.out {
+        Some(path) => Some(runs::write_page(path, &diff, folders).map_err(Failure::incomplete)?),
+        None => None,
+    };
+    tell(arguments, &diff, page, || {
+        runs::table(&diff, table_options())
+    })?;
+    Ok(code(&diff))
+}
+
+/// 1 for anything worse, 2 for improvements alone, 0 for everything else.
+fn code(diff: &RunDiff) -> u8 {
+    if diff.worse() {
+        UNEXPECTED
+    } else if diff.only_better() {
+        IMPROVED
+    } else {
+        0
+    }
+}
+
+fn of_benches(arguments: &DiffArguments) -> Result<u8, Failure> {
+    if arguments.adapter_before.is_some() {
+        return Err(Failure::usage(
+            "--adapter-before and --adapter-after are for two runs; benches are compared adapter by adapter",
+        ));
+    }
+    let before = Bench::read(&arguments.before).map_err(Failure::usage)?;
+    let after = Bench::read(&arguments.after).map_err(Failure::usage)?;
+    let time = arguments.time.map_or(Time::Wall, Time::from);
+    let diff = etalon_report::diff(&before, &after, time);
     if diff.changes.is_empty() && diff.gone.is_empty() {
         return Err(Failure::nothing(format!(
             "neither bench has a {} time",
@@ -21,27 +92,27 @@ pub(crate) fn run(arguments: &DiffArguments) -> Result<u8, Failure> {
         Some(path) => Some(etalon_report::write_diff(path, &diff).map_err(Failure::incomplete)?),
         None => None,
     };
-    if arguments.format == Format::Json {
-        print_json(&diff)?;
-    } else {
-        let options = table_options();
-        print(&etalon_report::diff_table(&diff, options))?;
-        if let Some(page) = page {
-            print(&format!("\nReport: {}\n", page.display()))?;
-        }
-    }
+    tell(arguments, &diff, page, || {
+        etalon_report::diff_table(&diff, table_options())
+    })?;
     Ok(if diff.worse() { UNEXPECTED } else { 0 })
 }
 
-fn bench(folder: &Path) -> Result<Bench, Failure> {
-    if FolderKind::of(folder) == Some(FolderKind::Run) {
-        return Err(Failure::usage(format!(
-            "{} holds a run of verdicts; diff compares two benches, folders that `etalon bench --out` \
-             wrote, and no runs yet",
-            folder.display()
-        )));
+/// Prints a comparison, and where its page lies.
+fn tell(
+    arguments: &DiffArguments,
+    diff: &impl Serialize,
+    page: Option<PathBuf>,
+    table: impl FnOnce() -> String,
+) -> Result<(), Failure> {
+    if arguments.format == Format::Json {
+        return print_json(diff);
     }
-    Bench::read(folder).map_err(Failure::usage)
+    print(&table())?;
+    match page {
+        Some(page) => print(&format!("\nReport: {}\n", page.display())),
+        None => Ok(()),
+    }
 }
 
 impl From<DiffTime> for Time {
