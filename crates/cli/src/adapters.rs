@@ -70,6 +70,8 @@ pub(crate) struct Adapters {
     pub(crate) ready: Vec<(Launch, Worker)>,
     /// Adapters that cannot, and why.
     pub(crate) absent: Vec<AbsentAdapter>,
+    /// Those of them whose driver is there and ends or hangs while it starts, with their backends.
+    pub(crate) dead: Vec<(BackendName, AbsentAdapter)>,
     /// Adapters that are there only where a variable names them, and does not.
     pub(crate) unasked: Vec<AbsentAdapter>,
     /// How each usable adapter is reached, by its name.
@@ -101,6 +103,7 @@ pub(crate) fn discover(wanted: &Wanted<'_>) -> Result<Adapters, Failure> {
     let mut adapters = Adapters {
         ready: Vec::new(),
         absent: Vec::new(),
+        dead: Vec::new(),
         unasked: Vec::new(),
         origins: BTreeMap::new(),
     };
@@ -124,6 +127,10 @@ pub(crate) fn discover(wanted: &Wanted<'_>) -> Result<Adapters, Failure> {
                 adapters.ready.push((started.launch, started.worker));
             }
             Err(NoStart::Absent(absent)) => adapters.absent.push(absent),
+            Err(NoStart::Dead(backend, absent)) => {
+                adapters.dead.push((backend, absent.clone()));
+                adapters.absent.push(absent);
+            }
             // Whoever names it is told why it cannot be had.
             Err(NoStart::Unasked(absent)) if wanted.names.is_empty() => {
                 adapters.unasked.push(absent);

@@ -32,6 +32,9 @@ pub(crate) enum Command {
     Report(ReportArguments),
     /// Make one run of several, shards or adapters, and prove that nothing is missing
     Merge(MergeArguments),
+    /// Exchange expectations with deqp-runner
+    #[command(subcommand)]
+    Expectations(ExpectationsCommand),
     /// Time the frames of cases whose pictures are right, interleaved over adapters
     Bench(BenchArguments),
     /// Say what changed from one run or bench to another: verdicts, pixels, times
@@ -204,6 +207,76 @@ pub(crate) struct ReportArguments {
     /// Run and bench folders
     #[arg(value_name = "DIR", required = true)]
     pub(crate) folders: Vec<PathBuf>,
+}
+
+/// Lists of deqp-runner in and out.
+#[derive(Debug, Subcommand)]
+pub(crate) enum ExpectationsCommand {
+    /// Add what deqp-runner's lists expect to an expectations file
+    Import(ImportArguments),
+    /// Write what is expected of an adapter as deqp-runner's lists: fails.txt, flakes.txt, skips.txt
+    Export(ExportArguments),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ImportArguments {
+    /// A list of failures: lines `name,status` (repeat for several)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) fails: Vec<PathBuf>,
+    /// A list of flaky cases: a regular expression per line (repeat for several)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) flakes: Vec<PathBuf>,
+    /// A list of cases not to be drawn: a regular expression per line (repeat for several)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) skips: Vec<PathBuf>,
+    /// A results.csv, whose bad verdicts are expected from now on (repeat for several)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) results: Vec<PathBuf>,
+    /// The adapters that the entries are about: a glob over names
+    #[arg(long, value_name = "GLOB")]
+    pub(crate) adapter: String,
+    /// Their driver: a glob over driver and version
+    #[arg(long, value_name = "GLOB", default_value = "*")]
+    pub(crate) driver: String,
+    /// The driver's versions, as `>=22.3, <25.1`
+    #[arg(long, value_name = "RANGE")]
+    pub(crate) version: Option<String>,
+    /// Why the verdicts are accepted
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) reason: String,
+    /// Where that is shown
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) evidence: String,
+    /// A bug report's address
+    #[arg(long, value_name = "URL")]
+    pub(crate) link: Option<String>,
+    /// The last day on which the entries count, as 2027-01-31
+    #[arg(long, value_name = "DAY")]
+    pub(crate) expires: Option<String>,
+    /// The expectations file to add to; it is made where it does not exist
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+    /// Read case files from this folder instead of those built in
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ExportArguments {
+    /// The adapter that the lists are for
+    #[arg(long, value_name = "NAME")]
+    pub(crate) adapter: String,
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// Expectations to write, instead of those built in
+    #[arg(long, value_name = "FILE")]
+    pub(crate) expect: Option<PathBuf>,
+    /// The folder that the lists go to
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Read case files from this folder instead of those built in
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -32,6 +32,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
         Command::Merge(arguments) => commands::merge::run(&arguments),
+        Command::Expectations(command) => commands::expectations::run(&command),
         Command::Bench(arguments) => commands::bench::run(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),

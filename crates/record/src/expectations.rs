@@ -127,6 +127,7 @@ impl Expectations {
                     .map(|g| g.compile_matcher())
                     .map_err(|e| {
                         let line = line_of(text, glob);
+                        let e = shortened(&e.to_string());
                         fail(line, format!("entry {}: \"{key}\": {e}", i + 1))
                     })
             };
@@ -138,6 +139,7 @@ impl Expectations {
             let version = match &entry.version {
                 None => None,
                 Some(text_) => Some(VersionReq::parse(text_).map_err(|e| {
+                    let e = shortened(&e.to_string());
                     let message = format!(
                         "entry {}: \"version\": {e}; ranges are written as \">=22.3, <25.1\"",
                         i + 1
@@ -149,8 +151,9 @@ impl Expectations {
                 && !is_date(date)
             {
                 let message = format!(
-                    "entry {}: \"expires\": {date:?} is no day; days are written as \"2027-01-31\"",
-                    i + 1
+                    "entry {}: \"expires\": {:?} is no day; days are written as \"2027-01-31\"",
+                    i + 1,
+                    shortened(date)
                 );
                 return Err(fail(line_of(text, date), message));
             }
@@ -196,9 +199,47 @@ impl Expectations {
         adapter: &'a AdapterRecord,
         case: &'a str,
     ) -> impl Iterator<Item = &'e Entry> + use<'e, 'a> {
-        let all = self.entries.iter().zip(&self.globs);
+        self.numbers(adapter, case)
+            .map(|number| &self.entries[number])
+    }
+
+    /// The numbers of the entries that are about a case on an adapter.
+    pub(crate) fn numbers<'e, 'a>(
+        &'e self,
+        adapter: &'a AdapterRecord,
+        case: &'a str,
+    ) -> impl Iterator<Item = usize> + use<'e, 'a> {
+        let all = self.globs.iter().enumerate();
         all.filter(move |(_, globs)| globs.case.is_match(case) && globs.match_adapter(adapter))
-            .map(|(entry, _)| entry)
+            .map(|(number, _)| number)
+    }
+
+    /// Whether an entry names a case, on whatever adapter.
+    pub(crate) fn names(&self, number: usize, case: &str) -> bool {
+        self.globs
+            .get(number)
+            .is_some_and(|g| g.case.is_match(case))
+    }
+
+    /// The first entry that counts and expects a bad verdict of a case on an adapter.
+    pub(crate) fn first_bad(&self, adapter: &AdapterRecord, case: &str) -> Option<&Entry> {
+        self.numbers(adapter, case)
+            .map(|number| &self.entries[number])
+            .find(|entry| entry.verdict.is_bad() && !self.expired(entry))
+    }
+
+    /// The text of an expectations file with these entries.
+    ///
+    /// # Errors
+    /// When an entry has no JSON form.
+    pub fn to_text(entries: &[Entry]) -> Result<String, RecordError> {
+        let written = Written {
+            entries: entries.to_vec(),
+        };
+        let mut text = serde_json::to_string_pretty(&written)
+            .map_err(RecordError::serialize("the expectations"))?;
+        text.push('\n');
+        Ok(text)
     }
 
     /// The entries, in file order.
@@ -258,10 +299,22 @@ fn line_of(text: &str, value: &str) -> usize {
 /// serde_json's message without the position at its end, which the caller states itself.
 pub(crate) fn without_position(error: &serde_json::Error) -> String {
     let text = error.to_string();
-    match text.rfind(" at line ") {
-        Some(at) => text[..at].to_owned(),
-        None => text,
+    shortened(match text.rfind(" at line ") {
+        Some(at) => &text[..at],
+        None => &text,
+    })
+}
+
+/// A message that echoes what it does not understand may echo a whole file: its middle goes.
+pub(crate) fn shortened(text: &str) -> String {
+    const HEAD: usize = 400;
+    const TAIL: usize = 200;
+    if text.len() <= HEAD + TAIL {
+        return text.to_owned();
     }
+    let head = &text[..text.floor_char_boundary(HEAD)];
+    let tail = &text[text.ceil_char_boundary(text.len() - TAIL)..];
+    format!("{head} […] {tail}")
 }
 
 #[cfg(test)]

@@ -12,12 +12,14 @@
 )]
 
 mod bench;
+mod bless;
 mod driver_version;
 mod error;
 mod expectations;
 mod frame_file;
 mod header;
 mod hunt;
+mod lists;
 mod lock;
 mod measured;
 mod merge;
@@ -31,11 +33,13 @@ pub use bench::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchWriter, Ended, FolderKind,
     Picture, Round, ShaderCache, Time,
 };
+pub use bless::Blessing;
 pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations};
 pub use frame_file::{FrameFile, FrameImage};
 pub use header::{AbsentAdapter, AdapterRecord, FORMAT, Header, Machine, Settings, Shard};
 pub use hunt::{AreaTally, Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, Sighting};
+pub use lists::{About, Imported, ListError, ListKind, Lists};
 pub use lock::FolderLock;
 pub use measured::{Measured, Parameter, Times};
 pub use merge::{Merge, Merged};

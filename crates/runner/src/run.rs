@@ -30,6 +30,8 @@ pub struct Plan<'a> {
     pub selection: Option<&'a [String]>,
     /// How to start each adapter again, and the worker that is already up.
     pub adapters: Vec<(Launch, Worker)>,
+    /// Adapters whose driver does not start, and how it ended: each of their cases is a Crash.
+    pub dead: Vec<(AdapterRecord, String)>,
     /// How cases are drawn.
     pub options: Options,
     /// What is known to go wrong.
@@ -176,16 +178,19 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<Outcome, R
             .map_or_else(String::new, |(l, _)| l.adapter.clone()),
         events,
     };
-    let columns: Vec<Column> = plan
-        .adapters
-        .into_iter()
-        .map(|(launch, worker)| {
-            let missing =
-                |case: &Case| !done.contains(&(worker.hello.info.name.clone(), case.id.clone()));
-            let numbers = (0..plan.cases.len()).filter(|n| missing(&plan.cases[*n]));
-            Column::new(numbers.collect(), launch, worker)
-        })
-        .collect();
+    let missing = |adapter: &str| -> Vec<usize> {
+        let done = |case: &Case| done.contains(&(adapter.to_owned(), case.id.clone()));
+        (0..plan.cases.len())
+            .filter(|n| !done(&plan.cases[*n]))
+            .collect()
+    };
+    let up = plan.adapters.into_iter().map(|(launch, worker)| {
+        let numbers = missing(&worker.hello.info.name);
+        Column::new(numbers, launch, worker)
+    });
+    let dead = plan.dead.into_iter();
+    let dead = dead.map(|(adapter, how)| Column::dead(missing(&adapter.name), adapter, how));
+    let columns: Vec<Column> = up.chain(dead).collect();
     thread::scope(|scope| {
         for _ in 0..plan.options.jobs.max(1) {
             scope.spawn(|| {

@@ -272,6 +272,7 @@ fn run(launch: Launch) -> (Vec<Record>, Outcome) {
             absent: Vec::new(),
         },
         adapters: vec![(launch, worker)],
+        dead: Vec::new(),
         options: Options {
             // A second look starts workers of its own, which these tests count.
             look_again: false,

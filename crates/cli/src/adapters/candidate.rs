@@ -31,6 +31,8 @@ pub(super) struct Started {
 pub(super) enum NoStart {
     /// It cannot be used.
     Absent(AbsentAdapter),
+    /// Its driver is there and ends or hangs while it starts.
+    Dead(BackendName, AbsentAdapter),
     /// A built-in entry wants a variable that is not set.
     Unasked(AbsentAdapter),
     /// The user's file describes what is not there.
@@ -95,14 +97,22 @@ impl Candidate {
         let launch = self
             .launch(&resolved, wanted)
             .map_err(|reason| NoStart::Absent(self.absent(reason, self.remedy())))?;
-        let worker = Worker::start(&launch).map_err(|error| match error {
+        // A driver that does not start is tried once more before it is blamed.
+        let started = match Worker::start(&launch) {
+            Err(StartError::Broken(_)) => Worker::start(&launch),
+            other => other,
+        };
+        let worker = started.map_err(|error| match error {
             StartError::Unavailable(u) => {
                 // The file knows the packages better than the backend does, but nothing of validation.
                 let own = wanted.validate || self.remedy().is_empty();
                 let remedy = if own { &u.remedy } else { self.remedy() };
                 NoStart::Absent(self.absent(&u.reason, remedy))
             }
-            StartError::Broken(reason) => NoStart::Absent(self.absent(reason, self.remedy())),
+            StartError::Broken(reason) => {
+                let backend = self.open(&resolved, wanted.validate).backend;
+                NoStart::Dead(backend, self.absent(reason, self.remedy()))
+            }
         })?;
         if let Self::Described(
             Description {

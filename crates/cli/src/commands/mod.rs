@@ -3,6 +3,7 @@
 pub(crate) mod adapters;
 pub(crate) mod bench;
 pub(crate) mod diff;
+pub(crate) mod expectations;
 pub(crate) mod explain;
 pub(crate) mod list;
 pub(crate) mod merge;

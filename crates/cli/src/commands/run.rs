@@ -1,19 +1,22 @@
 //! `etalon run`.
 
-use crate::adapters::{Adapters, Wanted, cache, discover};
+use crate::adapters::{Adapters, BackendName, Wanted, cache, discover};
 use crate::args::{CacheState, Format, RunArguments};
+use crate::commands::expectations::{bless, to_bless};
 use crate::commands::{chosen, is_measuring, refuse_absent};
 use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
 use crate::output::{print, print_json, table_options};
 use crate::shard;
 use etalon_case::Case;
+use etalon_frame::{Api, Limits};
 use etalon_record::{
-    Expectations, FolderKind, FolderLock, Header, Machine, RecordError, Run, Settings, ShaderCache,
-    Shard, selection_digest, shard_of,
+    AbsentAdapter, AdapterRecord, Expectations, FolderKind, FolderLock, Header, Machine,
+    RecordError, Run, Settings, ShaderCache, Shard, selection_digest, shard_of,
 };
 use etalon_runner::{Event, Options, Outcome, Plan, RunError};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -43,24 +46,40 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
     if let Some(seed) = arguments.shuffle {
         shuffle(&mut cases, seed);
     }
-    let expectations = expectations(arguments.expect.as_deref())?.on(&today());
+    let blessed = match arguments.bless {
+        true => Some(to_bless(arguments.expect.as_deref())?),
+        false => None,
+    };
+    let expectations = match &blessed {
+        // What is to be written need not be there yet.
+        Some(path) if !path.exists() => Expectations::default(),
+        Some(path) => Expectations::read(path).map_err(Failure::usage)?,
+        None => expectations(arguments.expect.as_deref())?,
+    }
+    .on(&today());
     // Nothing may be lost that another run, or one before, has written.
     let _lock = FolderLock::acquire(&arguments.out).map_err(Failure::usage)?;
     let resume = resumes(arguments)?;
     let stop = interrupts()?;
-    let adapters = discover(&Wanted {
+    let mut adapters = discover(&Wanted {
         names: &arguments.adapters,
         file: arguments.file.adapter_file.as_deref(),
         validate: arguments.validate,
         cold: arguments.shader_cache == CacheState::Cold,
     })?;
+    // A driver that is there and does not start has its records like any other.
+    let dead = dead(&mut adapters);
+    for (adapter, how) in &dead {
+        eprintln!("{} does not start: {how}", adapter.name);
+    }
     refuse_absent(&arguments.adapters, &adapters.absent)?;
-    let header = header(arguments, &cases, &selection, shard, &adapters);
+    let header = header(arguments, &cases, &selection, shard, &adapters, &dead);
     let names: Vec<String> = header.adapters.iter().map(|a| a.name.clone()).collect();
     let plan = Plan {
         cases: &cases,
         selection: Some(&selection),
         adapters: adapters.ready,
+        dead,
         options: Options {
             jobs: arguments.jobs.map_or_else(processors, usize::from),
             timeout: Duration::from_secs_f64(arguments.timeout),
@@ -110,6 +129,12 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
             run.header.expected_records(),
             how_to_resume()
         )));
+    }
+    if let Some(path) = &blessed {
+        let all_adapters = arguments.adapters.is_empty();
+        let cases = arguments.selection.cases.as_ref();
+        bless(path, &run, &expectations, cases, all_adapters)?;
+        return Ok(0);
     }
     Ok(match outcome {
         Outcome {
@@ -223,6 +248,7 @@ fn header(
     selection: &[String],
     shard: Option<Shard>,
     adapters: &Adapters,
+    dead: &[(AdapterRecord, String)],
 ) -> Header {
     Header {
         format: etalon_record::FORMAT,
@@ -249,9 +275,50 @@ fn header(
             timeout: Some(arguments.timeout),
             memory: Some(arguments.memory),
         },
-        adapters: adapters.ready.iter().map(|(_, w)| w.into()).collect(),
+        adapters: {
+            let up = adapters.ready.iter().map(|(_, w)| w.into());
+            up.chain(dead.iter().map(|(a, _)| a.clone())).collect()
+        },
         absent: adapters.absent.clone(),
     }
+}
+
+/// The adapters whose drivers do not start, as far as they are known, and how that showed; they are absent
+/// no longer.
+fn dead(adapters: &mut Adapters) -> Vec<(AdapterRecord, String)> {
+    let record = |(backend, absent): (BackendName, AbsentAdapter)| {
+        let (backend, api) = match backend {
+            BackendName::Cpu => ("cpu", Api::Vulkan),
+            BackendName::Vulkan => ("vulkan", Api::Vulkan),
+            BackendName::Gl => ("gl", Api::OpenGl),
+            BackendName::GlEs => ("gl", Api::OpenGlEs),
+            BackendName::WgpuVulkan | BackendName::WgpuGl => ("wgpu", Api::WebGpu),
+        };
+        let adapter = AdapterRecord {
+            name: absent.name,
+            backend: backend.to_owned(),
+            device: String::new(),
+            driver: String::new(),
+            driver_version: String::new(),
+            driver_id: String::new(),
+            api_version: String::new(),
+            software: false,
+            limits: Limits {
+                api,
+                sub_pixel_bits: 0,
+                max_size: 0,
+                max_color_attachments: 0,
+                formats: BTreeMap::new(),
+                features: BTreeSet::new(),
+                sample_positions: BTreeMap::new(),
+            },
+        };
+        (adapter, absent.reason)
+    };
+    let dead: Vec<(AdapterRecord, String)> = adapters.dead.drain(..).map(record).collect();
+    let is_dead = |name: &str| dead.iter().any(|(adapter, _)| adapter.name == name);
+    adapters.absent.retain(|absent| !is_dead(&absent.name));
+    dead
 }
 
 pub(crate) fn expectations(file: Option<&Path>) -> Result<Expectations, Failure> {

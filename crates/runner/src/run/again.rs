@@ -10,6 +10,8 @@ use std::time::{Duration, Instant};
 
 /// How long it may take to find out what a case must be drawn after.
 const SEARCH: Duration = Duration::from_secs(120);
+/// How often it is tried that a case goes wrong after others and not alone.
+const CONFIRMATIONS: u32 = 5;
 /// The most cases that are named; what needs more is told in words.
 const NAMED: usize = 8;
 
@@ -171,8 +173,9 @@ fn search(lane: &Lane<'_, '_>, number: usize, due: Verdict, before: &[usize]) ->
             break;
         }
     }
-    // A verdict that comes and goes by itself would have come by chance: all of it once more.
-    found = found && brings(&enough) && !brings(&[]) && brings(&enough);
+    // What comes and goes by itself may have come just then: it must come with those cases and stay
+    // away without them, again and again.
+    found = found && (0..CONFIRMATIONS).all(|_| brings(&enough) && !brings(&[]));
     if stopped || lock(&lane.shared.error).is_some() {
         Found::Stopped
     } else if found {

@@ -4,6 +4,7 @@ use super::{adapter_record, lock};
 use crate::process::{Launch, Worker};
 use etalon_record::{AdapterRecord, Verdict};
 use std::collections::{HashMap, VecDeque};
+use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -22,6 +23,8 @@ const SEARCHES: u32 = 8;
 pub(super) struct Column {
     pub(super) launch: Launch,
     pub(super) adapter: AdapterRecord,
+    /// Why its driver does not start; then nothing is drawn.
+    pub(super) dead: Option<String>,
     /// Numbers of the cases that have no record, in drawing order.
     numbers: Vec<usize>,
     taken: Mutex<usize>,
@@ -50,13 +53,36 @@ pub(super) struct State {
 
 impl Column {
     pub(super) fn new(numbers: Vec<usize>, launch: Launch, worker: Worker) -> Self {
+        let adapter = adapter_record(&worker);
+        Self {
+            ready: Mutex::new(Some(worker)),
+            ..Self::with(numbers, adapter, launch)
+        }
+    }
+
+    /// An adapter whose driver does not start.
+    pub(super) fn dead(numbers: Vec<usize>, adapter: AdapterRecord, how: String) -> Self {
+        let launch = Launch {
+            adapter: adapter.name.clone(),
+            program: PathBuf::new(),
+            arguments: Vec::new(),
+            environment: Vec::new(),
+        };
+        Self {
+            dead: Some(how),
+            ..Self::with(numbers, adapter, launch)
+        }
+    }
+
+    fn with(numbers: Vec<usize>, adapter: AdapterRecord, launch: Launch) -> Self {
         Self {
             launch,
-            adapter: adapter_record(&worker),
+            adapter,
+            dead: None,
             numbers,
             taken: Mutex::default(),
             lanes: AtomicUsize::new(0),
-            ready: Mutex::new(Some(worker)),
+            ready: Mutex::default(),
             state: Mutex::default(),
             written: AtomicU64::new(0),
         }

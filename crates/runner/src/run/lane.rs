@@ -75,6 +75,9 @@ impl<'s, 'a> Lane<'s, 'a> {
             });
         }
         let shared = self.shared;
+        if let Some(how) = &self.column.dead {
+            return self.bury(how);
+        }
         let mut mine: VecDeque<usize> = VecDeque::new();
         let mut waiting: VecDeque<Waiting> = VecDeque::new();
         while !shared.stopped() {
@@ -125,6 +128,26 @@ impl<'s, 'a> Lane<'s, 'a> {
                 self.time(number, &mut sight.record);
             }
             self.record(sight.record);
+        }
+    }
+
+    /// Records that no case could be drawn, since the driver does not start.
+    fn bury(&self, how: &str) {
+        loop {
+            let numbers = self.column.take();
+            if numbers.is_empty() || self.shared.stopped() {
+                return;
+            }
+            for number in numbers {
+                let case = self.case(number);
+                let name = &self.column.adapter.name;
+                let mut record = Record::new(&case.id, name, Verdict::Crash);
+                let obituary = Obituary::not_started(how.to_owned());
+                record.due_fail = case.judged_as.is_some();
+                record.message = obituary.message;
+                record.process = Some(obituary.end);
+                self.record(record);
+            }
         }
     }
 

@@ -1,0 +1,112 @@
+//! Whatever stands in a case file, reading it ends, with a message where it is wrong.
+//!
+//! `PROPTEST_CASES` says how many inputs are taken.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+#[path = "../../record/tests/spoil/mod.rs"]
+mod spoil;
+
+use etalon_case::{Library, Profile};
+use proptest::prelude::*;
+use spoil::spoilings;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// The most cases of a file that are built: what is common to all shows in a few.
+const BUILT: usize = 12;
+
+/// All case files of the repository that are no longer than a screenful or two.
+fn texts() -> &'static [String] {
+    static TEXTS: OnceLock<Vec<String>> = OnceLock::new();
+    fn below(folder: &Path, found: &mut Vec<PathBuf>) {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                below(&path, found);
+            } else if path.extension().is_some_and(|e| e == "json") {
+                found.push(path);
+            }
+        }
+    }
+    TEXTS.get_or_init(|| {
+        let mut paths = Vec::new();
+        below(
+            &Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases"),
+            &mut paths,
+        );
+        paths.sort();
+        let texts = paths.iter().map(|p| fs::read_to_string(p).unwrap());
+        texts.filter(|t| t.len() < 6000).collect()
+    })
+}
+
+/// Reads a folder of one file and builds some of its cases; whether that went well.
+fn build(text: &[u8]) -> bool {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("area")).unwrap();
+    fs::write(folder.path().join("area/file.json"), text).unwrap();
+    let told = |error: String| {
+        assert!(!error.is_empty() && error.len() < 8000, "{error}");
+        assert!(error.contains("file.json"), "{error}");
+        false
+    };
+    let library = match Library::from_folder(folder.path()) {
+        Ok(library) => library,
+        Err(error) => return told(error.to_string()),
+    };
+    for case in library.cases(Profile::Quick).take(BUILT) {
+        let id = case.id();
+        assert!(!id.contains([',', ' ', '\n', '\0']), "{id:?}");
+        match case.build() {
+            Ok(case) => {
+                let _ = (case.requirements(), case.scene.bytes());
+            }
+            Err(error) => return told(error.to_string()),
+        }
+    }
+    true
+}
+
+proptest! {
+    #[test]
+    fn case_files(which in any::<prop::sample::Index>(), spoilt in spoilings()) {
+        build(&spoilt.of(which.get(texts())));
+    }
+}
+
+/// Absurd sizes, counts and nesting are refused with a message, at once.
+#[test]
+fn absurdities_are_refused() {
+    let fine = r#"{ "about": "a", "spec": ["s"], "axes": AXES, "scene": {
+        "attachments": { "color": { "format": "rgba8unorm", "size": SIZE } },
+        "passes": [ { "color": ["color"], "draws": [ { "mesh": { "kind": "full" },
+            "shader": "uniform_color", "params": { "color": [1, 0, 0, 1] } } ] } ],
+        "read": ["color"] } }"#;
+    let with = |axes: &str, size: &str| fine.replace("AXES", axes).replace("SIZE", size);
+    assert!(build(with("{}", "[4, 4]").as_bytes()));
+    for size in [
+        "[4294967295, 4294967295]",
+        "[0, 4]",
+        "[1e9, 1]",
+        "[4]",
+        "[-1, 1]",
+        "[65536, 65536]",
+    ] {
+        assert!(!build(with("{}", size).as_bytes()), "{size}");
+    }
+    // A product of axes that nobody could ever draw.
+    let values: Vec<String> = (0..100).map(|n| n.to_string()).collect();
+    let axis = |n: usize| format!("\"a{n}\": [{}]", values.join(","));
+    let axes: Vec<String> = (0..12).map(axis).collect();
+    assert!(!build(
+        with(&format!("{{{}}}", axes.join(",")), "[4, 4]").as_bytes()
+    ));
+    let deep = format!("{}{}", "[".repeat(100_000), "]".repeat(100_000));
+    assert!(!build(
+        with(&format!("{{\"a\": {deep}}}"), "[4, 4]").as_bytes()
+    ));
+    assert!(!build(deep.as_bytes()));
+    assert!(!build(b""));
+    assert!(!build(&[0xff, 0xfe, 0]));
+}

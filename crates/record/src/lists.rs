@@ -1,0 +1,291 @@
+//! The lists of deqp-runner: what fails by exact name, what is flaky or skipped by regular expressions.
+//!
+//! A list of failures has a line `name,status` (or a name alone) per case; the other two a regular
+//! expression per line, which may match anywhere in a name. `results.csv`, what deqp-runner writes and
+//! people make their lists from, has lines `name,status,seconds`. In all of them `#` begins a comment.
+
+use crate::expectations::{Entry, Expectations};
+use crate::header::AdapterRecord;
+use crate::verdict::Verdict;
+use regex::{Regex, RegexBuilder};
+use std::collections::BTreeSet;
+use thiserror::Error;
+
+/// The most bytes that one regular expression may take compiled.
+const REGEX_BYTES: usize = 1 << 20;
+
+/// The three lists of one driver.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Lists {
+    /// Known bad verdicts: `name,status`.
+    pub fails: String,
+    /// Flaky cases, as regular expressions.
+    pub flakes: String,
+    /// Cases that are not drawn, as regular expressions.
+    pub skips: String,
+}
+
+/// A line of a list that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{list}:{line}: {message}")]
+pub struct ListError {
+    /// The list's name, as the caller gave it.
+    pub list: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// What is wrong, and what would be right.
+    pub message: String,
+}
+
+/// Entries made of lists.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Imported {
+    /// One entry per case.
+    pub entries: Vec<Entry>,
+    /// Lines that name no case there is: list and line.
+    pub unmatched: Vec<(String, String)>,
+}
+
+/// What every imported entry says beside case and verdict.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct About {
+    /// A glob over adapter names.
+    pub adapter: String,
+    /// A glob over driver and version.
+    pub driver: String,
+    /// A range of driver versions.
+    pub version: Option<String>,
+    /// Why the verdict is accepted.
+    pub reason: String,
+    /// Where that is shown.
+    pub evidence: String,
+    /// The bug report's address.
+    pub link: Option<String>,
+    /// The last day on which the entries count.
+    pub expires: Option<String>,
+}
+
+/// How the lines of a list are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ListKind {
+    /// Failures, or results with their passes: exact names with a status.
+    Fails,
+    /// Flaky cases, by regular expressions.
+    Flakes,
+    /// Cases not to be drawn, by regular expressions.
+    Skips,
+}
+
+impl Imported {
+    /// Adds a list, whose name serves messages. `ids` are the cases that there are.
+    ///
+    /// # Errors
+    /// When a status or a regular expression cannot be read.
+    pub fn add(
+        &mut self,
+        kind: ListKind,
+        name: &str,
+        text: &str,
+        ids: &[String],
+        about: &About,
+    ) -> Result<(), ListError> {
+        let known: BTreeSet<&str> = ids.iter().map(String::as_str).collect();
+        for (number, line) in text.lines().enumerate() {
+            let line = line.trim();
+            if line.is_empty() || line.starts_with('#') {
+                continue;
+            }
+            let fail = |message: String| ListError {
+                list: name.to_owned(),
+                line: number + 1,
+                message,
+            };
+            let matched: Vec<(&str, Verdict)> = match kind {
+                ListKind::Fails => {
+                    let mut fields = line.split(',');
+                    let case = fields.next().unwrap_or_default();
+                    let status = fields.next().unwrap_or("Fail");
+                    let Some(verdict) = known_status(status).map_err(fail)? else {
+                        continue;
+                    };
+                    known
+                        .get(case)
+                        .map(|id| (*id, verdict))
+                        .into_iter()
+                        .collect()
+                }
+                ListKind::Flakes | ListKind::Skips => {
+                    let verdict = match kind {
+                        ListKind::Skips => Verdict::Skipped,
+                        _ => Verdict::Flaky,
+                    };
+                    let regex = regex(line).map_err(|e| fail(e.to_string()))?;
+                    let all = ids.iter().filter(|id| regex.is_match(id));
+                    all.map(|id| (id.as_str(), verdict)).collect()
+                }
+            };
+            if matched.is_empty() {
+                self.unmatched.push((name.to_owned(), line.to_owned()));
+            }
+            let new = matched
+                .into_iter()
+                .map(|(id, verdict)| entry(id, verdict, about));
+            for entry in new {
+                if !self.entries.contains(&entry) {
+                    self.entries.push(entry);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn regex(text: &str) -> Result<Regex, regex::Error> {
+    RegexBuilder::new(text).size_limit(REGEX_BYTES).build()
+}
+
+/// The verdict that a status of deqp-runner expects; `None` where it expects nothing bad.
+fn known_status(status: &str) -> Result<Option<Verdict>, String> {
+    Ok(Some(match status.trim() {
+        "Fail" | "ExpectedFail" => Verdict::Fail,
+        "Crash" => Verdict::Crash,
+        "Timeout" => Verdict::Timeout,
+        "Flake" | "KnownFlake" => Verdict::Flaky,
+        "Pass" | "Skip" | "Warn" | "Missing" => return Ok(None),
+        other if other.starts_with("UnexpectedImprovement") => return Ok(None),
+        other => {
+            return Err(format!(
+                "`{other}` is no status of deqp-runner; those with a verdict are Fail, Crash, Timeout, \
+                 Flake, ExpectedFail and KnownFlake"
+            ));
+        }
+    }))
+}
+
+fn entry(id: &str, verdict: Verdict, about: &About) -> Entry {
+    Entry {
+        adapter: about.adapter.clone(),
+        driver: about.driver.clone(),
+        version: about.version.clone(),
+        case: globset::escape(id),
+        verdict,
+        reason: about.reason.clone(),
+        evidence: about.evidence.clone(),
+        link: about.link.clone(),
+        expires: about.expires.clone(),
+    }
+}
+
+impl Expectations {
+    /// What is expected of these cases on one adapter, as lists of deqp-runner. Verdicts for which it has
+    /// no status of their own are `Fail`.
+    pub fn lists(&self, adapter: &AdapterRecord, ids: &[String]) -> Lists {
+        let mut lists = Lists::default();
+        for id in ids {
+            if self.skips(adapter, id).is_some() {
+                lists.skips.push_str(&format!("^{}$\n", regex::escape(id)));
+                continue;
+            }
+            let Some(entry) = self.first_bad(adapter, id) else {
+                continue;
+            };
+            match entry.verdict {
+                Verdict::Flaky => lists.flakes.push_str(&format!("^{}$\n", regex::escape(id))),
+                verdict => {
+                    let status = match verdict {
+                        Verdict::Crash | Verdict::DeviceLost => "Crash",
+                        Verdict::Timeout => "Timeout",
+                        _ => "Fail",
+                    };
+                    lists.fails.push_str(&format!("{id},{status}\n"));
+                }
+            }
+        }
+        lists
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn about() -> About {
+        About {
+            adapter: "gl:soft".to_owned(),
+            driver: "*".to_owned(),
+            version: None,
+            reason: "r".to_owned(),
+            evidence: "e".to_owned(),
+            link: None,
+            expires: None,
+        }
+    }
+
+    fn ids() -> Vec<String> {
+        ["depth/a/x=1", "depth/a/x=2", "blend/b", "blend/b.c"]
+            .map(str::to_owned)
+            .to_vec()
+    }
+
+    fn adapter() -> AdapterRecord {
+        serde_json::from_value(serde_json::json!({
+            "name": "gl:soft", "backend": "gl", "device": "d", "driver": "Mesa",
+            "driver_version": "1", "api_version": "1", "software": true,
+            "limits": { "api": "open-gl", "sub_pixel_bits": 8, "max_size": 1,
+                "max_color_attachments": 8, "formats": {}, "features": [], "sample_positions": {} },
+        }))
+        .unwrap()
+    }
+
+    #[test]
+    fn lists_go_in_and_come_out_the_same() {
+        let mut imported = Imported::default();
+        let mut add = |kind, name: &str, text: &str| {
+            imported.add(kind, name, text, &ids(), &about()).unwrap();
+        };
+        add(
+            ListKind::Fails,
+            "fails",
+            "# known\n\ndepth/a/x=1,Crash\nblend/b\ngone,Fail\nblend/b.c,Pass\n",
+        );
+        add(ListKind::Skips, "skips", "b\\.c$\n");
+        add(ListKind::Flakes, "flakes", "x=[2-9]\nnothing.*\n");
+        assert_eq!(imported.entries.len(), 4);
+        let unmatched: Vec<&str> = imported.unmatched.iter().map(|(_, l)| l.as_str()).collect();
+        assert_eq!(unmatched, ["gone,Fail", "nothing.*"]);
+        let text = Expectations::to_text(&imported.entries).unwrap();
+        let read = Expectations::parse(&text, std::path::Path::new("e")).unwrap();
+        let lists = read.lists(&adapter(), &ids());
+        assert_eq!(lists.fails, "depth/a/x=1,Crash\nblend/b,Fail\n");
+        assert_eq!(lists.flakes, "^depth/a/x=2$\n");
+        assert_eq!(lists.skips, "^blend/b\\.c$\n");
+        let mut again = Imported::default();
+        for (kind, text) in [
+            (ListKind::Fails, &lists.fails),
+            (ListKind::Flakes, &lists.flakes),
+            (ListKind::Skips, &lists.skips),
+        ] {
+            again.add(kind, "l", text, &ids(), &about()).unwrap();
+        }
+        let sorted = |mut all: Vec<Entry>| {
+            all.sort_by(|a, b| a.case.cmp(&b.case));
+            all
+        };
+        assert_eq!(sorted(again.entries), sorted(imported.entries));
+    }
+
+    #[test]
+    fn what_cannot_be_read_names_list_and_line() {
+        let error = |kind, text: &str| {
+            let mut imported = Imported::default();
+            let result = imported.add(kind, "list.txt", text, &ids(), &about());
+            result.unwrap_err().to_string()
+        };
+        let status = error(ListKind::Fails, "blend/b,Fail\nblend/b,Broken\n");
+        assert!(status.starts_with("list.txt:2: `Broken`"), "{status}");
+        let regex = error(ListKind::Flakes, "a[\n");
+        assert!(regex.starts_with("list.txt:1: "), "{regex}");
+        let huge = error(ListKind::Skips, "(a{1000}){1000}\n");
+        assert!(huge.starts_with("list.txt:1: "), "{huge}");
+    }
+}

@@ -1,0 +1,207 @@
+//! Whatever stands in a file, reading it ends, with a message where it is damaged.
+//!
+//! `PROPTEST_CASES` says how many inputs each test takes; a million of each take some minutes in a release
+//! build.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+mod spoil;
+
+use etalon_record::{Bench, Expectations, FolderKind, Merge, Run, RunWriter, read_cases};
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use serde_json::{Value, json};
+use spoil::{Spoiling, spoilings};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// The repository's own recorded runs: real records of all kinds.
+fn reports() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports")
+}
+
+/// The first lines of a kept file, so that an input stays small.
+fn lines(file: &str, most: usize) -> String {
+    let text = fs::read_to_string(reports().join(file)).unwrap();
+    text.lines().take(most).map(|l| format!("{l}\n")).collect()
+}
+
+fn run_text() -> &'static str {
+    static TEXT: OnceLock<String> = OnceLock::new();
+    TEXT.get_or_init(|| lines("methods/run.jsonl", 4))
+}
+
+fn bench_text() -> &'static str {
+    static TEXT: OnceLock<String> = OnceLock::new();
+    TEXT.get_or_init(|| {
+        let run: Value = serde_json::from_str(run_text().lines().next().unwrap()).unwrap();
+        let header = json!({
+            "format": 1, "etalon": "0.1.0", "machine": run["machine"], "command": ["etalon"],
+            "started": "2026-01-01T00:00:00Z", "profile": "quick", "cases": 1, "rounds": 2,
+            "shader_cache": "warm", "ruler": "r", "adapters": [run["adapters"][0]], "absent": []
+        });
+        let picture = json!({ "picture": {
+            "case": "perf/a", "adapter": "cpu", "verdict": "pass", "asserted": 1.0
+        } });
+        let round = |n: u32| json!({ "round": {
+            "case": "perf/a", "adapter": "cpu", "round": n, "at": 0.5, "ruler": [0.1, 0.2], "prepare": 0.1,
+            "first": 0.1, "warm_up": 2, "wall": [0.1, 0.2], "cpu": [0.1, 0.2]
+        } });
+        let lines = [header, picture, round(0), round(1)];
+        lines.iter().map(|line| format!("{line}\n")).collect()
+    })
+}
+
+fn expectations_text() -> &'static str {
+    static TEXT: OnceLock<String> = OnceLock::new();
+    TEXT.get_or_init(|| {
+        r#"{ "entries": [
+            { "adapter": "gl*:softpipe", "driver": "*Mesa", "version": ">=22.3, <25.1", "case": "depth/*/{a,b}",
+              "verdict": "fail", "reason": "r", "evidence": "e", "link": "https://x", "expires": "2027-01-31" },
+            { "adapter": "*", "driver": "*", "case": "[a-z]*", "verdict": "skipped", "reason": "r", "evidence": "e" }
+        ] }"#
+        .to_owned()
+    })
+}
+
+/// A message names what is wrong and is no novel.
+fn told(error: &impl ToString) {
+    let text = error.to_string();
+    assert!(!text.is_empty() && text.len() < 4000, "{text}");
+}
+
+fn folder_with(name: &str, text: &[u8]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join(name), text).unwrap();
+    folder
+}
+
+proptest! {
+    #[test]
+    fn runs(spoilt in spoilings()) {
+        let folder = folder_with("run.jsonl", &spoilt.of(run_text()));
+        let _ = FolderKind::of(folder.path());
+        match Run::read(folder.path()) {
+            Err(error) => told(&error),
+            Ok(run) => {
+                let _ = (run.missing(), run.header.expected_records());
+                for record in &run.records {
+                    let _ = (record.area(), record.case_file(), record.unexpected());
+                    if let Some(frame) = &record.frame {
+                        let _ = Run::read_frame(folder.path(), frame);
+                    }
+                }
+                let _ = read_cases(folder.path(), &run.header);
+                if let Err(error) = Merge::read(&[folder.path().to_owned()]) {
+                    told(&error);
+                }
+                // What can be read can be gone on with, and is not lost by it.
+                let (_, again) = RunWriter::resume(folder.path(), &run.header).unwrap();
+                prop_assert_eq!(again.records, run.records);
+            }
+        }
+    }
+
+    #[test]
+    fn frame_files(spoilt in spoilings()) {
+        let text = r#"{"case":"a/b","adapter":"cpu","about":"x","spec":["y"],"images":[{"attachment":"color",
+            "aspect":"color","size":[1,1],"samples":1,"channels":[{"unorm":8}],"low":[0],"high":[1],
+            "actual":[2],"wrong":[2]}]}"#;
+        let folder = folder_with("frame.json", &spoilt.of(text));
+        match Run::read_frame(folder.path(), "frame.json") {
+            Err(error) => told(&error),
+            Ok(file) => {
+                let _ = file.images.iter().map(|i| i.is_whole()).count();
+            }
+        }
+    }
+
+    #[test]
+    fn benches(spoilt in spoilings()) {
+        let folder = folder_with("bench.jsonl", &spoilt.of(bench_text()));
+        if let Err(error) = Bench::read(folder.path()) {
+            told(&error);
+        }
+    }
+
+    #[test]
+    fn expectations(spoilt in spoilings()) {
+        let bytes = spoilt.of(expectations_text());
+        let text = String::from_utf8_lossy(&bytes);
+        match Expectations::parse(&text, Path::new("e.json")) {
+            Err(error) => told(&error),
+            Ok(read) => {
+                let _ = read.on("2026-11-22").entries().len();
+            }
+        }
+    }
+
+    #[test]
+    fn paths_stay_below_the_folder(path in "[./\\\\a\u{0}:~-]{0,12}") {
+        let outside = tempfile::tempdir().unwrap();
+        let folder = outside.path().join("run");
+        fs::create_dir(&folder).unwrap();
+        fs::write(outside.path().join("a"), "secret").unwrap();
+        if let Ok(Some(bytes)) = Run::read_picture(&folder, &path, 100) {
+            prop_assert!(!bytes.starts_with(b"secret"));
+        }
+        if let Err(error) = Run::read_frame(&folder, &path) {
+            prop_assert!(!error.to_string().contains("secret"));
+        }
+    }
+}
+
+/// Absurd sizes, counts and nesting are refused with a message, at once.
+#[test]
+fn absurdities_are_refused() {
+    let header = run_text().lines().next().unwrap();
+    let deep = format!("{}{}", "[".repeat(200_000), "]".repeat(200_000));
+    for text in [
+        format!("{deep}\n"),
+        format!("{header}\n{deep}\n{deep}\n"),
+        format!("{header}\n{}\n", "{\"case\":".repeat(5000)),
+        header.replacen("\"cases\":", "\"cases\":1e999,\"x\":", 1),
+        header.replacen("\"cores\":", "\"cores\":99999999999999999999,\"x\":", 1),
+        "{\"format\":4294967295}\n".to_owned(),
+        "{\"format\":-1}\n".to_owned(),
+    ] {
+        let folder = folder_with("run.jsonl", text.as_bytes());
+        match Run::read(folder.path()) {
+            Err(error) => told(&error),
+            Ok(run) => assert!(run.truncated, "{}", &text[..200.min(text.len())]),
+        }
+    }
+    let entries = format!("{{\"entries\":{deep}}}");
+    told(&Expectations::parse(&entries, Path::new("e")).unwrap_err());
+    let glob = format!("{}x", "{".repeat(50_000));
+    let entry = format!(
+        r#"{{"entries":[{{"adapter":"*","driver":"*","case":"{glob}","verdict":"fail","reason":"r","evidence":"e"}}]}}"#
+    );
+    let error = Expectations::parse(&entry, Path::new("e"))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("entry 1"),
+        "{}",
+        &error[..200.min(error.len())]
+    );
+}
+
+/// The spoilt inputs are not all refused, nor all taken: they reach beyond the first brace.
+#[test]
+fn spoiling_goes_deep_and_not_too_deep() {
+    let mut runner = proptest::test_runner::TestRunner::deterministic();
+    let (mut taken, mut refused) = (0, 0);
+    for _ in 0..400 {
+        let spoilt: Spoiling = spoilings().new_tree(&mut runner).unwrap().current();
+        let folder = folder_with("run.jsonl", &spoilt.of(run_text()));
+        match Run::read(folder.path()) {
+            Ok(_) => taken += 1,
+            Err(_) => refused += 1,
+        }
+    }
+    assert!(
+        taken > 40 && refused > 40,
+        "{taken} taken, {refused} refused"
+    );
+}

@@ -1,0 +1,181 @@
+//! Ways to spoil a text, shared by the tests of all that reads files.
+
+use proptest::prelude::*;
+use proptest::sample::Index;
+
+/// What is put where something else was.
+const WORDS: [&str; 40] = [
+    "",
+    "0",
+    "-1",
+    "1e308",
+    "1e999",
+    "-0.0",
+    "4294967295",
+    "4294967296",
+    "18446744073709551615",
+    "99999999999999999999999",
+    "0.1",
+    "NaN",
+    "null",
+    "true",
+    "\"\"",
+    "\"\\u0000\"",
+    "\"\\ud800\"",
+    "\"<script>\"",
+    "\"../../x\"",
+    "\"/etc/passwd\"",
+    "{}",
+    "[]",
+    "[[]]",
+    "[null]",
+    "{\"\":{}}",
+    ",",
+    ":",
+    "\"",
+    "\\",
+    "\n",
+    "\r\n",
+    "\u{0}",
+    "\u{feff}",
+    "}",
+    "]",
+    "{",
+    "[",
+    "$x",
+    "\"$x\"",
+    "//",
+];
+
+/// One change of a text.
+#[derive(Clone, Debug)]
+enum Change {
+    /// The number, word or string at a place becomes another.
+    Token(Index, Index),
+    /// A word is put in.
+    Insert(Index, Index),
+    /// A byte becomes another.
+    Byte(Index, u8),
+    /// A piece goes.
+    Cut(Index, Index),
+    /// A piece comes twice, somewhere.
+    Copy(Index, Index, Index),
+    /// Something is wrapped into many brackets.
+    Nest(Index, u16),
+    /// The rest goes.
+    Truncate(Index),
+}
+
+/// Some changes, one after the other; or a text that never was anything.
+#[derive(Clone, Debug)]
+pub(crate) struct Spoiling {
+    changes: Vec<Change>,
+    noise: Option<Vec<u8>>,
+}
+
+/// Any spoiling.
+pub(crate) fn spoilings() -> impl Strategy<Value = Spoiling> {
+    let at = any::<Index>;
+    let change = prop_oneof![
+        6 => (at(), at()).prop_map(|(a, b)| Change::Token(a, b)),
+        2 => (at(), at()).prop_map(|(a, b)| Change::Insert(a, b)),
+        2 => (at(), any::<u8>()).prop_map(|(a, b)| Change::Byte(a, b)),
+        1 => (at(), at()).prop_map(|(a, b)| Change::Cut(a, b)),
+        1 => (at(), at(), at()).prop_map(|(a, b, c)| Change::Copy(a, b, c)),
+        1 => (at(), 1..2000_u16).prop_map(|(a, n)| Change::Nest(a, n)),
+        1 => at().prop_map(Change::Truncate),
+    ];
+    let noise = prop::option::weighted(0.05, prop::collection::vec(any::<u8>(), 0..200));
+    (prop::collection::vec(change, 0..5), noise)
+        .prop_map(|(changes, noise)| Spoiling { changes, noise })
+}
+
+/// Where tokens begin and end: numbers, words, strings.
+fn tokens(text: &[u8]) -> Vec<(usize, usize)> {
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < text.len() {
+        let start = at;
+        if text[at] == b'"' {
+            at += 1;
+            while at < text.len() && text[at] != b'"' {
+                at += 1 + usize::from(text[at] == b'\\');
+            }
+            at = (at + 1).min(text.len());
+        } else if text[at].is_ascii_alphanumeric() || text[at] == b'-' {
+            let inside = |b: u8| b.is_ascii_alphanumeric() || b"+-.".contains(&b);
+            while at < text.len() && inside(text[at]) {
+                at += 1;
+            }
+        } else {
+            at += 1;
+            continue;
+        }
+        found.push((start, at));
+    }
+    found
+}
+
+impl Spoiling {
+    /// The spoilt text.
+    pub(crate) fn of(&self, text: &str) -> Vec<u8> {
+        if let Some(noise) = &self.noise {
+            return noise.clone();
+        }
+        let mut bytes = text.as_bytes().to_vec();
+        for change in &self.changes {
+            change.apply(&mut bytes);
+        }
+        bytes
+    }
+}
+
+impl Change {
+    fn apply(&self, bytes: &mut Vec<u8>) {
+        let place = |index: &Index, bytes: &[u8]| index.index(bytes.len() + 1);
+        // Pieces are short: a text that loses its half has little left to be wrong.
+        let piece = |from: &Index, length: &Index, bytes: &[u8]| {
+            let from = place(from, bytes);
+            (from, (from + length.index(64)).min(bytes.len()))
+        };
+        match self {
+            Self::Token(at, word) => {
+                let all = tokens(bytes);
+                if !all.is_empty() {
+                    let (from, to) = *at.get(&all);
+                    bytes.splice(from..to, word.get(&WORDS).bytes());
+                }
+            }
+            Self::Insert(at, word) => {
+                let at = place(at, bytes);
+                bytes.splice(at..at, word.get(&WORDS).bytes());
+            }
+            Self::Byte(at, byte) => {
+                if !bytes.is_empty() {
+                    let at = at.index(bytes.len());
+                    bytes[at] = *byte;
+                }
+            }
+            Self::Cut(from, length) => {
+                let (from, to) = piece(from, length, bytes);
+                bytes.drain(from..to);
+            }
+            Self::Copy(from, length, at) => {
+                let (from, to) = piece(from, length, bytes);
+                let copy = bytes[from..to].to_vec();
+                let at = place(at, bytes);
+                bytes.splice(at..at, copy);
+            }
+            Self::Nest(at, depth) => {
+                let depth = usize::from(*depth);
+                let at = place(at, bytes);
+                let nest = "[".repeat(depth) + &"]".repeat(depth);
+                bytes.splice(at..at, nest.bytes());
+            }
+            Self::Truncate(at) => {
+                let at = place(at, bytes);
+                bytes.truncate(at);
+            }
+        }
+    }
+}
