@@ -1,9 +1,12 @@
 //! Writes a made-up run and its reports, to look at the pages and at their size:
-//! `cargo run -p etalon-report --example sample -- FOLDER [REPEATS|methods]`.
+//! `cargo run -p etalon-report --example sample -- FOLDER [REPEATS|large|methods]`. A large run has 8,000 cases on ten
+//! adapters.
 #![expect(clippy::unwrap_used, reason = "an example may stop at the first error")]
 
 #[path = "../tests/synthetic/mod.rs"]
 mod synthetic;
+#[path = "../tests/synthetic/large.rs"]
+mod synthetic_large;
 
 use etalon_record::Run;
 use etalon_report::{TableOptions, table, write};
@@ -13,11 +16,12 @@ use std::time::Instant;
 fn main() {
     let mut arguments = std::env::args().skip(1);
     let folder = PathBuf::from(arguments.next().unwrap_or_else(|| {
-        eprintln!("usage: sample FOLDER [REPEATS|methods]");
+        eprintln!("usage: sample FOLDER [REPEATS|large|methods]");
         std::process::exit(64)
     }));
     let what = arguments.next().unwrap_or_else(|| "1".to_owned());
     let records = match what.as_str() {
+        "large" => synthetic_large::write(&folder),
         "methods" => synthetic::methods::write(&folder),
         repeats => synthetic::write(&folder, repeats.parse().unwrap()),
     };

@@ -103,13 +103,6 @@ impl CaseFile<'_> {
     pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = usize> {
         self.cases.iter().filter_map(move |c| c.records[adapter])
     }
-
-    /// The records on all adapters.
-    pub(crate) fn all(&self) -> impl Iterator<Item = usize> {
-        self.cases
-            .iter()
-            .flat_map(|c| c.records.iter().flatten().copied())
-    }
 }
 
 /// How many records came to which verdict.

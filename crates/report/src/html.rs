@@ -1,10 +1,18 @@
-//! `index.html`: one self-contained page that works offline and without its script.
+//! `index.html`: one self-contained page that works from the file system.
+//!
+//! What a reader must know stands in the page as it is; its script adds the table of all cases, with
+//! search and filters, and the view of one case. Whatever is looked at has its address:
+//! `index.html#q=less&on=cpu`, `index.html#case=depth/compare/compare=less`.
 
 pub(crate) mod adapters;
 mod assertions;
 mod cases;
+mod consensus;
+mod data;
 mod detail;
+mod facts;
 mod findings;
+mod link;
 mod matrix;
 
 pub(crate) use adapters::breakable;
@@ -13,15 +21,38 @@ pub(crate) use detail::quoted;
 use crate::grid::{Grid, Tally};
 use crate::methods::{self, Methods};
 use crate::words::{self, Tone, count};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use etalon_record::{Run, Verdict};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use sha2::{Digest, Sha256};
 use std::path::Path;
 
 pub(crate) const STYLE: &str = include_str!("html/style.css");
-const SCRIPT: &str = include_str!("html/script.js");
+const CASES_STYLE: &str = include_str!("html/cases.css");
+/// In one function, so that the page has no global names but the browser's.
+const SCRIPT: &str = concat!(
+    "(() => {\n\"use strict\";\n",
+    include_str!("html/script/data.js"),
+    include_str!("html/script/state.js"),
+    include_str!("html/script/table.js"),
+    include_str!("html/script/case.js"),
+    include_str!("html/script/keys.js"),
+    include_str!("html/script/route.js"),
+    "})();\n"
+);
 /// Nothing may be fetched, whatever a hostile name should manage to smuggle in.
 pub(crate) const POLICY: &str =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
+
+/// As [`POLICY`], and no script runs but the page's own.
+fn policy() -> String {
+    let digest = STANDARD.encode(Sha256::digest(SCRIPT));
+    format!(
+        "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{digest}'; \
+         base-uri 'none'; form-action 'none'"
+    )
+}
 
 /// The whole page. Frame files are read from the folder as they are needed.
 pub(crate) fn page(folder: &Path, run: &Run, methods: Option<&Methods<'_>>) -> String {
@@ -33,28 +64,41 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: Option<&Methods<'_>>) -> S
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta http-equiv="Content-Security-Policy" content=(policy());
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 title { (title(run)) }
-                style { (PreEscaped(STYLE)) @if drivers.is_some() { (PreEscaped(methods::CHART_STYLE)) } }
+                style {
+                    (PreEscaped(STYLE)) (PreEscaped(CASES_STYLE))
+                    @if drivers.is_some() { (PreEscaped(methods::CHART_STYLE)) }
+                }
             }
             body {
-                (head(run, methods.is_some(), drivers.is_some()))
-                @if run.records.is_empty() {
-                    p { "No case was run, so there is nothing to report." }
-                } @else {
-                    (totals(run))
-                    (matrix::section(&grid))
-                    @if let Some(methods) = methods { (methods::section(methods)) }
-                    @if let Some(drivers) = drivers { (drivers) }
-                    (findings::section(folder, &grid, &plan))
-                    (cases::section(&grid, &plan))
-                    (assertions::section(&grid))
+                a.skip href="#main" { "Skip to the content" }
+                main id="main" tabindex="-1" {
+                    (cases::view())
+                    div id="report" {
+                        (head(run, methods.is_some(), drivers.is_some()))
+                        @if run.records.is_empty() {
+                            p { "No case was run, so there is nothing to report." }
+                        } @else {
+                            (totals(run))
+                            (matrix::section(&grid))
+                            @if let Some(methods) = methods { (methods::section(methods)) }
+                            @if let Some(drivers) = drivers { (drivers) }
+                            (cases::section(&grid))
+                        }
+                        // Before what is long, so that the table can be used while the rest is read.
+                        (data::block(&grid, &plan))
+                        script { (PreEscaped(SCRIPT)) }
+                        @if !run.records.is_empty() {
+                            (findings::section(folder, &grid, &plan))
+                            (assertions::section(&grid))
+                        }
+                        (adapters::section(&run.header))
+                        footer { "Made by etalon from run.jsonl and frames/ in this folder." }
+                    }
                 }
-                (adapters::section(&run.header))
-                footer { "Made by etalon from run.jsonl and frames/ in this folder." }
-                script { (PreEscaped(SCRIPT)) }
             }
         }
     }
@@ -88,14 +132,16 @@ fn head(run: &Run, methods: bool, drivers: bool) -> Markup {
                     (count(h.cases, "case")) " on " (count(h.adapters.len() as u64, "adapter"))
                     ", " (count(run.records.len() as u64, "record"))
                 }
+                @let settings = words::settings(&h.settings);
+                @if !settings.is_empty() { dt { "Settings" } dd { (settings.join(", ")) } }
             }
             @if !run.records.is_empty() {
-            nav {
+            nav aria-label="Parts of the page" {
                 a href="#matrix" { "Matrix" } " "
                 @if methods { a href="#methods" { "Methods" } " " }
                 @if drivers { a href="#accuracy" { "Accuracy of drivers" } " " }
-                a href="#findings" { "Findings" } " "
                 a href="#cases" { "All cases" } " "
+                a href="#findings" { "Findings" } " "
                 a href="#asserted" { "What was asserted" } " "
                 a href="#adapters" { "Adapters" }
             }

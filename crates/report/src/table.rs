@@ -89,6 +89,14 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
         ),
         ("crash & co", &BROKEN, Color::FG_MAGENTA | Color::BOLD),
     ];
+    // Adapters that lack something and cases that were not to be drawn stand apart.
+    let skipped = rows
+        .iter()
+        .any(|(_, r)| r.iter().any(|r| r.verdict == Verdict::Skipped));
+    if skipped {
+        let column = ("skipped", &[Verdict::Skipped][..], Color::FG_BRIGHT_BLACK);
+        columns.insert(columns.len() - 1, column);
+    }
     if measured {
         columns.insert(1, ("measured", &[Verdict::Measured], Color::FG_BLUE));
     }

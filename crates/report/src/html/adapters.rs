@@ -14,10 +14,11 @@ pub(crate) fn section(header: &Header) -> Markup {
             @if !header.absent.is_empty() {
                 h3 { "Absent" }
                 div.wide { table.text {
-                    thead { tr { th { "Adapter" } th { "Reason" } th { "Remedy" } } }
+                    caption.vh { "Adapters that are absent" }
+                    thead { tr { th scope="col" { "Adapter" } th scope="col" { "Reason" } th scope="col" { "Remedy" } } }
                     tbody {
                         @for absent in &header.absent {
-                            tr { th { (absent.name) } td { (absent.reason) } td { (absent.remedy) } }
+                            tr { th scope="row" { (absent.name) } td { (absent.reason) } td { (absent.remedy) } }
                         }
                     }
                 } }
@@ -72,7 +73,8 @@ pub(crate) fn details(a: &AdapterRecord) -> Markup {
 fn formats(limits: &Limits) -> Markup {
     html! {
         div.wide { table.text {
-            thead { tr { th { "Format" } th { "Samples" } th { "Depth encoding" } th { "Read by" } } }
+            caption { "Texel formats" }
+            thead { tr { th scope="col" { "Format" } th scope="col" { "Samples" } th scope="col" { "Depth encoding" } th scope="col" { "Read by" } } }
             tbody {
                 @for format in TextureFormat::ALL { (format_row(format, limits.formats.get(&format))) }
             }
@@ -84,7 +86,7 @@ fn format_row(format: TextureFormat, support: Option<&FormatSupport>) -> Markup 
     let join = |texts: Vec<String>, with: &str| texts.join(with);
     html! {
         tr {
-            th { (format.name()) }
+            th scope="row" { (format.name()) }
             @if let Some(s) = support {
                 td { (join(s.samples.iter().map(u32::to_string).collect(), ", ")) }
                 td { (join(s.depth.iter().map(|d| d.to_string()).collect(), " or ")) }

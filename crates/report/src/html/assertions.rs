@@ -31,15 +31,16 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
                 p { "No frame was judged." }
             } @else {
                 div.wide { table.figures {
+                    caption.vh { "What was asserted of channels, by area and aspect" }
                     thead {
                         tr {
-                            th rowspan="2" { "Area" } th rowspan="2" { "Aspect" }
-                            th rowspan="2" { "Adapters" } th rowspan="2" { "Channels" }
-                            th.band colspan="3" { "Legal band" } th.band colspan="3" { "Yardstick" }
+                            th scope="col" rowspan="2" { "Area" } th scope="col" rowspan="2" { "Aspect" }
+                            th scope="col" rowspan="2" { "Adapters" } th scope="col" rowspan="2" { "Channels" }
+                            th.band scope="colgroup" colspan="3" { "Legal band" } th.band scope="colgroup" colspan="3" { "Yardstick" }
                         }
                         tr {
-                            th.band { "asserted" } th { "exact" } th { "sharpness" }
-                            th.band { "asserted" } th { "exact" } th { "sharpness" }
+                            th.band scope="col" { "asserted" } th scope="col" { "exact" } th scope="col" { "sharpness" }
+                            th.band scope="col" { "asserted" } th scope="col" { "exact" } th scope="col" { "sharpness" }
                         }
                     }
                     tbody {
@@ -74,7 +75,7 @@ fn counters(grid: &Grid<'_>) -> Markup {
         @if !rows.is_empty() {
             div.wide { table.figures {
                 caption { "Counters, over all adapters" }
-                thead { tr { th { "Area" } th { "Counts" } th { "Read back" } th { "Asserted" } th { "Exact" } } }
+                thead { tr { th scope="col" { "Area" } th scope="col" { "Counts" } th scope="col" { "Read back" } th scope="col" { "Asserted" } th scope="col" { "Exact" } } }
                 tbody {
                     @for ((area, kind), [all, asserted, exact]) in &rows {
                         tr {

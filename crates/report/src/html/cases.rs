@@ -1,89 +1,139 @@
-//! Every case on every adapter, by case file.
+//! Every case on every adapter, to be searched, and the view of one case. The script fills both.
 
-use super::{class, mark};
-use crate::grid::{CaseFile, CaseRow, Grid, Tally};
-use crate::html::findings::Plan;
-use crate::words::{self, Tone};
+use super::consensus::{Consensus, Votes};
+use crate::grid::{Grid, Tally};
+use crate::words::{self, count};
 use etalon_record::Verdict;
 use maud::{Markup, html};
 
-pub(crate) fn section(grid: &Grid<'_>, plan: &Plan) -> Markup {
-    let mut number = 0;
+pub(crate) fn section(grid: &Grid<'_>) -> Markup {
     html! {
-        section id="cases" {
-            h2 { "All cases" }
+        section id="cases" aria-labelledby="cases-title" {
+            h2 id="cases-title" { "All cases" }
             p {
-                "One group per case file, one row per case, one column per adapter."
+                "One group per case file, one row per case, one column per adapter. The consensus is what "
+                "more than half of the adapters that drew a case agree on: that it is right (pass, "
+                "imprecise, measured) or that it is not. Not supported and skipped have no vote, and "
+                "selftests that are due to fail are left out."
+            }
+            p {
                 @for verdict in Verdict::ALL {
-                    " " span.key { i { (words::symbol(verdict)) } " " (words::name(verdict)) }
+                    span.key { i { (words::symbol(verdict)) } " " (words::name(verdict)) } " "
                 }
-                " A verdict in parentheses was expected or due."
+                "A verdict in parentheses was expected or due."
             }
-            @for area in &grid.areas {
-                h3 { (area.name) }
-                @for file in &area.files {
-                    (group(grid, plan, file, { number += 1; number - 1 }))
+            noscript {
+                p.note {
+                    "The table of all cases, its search and the view of each case want scripts, which are "
+                    "switched off here. All the rest of this page does without."
                 }
+            }
+            (controls(grid))
+            p.count id="count" role="status" aria-live="polite" {}
+            div.wide id="rows" hidden {
+                table.cases id="case-table" aria-describedby="keys" {
+                    caption.vh { "Cases, what the adapters agree on, and the verdict on each adapter" }
+                    thead { tr {
+                        th scope="col" aria-sort="ascending" { button type="button" data-sort="case" { "Case" } }
+                        th scope="col" aria-sort="none" { button type="button" data-sort="consensus" { "Consensus" } }
+                        @for adapter in &grid.adapters {
+                            th scope="col" { (super::adapters::breakable(adapter)) }
+                        }
+                    } }
+                }
+            }
+            nav.pages id="pages" aria-label="Pages of cases" hidden {
+                button type="button" id="page-back" { "Previous page" }
+                span id="page-at" {}
+                button type="button" id="page-on" { "Next page" }
+            }
+            p.note id="keys" hidden {
+                "Keys: " kbd { "/" } " searches; in the table " kbd { "↓" } " " kbd { "↑" } " or " kbd { "j" } " "
+                kbd { "k" } " move over rows, " kbd { "Enter" } " opens a case or a group, " kbd { "Esc" }
+                " leads back."
             }
         }
     }
 }
 
-fn group(grid: &Grid<'_>, plan: &Plan, file: &CaseFile<'_>, number: usize) -> Markup {
-    let tally = Tally::of(file.all().map(|i| grid.record(i)));
+/// Where the script shows one case.
+pub(crate) fn view() -> Markup {
+    html! { article id="case" aria-labelledby="case-title" hidden {} }
+}
+
+fn controls(grid: &Grid<'_>) -> Markup {
+    let tally = Tally::of(&grid.run.records);
+    let mut verdicts: Vec<Verdict> = tally.entries().map(|(v, _, _)| v).collect();
+    verdicts.sort_by_key(|v| std::cmp::Reverse(v.severity()));
+    verdicts.dedup();
+    let (odd, apart) = odd(grid);
     html! {
-        details {
-            summary {
-                code { (file.name) } " "
-                small { (words::count(file.cases.len() as u64, "case")) }
-                @for (verdict, tone, n) in tally.entries() {
-                    span class={ "chip " (class(verdict, tone)) } { (n) " " (mark(verdict, tone)) }
+        form.filter id="filter" role="search" aria-labelledby="cases-title" hidden {
+            div.search {
+                label for="f-q" { "Search" }
+                input id="f-q" type="search" autocomplete="off" spellcheck="false"
+                    aria-describedby="f-q-help" aria-keyshortcuts="/" enterkeyhint="search";
+                small id="f-q-help" { "All words must occur in the id; * stands for anything between." }
+            }
+            label.check { input id="f-messages" type="checkbox"; "search messages too" }
+            div {
+                label for="f-verdict" { "Verdict" }
+                select id="f-verdict" {
+                    option value="" { "any" }
+                    option value="bad" { "any bad one" }
+                    @for verdict in verdicts {
+                        option value=(verdict.name()) { (words::symbol(verdict)) " " (words::name(verdict)) }
+                    }
+                    option value="none" { "no record" }
                 }
             }
-            div.wide id={ "g" (number) } { table.cases {
-                thead { tr {
-                    th { "Case" }
-                    @for adapter in &grid.adapters { th { (super::adapters::breakable(adapter)) } }
-                } }
-                tbody { @for case in &file.cases { (row(grid, plan, file, case)) } }
-            } }
+            div {
+                label for="f-on" { "On adapter" }
+                select id="f-on" {
+                    option value="" { "any" }
+                    @for (i, adapter) in grid.adapters.iter().enumerate() { option value=(i) { (adapter) } }
+                }
+            }
+            div {
+                label for="f-area" { "Area" }
+                select id="f-area" {
+                    option value="" { "any" }
+                    @for (i, area) in grid.areas.iter().enumerate() { option value=(i) { (area.name) } }
+                }
+            }
+            div {
+                label for="f-odd" { "Differs only on" }
+                select id="f-odd" {
+                    option value="" { "–" }
+                    option value="any" { "any one adapter (" (odd.iter().sum::<u64>()) ")" }
+                    @for (i, adapter) in grid.adapters.iter().enumerate() {
+                        option value=(i) { (adapter) " (" (odd[i]) ")" }
+                    }
+                }
+            }
+            label.check { input id="f-unexpected" type="checkbox"; "unexpected only (" (tally.unexpected) ")" }
+            label.check { input id="f-disagree" type="checkbox"; "adapters disagree (" (count(apart, "case")) ")" }
+            button type="button" id="f-clear" { "Clear filters" }
+            button type="button" id="f-groups" aria-controls="case-table" { "Open all groups" }
         }
     }
 }
 
-fn row(grid: &Grid<'_>, plan: &Plan, file: &CaseFile<'_>, case: &CaseRow<'_>) -> Markup {
-    let rest = case.id.strip_prefix(file.name).unwrap_or(case.id);
-    let rest = rest.trim_start_matches('/');
-    html! {
-        tr {
-            th { (if rest.is_empty() { case.id } else { rest }) }
-            @for record in &case.records {
-                @match record {
-                    Some(index) => (cell(grid, plan, *index)),
-                    None => td title="no record" {},
-                }
-            }
+/// How many cases differ only on each adapter, and on how many the adapters do not agree.
+fn odd(grid: &Grid<'_>) -> (Vec<u64>, u64) {
+    let mut odd = vec![0; grid.adapters.len()];
+    let mut apart = 0;
+    for case in grid
+        .areas
+        .iter()
+        .flat_map(|a| &a.files)
+        .flat_map(|f| &f.cases)
+    {
+        let consensus = Consensus::of(grid, case);
+        apart += u64::from(matches!(consensus.votes, Votes::Odd | Votes::Split));
+        if let Some(column) = consensus.only() {
+            odd[column] += 1;
         }
     }
-}
-
-fn cell(grid: &Grid<'_>, plan: &Plan, index: usize) -> Markup {
-    let record = grid.record(index);
-    let (verdict, tone) = (record.verdict, Tone::of(record));
-    let symbol = words::symbol(verdict);
-    let text = match tone {
-        Tone::Excused => format!("({symbol})"),
-        Tone::Missed => format!("{symbol} not caught"),
-        Tone::Plain if verdict.is_bad() => format!("{symbol} {}", words::name(verdict)),
-        Tone::Plain => symbol.to_owned(),
-    };
-    html! {
-        td class=(class(verdict, tone)) title={ (words::name(verdict)) (tone.suffix()) } {
-            @if plan.lists(index) {
-                a href={ "#r" (index) } { (text) }
-            } @else {
-                (text)
-            }
-        }
-    }
+    (odd, apart)
 }

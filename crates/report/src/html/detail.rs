@@ -1,8 +1,10 @@
 //! Everything known about one record.
 
+use super::{facts, link};
 use crate::picture;
 use crate::words::{
-    allowed, channel_of, code_and_value, code_text, count, multisampled, place, value_text,
+    allowed, channel_of, code_and_value, code_text, count, multisampled, place, process_end,
+    repetitions, value_text,
 };
 use etalon_frame::{Band, ChannelMismatch, Story, WrongTexel};
 use etalon_record::{FrameFile, Record, Run};
@@ -31,7 +33,8 @@ pub(crate) fn body(folder: &Path, record: &Record, budget: &mut Budget) -> Marku
         @if record.due_fail {
             p { b { "Selftest: " } "the judge was told otherwise than the driver, so this is due to fail." }
         }
-        @if !record.message.is_empty() { pre { (record.message) } }
+        @if !record.message.is_empty() { pre { (facts::end(&record.message)) } }
+        (circumstances(record))
         @if record.texels.total > 0 { p { (counts(record)) } }
         @match &frame {
             Some((_, Ok(frame))) => (pictures(frame, budget)),
@@ -45,6 +48,7 @@ pub(crate) fn body(folder: &Path, record: &Record, budget: &mut Budget) -> Marku
             "Draw it again: "
             code { "etalon run " (quoted(&record.case)) " --adapter " (quoted(&record.adapter)) }
             @if let Some((path, _)) = &frame { ", frame: " code { (path) } }
+            span.all { ". " a href=(link::case(&record.case)) { "This case on all adapters" } "." }
         }
     }
 }
@@ -56,7 +60,29 @@ fn about(frame: &FrameFile) -> Markup {
     }
 }
 
-fn counts(record: &Record) -> String {
+/// How the process ended, what layers said, and what other drawings came to.
+fn circumstances(record: &Record) -> Markup {
+    html! {
+        @if let Some(process) = &record.process {
+            p { b { "Process: " } (process_end(process)) }
+            @if !process.stderr.is_empty() {
+                h5 { "Standard error" }
+                pre { (facts::end(&process.stderr)) }
+            }
+        }
+        @if !record.validation.is_empty() {
+            h5 { "Validation" }
+            @for message in &record.validation { pre { (facts::end(message)) } }
+        }
+        @if !record.repeats.is_empty() { p { b { "Repeated: " } (repetitions(&record.repeats)) } }
+        @if !record.after.is_empty() {
+            p { b { "Only when drawn after: " } }
+            ul { @for case in &record.after { li { a href=(link::case(case)) { code { (case) } } } } }
+        }
+    }
+}
+
+pub(super) fn counts(record: &Record) -> String {
     let t = &record.texels;
     format!(
         "Of {}, {} outside the legal set, {} legal and outside the yardstick, {} open.",
@@ -71,7 +97,10 @@ fn counters(record: &Record) -> Markup {
     html! {
         div.wide { table.figures {
             caption { "Counters" }
-            thead { tr { th { "Counter" } th { "Counts" } th { "Legal" } th { "Came" } th { "Verdict" } } }
+            thead { tr {
+                th scope="col" { "Counter" } th scope="col" { "Counts" } th scope="col" { "Legal" }
+                th scope="col" { "Came" } th scope="col" { "Verdict" }
+            } }
             tbody {
                 @for counter in &record.counters {
                     tr {
@@ -148,11 +177,12 @@ fn texels(record: &Record) -> Markup {
         _ => "Allowed (≈: yardstick)",
     };
     html! {
-        h5 { "Wrong texels" }
         div.wide { table.text.codes {
+            caption { "Wrong texels" }
             thead { tr {
-                th { "Place" } th { "Band" } th { "Channel" } th { "Encoding" } th { (bound) " code" }
-                th { (bound) " value" } th { "Actual" } th { "Off by" }
+                th scope="col" { "Place" } th scope="col" { "Band" } th scope="col" { "Channel" }
+                th scope="col" { "Encoding" } th scope="col" { (bound) " code" }
+                th scope="col" { (bound) " value" } th scope="col" { "Actual" } th scope="col" { "Off by" }
             } }
             tbody {
                 @for texel in &record.wrong[..shown] {

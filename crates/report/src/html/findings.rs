@@ -1,12 +1,13 @@
 //! What is worth reading, by area and adapter: everything that is not a plain pass.
 
+use super::consensus::Consensus;
 use super::detail::{self, Budget};
-use super::{class, mark};
+use super::{class, link, mark};
 use crate::grid::{Area, CaseFile, Grid, Tally};
 use crate::words::{self, Tone, count};
 use etalon_record::{Record, Verdict};
 use maud::{Markup, html};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
 /// The most records that are shown with everything known about them.
@@ -15,10 +16,15 @@ const BODIES: usize = 400;
 const IMPRECISE_BODIES: usize = 3;
 /// The most lines of a case file and adapter.
 const LINES: usize = 20;
+/// The most lines of all; what a page of so many case files and adapters has more of stands under
+/// "All cases", which costs a browser less.
+const ALL_LINES: usize = 5000;
 
 /// Which records are listed, and which of those with everything known about them.
 pub(crate) struct Plan {
     bodies: HashMap<usize, bool>,
+    /// Records whose adapter alone stands against all others that drew the case.
+    odd: HashSet<usize>,
     /// Records that would have been shown whole, had there been room.
     cut: usize,
 }
@@ -27,8 +33,8 @@ impl Plan {
     pub(crate) fn new(grid: &Grid<'_>) -> Self {
         // The first of every case file and adapter go before any second one, and what is
         // unexpected before what is not.
+        let mut lines = Vec::new();
         let mut wanted = Vec::new();
-        let mut bodies = HashMap::new();
         for area in &grid.areas {
             for file in &area.files {
                 for column in 0..grid.adapters.len() {
@@ -37,7 +43,7 @@ impl Plan {
                         let kind = kind(grid.record(index));
                         let rank = &mut ranks[kind];
                         if *rank < LINES {
-                            bodies.insert(index, false);
+                            lines.push((kind, *rank, index));
                         }
                         let most = if kind == 2 { IMPRECISE_BODIES } else { LINES };
                         if *rank < most {
@@ -48,12 +54,21 @@ impl Plan {
                 }
             }
         }
+        lines.sort_unstable();
         wanted.sort_unstable();
+        let shown = lines.iter().take(ALL_LINES);
+        let mut bodies: HashMap<usize, bool> = shown.map(|(_, _, i)| (*i, false)).collect();
         for (_, _, index) in wanted.iter().take(BODIES) {
             bodies.insert(*index, true);
         }
+        let files = grid.areas.iter().flat_map(|a| &a.files);
+        let odd = files.flat_map(|f| &f.cases).filter_map(|case| {
+            let column = Consensus::of(grid, case).only()?;
+            case.records[column]
+        });
         Self {
             bodies,
+            odd: odd.collect(),
             cut: wanted.len().saturating_sub(BODIES),
         }
     }
@@ -63,13 +78,14 @@ impl Plan {
         self.bodies.contains_key(&index)
     }
 
-    fn whole(&self, index: usize) -> bool {
+    /// Whether the record's entry has everything known about it.
+    pub(crate) fn whole(&self, index: usize) -> bool {
         self.bodies.get(&index).copied().unwrap_or(false)
     }
 }
 
-/// 0 for what is unexpected, 1 for what was expected or due, 2 for imprecise.
-fn kind(record: &Record) -> usize {
+/// 0 for what is unexpected, 1 for what was expected or due, 2 for imprecise and all else.
+pub(crate) fn kind(record: &Record) -> usize {
     if record.unexpected() {
         0
     } else if record.verdict.is_bad() {
@@ -161,25 +177,31 @@ fn in_file(
             @let record = grid.record(index);
             @if plan.whole(index) {
                 details.d {
-                    summary { (line(record)) }
+                    summary { (line(plan, index, record, html! { code { (record.case) } })) }
                     div.body id={ "r" (index) } { (detail::body(folder, record, budget)) }
                 }
             } @else {
-                p.d id={ "r" (index) } { (line(record)) }
+                p.d id={ "r" (index) } {
+                    (line(plan, index, record, html! { a href=(link::case(&record.case)) { code { (record.case) } } }))
+                }
             }
         }
         @if rest > 0 {
-            p.d.more { "and " (rest) " more of " code { (file.name) } ", under " a href="#cases" { "All cases" } }
+            p.d.more {
+                "and " (rest) " more of " code { (file.name) } ", under "
+                a href=(link::filter(file.name, grid.adapters[column])) { "All cases" }
+            }
         }
     }
 }
 
-fn line(record: &Record) -> Markup {
+fn line(plan: &Plan, index: usize, record: &Record, id: Markup) -> Markup {
     html! {
         span class={ "chip " (class(record.verdict, Tone::of(record))) } {
             (mark(record.verdict, Tone::of(record)))
         }
-        " " code { (record.case) }
+        " " (id)
+        @if plan.odd.contains(&index) { " " span.chip.only { "differs only here" } }
         span.h { (words::headline(record)) }
     }
 }

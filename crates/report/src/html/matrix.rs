@@ -15,9 +15,10 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
                 "bad verdicts in it were expected. Each cell leads to its list."
             }
             div.wide { table.matrix {
+                caption.vh { "Verdicts by area and adapter" }
                 thead { tr {
-                    th { "Area" }
-                    @for adapter in &grid.adapters { th { (super::adapters::breakable(adapter)) } }
+                    th scope="col" { "Area" }
+                    @for adapter in &grid.adapters { th scope="col" { (super::adapters::breakable(adapter)) } }
                 } }
                 tbody {
                     @for (a, area) in grid.areas.iter().enumerate() {

@@ -8,11 +8,11 @@ use etalon_frame::{
 };
 use etalon_record::{
     AbsentAdapter, AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header,
-    Machine, Record, RunWriter, Seconds, Settings, Verdict,
+    LossKind, Machine, ProcessEnd, Record, RunWriter, Seconds, Settings, Verdict,
 };
 use std::path::Path;
 
-const ADAPTERS: [(&str, Api); 8] = [
+pub(crate) const ADAPTERS: [(&str, Api); 8] = [
     ("cpu", Api::Vulkan),
     ("gl:llvmpipe", Api::OpenGl),
     ("gl:es:softpipe", Api::OpenGlEs),
@@ -123,8 +123,13 @@ pub(crate) fn cases() -> Vec<String> {
     ids
 }
 
-/// Writes the run; frames for what is wrong. Returns how many records it has.
+/// Writes the run on eight adapters; frames for what is wrong. Returns how many records it has.
 pub(crate) fn write(folder: &Path, repeats: usize) -> usize {
+    write_on(folder, &repeated(repeats), &ADAPTERS)
+}
+
+/// The cases so often, with ids of their own.
+pub(crate) fn repeated(repeats: usize) -> Vec<String> {
     let mut ids = cases();
     for repeat in 1..repeats {
         ids.extend(
@@ -133,11 +138,16 @@ pub(crate) fn write(folder: &Path, repeats: usize) -> usize {
                 .map(|id| id.replacen('/', &format!("/r{repeat}-"), 1)),
         );
     }
-    let adapters: Vec<_> = ADAPTERS.iter().map(|(n, a)| adapter(n, *a)).collect();
+    ids
+}
+
+/// Writes the run of these cases on these adapters.
+pub(crate) fn write_on(folder: &Path, ids: &[String], on: &[(&str, Api)]) -> usize {
+    let adapters: Vec<_> = on.iter().map(|(n, a)| adapter(n, *a)).collect();
     let mut writer = RunWriter::create(folder, &header(ids.len() as u64, adapters)).unwrap();
     let mut n = 0;
     for (c, id) in ids.iter().enumerate() {
-        for (a, (name, _)) in ADAPTERS.iter().enumerate() {
+        for (a, (name, _)) in on.iter().enumerate() {
             let verdict = verdict(id, c, a);
             let record = record(&writer, id, name, verdict, (c * 31 + a * 7) as u32);
             writer.append(&record).unwrap();
@@ -194,7 +204,20 @@ pub(crate) fn record(
     }
     r.message = match verdict {
         Verdict::NotSupported => "4 samples of rgba8unorm".to_owned(),
-        Verdict::Crash => "LLVM ERROR: out of registers\nthe process died of SIGABRT".to_owned(),
+        Verdict::Crash => {
+            r.process = Some(ProcessEnd {
+                kind: LossKind::Died,
+                signal: Some(6),
+                exit: None,
+                stderr: "LLVM ERROR: out of registers\nAborted".to_owned(),
+                seconds: 0.4,
+            });
+            "LLVM ERROR: out of registers\nthe process died of SIGABRT".to_owned()
+        }
+        Verdict::Flaky => {
+            r.repeats = vec![Verdict::Pass, Verdict::Fail, Verdict::Pass];
+            String::new()
+        }
         Verdict::Timeout => "no answer within 20 s".to_owned(),
         Verdict::DeviceLost => "VK_ERROR_DEVICE_LOST".to_owned(),
         _ => String::new(),
