@@ -58,7 +58,7 @@ pub fn enumerate(via: Via) -> Result<Vec<AdapterInfo>, Unavailable> {
 pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
     let mut flags = InstanceFlags::empty();
     if options.validate {
-        flags = validation(options.via);
+        flags = WATCHED;
         messages::collect();
         if messages::misses_layer(|| drop(instance(options.via, flags))) {
             return Err(Unavailable::new(
@@ -112,14 +112,9 @@ impl Backend for WgpuBackend {
     }
 }
 
-/// `DEBUG` brings OpenGL's debug context. On Vulkan it would only add names to objects and source
-/// to shaders, tagged with a language that layers before 1.3.240 take for an error.
-fn validation(via: Via) -> InstanceFlags {
-    match via {
-        Via::Vulkan => InstanceFlags::VALIDATION,
-        Via::Gl => InstanceFlags::VALIDATION | InstanceFlags::DEBUG,
-    }
-}
+/// Without `DEBUG` wgpu turns the layer on and listens to nothing: it brings the messenger in Vulkan, and
+/// OpenGL's debug context.
+const WATCHED: InstanceFlags = InstanceFlags::VALIDATION.union(InstanceFlags::DEBUG);
 
 fn instance(via: Via, flags: InstanceFlags) -> wgpu::Instance {
     wgpu::Instance::new(wgpu::InstanceDescriptor {

@@ -40,10 +40,15 @@ fn run_all(backend: &WgpuBackend) {
     }
 }
 
+/// What wgpu 30 itself does wrong over Vulkan: it offers DEPTH_BIAS_CLAMP and does not enable the device's
+/// depthBiasClamp.
+const MISTAKES_OF_WGPU: [&str; 1] = ["VUID-VkGraphicsPipelineCreateInfo-pDynamicStates-00754"];
+
 /// Nothing but what validation has to say, and nobody may have asked for it.
 #[track_caller]
 fn said_nothing(backend: &WgpuBackend, what: &str) {
-    let messages = backend.messages();
+    let mut messages = backend.messages();
+    messages.retain(|m| !MISTAKES_OF_WGPU.iter().any(|known| m.contains(known)));
     assert!(messages.is_empty(), "{what}: {}", messages.join("\n"));
 }
 
