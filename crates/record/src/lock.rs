@@ -4,9 +4,14 @@ use crate::error::RecordError;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::ErrorKind;
 use std::path::Path;
+use std::thread;
+use std::time::{Duration, Instant};
 
 /// The file that is locked; it is empty and stays behind.
 const LOCK_FILE: &str = ".lock";
+
+/// How long a lock that is held is tried again.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 /// The right to write into a folder, until it is dropped or its process ends, however it ends.
 #[derive(Debug)]
@@ -29,7 +34,26 @@ impl FolderLock {
             .write(true)
             .open(&path)
             .map_err(RecordError::io("create", &path))?;
-        match file.try_lock() {
+        let begun = Instant::now();
+        loop {
+            match file.try_lock() {
+                // A process that was killed may leave a child that is about to start another program, and
+                // holds what its parent held until then.
+                Err(TryLockError::WouldBlock) if begun.elapsed() < PATIENCE => {
+                    thread::sleep(PATIENCE / 20);
+                }
+                tried => return Self::after(tried, file, folder, &path),
+            }
+        }
+    }
+
+    fn after(
+        tried: Result<(), TryLockError>,
+        file: File,
+        folder: &Path,
+        path: &Path,
+    ) -> Result<Self, RecordError> {
+        match tried {
             Ok(()) => Ok(Self { _file: file }),
             Err(TryLockError::WouldBlock) => Err(RecordError::InUse {
                 path: folder.to_owned(),
@@ -37,7 +61,7 @@ impl FolderLock {
             Err(TryLockError::Error(e)) if e.kind() == ErrorKind::Unsupported => {
                 Ok(Self { _file: file })
             }
-            Err(TryLockError::Error(e)) => Err(RecordError::io("lock", &path)(e)),
+            Err(TryLockError::Error(e)) => Err(RecordError::io("lock", path)(e)),
         }
     }
 }

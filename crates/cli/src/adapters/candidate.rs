@@ -6,7 +6,10 @@ use etalon_backend::AdapterInfo;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, StartError, Worker};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
+/// A driver that takes longer to fail is not tried again.
+const TRIED_AGAIN: Duration = Duration::from_secs(10);
 /// Where the system's loader looks for libraries first.
 const LIBRARY_PATH: &str = "LD_LIBRARY_PATH";
 
@@ -97,9 +100,10 @@ impl Candidate {
         let launch = self
             .launch(&resolved, wanted)
             .map_err(|reason| NoStart::Absent(self.absent(reason, self.remedy())))?;
-        // A driver that does not start is tried once more before it is blamed.
+        // A driver that does not start is tried once more before it is blamed, but not one that hangs.
+        let begun = Instant::now();
         let started = match Worker::start(&launch) {
-            Err(StartError::Broken(_)) => Worker::start(&launch),
+            Err(StartError::Broken(_)) if begun.elapsed() < TRIED_AGAIN => Worker::start(&launch),
             other => other,
         };
         let worker = started.map_err(|error| match error {

@@ -1,0 +1,318 @@
+//! Expectations as a user keeps them: skips, expiry, blessing, deqp-runner's lists.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use assert_cmd::Command;
+use etalon_record::{Expectations, Run, Verdict};
+use predicates::prelude::*;
+use predicates::str::contains;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
+/// An adapter that crashes on some of these cases, always the same ones.
+const CRASHING: [&str; 4] = ["run", "cull/*", "--adapter", "cpu:fault=abort"];
+
+fn etalon(arguments: &[&str]) -> Command {
+    let mut command = Command::new(BINARY);
+    command.args(arguments).timeout(Duration::from_secs(100));
+    for name in [
+        "CI",
+        "CI_NODE_INDEX",
+        "TEST_SHARD_INDEX",
+        "SLURM_ARRAY_TASK_ID",
+        "JOB_COMPLETION_INDEX",
+    ] {
+        command.env_remove(name);
+    }
+    command
+}
+
+struct Work {
+    folder: tempfile::TempDir,
+}
+
+impl Work {
+    fn new() -> Self {
+        Self {
+            folder: tempfile::tempdir().unwrap(),
+        }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn out(&self) -> PathBuf {
+        self.path("out")
+    }
+
+    fn run(&self, arguments: &[&str], file: &Path) -> assert_cmd::assert::Assert {
+        let mut command = etalon(arguments);
+        command.args(["--force", "--out"]).arg(self.out());
+        command.arg("--expect").arg(file).assert()
+    }
+
+    fn records(&self) -> Vec<etalon_record::Record> {
+        Run::read(&self.out()).unwrap().records
+    }
+}
+
+fn entry(case: &str, verdict: &str, more: Value) -> Value {
+    let mut entry = json!({
+        "adapter": "cpu*", "driver": "*", "case": case, "verdict": verdict,
+        "reason": "it is a test", "evidence": "none"
+    });
+    let more = more.as_object().unwrap().clone();
+    entry.as_object_mut().unwrap().extend(more);
+    entry
+}
+
+fn write(path: &Path, entries: &[Value]) {
+    fs::write(path, json!({ "entries": entries }).to_string()).unwrap();
+}
+
+#[test]
+fn what_is_skipped_is_not_drawn_and_is_no_pass() {
+    let work = Work::new();
+    let file = work.path("e.json");
+    write(&file, &[entry("cull/*", "skipped", json!({}))]);
+    work.run(&CRASHING, &file).code(0);
+    for record in work.records() {
+        assert_eq!(record.verdict, Verdict::Skipped);
+        assert!(record.message.contains("it is a test"));
+        assert_eq!(record.texels.total, 0);
+    }
+    write(
+        &file,
+        &[entry(
+            "cull/*",
+            "skipped",
+            json!({ "expires": "2000-01-31" }),
+        )],
+    );
+    work.run(&CRASHING, &file).code(1);
+    assert!(work.records().iter().all(|r| r.verdict != Verdict::Skipped));
+}
+
+#[test]
+fn versions_and_days_bound_what_is_expected() {
+    let work = Work::new();
+    let file = work.path("e.json");
+    let with = |more: Value, code: i32| {
+        write(&file, &[entry("cull/*", "crash", more)]);
+        work.run(&CRASHING, &file).code(code);
+    };
+    // Cases that pass although a crash is expected of all are improvements.
+    with(json!({}), 2);
+    with(json!({ "version": ">=0.1, <0.2" }), 2);
+    with(json!({ "version": ">=7" }), 1);
+    with(
+        json!({ "expires": "9999-12-31", "link": "https://example.org/1" }),
+        2,
+    );
+    with(json!({ "expires": "2000-01-31" }), 1);
+    let late = work.records().into_iter().find(|r| r.unexpected()).unwrap();
+    assert!(
+        late.message.contains("expired on 2000-01-31: it is a test"),
+        "{late:?}"
+    );
+    with(json!({ "expires": "31.1.2000" }), 64);
+}
+
+#[test]
+fn a_flake_excuses_whatever_happens_and_nothing_else() {
+    let work = Work::new();
+    let file = work.path("e.json");
+    write(&file, &[entry("cull/*", "flaky", json!({}))]);
+    work.run(&CRASHING, &file).code(0);
+    write(&file, &[entry("depth/*", "flaky", json!({}))]);
+    work.run(&CRASHING, &file).code(1);
+}
+
+#[test]
+fn blessing_expects_what_was_seen_and_takes_away_what_is_better() {
+    let work = Work::new();
+    let file = work.path("e.json");
+    let bless = |arguments: &[&str]| {
+        let mut all = arguments.to_vec();
+        all.push("--bless");
+        work.run(&all, &file)
+    };
+    bless(&CRASHING).code(0).stderr(contains("entries added"));
+    let crashed = work.records();
+    let crashed = crashed.iter().filter(|r| r.verdict == Verdict::Crash);
+    let read = || Expectations::read(&file).unwrap();
+    assert_eq!(read().entries().len(), crashed.count());
+    for entry in read().entries() {
+        assert!(entry.reason.contains("Not explained yet"), "{entry:?}");
+        assert!(entry.evidence.contains("signal 6"), "{entry:?}");
+        assert!(entry.version.is_some());
+    }
+    work.run(&CRASHING, &file).code(0);
+    // The same cases on an adapter that draws them right: the entries are another's.
+    let before = fs::read(&file).unwrap();
+    work.run(&["run", "cull/*", "--adapter", "cpu"], &file)
+        .code(0);
+    // An entry whose cases are all better goes; one that names cases not drawn here stays.
+    let mut entries: Vec<Value> = serde_json::from_slice::<Value>(&before).unwrap()["entries"]
+        .as_array()
+        .unwrap()
+        .clone();
+    let mut better = entry("cull/lines/*", "fail", json!({}));
+    better["adapter"] = json!("cpu:fault=lost");
+    let mut wide = entry("*", "fail", json!({}));
+    wide["adapter"] = json!("cpu:fault=flaky");
+    entries.push(better);
+    entries.push(wide);
+    write(&file, &entries);
+    bless(&[
+        "run",
+        "cull/lines",
+        "--profile",
+        "full",
+        "--adapter",
+        "cpu:fault=flaky",
+    ])
+    .code(0)
+    .stderr(contains("to narrow by hand"));
+    assert!(
+        read()
+            .entries()
+            .iter()
+            .any(|e| e.adapter == "cpu:fault=flaky")
+    );
+    let in_ci = |value: &str| {
+        let mut command = etalon(&CRASHING);
+        command
+            .arg("--bless")
+            .arg("--expect")
+            .arg(&file)
+            .arg("--out")
+            .arg(work.path("ci"));
+        command.env("CI", value).assert()
+    };
+    let before = fs::read(&file).unwrap();
+    in_ci("true").code(64).stderr(contains("CI never"));
+    assert_eq!(fs::read(&file).unwrap(), before);
+    assert!(!work.path("ci").exists());
+    // Without a file to write there is nothing to bless.
+    etalon(&["run", "cull/lines", "--adapter", "cpu", "--bless"])
+        .current_dir(work.folder.path())
+        .assert()
+        .code(64)
+        .stderr(contains("--expect"));
+}
+
+#[test]
+fn lists_of_deqp_runner_go_in_and_out() {
+    let work = Work::new();
+    let listed = etalon(&["list", "cull/*"]).assert();
+    let text = String::from_utf8_lossy(&listed.get_output().stdout).into_owned();
+    let ids: Vec<&str> = text.lines().collect();
+    let write = |name: &str, text: String| {
+        fs::write(work.path(name), text).unwrap();
+        work.path(name)
+    };
+    let fails = write(
+        "fails.txt",
+        format!("# known\n{},Crash\n{}\nno/such,Fail\n", ids[0], ids[1]),
+    );
+    let flakes = write("flakes.txt", "^cull/lines/\n".to_owned());
+    let skips = write("skips.txt", "^blend/.*logic\n".to_owned());
+    let results = write(
+        "results.csv",
+        format!(
+            "{},Pass,0.1\n{},Timeout,9.0\n{},Skip,0.0\n",
+            ids[0], ids[2], ids[3]
+        ),
+    );
+    let file = work.path("e.json");
+    let import = |more: &[&str]| {
+        let mut command = etalon(&["expectations", "import", "--adapter", "cpu", "--out"]);
+        command.arg(&file);
+        for (flag, path) in [
+            ("--fails", &fails),
+            ("--flakes", &flakes),
+            ("--skips", &skips),
+            ("--results", &results),
+        ] {
+            command.arg(flag).arg(path);
+        }
+        command
+            .args(["--reason", "imported", "--evidence", "lists"])
+            .args(more)
+            .assert()
+    };
+    import(&[])
+        .code(0)
+        .stderr(contains("no case here is meant by: no/such,Fail"));
+    let read = Expectations::read(&file).unwrap();
+    let count = |v: Verdict| read.entries().iter().filter(|e| e.verdict == v).count();
+    assert_eq!(
+        (
+            count(Verdict::Crash),
+            count(Verdict::Fail),
+            count(Verdict::Timeout)
+        ),
+        (1, 1, 1)
+    );
+    assert!(count(Verdict::Flaky) > 3 && count(Verdict::Skipped) > 10);
+    // The same again adds nothing.
+    import(&[]).code(0).stdout(contains("0 entries added"));
+    let lists = work.path("lists");
+    let mut export = etalon(&["expectations", "export", "--adapter", "cpu", "--out"]);
+    export
+        .arg(&lists)
+        .arg("--expect")
+        .arg(&file)
+        .assert()
+        .code(0);
+    let lines = |name: &str| -> Vec<String> {
+        let text = fs::read_to_string(lists.join(name)).unwrap();
+        text.lines().map(str::to_owned).collect()
+    };
+    let mut due = vec![
+        format!("{},Crash", ids[0]),
+        format!("{},Fail", ids[1]),
+        format!("{},Timeout", ids[2]),
+    ];
+    due.sort();
+    let mut found = lines("fails.txt");
+    found.sort();
+    assert_eq!(found, due);
+    assert_eq!(lines("flakes.txt").len(), count(Verdict::Flaky));
+    assert_eq!(lines("skips.txt").len(), count(Verdict::Skipped));
+    // What a run writes can be made the next run's expectations.
+    work.run(&CRASHING, &file).code(1);
+    let mut results = fs::read_dir(work.out().join("results")).unwrap();
+    let csv = results.next().unwrap().unwrap().path();
+    let next = work.path("next.json");
+    etalon(&[
+        "expectations",
+        "import",
+        "--adapter",
+        "cpu:fault=abort",
+        "--results",
+    ])
+    .arg(csv)
+    .args(["--reason", "known", "--evidence", "a run", "--out"])
+    .arg(&next)
+    .assert()
+    .code(0);
+    work.run(&CRASHING, &next).code(0);
+
+    let broken = write(
+        "broken.txt",
+        format!("{},Fail\n{},Broken\n", ids[0], ids[1]),
+    );
+    etalon(&["expectations", "import", "--adapter", "cpu", "--fails"])
+        .arg(broken)
+        .args(["--reason", "r", "--evidence", "e", "--out"])
+        .arg(work.path("none.json"))
+        .assert()
+        .code(64)
+        .stderr(contains("broken.txt:2: ").and(contains("Broken")));
+    assert!(!work.path("none.json").exists());
+}
