@@ -1,5 +1,6 @@
 //! Errors in case files, with file, line and key.
 
+use etalon_frame::shortened;
 use jsonc_parser::ast;
 use jsonc_parser::common::Ranged;
 use std::fmt;
@@ -26,9 +27,9 @@ impl fmt::Display for CaseError {
         }
         f.write_str(": ")?;
         if !self.key.is_empty() {
-            write!(f, "{}: ", self.key)?;
+            write!(f, "{}: ", shortened(&self.key))?;
         }
-        f.write_str(&self.message)
+        f.write_str(&shortened(&self.message))
     }
 }
 

@@ -71,7 +71,7 @@ fn build(text: &[u8]) -> bool {
 proptest! {
     #[test]
     fn case_files(which in any::<prop::sample::Index>(), spoilt in spoilings()) {
-        build(&spoilt.of(which.get(texts())));
+        build(&spoilt.of(which.get::<String>(texts())));
     }
 }
 

@@ -13,6 +13,7 @@ mod format;
 mod image;
 mod legal;
 mod limits;
+mod message;
 mod samples;
 mod story;
 
@@ -28,5 +29,6 @@ pub use legal::{
     WorldBox,
 };
 pub use limits::{Api, Feature, FormatSupport, Limits, Requirement};
+pub use message::shortened;
 pub use samples::standard_sample_positions;
 pub use story::{Story, StoryLine};

@@ -4,6 +4,7 @@ use crate::driver_version::driver_version;
 use crate::error::RecordError;
 use crate::header::AdapterRecord;
 use crate::verdict::Verdict;
+use etalon_frame::shortened;
 use globset::{GlobBuilder, GlobMatcher};
 use semver::VersionReq;
 use serde::{Deserialize, Serialize};
@@ -303,18 +304,6 @@ pub(crate) fn without_position(error: &serde_json::Error) -> String {
         Some(at) => &text[..at],
         None => &text,
     })
-}
-
-/// A message that echoes what it does not understand may echo a whole file: its middle goes.
-pub(crate) fn shortened(text: &str) -> String {
-    const HEAD: usize = 400;
-    const TAIL: usize = 200;
-    if text.len() <= HEAD + TAIL {
-        return text.to_owned();
-    }
-    let head = &text[..text.floor_char_boundary(HEAD)];
-    let tail = &text[text.ceil_char_boundary(text.len() - TAIL)..];
-    format!("{head} […] {tail}")
 }
 
 #[cfg(test)]

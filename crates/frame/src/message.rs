@@ -1,0 +1,28 @@
+//! Messages about input.
+
+/// How much of its beginning and of its end a long message keeps, in bytes.
+const HEAD: usize = 400;
+const TAIL: usize = 200;
+
+/// A message without its middle, where it is long: one that echoes what it does not understand may echo a
+/// whole file.
+pub fn shortened(text: &str) -> String {
+    if text.len() <= HEAD + TAIL {
+        return text.to_owned();
+    }
+    let head = &text[..text.floor_char_boundary(HEAD)];
+    let tail = &text[text.ceil_char_boundary(text.len() - TAIL)..];
+    format!("{head} […] {tail}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_short_stays_and_what_is_long_loses_its_middle() {
+        assert_eq!(shortened("unknown key"), "unknown key");
+        let long = shortened(&format!("key {} end", "ü".repeat(5000)));
+        assert!(long.len() < 700 && long.starts_with("key ü") && long.ends_with("ü end"));
+    }
+}
