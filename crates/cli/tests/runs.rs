@@ -358,7 +358,15 @@ fn a_full_disk_leaves_an_incomplete_run_that_can_be_read() {
 /// Starts a run on one adapter and waits until it has written some records.
 fn started(out: &Path, adapter: &str) -> Child {
     let mut child = std::process::Command::new(BINARY)
-        .args(["run", "stencil/*", "--adapter", adapter, "--jobs", "1", "--out"])
+        .args([
+            "run",
+            "stencil/*",
+            "--adapter",
+            adapter,
+            "--jobs",
+            "1",
+            "--out",
+        ])
         .arg(out)
         .stdout(Stdio::null())
         .stderr(Stdio::null())

@@ -58,7 +58,8 @@ impl CpuBackend {
                 device: "etalon rasterizer".to_owned(),
                 driver: "etalon".to_owned(),
                 driver_version: env!("CARGO_PKG_VERSION").to_owned(),
-                driver_id: concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")).to_owned(),
+                driver_id: concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"))
+                    .to_owned(),
                 api_version: "the reference pipeline in 32-bit floats".to_owned(),
                 software: true,
             },
