@@ -159,7 +159,7 @@ fn parts_of_other_runs_are_refused() {
     changed("\"driver\":\"etalon\"", "\"driver\":\"étalon\"").stderr(contains("étalon"));
     changed("\"case\":\"cull/", "\"case\":\"dull/").stderr(contains("does not announce"));
     changed("\"sub_pixel_bits\":8", "\"sub_pixel_bits\":4").stderr(contains("limits of cpu"));
-    merge(&[one.clone()], &one)
+    merge(std::slice::from_ref(&one), &one)
         .assert()
         .code(64)
         .stderr(contains("part"));

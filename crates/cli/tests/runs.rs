@@ -36,7 +36,8 @@ fn etalon(arguments: &[&str]) -> Command {
 }
 
 fn run(out: &Path, arguments: &[&str]) -> assert_cmd::assert::Assert {
-    etalon(&["run", "--out"]).arg(out).args(arguments).assert()
+    let mut command = etalon(&["run", "--force", "--out"]);
+    command.arg(out).args(arguments).assert()
 }
 
 fn count(globs: &[&str]) -> usize {
@@ -138,7 +139,7 @@ fn one_record_per_case_and_adapter() {
     assert.stdout(contains("vulkan:lavapipe").and(contains("index.html")));
     let text = fs::read_to_string(out.join("run.jsonl")).unwrap();
     let first: Value = serde_json::from_str(text.lines().next().unwrap()).unwrap();
-    assert_eq!(first["format"], 1);
+    assert_eq!(first["format"], etalon_record::FORMAT);
     assert_eq!(first["command"][0], "etalon");
     let run = whole(&out);
     let found: BTreeSet<&str> = run
@@ -229,7 +230,14 @@ fn an_old_run_is_replaced_and_other_files_stay() {
     run(out.path(), &["nothing/*"]).code(4);
     run(out.path(), &["depth", "--adapter", "nobody"]).code(64);
     assert_eq!(whole(out.path()).records.len(), count(&["selftest"]));
-    run(out.path(), &["depth/clear", "--adapter", "cpu"]).code(0);
+    let other = ["depth/clear", "--adapter", "cpu"];
+    etalon(&["run", "--out"])
+        .arg(out.path())
+        .args(other)
+        .assert()
+        .code(64);
+    assert_eq!(whole(out.path()).records.len(), count(&["selftest"]));
+    run(out.path(), &other).code(0);
     assert_eq!(whole(out.path()).records.len(), count(&["depth/clear"]));
     assert!(!out.path().join("frames").exists());
     assert_eq!(
@@ -529,9 +537,16 @@ fn a_machine_without_drivers_still_has_the_cpu() {
             "{absent:?}"
         );
     }
-    bare(&["run", "depth/clear", "--adapter", "gl:softpipe", "--out"])
-        .arg(out)
-        .assert()
-        .code(64)
-        .stderr(contains("gl:softpipe").and(contains("apt-get install")));
+    bare(&[
+        "run",
+        "depth/clear",
+        "--adapter",
+        "gl:softpipe",
+        "--force",
+        "--out",
+    ])
+    .arg(out)
+    .assert()
+    .code(64)
+    .stderr(contains("gl:softpipe").and(contains("apt-get install")));
 }

@@ -447,7 +447,22 @@ fn an_interrupted_run_says_how_to_go_on_and_does() {
 #[test]
 fn a_folder_in_use_or_with_a_run_is_left_alone() {
     let out = folder();
-    let mut first = start(out.path(), &[]);
+    // A run that waits for a driver that hangs.
+    let mut first = std::process::Command::new(BINARY)
+        .args([
+            "run",
+            "cull/*",
+            "--adapter",
+            "cpu:fault=hang",
+            "--timeout",
+            "90",
+        ])
+        .arg("--out")
+        .arg(out.path())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
     wait_for_records(&mut first, out.path());
     let again = |more: &[&str]| {
         let mut command = etalon(&RUN);
@@ -458,7 +473,9 @@ fn a_folder_in_use_or_with_a_run_is_left_alone() {
             .code(64)
             .stderr(contains("another etalon is writing"));
     }
-    assert_eq!(first.wait().unwrap().code(), Some(1));
+    first.kill().unwrap();
+    first.wait().unwrap();
+    again(&["--force"]).code(1);
     let before = fs::read(out.path().join("run.jsonl")).unwrap();
     again(&[]).code(64).stderr(
         contains("holds a run already")

@@ -4,6 +4,13 @@ use crate::words::Tone;
 use etalon_record::{Record, Run, Verdict};
 use std::collections::{BTreeMap, HashMap};
 
+/// The most adapters that have a column of their own, and one for all others: a damaged run may name as
+/// many as it has records.
+const MAX_COLUMNS: usize = 1000;
+const LAST_COLUMN: usize = MAX_COLUMNS - 1;
+/// The name of that column.
+const OTHERS: &str = "(more adapters)";
+
 /// A run, sorted. Records are named by their position in the run.
 pub(crate) struct Grid<'a> {
     pub(crate) run: &'a Run,
@@ -39,7 +46,11 @@ impl<'a> Grid<'a> {
         let from_header = run.header.adapters.iter().map(|a| a.name.as_str());
         for name in from_header.chain(run.records.iter().map(|r| r.adapter.as_str())) {
             column.entry(name).or_insert_with(|| {
-                adapters.push(name);
+                match adapters.len() {
+                    MAX_COLUMNS => {}
+                    LAST_COLUMN => adapters.push(OTHERS),
+                    _ => adapters.push(name),
+                }
                 adapters.len() - 1
             });
         }

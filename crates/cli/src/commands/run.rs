@@ -58,7 +58,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
     }
     .on(&today());
     // Nothing may be lost that another run, or one before, has written.
-    let _lock = FolderLock::acquire(&arguments.out).map_err(Failure::usage)?;
+    let lock = || FolderLock::acquire(&arguments.out).map_err(Failure::usage);
+    let early = arguments.out.exists().then(lock).transpose()?;
     let resume = resumes(arguments)?;
     let stop = interrupts()?;
     let mut adapters = discover(&Wanted {
@@ -73,6 +74,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
         eprintln!("{} does not start: {how}", adapter.name);
     }
     refuse_absent(&arguments.adapters, &adapters.absent)?;
+    // A folder is not made before it is clear that there is something to put into it.
+    let _lock = early.map_or_else(lock, Ok)?;
     let header = header(arguments, &cases, &selection, shard, &adapters, &dead);
     let names: Vec<String> = header.adapters.iter().map(|a| a.name.clone()).collect();
     let plan = Plan {
