@@ -8,7 +8,7 @@ use rustix::process::{Signal, getpid, kill_process};
 use serde::{Deserialize, Serialize};
 use std::cell::{Cell, RefCell};
 use std::fs::File;
-use std::hash::{BuildHasher, Hash, Hasher, RandomState};
+use std::hash::{BuildHasher, RandomState};
 use std::hint::black_box;
 use std::io::Write;
 use std::thread;
@@ -119,15 +119,14 @@ impl<B: Backend> Faulty<B> {
         let mut info = inner.adapter().clone();
         name.clone_into(&mut info.name);
         // The standard library seeds its hashers by chance.
-        let mut chance = RandomState::new().build_hasher();
-        fault.named_word().hash(&mut chance);
+        let chance = RandomState::new().hash_one(fault.named_word());
         Self {
             inner,
             info,
             fault,
             pipe: RefCell::new(pipe),
             messages: RefCell::default(),
-            unlucky: chance.finish() % 2 == 0,
+            unlucky: chance.is_multiple_of(2),
             spoilt: Cell::new(false),
         }
     }

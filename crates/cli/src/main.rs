@@ -1,5 +1,10 @@
 //! The `etalon` binary: flags and wiring.
 
+#![cfg_attr(
+    test,
+    expect(clippy::unwrap_used, reason = "a test that panics has failed")
+)]
+
 mod adapters;
 mod args;
 mod commands;

@@ -111,7 +111,7 @@ proptest! {
         match Run::read_frame(folder.path(), "frame.json") {
             Err(error) => told(&error),
             Ok(file) => {
-                let _ = file.images.iter().map(|i| i.is_whole()).count();
+                let _ = file.images.iter().filter(|i| i.is_whole()).count();
             }
         }
     }

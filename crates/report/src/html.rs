@@ -16,7 +16,7 @@ mod link;
 mod matrix;
 
 pub(crate) use adapters::breakable;
-pub(crate) use detail::quoted;
+pub use detail::quoted;
 
 use crate::grid::{Grid, Tally};
 use crate::methods::{self, Methods};

@@ -29,6 +29,7 @@ mod words;
 pub use bench::{
     Change, Diff, Gone, Side, WrittenBench, bench_table, diff, diff_table, write_bench, write_diff,
 };
+pub use html::quoted;
 pub use hunt::{WrittenHunt, hunt_table, write_hunt};
 pub use table::{TableOptions, table};
 

@@ -13,6 +13,7 @@ use etalon_record::{
     AbsentAdapter, AdapterRecord, Expectations, FolderKind, FolderLock, Header, Machine,
     RecordError, Run, Settings, ShaderCache, Shard, selection_digest, shard_of,
 };
+use etalon_report::quoted;
 use etalon_runner::{Event, Options, Outcome, Plan, RunError};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
@@ -210,16 +211,6 @@ fn how_to_resume() -> String {
         .chain(["--resume".to_owned()]);
     let quoted: Vec<String> = words.map(|w| quoted(&w)).collect();
     format!("go on with: {}", quoted.join(" "))
-}
-
-/// A word as a shell takes it.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "/._=+-:,@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
 }
 
 /// Set at the first Ctrl-C, or when the process is asked to terminate; a second one ends it at once.

@@ -235,7 +235,7 @@ fn tell(story: &Story, record: &Record) -> Markup {
 }
 
 /// A word as a shell takes it.
-pub(crate) fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "/._=+-:,@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
         word.to_owned()
