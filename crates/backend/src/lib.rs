@@ -4,8 +4,8 @@
 //! nor the case's name. Conventions are WebGPU's: y up in clip space, depth 0..=1, framebuffer
 //! origin at the top left, counter-clockwise front faces. Each backend adapts inside itself.
 
-use etalon_case::Scene;
 use etalon_frame::{Frame, Limits, Requirement};
+use etalon_scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 use thiserror::Error;

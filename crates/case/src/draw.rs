@@ -1,17 +1,13 @@
 //! Draws: defaults, names to indices, impossible states refused.
 
 use crate::error::{At, Step};
-use crate::mesh::Mesh;
 use crate::resolve::{MAX_SIZE, find};
-use crate::scene::{Attachment, ColorTarget, Counter, Draw, Params, StencilFace, StencilState};
-use crate::state::{
-    Multisample, PolygonMode, PrimitiveTopology, Shader, StencilOperation, Viewport,
-};
 use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
 use etalon_frame::{CounterKind, TextureFormat};
-
-/// The most vertices of one mesh.
-pub(crate) const MAX_VERTICES: usize = 4 << 20;
+use etalon_scene::{
+    Attachment, ColorTarget, Counter, Draw, MAX_VERTICES, Mesh, Multisample, Params, PolygonMode,
+    PrimitiveTopology, Shader, StencilFace, StencilOperation, StencilState, Viewport,
+};
 
 /// What a draw draws to, and what it can name.
 pub(crate) struct Target<'a> {

@@ -1,17 +1,16 @@
 //! One case file: parsing, the product of its axes, and the cases it stands for.
 
 use crate::error::{At, CaseError};
-use crate::methods::{self, MethodWire};
 use crate::pairwise::{self, Cover};
 use crate::random;
 use crate::relation::Relation;
 use crate::resolve;
-use crate::scene::Scene;
 use crate::states;
-use crate::truth::{Method, Parameter};
 use crate::variants::{patch, read_back, relation, variant_scene};
 use crate::wire::{AxisValue, ExpectWire, FileWire, QuickWire, RandomWire, SceneWire};
 use etalon_frame::Requirement;
+use etalon_methods::{Made, Method, MethodWire, Parameter};
+use etalon_scene::Scene;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -383,9 +382,9 @@ impl CaseRef<'_> {
                 })
             }
         };
-        let make = || -> Result<methods::Made, At> {
+        let make = || -> Result<Made, At> {
             let wire: MethodWire = typed(&substitute(&wire.method, values)?)?;
-            methods::make(&wire)
+            etalon_methods::make(&wire).map_err(|e| At::new(e.message).key(&e.key))
         };
         let made = make().map_err(|e| e.key("method"))?;
         Ok(Case {

@@ -4,7 +4,7 @@
 //! out and change it by hand. Inputs keep to what can be proven: written depths are 0, 1 or far
 //! apart, samples lie clear of edges, alpha is 0 or 1 where it decides on coverage.
 
-use crate::state::{
+use etalon_scene::{
     BlendFactor, BlendOperation, CompareFunction, LogicOperation, StencilOperation,
 };
 use schemars::JsonSchema;

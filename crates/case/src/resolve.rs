@@ -2,9 +2,9 @@
 
 use crate::draw::{Target, draw, writes_depth_stencil};
 use crate::error::At;
-use crate::scene::{Attachment, Contents, Counter, Pass, Scene};
 use crate::wire::{AttachmentWire, ClearWire, PassWire, SceneWire, TexelsWire};
 use etalon_frame::{ChannelEncoding, TextureFormat};
+use etalon_scene::{Attachment, Contents, Counter, Pass, Scene};
 
 /// The largest width or height of an attachment that a case file may ask for.
 pub(crate) const MAX_SIZE: u32 = 4096;

@@ -4,8 +4,8 @@
 //! itself, whatever the others were.
 
 use crate::error::At;
-use crate::state::{BlendFactor, CompareFunction};
 use crate::wire::StatesWire;
+use etalon_scene::{BlendFactor, CompareFunction};
 use serde_json::{Value, json};
 
 /// The cells side by side and one above the other.

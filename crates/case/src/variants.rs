@@ -4,8 +4,8 @@ use crate::draw::write_mask;
 use crate::error::At;
 use crate::file::{Variant, parse_scene, substitute, typed};
 use crate::relation::Relation;
-use crate::scene::Scene;
 use crate::wire::{RelationWire, VariantWire};
+use etalon_scene::Scene;
 use serde_json::Value;
 use std::collections::BTreeMap;
 

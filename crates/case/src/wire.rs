@@ -1,15 +1,13 @@
 //! The shape of a case file. These types parse; [`crate::scene`] computes.
 
-use crate::mesh::{MeshSource, Splat};
-use crate::methods::MethodWire;
 use crate::random::Flavor;
-use crate::relation::Invariance;
-use crate::state::{
-    BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace,
-    LogicOperation, Multisample, PolygonMode, PrimitiveTopology, Sampler, Shader, StencilOperation,
-    Viewport,
-};
 use etalon_frame::{CounterKind, TextureFormat};
+use etalon_methods::MethodWire;
+use etalon_scene::{
+    BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace,
+    Invariance, LogicOperation, MeshSource, Multisample, PolygonMode, PrimitiveTopology, Sampler,
+    Shader, Splat, StencilOperation, Viewport,
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;

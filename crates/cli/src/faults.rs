@@ -2,8 +2,8 @@
 //! their processes. `cpu:fault=abort` and its kin are never listed, for they are nobody's driver.
 
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
-use etalon_case::Scene;
 use etalon_frame::{Frame, Limits};
+use etalon_scene::Scene;
 use rustix::process::{Signal, getpid, kill_process};
 use serde::{Deserialize, Serialize};
 use std::cell::{Cell, RefCell};

@@ -1,8 +1,8 @@
 //! A backend that takes longer than it needs: to show live that a planted slow-down is found.
 
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
-use etalon_case::Scene;
 use etalon_frame::{Frame, Limits};
+use etalon_scene::Scene;
 use std::hint::spin_loop;
 use std::time::{Duration, Instant};
 

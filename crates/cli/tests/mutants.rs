@@ -5,7 +5,7 @@
 use assert_cmd::Command;
 use etalon_backend::Backend;
 use etalon_case::{Case, Library, Profile};
-use etalon_cpu::{MutantBackend, mutants};
+use etalon_mutants::{MutantBackend, mutants};
 use etalon_record::{Catch, Hunt, MutantInfo};
 use etalon_runner::{HuntPlan, hunt, select};
 

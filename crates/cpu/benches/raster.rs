@@ -3,8 +3,9 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_backend::Backend;
-use etalon_case::{CaseFile, Library, Profile, Scene};
+use etalon_case::{CaseFile, Library, Profile};
 use etalon_cpu::CpuBackend;
+use etalon_scene::Scene;
 
 const IDS: [&str; 3] = [
     "depth/compare/compare=less/format=depth24plus/write=true",

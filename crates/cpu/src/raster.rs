@@ -1,20 +1,19 @@
 //! Primitives to spans.
 
-use crate::span::{Counted, LANES, Span, SpanState};
-use crate::steps::{Mask, Steps};
+use crate::lanes::{LANES, Mask};
+use crate::linear::{Linear, UNITS, position};
+use crate::span::{Counted, Span, SpanState};
+use crate::steps::Steps;
 use crate::surface::Surface;
-use crate::{SAMPLES, SUB_PIXEL_BITS};
-use etalon_case::scene::{Draw, Pass};
-use etalon_case::state::PolygonMode;
-use etalon_case::{Primitive, Scene};
 use etalon_frame::{ChannelEncoding, standard_sample_positions};
 use etalon_pipeline::{
     DepthPlane, Plain, Point, SnappedTriangle, front_facing, is_culled, signed_area, slope,
     window_position,
 };
+use etalon_scene::{Draw, Pass, PolygonMode, Primitive, Scene};
 
-/// Sub-texel units per texel.
-const UNITS: i64 = 1 << SUB_PIXEL_BITS;
+/// Sample counts.
+pub(crate) const SAMPLES: [u32; 5] = [1, 2, 4, 8, 16];
 
 /// The most samples of a texel.
 const MOST_SAMPLES: usize = SAMPLES[SAMPLES.len() - 1] as usize;
@@ -26,21 +25,6 @@ struct Vertex {
     clip_z: f32,
     color: [f32; 4],
     uv: [f32; 2],
-}
-
-/// A value that grows linearly over the window.
-#[derive(Clone, Copy)]
-pub(crate) struct Linear(DepthPlane);
-
-impl Linear {
-    /// The values at the centres of a span's texels.
-    pub(crate) fn at_centers(&self, x: usize, y: usize) -> [f32; LANES] {
-        let center = Point {
-            x: UNITS / 2,
-            y: UNITS / 2,
-        };
-        std::array::from_fn(|lane| self.0.at(position(x + lane, y, center)) as f32)
-    }
 }
 
 /// What is linear over a primitive, its window depth first, and what clipping leaves of it.
@@ -136,13 +120,6 @@ impl Planes {
 /// The least and the greatest of three numbers.
 fn ends([a, b, c]: [f32; 3]) -> [f32; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
-}
-
-fn position(x: usize, y: usize, sample: Point) -> Point {
-    Point {
-        x: x as i64 * UNITS + sample.x,
-        y: y as i64 * UNITS + sample.y,
-    }
 }
 
 /// Left, top, right and bottom of what a draw may write, the last two excluded.

@@ -1,10 +1,9 @@
 //! Sampling textures in 32-bit floats.
 
-use crate::span::LANES;
-use crate::steps::Real;
+use crate::lanes::{LANES, Real};
 use crate::surface::Surface;
-use etalon_case::state::{FilterMode, Sampler};
 use etalon_pipeline::{Arithmetic, Plain, texel_position};
+use etalon_scene::{FilterMode, Sampler};
 
 /// The texture at one coordinate per lane.
 pub(crate) fn sample(surface: &Surface, sampler: Sampler, u: Real, v: Real) -> [Real; 4] {

@@ -1,18 +1,13 @@
 //! One span of texels through the fragment pipeline, all lanes at once.
 
-use crate::depth_encoding;
-use crate::raster::Linear;
-use crate::steps::{Codes, Mask, Path, Real, Steps, Tests};
-use crate::surface::Surface;
-use etalon_case::Scene;
-use etalon_case::scene::{Draw, Pass, StencilFace};
-use etalon_case::state::{EarlyTests, Shader};
+use crate::lanes::{Codes, LANES, Mask, Real};
+use crate::linear::Linear;
+use crate::steps::{Path, Steps, Tests};
+use crate::surface::{Surface, depth_encoding};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, cost, fragment};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, takes_logic};
-
-/// Texels of a span.
-pub(crate) const LANES: usize = 16;
+use etalon_scene::{Draw, EarlyTests, Pass, Scene, Shader, StencilFace};
 
 /// Covered texels of one primitive in one row. `x` is a multiple of [`LANES`].
 pub(crate) struct Span<'a> {

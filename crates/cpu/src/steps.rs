@@ -1,29 +1,25 @@
 //! The steps of a draw that a planted bug may replace.
 //!
 //! The rasterizer is generic over [`Steps`]. [`Faithful`] takes every default, so that its calls
-//! vanish; the planted bugs of [`crate::mutants`] override one step each.
+//! vanish; planted bugs, which are another crate, override one step each.
+
+pub use crate::lanes::{Codes, LANES, Mask, Real};
 
 use crate::sampling::sample;
-use crate::span::LANES;
 use crate::surface::Surface;
-use etalon_case::scene::StencilFace;
-use etalon_case::state::{
-    BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Sampler, Shader,
-    StencilOperation,
-};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::Kept;
 use etalon_pipeline::{
     Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
 };
-
-pub(crate) type Real = [f32; LANES];
-pub(crate) type Codes = [u32; LANES];
-pub(crate) type Mask = [bool; LANES];
+use etalon_scene::{
+    BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Sampler, Shader,
+    StencilFace, StencilOperation,
+};
 
 /// The way of a fragment through the stencil test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Path {
+pub enum Path {
     /// The stencil test fails.
     Fail,
     /// The stencil test passes and the depth test fails.
@@ -35,7 +31,7 @@ pub(crate) enum Path {
 impl Path {
     /// The face's operation on this way.
     #[inline(always)]
-    pub(crate) fn operation(self, face: &StencilFace) -> StencilOperation {
+    pub fn operation(self, face: &StencilFace) -> StencilOperation {
         match self {
             Self::Fail => face.fail_op,
             Self::DepthFail => face.depth_fail_op,
@@ -46,21 +42,26 @@ impl Path {
 
 /// What the tests said; a test that is off says yes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Tests {
-    pub(crate) covered: Mask,
-    pub(crate) stencil: Mask,
-    pub(crate) depth: Mask,
+pub struct Tests {
+    /// The covered texels.
+    pub covered: Mask,
+    /// The texels that pass the stencil test.
+    pub stencil: Mask,
+    /// The texels that pass the depth test and the depth bounds.
+    pub depth: Mask,
 }
 
 /// Where a span is written.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Written {
-    pub(crate) color: Mask,
-    pub(crate) depth: Mask,
+pub struct Written {
+    /// The texels whose colour is written.
+    pub color: Mask,
+    /// The texels whose depth is written.
+    pub depth: Mask,
 }
 
 /// The replaceable steps, each with what the pipeline really does.
-pub(crate) trait Steps {
+pub trait Steps {
     /// The covered texels of a span that starts at column `x` of row `y`.
     #[inline(always)]
     fn covered(&self, _x: usize, _y: usize, _size: [u32; 2], mask: Mask) -> Mask {
@@ -302,6 +303,6 @@ pub(crate) trait Steps {
 
 /// The pipeline as it is.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Faithful;
+pub struct Faithful;
 
 impl Steps for Faithful {}

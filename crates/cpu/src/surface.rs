@@ -1,30 +1,34 @@
 //! Attachments in memory: one plane of codes per channel and sample, rows padded to whole spans.
 
-use crate::depth_encoding;
-use crate::span::LANES;
-use crate::steps::Steps;
-use etalon_case::scene::{Attachment, Contents};
-use etalon_frame::{Aspect, ChannelEncoding};
+use crate::lanes::LANES;
+use etalon_frame::{Aspect, ChannelEncoding, TextureFormat};
+use etalon_scene::{Attachment, Contents};
 
 /// One attachment.
 #[derive(Clone, Debug)]
-pub(crate) struct Surface {
-    pub(crate) width: usize,
-    pub(crate) height: usize,
+pub struct Surface {
+    /// Texels in a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
     /// Texels from one row to the next: the width rounded up to whole spans.
-    pub(crate) stride: usize,
-    pub(crate) samples: usize,
+    pub stride: usize,
+    /// Samples per texel.
+    pub samples: usize,
     /// Colour channels, or the depth alone: channel by channel, in each sample by sample.
-    pub(crate) planes: Vec<Vec<u32>>,
+    pub planes: Vec<Vec<u32>>,
     /// Stencil, sample by sample; empty where the format has none.
-    pub(crate) stencil: Vec<Vec<u8>>,
+    pub stencil: Vec<Vec<u8>>,
     /// Colour encodings.
-    pub(crate) encodings: &'static [ChannelEncoding],
+    pub encodings: &'static [ChannelEncoding],
 }
 
 impl Surface {
-    /// The attachment as it is before the first pass.
-    pub(crate) fn new(attachment: &Attachment, steps: &impl Steps) -> Self {
+    /// The attachment as it is before the first pass. `clear_code` converts a clear value.
+    pub(crate) fn new(
+        attachment: &Attachment,
+        clear_code: impl Fn(ChannelEncoding, f32) -> u32,
+    ) -> Self {
         let [width, height] = attachment.size.map(|s| s as usize);
         let stride = width.next_multiple_of(LANES);
         let format = attachment.format;
@@ -42,14 +46,14 @@ impl Surface {
         match &attachment.contents {
             Contents::Color(color) => {
                 for (encoding, value) in format.color_channels().iter().zip(color) {
-                    let code = steps.clear_code(*encoding, *value);
+                    let code = clear_code(*encoding, *value);
                     let planes = (0..samples).map(|_| vec![code; texels]);
                     surface.planes.extend(planes);
                 }
             }
             Contents::DepthStencil { depth, stencil } => {
                 if let Some(encoding) = depth_encoding(format) {
-                    let code = steps.clear_code(encoding, *depth);
+                    let code = clear_code(encoding, *depth);
                     surface.planes = vec![vec![code; texels]; samples];
                 }
                 if format.has_stencil() {
@@ -71,7 +75,7 @@ impl Surface {
     }
 
     /// The plane of one channel and sample.
-    pub(crate) fn plane(&self, channel: usize, sample: usize) -> &[u32] {
+    pub fn plane(&self, channel: usize, sample: usize) -> &[u32] {
         &self.planes[channel * self.samples + sample]
     }
 
@@ -80,8 +84,13 @@ impl Surface {
         &mut self.planes[channel * self.samples + sample]
     }
 
-    /// Becomes what another surface's samples are resolved to.
-    pub(crate) fn resolve_from(&mut self, source: &Self, steps: &impl Steps) {
+    /// Becomes what another surface's samples are resolved to. `resolve` makes one code of the codes
+    /// of all samples.
+    pub(crate) fn resolve_from(
+        &mut self,
+        source: &Self,
+        resolve: impl Fn(ChannelEncoding, &[u32]) -> u32,
+    ) {
         let mut codes = vec![0; source.samples];
         for (c, encoding) in source.encodings.iter().enumerate() {
             if let ChannelEncoding::Uint(_) = encoding {
@@ -93,7 +102,7 @@ impl Surface {
                 for (s, code) in codes.iter_mut().enumerate() {
                     *code = source.plane(c, s)[at];
                 }
-                self.planes[c][at] = steps.resolve(*encoding, &codes);
+                self.planes[c][at] = resolve(*encoding, &codes);
             }
         }
     }
@@ -120,4 +129,9 @@ impl Surface {
         }
         codes
     }
+}
+
+/// The encoding in which the rasterizer stores a format's depth.
+pub(crate) fn depth_encoding(format: TextureFormat) -> Option<ChannelEncoding> {
+    format.depth_encodings().first().copied()
 }

@@ -1,5 +1,6 @@
 use super::*;
 use etalon_case::{CaseFile, Profile};
+use etalon_frame::Frame;
 
 fn frame(text: &str) -> Frame {
     let file = CaseFile::parse("t.json", text).expect("parses");

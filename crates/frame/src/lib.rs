@@ -14,6 +14,7 @@ mod image;
 mod legal;
 mod limits;
 mod message;
+mod names;
 mod samples;
 mod story;
 

@@ -3,8 +3,8 @@
 use crate::context::{Context, refused};
 use crate::pool::Pool;
 use etalon_backend::BackendError;
-use etalon_case::scene::{Counter, Draw};
 use etalon_frame::CounterKind;
+use etalon_scene::{Counter, Draw};
 use glow::HasContext;
 
 /// A query around one draw. A query object stays with the target that it was first begun for.

@@ -7,8 +7,8 @@ use crate::prepared::Attachment;
 use crate::program::{PARAMS_BINDING, RUNS_BINDING};
 use crate::state::{self, DrawState};
 use crate::surface::{Surface, upload};
-use etalon_case::{Vertex, scene};
 use etalon_frame::TextureFormat;
+use etalon_scene::Vertex;
 use glow::HasContext;
 use std::mem::offset_of;
 
@@ -171,7 +171,7 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
     unsafe {
         gl.use_program(Some(draw.program));
         if let (Some(offset), Some((buffer, _))) = (draw.params, inputs.params) {
-            let (point, size) = (PARAMS_BINDING, size_of::<scene::Params>() as i32);
+            let (point, size) = (PARAMS_BINDING, size_of::<etalon_scene::Params>() as i32);
             gl.bind_buffer_range(glow::UNIFORM_BUFFER, point, Some(buffer), offset, size);
         }
         for (unit, texture) in (0..).zip(&draw.textures) {

@@ -5,7 +5,7 @@ use crate::counters::Query;
 use crate::surface::{Surface, SurfaceKind, framebuffer};
 use crate::words::address;
 use etalon_backend::BackendError;
-use etalon_case::state::{FilterMode, Sampler};
+use etalon_scene::{FilterMode, Sampler};
 use glow::HasContext;
 use std::collections::HashMap;
 

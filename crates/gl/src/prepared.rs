@@ -11,9 +11,8 @@ use crate::state::{self, DrawState};
 use crate::surface::{Surface, SurfaceKind, upload};
 use crate::words::topology;
 use etalon_backend::{BackendError, FrameTime, Prepared};
-use etalon_case::scene::{Contents, Draw, Scene};
-use etalon_case::{RESTART, scene};
 use etalon_frame::{Frame, Requirement, TextureFormat};
+use etalon_scene::{Contents, Draw, RESTART, Scene};
 use glow::HasContext;
 use std::time::{Duration, Instant};
 
@@ -71,7 +70,7 @@ impl<'a> GlPrepared<'a> {
         state::reset(context);
         let mut pool = self.backend.pool.borrow_mut();
         for (index, attachment) in scene.attachments.iter().enumerate() {
-            let is_drawn = |p: &scene::Pass| {
+            let is_drawn = |p: &etalon_scene::Pass| {
                 p.color.contains(&index)
                     || p.resolve.contains(&Some(index))
                     || p.depth_stencil == Some(index)
@@ -90,7 +89,7 @@ impl<'a> GlPrepared<'a> {
     fn attachment(
         &mut self,
         pool: &mut Pool,
-        attachment: &scene::Attachment,
+        attachment: &etalon_scene::Attachment,
         drawn: bool,
     ) -> Result<(), BackendError> {
         let context = &self.backend.context;
@@ -178,7 +177,7 @@ impl<'a> GlPrepared<'a> {
     fn pass(
         &mut self,
         pool: &mut Pool,
-        pass: &scene::Pass,
+        pass: &etalon_scene::Pass,
         used: &mut Used,
     ) -> Result<(), BackendError> {
         let context = &self.backend.context;

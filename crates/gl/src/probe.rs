@@ -9,8 +9,8 @@ use crate::format::{ReadPlan, ShaderStencil, Support, gl_format};
 use crate::read::{self, Reading};
 use crate::surface::{Surface, SurfaceKind, upload};
 use crate::{caps, codes};
-use etalon_case::state::{EarlyTests, Shader};
 use etalon_frame::{ChannelEncoding, Feature, FormatSupport, ReadPath, TextureFormat};
+use etalon_scene::{EarlyTests, Shader};
 use glow::HasContext;
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -2,7 +2,7 @@
 
 use crate::context::{Context, refused};
 use etalon_backend::BackendError;
-use etalon_case::state::{EarlyTests, Shader};
+use etalon_scene::{EarlyTests, Shader};
 use glow::HasContext;
 use naga::back::glsl;
 use naga::proc::BoundsCheckPolicies;

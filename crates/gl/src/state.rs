@@ -3,12 +3,11 @@
 use crate::context::Context;
 use crate::words::{compare, equations, logic_operation, mask, operation};
 use etalon_backend::BackendError;
-use etalon_case::RESTART;
-use etalon_case::scene::{ColorTarget, Draw, StencilFace, StencilState};
-use etalon_case::state::{
-    CullMode, DepthBias, DepthState, FrontFace, Multisample, PolygonMode, Viewport,
-};
 use etalon_frame::{Feature, Requirement};
+use etalon_scene::{
+    ColorTarget, CullMode, DepthBias, DepthState, Draw, FrontFace, Multisample, PolygonMode,
+    RESTART, StencilFace, StencilState, Viewport,
+};
 use glow::HasContext;
 
 const DEPTH_BOUNDS_TEST: u32 = 0x8890;

@@ -1,9 +1,8 @@
 //! The model's enumerations in GL's words.
 
-use etalon_case::scene::ColorTarget;
-use etalon_case::state::{
-    AddressMode, BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction,
-    LogicOperation, PrimitiveTopology, StencilOperation,
+use etalon_scene::{
+    AddressMode, BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget,
+    CompareFunction, LogicOperation, PrimitiveTopology, StencilOperation,
 };
 
 pub(crate) fn topology(topology: PrimitiveTopology) -> u32 {

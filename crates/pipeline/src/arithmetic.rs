@@ -1,7 +1,7 @@
 //! What a number system offers to the pipeline.
 
-use etalon_case::state::LogicOperation;
 use etalon_frame::ChannelEncoding;
+use etalon_scene::LogicOperation;
 
 /// A number system. Operations take `&mut self` so that a system may keep notes of what it did.
 ///

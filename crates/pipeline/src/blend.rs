@@ -1,8 +1,8 @@
 //! Blending (Vulkan, Blending; OpenGL 4.6, 17.3.6; WebGPU, blend state).
 
 use crate::arithmetic::Arithmetic;
-use etalon_case::state::{BlendComponent, BlendFactor, BlendOperation, BlendState};
 use etalon_frame::ChannelEncoding;
+use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState};
 
 /// What a blend works on. Channels in the order red, green, blue, alpha.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Logic operations: exact integers (Vulkan, Logical Operations; OpenGL 4.6, 17.3.9).
 
-use etalon_case::state::LogicOperation;
 use etalon_frame::{ChannelEncoding, TextureFormat};
+use etalon_scene::LogicOperation;
 
 /// Whether attachments of a format obey logic operations; those with floats or in sRGB take the
 /// source as it is, all channels of it.

@@ -2,8 +2,8 @@
 
 use crate::arithmetic::Arithmetic;
 use crate::logic::logic_operation;
-use etalon_case::state::LogicOperation;
 use etalon_frame::{ChannelEncoding, linear_to_srgb};
+use etalon_scene::LogicOperation;
 use half::f16;
 use std::sync::LazyLock;
 

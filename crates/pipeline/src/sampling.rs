@@ -1,6 +1,6 @@
 //! Which texel of a texture a coordinate means.
 
-use etalon_case::state::AddressMode;
+use etalon_scene::AddressMode;
 
 /// The texel that stands at a position of an axis with `size` texels, inside or outside (Vulkan, Texel
 /// Coordinate Wrapping; OpenGL 4.6, 8.14.2; WebGPU, GPUAddressMode).

@@ -1,8 +1,7 @@
 //! Comparisons and stencil operations: exact integers in every specification (Vulkan, Stencil
 //! Test; OpenGL 4.6, 17.3.3; WebGPU, stencil state).
 
-use etalon_case::scene::StencilFace;
-use etalon_case::state::{CompareFunction, StencilOperation};
+use etalon_scene::{CompareFunction, StencilFace, StencilOperation};
 
 /// Whether `incoming` compares to `stored` as the function asks.
 #[inline(always)]

@@ -1,7 +1,7 @@
 //! From clip space to the window, and which faces are left.
 
 use crate::arithmetic::Arithmetic;
-use etalon_case::state::{CullMode, FrontFace, Viewport};
+use etalon_scene::{CullMode, FrontFace, Viewport};
 
 /// The window position of a clip-space position: x and y in texels from the top left corner, depth
 /// between the viewport's depths (Vulkan, Controlling the Viewport; WebGPU, 23.2.4: y up in clip

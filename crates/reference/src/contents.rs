@@ -5,9 +5,9 @@ use crate::judge::{Notes, Sample, Walk, codes_text};
 use crate::judging::{Judging, Range};
 use crate::rules::Resolve;
 use crate::world::{Cell, World};
-use etalon_case::scene::Contents;
 use etalon_frame::CodeInterval;
 use etalon_pipeline::Arithmetic;
+use etalon_scene::Contents;
 use smallvec::SmallVec;
 
 impl Walk<'_> {

@@ -2,8 +2,8 @@
 
 use crate::rules::{Rules, SamplesCounted};
 use crate::world::{Event, World};
-use etalon_case::Scene;
 use etalon_frame::{CountRange, CounterKind, CounterSet};
+use etalon_scene::Scene;
 
 /// One counter over the texels walked so far, and over the samples of the texel at hand.
 #[derive(Clone, Debug)]

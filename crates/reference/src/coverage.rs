@@ -4,8 +4,8 @@ use crate::judge::{Notes, Place, Walk, Worlds};
 use crate::rules::SharedEdge;
 use crate::setup::{Primitive, Shape, Side, Triangle};
 use crate::world::{Decision, World};
-use etalon_case::scene::Draw;
 use etalon_pipeline::{Point, front_facing, is_top_left};
+use etalon_scene::Draw;
 use smallvec::SmallVec;
 
 impl Walk<'_> {

@@ -2,9 +2,9 @@
 
 use crate::interval::Interval;
 use crate::setup::{Context, SnapBox, area, units_per_texel};
-use etalon_case::scene::Draw;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{DepthPlane, Point, slope};
+use etalon_scene::Draw;
 
 /// A depth over a primitive.
 #[derive(Clone, Debug)]

@@ -6,13 +6,12 @@ use crate::judging::{Judging, Range};
 use crate::rules::{DepthOrder, DepthRange, EarlyUpdates, SameDepth};
 use crate::setup::Shape;
 use crate::world::{Cell, Event, World};
-use etalon_case::scene::StencilFace;
-use etalon_case::state::{CompareFunction, EarlyTests, Shader};
 use etalon_frame::{ChannelEncoding, CodeInterval, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
 use etalon_pipeline::{
     Arithmetic, compare, front_facing, is_culled, stencil_passes, stencil_write,
 };
+use etalon_scene::{CompareFunction, EarlyTests, Shader, StencilFace};
 use smallvec::SmallVec;
 
 impl Walk<'_> {

@@ -7,13 +7,12 @@ use crate::rules::Rules;
 use crate::setup::{self, DrawSetup, Primitive, Shape, Side, units_per_texel};
 use crate::texels::Texels;
 use crate::world::{Cell, World, merge};
-use etalon_case::Scene;
-use etalon_case::scene::Draw;
 use etalon_frame::{
     Aspect, ChannelEncoding, CodeInterval, CountRange, LegalSet, LegalSetBuilder, Limits, ReadPath,
     Story, StoryLine, TexelSet, WorldBox,
 };
 use etalon_pipeline::{Arithmetic, Point};
+use etalon_scene::{Draw, Scene};
 use smallvec::SmallVec;
 use std::borrow::Cow;
 use std::cell::RefCell;

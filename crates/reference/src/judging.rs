@@ -2,9 +2,9 @@
 
 use crate::interval::Interval;
 use crate::rules::{BlendPrecision, FactorClamp, Rounding, Rules};
-use etalon_case::state::LogicOperation;
 use etalon_frame::{ChannelEncoding, CodeInterval, srgb_to_linear};
 use etalon_pipeline::{Arithmetic, logic_operation};
+use etalon_scene::LogicOperation;
 
 /// Every value that some permitted way of computing arrives at.
 ///

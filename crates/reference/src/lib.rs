@@ -17,7 +17,6 @@ mod sampling;
 mod setup;
 mod store;
 mod texels;
-mod truth;
 mod world;
 
 pub use interval::Interval;
@@ -25,4 +24,3 @@ pub use judge::{Judgement, Sample, explain, judge, judgements, judgements_of};
 pub use judging::{Judging, Range};
 pub use rules::{Permission, Rules};
 pub use texels::Texels;
-pub use truth::{TruthPicture, distance, shown, truth};

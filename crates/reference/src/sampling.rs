@@ -4,9 +4,9 @@ use crate::interval::Interval;
 use crate::judge::{Place, Sample, Walk};
 use crate::judging::{Judging, Range};
 use crate::world::World;
-use etalon_case::state::{AddressMode, FilterMode, Sampler};
 use etalon_frame::CodeInterval;
 use etalon_pipeline::{Arithmetic, texel_position};
+use etalon_scene::{AddressMode, FilterMode, Sampler};
 
 impl Walk<'_> {
     /// What the shader sees of a texture at the sample, in a world.

@@ -1,7 +1,6 @@
 //! Which texels of an image are judged: all of them, or few that lie everywhere.
 
-use etalon_case::Scene;
-use etalon_case::scene::Attachment;
+use etalon_scene::{Attachment, Scene};
 
 /// Which texels a judge looks at. Of the others nothing is asserted, and nothing is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,13 +14,14 @@ use crate::process::{DRAW_TIMEOUT, Drawn, Launch, StartError, Worker};
 use crate::run::adapter_record;
 use crate::verdict::Judge;
 use etalon_backend::BackendError;
-use etalon_case::{Case, Invariance};
+use etalon_case::Case;
 use etalon_frame::{Limits, WrongTexel};
 use etalon_record::{
     AdapterRecord, BenchHeader, BenchLine, BenchWriter, Ended, Expectations, Picture, Record,
     RecordError, Round, Verdict,
 };
 use etalon_reference::Rules;
+use etalon_scene::Invariance;
 use round::{Stopped, fingerprint, seconds};
 use std::path::Path;
 use std::time::{Duration, Instant};

@@ -4,7 +4,7 @@ use crate::loss::{Loss, Obituary, keep_end};
 use crate::process::{Drawn, Launch, StartError};
 use crate::protocol::{Payload, Request, Response, encode, receive};
 use etalon_backend::BackendError;
-use etalon_case::Scene;
+use etalon_scene::Scene;
 use std::collections::VecDeque;
 use std::fs;
 use std::io::{self, BufReader, Write};

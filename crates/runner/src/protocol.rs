@@ -1,8 +1,8 @@
 //! What parent and worker say to each other: length-prefixed binary messages over two pipes.
 
 use etalon_backend::{AdapterInfo, BackendError, FrameTime, Unavailable};
-use etalon_case::Scene;
 use etalon_frame::{Frame, Limits};
+use etalon_scene::Scene;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::io::{self, Read, Write};

@@ -1,13 +1,14 @@
 //! From a frame to a verdict.
 
 use crate::relation;
-use etalon_case::{Case, Relation, Scene};
+use etalon_case::{Case, Relation};
 use etalon_frame::{
     Aspect, AspectStatistics, Band, ChannelMismatch, Comparison, CounterOutcome, Frame, LegalSet,
     Limits, SampleGroup, WrongTexel, compare,
 };
 use etalon_record::{Assertion, FrameFile, FrameImage, MAX_WRONG_TEXELS, Record, Verdict};
 use etalon_reference::{Judgement, Rules, Sample, Texels, explain, judgements_of};
+use etalon_scene::Scene;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 

@@ -6,13 +6,14 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
-use etalon_case::{Case, Library, Profile, Scene};
+use etalon_case::{Case, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Frame, Limits};
 use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, Expectations, Machine, ShaderCache, Verdict,
 };
 use etalon_runner::{BenchEvent, BenchOutcome, BenchPlan, Launch, Worker};
+use etalon_scene::Scene;
 use std::fs::{self, File, OpenOptions};
 use std::io::BufReader;
 use std::path::Path;

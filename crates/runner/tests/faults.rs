@@ -5,11 +5,12 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared, Unavailable};
-use etalon_case::{Case, Library, Profile, Scene};
+use etalon_case::{Case, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Feature, Frame, Limits, Requirement};
 use etalon_record::{Expectations, FORMAT, Header, Machine, Record, Run, Verdict};
 use etalon_runner::{Event, Launch, Options, Outcome, Plan, StartError, Worker};
+use etalon_scene::Scene;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, Write};
 use std::path::Path;

@@ -7,9 +7,8 @@ use crate::plan::internal;
 use crate::slot::{Needs, Slot};
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_case::Scene;
-use etalon_case::scene::Draw;
 use etalon_frame::CounterKind;
+use etalon_scene::{Draw, Scene};
 use std::mem::size_of;
 
 /// What a scene counts, and where.

@@ -10,8 +10,7 @@ use crate::plan::internal;
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_case::scene::Draw;
-use etalon_case::state::{AddressMode, FilterMode, Sampler};
+use etalon_scene::{AddressMode, Draw, FilterMode, Sampler};
 use std::collections::HashMap;
 use std::mem::size_of;
 

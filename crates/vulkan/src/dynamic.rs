@@ -5,10 +5,9 @@ use crate::device::Device;
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_case::scene::{Draw, StencilFace, StencilState};
-use etalon_case::state::{
-    CompareFunction, CullMode, DepthBias, DepthState, FrontFace, PrimitiveTopology,
-    StencilOperation, Viewport,
+use etalon_scene::{
+    CompareFunction, CullMode, DepthBias, DepthState, Draw, FrontFace, PrimitiveTopology,
+    StencilFace, StencilOperation, StencilState, Viewport,
 };
 
 /// What every pipeline leaves open. The topology stays within the class of the pipeline's own.

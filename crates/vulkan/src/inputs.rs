@@ -4,10 +4,8 @@ use crate::device::Device;
 use crate::format::{self, Native};
 use crate::memory::Buffer;
 use etalon_backend::BackendError;
-use etalon_case::scene::{Contents, Draw, Params};
-use etalon_case::state::PrimitiveTopology;
-use etalon_case::{RESTART, Scene, Vertex};
 use etalon_frame::TextureFormat;
+use etalon_scene::{Contents, Draw, Params, PrimitiveTopology, RESTART, Scene, Vertex};
 use std::collections::BTreeMap;
 use std::mem::size_of;
 

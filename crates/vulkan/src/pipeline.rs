@@ -7,9 +7,9 @@ use crate::shader::{Module, Modules};
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_case::scene::{ColorTarget, Draw};
-use etalon_case::state::{
-    BlendComponent, EarlyTests, LogicOperation, Multisample, PolygonMode, PrimitiveTopology, Shader,
+use etalon_scene::{
+    BlendComponent, ColorTarget, Draw, EarlyTests, LogicOperation, Multisample, PolygonMode,
+    PrimitiveTopology, Shader,
 };
 use std::collections::HashMap;
 use std::mem::{offset_of, size_of};
@@ -247,7 +247,7 @@ fn create(
     ];
     let bindings = [vk::VertexInputBindingDescription {
         binding: 0,
-        stride: size_of::<etalon_case::Vertex>() as u32,
+        stride: size_of::<etalon_scene::Vertex>() as u32,
         input_rate: vk::VertexInputRate::VERTEX,
     }];
     let attributes = attributes(&module.attributes)?;
@@ -309,7 +309,7 @@ fn create(
 
 /// The attributes that a shader reads: others would be declared in vain.
 fn attributes(locations: &[u32]) -> Result<Vec<vk::VertexInputAttributeDescription>, BackendError> {
-    type Vertex = etalon_case::Vertex;
+    type Vertex = etalon_scene::Vertex;
     let attribute = |location: &u32| {
         let (format, offset) = match location {
             0 => (

@@ -10,9 +10,8 @@ use crate::pipeline::{Pipeline, Targets};
 use crate::read::ReadPlan;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_case::Scene;
-use etalon_case::scene::{Attachment, Contents, Draw, Pass};
 use etalon_frame::Requirement;
+use etalon_scene::{Attachment, Contents, Draw, Pass, Scene};
 use std::rc::Rc;
 
 /// The whole scene.

@@ -12,9 +12,8 @@ use crate::read::ReadPlan;
 use crate::record;
 use crate::slot::{Needs, Slot};
 use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
-use etalon_case::Scene;
-use etalon_case::scene::Contents;
 use etalon_frame::Frame;
+use etalon_scene::{Contents, Scene};
 use std::time::Instant;
 
 /// A scene with everything that drawing it takes.

@@ -9,8 +9,8 @@ use crate::samples::{self, SampleReader, SampleReaders, Seen};
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_case::Scene;
 use etalon_frame::{Aspect, ChannelEncoding, ReadPath, Requirement};
+use etalon_scene::Scene;
 
 /// One aspect of one attachment on its way back.
 pub(crate) struct ReadPlan {

@@ -4,7 +4,7 @@ use crate::device::Device;
 use crate::error::Check;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_case::state::{EarlyTests, Shader};
+use etalon_scene::{EarlyTests, Shader};
 use naga::back::spv;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::collections::HashMap;

@@ -1,7 +1,7 @@
 //! From our state to Vulkan's.
 
 use ash::vk;
-use etalon_case::state::{
+use etalon_scene::{
     BlendFactor, BlendOperation, CompareFunction, CullMode, FrontFace, LogicOperation, PolygonMode,
     PrimitiveTopology, StencilOperation,
 };

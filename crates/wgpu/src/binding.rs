@@ -6,13 +6,11 @@ use crate::gpu::{BufferLease, Gpu};
 use crate::kept::Kept;
 use crate::slot::Slot;
 use etalon_backend::BackendError;
-use etalon_case::Scene;
-use etalon_case::scene::Draw;
-use etalon_case::state::{Sampler, Shader};
+use etalon_scene::{Draw, Sampler, Scene, Shader};
 use std::collections::HashMap;
 use wgpu::BufferUsages;
 
-/// The size of [`etalon_case::scene::Params`].
+/// The size of [`etalon_scene::Params`].
 const PARAMS_BYTES: u64 = 32;
 /// The size of a counter of runs.
 pub(crate) const RUNS_BYTES: u64 = 4;

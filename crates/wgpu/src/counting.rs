@@ -5,9 +5,8 @@
 
 use crate::binding::RUNS_BYTES;
 use crate::gpu::{BufferLease, Gpu};
-use etalon_case::Scene;
-use etalon_case::scene::Draw;
 use etalon_frame::CounterKind;
+use etalon_scene::{Draw, Scene};
 use wgpu::BufferUsages;
 
 /// The size of a query's result.

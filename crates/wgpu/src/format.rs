@@ -1,13 +1,12 @@
 //! This suite's words in wgpu's.
 
 use etalon_backend::BackendError;
-use etalon_case::scene::{StencilFace, StencilState};
-use etalon_case::state::{
+use etalon_frame::{Requirement, TextureFormat};
+use etalon_scene::{
     AddressMode, BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction,
     CullMode, DepthBias, DepthState, FilterMode, FrontFace, PolygonMode, PrimitiveTopology,
-    Sampler, StencilOperation,
+    Sampler, StencilFace, StencilOperation, StencilState,
 };
-use etalon_frame::{Requirement, TextureFormat};
 
 /// WebGPU's format, where it has it.
 pub(crate) fn texture(format: TextureFormat) -> Option<wgpu::TextureFormat> {

@@ -6,8 +6,8 @@ use crate::messages;
 use crate::prepared::Ready;
 use crate::probe;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
-use etalon_case::Scene;
 use etalon_frame::Limits;
+use etalon_scene::Scene;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use wgpu::{Backends, InstanceFlags};
 

@@ -6,12 +6,14 @@ use crate::fetch::{self, FetchKey};
 use crate::format::{self, Shape};
 use crate::kept::Kept;
 use etalon_backend::BackendError;
-use etalon_case::scene::{ColorTarget, Draw, StencilState};
-use etalon_case::state::{DepthBias, DepthState, EarlyTests, Multisample, Sampler, Shader};
 use etalon_frame::TextureFormat;
+use etalon_scene::{
+    ColorTarget, DepthBias, DepthState, Draw, EarlyTests, Multisample, Sampler, Shader,
+    StencilState,
+};
 use std::borrow::Cow;
 
-/// The size of [`etalon_case::Vertex`].
+/// The size of [`etalon_scene::Vertex`].
 pub(crate) const VERTEX_BYTES: u64 = 40;
 
 /// Pipelines and what they are made of.

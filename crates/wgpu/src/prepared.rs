@@ -8,10 +8,8 @@ use crate::pipeline::{DrawKey, VERTEX_BYTES};
 use crate::read::{self, Source};
 use crate::slot::Slot;
 use etalon_backend::{BackendError, FrameTime, Prepared};
-use etalon_case::scene::{Draw, Pass};
-use etalon_case::state::{PrimitiveTopology, Viewport};
-use etalon_case::{RESTART, Scene};
 use etalon_frame::Frame;
+use etalon_scene::{Draw, Pass, PrimitiveTopology, RESTART, Scene, Viewport};
 use std::time::{Duration, Instant};
 use wgpu::BufferUsages;
 

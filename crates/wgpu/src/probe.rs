@@ -12,15 +12,12 @@ use crate::gpu::Gpu;
 use crate::limits::SAMPLES;
 use crate::prepared::Ready;
 use etalon_backend::{BackendError, Prepared};
-use etalon_case::scene::{
-    Attachment, ColorTarget, Contents, Counter, Draw, Params, Pass, StencilFace, StencilState,
-};
-use etalon_case::state::{
-    CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace, Multisample,
-    PolygonMode, PrimitiveTopology, Shader, StencilOperation, Viewport,
-};
-use etalon_case::{Mesh, Scene, Vertex};
 use etalon_frame::{CounterKind, Feature, Frame, TextureFormat};
+use etalon_scene::{
+    Attachment, ColorTarget, CompareFunction, Contents, Counter, CullMode, DepthBias, DepthState,
+    Draw, EarlyTests, FrontFace, Mesh, Multisample, Params, Pass, PolygonMode, PrimitiveTopology,
+    Scene, Shader, StencilFace, StencilOperation, StencilState, Vertex, Viewport,
+};
 
 /// Width and height of the attachments.
 const SIDE: u32 = 4;

@@ -4,9 +4,8 @@ use crate::format;
 use crate::gpu::{BufferLease, Gpu, TextureLease, extent};
 use crate::texel;
 use etalon_backend::BackendError;
-use etalon_case::Scene;
-use etalon_case::scene::Contents;
 use etalon_frame::TextureFormat;
+use etalon_scene::{Contents, Scene};
 use wgpu::BufferUsages;
 
 /// An attachment.

@@ -1,8 +1,7 @@
 //! What the families promise that the plain simulation cannot follow: which states they try.
 
-use etalon_case::scene::Contents;
-use etalon_case::state::LogicOperation;
 use etalon_case::{Case, Library, Profile};
+use etalon_scene::{Contents, LogicOperation};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The built-in cases below a path, all of them.

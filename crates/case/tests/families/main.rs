@@ -2,15 +2,16 @@
 //! that shares nothing with the one that judges: single samples, one value per channel, codes
 //! rounded to the nearest.
 
-use etalon_case::scene::{Draw, StencilFace};
-use etalon_case::state::{
-    BlendComponent, BlendFactor, CompareFunction, CullMode, Shader, StencilOperation,
-};
 use etalon_case::{Case, Library, Profile};
 use etalon_frame::TextureFormat;
+use etalon_scene::{
+    BlendComponent, BlendFactor, CompareFunction, CullMode, Draw, Shader, StencilFace,
+    StencilOperation,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 mod breadth;
+mod methods;
 mod simulation;
 use simulation::{
     Path, Plain, distance_from_centres, draws, equation, factor, operate, plain, simulate,

@@ -1,12 +1,10 @@
 //! A simulation of scenes that shares no code with the pipeline.
 
-use etalon_case::scene::{Contents, Draw, StencilFace};
-use etalon_case::state::{
-    BlendComponent, BlendFactor, BlendOperation, CompareFunction, CullMode, EarlyTests, FrontFace,
-    PolygonMode, Shader, StencilOperation,
-};
-use etalon_case::{Primitive, Scene};
 use etalon_frame::{ChannelEncoding, TextureFormat};
+use etalon_scene::{
+    BlendComponent, BlendFactor, BlendOperation, CompareFunction, Contents, CullMode, Draw,
+    EarlyTests, FrontFace, PolygonMode, Primitive, Scene, Shader, StencilFace, StencilOperation,
+};
 
 /// One attachment's contents; what the format lacks stays empty.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,7 +30,7 @@ pub(crate) struct Event<'a> {
     pub(crate) path: Path,
 }
 
-pub(crate) fn draws(scene: &Scene) -> impl Iterator<Item = (&etalon_case::scene::Pass, &Draw)> {
+pub(crate) fn draws(scene: &Scene) -> impl Iterator<Item = (&etalon_scene::Pass, &Draw)> {
     let passes = scene.passes.iter();
     passes.flat_map(|p| p.draws.iter().map(move |d| (p, d)))
 }

@@ -7,7 +7,7 @@ use crate::failure::{Failure, UNEXPECTED};
 use crate::output::{print, print_json, table_options};
 use etalon_backend::Backend;
 use etalon_case::Case;
-use etalon_cpu::{MutantBackend, mutants};
+use etalon_mutants::{MutantBackend, mutants};
 use etalon_record::{HUNT_FORMAT, Hunt, MutantInfo};
 use etalon_runner::{Globs, HuntPlan};
 use std::time::{Instant, SystemTime};

@@ -3,8 +3,9 @@
 
 use crate::GlBackend;
 use etalon_backend::Backend;
-use etalon_case::{CaseFile, Profile, Scene};
+use etalon_case::{CaseFile, Profile};
 use etalon_frame::{Frame, Image};
+use etalon_scene::Scene;
 use std::time::Duration;
 
 pub(super) const SIZE: u32 = 16;

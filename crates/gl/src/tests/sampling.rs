@@ -2,7 +2,7 @@
 
 use super::help::{draw, each};
 use crate::GlBackend;
-use etalon_case::state::AddressMode;
+use etalon_scene::AddressMode;
 
 pub(super) fn all(backend: &GlBackend) {
     the_nearest_texel_is_taken(backend);

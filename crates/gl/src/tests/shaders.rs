@@ -2,7 +2,7 @@
 
 use super::chains::drawn;
 use crate::GlBackend;
-use etalon_case::state::Shader;
+use etalon_scene::Shader;
 
 /// With as many attachments as a shader has outputs, and with fewer.
 pub(super) fn all(backend: &GlBackend) {

@@ -3,8 +3,8 @@
 use super::help::{CLEAR, GREEN, draw, each};
 use crate::GlBackend;
 use etalon_backend::Backend;
-use etalon_case::state::LogicOperation;
 use etalon_frame::Feature;
+use etalon_scene::LogicOperation;
 
 pub(super) fn all(backend: &GlBackend) {
     let features = &backend.limits().features;

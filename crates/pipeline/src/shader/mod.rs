@@ -39,8 +39,7 @@ mod weighted_resolve;
 pub use expensive_color::cost;
 
 use crate::arithmetic::Arithmetic;
-use etalon_case::scene::Params;
-use etalon_case::state::Shader;
+use etalon_scene::{Params, Shader};
 
 /// What a fragment shader sees.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! Which pictures must be the same although the rules leave each of them open.
 
 use super::{Permission, Rules, permit};
-use etalon_case::Invariance;
 use etalon_frame::{Api, Band};
+use etalon_scene::Invariance;
 
 impl Rules {
     /// What a difference between two pictures means that only this change tells apart: a Fail where

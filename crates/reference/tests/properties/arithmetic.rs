@@ -1,11 +1,11 @@
 //! Plain results lie inside judging ones, and wider rules give wider intervals.
 
 use crate::common::{all_rules, config};
-use etalon_case::state::{BlendComponent, BlendFactor, BlendOperation, BlendState, Viewport};
 use etalon_frame::{ChannelEncoding, CodeInterval};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, blend, window_position};
 use etalon_reference::rules::{BlendPrecision, Rounding};
 use etalon_reference::{Judging, Rules};
+use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState, Viewport};
 use proptest::prelude::*;
 use proptest::sample::select;
 

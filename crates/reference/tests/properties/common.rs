@@ -1,10 +1,11 @@
 //! Rules, limits, and scenes from JSON.
 
 use etalon_backend::Backend;
-use etalon_case::{CaseFile, Profile, Scene};
+use etalon_case::{CaseFile, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Api, Frame, Limits};
 use etalon_reference::Rules;
+use etalon_scene::Scene;
 use proptest::test_runner::{Config, RngSeed};
 
 /// Every API.

@@ -5,12 +5,12 @@ use crate::arithmetic::wider;
 use crate::common::{APIS, config, draw, limits, scene};
 use crate::scenes::{Inputs, body};
 use crate::wide;
-use etalon_case::Scene;
 use etalon_frame::{
     Api, Aspect, ChannelEncoding, Frame, LegalSet, ReadPath, TexelSet, TextureFormat, compare,
 };
 use etalon_pipeline::{Arithmetic, Plain};
 use etalon_reference::{Rules, judge, judgements};
+use etalon_scene::Scene;
 use proptest::prelude::*;
 
 /// The frame as an adapter would return it that reads depth through a shader.

@@ -1,6 +1,6 @@
 //! Small random scenes, as the JSON of a case file.
 
-use etalon_case::state::{
+use etalon_scene::{
     BlendFactor, BlendOperation, CompareFunction, CullMode, FrontFace, StencilOperation,
 };
 use proptest::collection::vec;

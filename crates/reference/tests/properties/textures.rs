@@ -2,14 +2,12 @@
 //! inside the judging ones, and the rasterizer's frames are legal.
 
 use crate::common::{APIS, all_rules, config, draw, limits, scene};
-use etalon_case::Scene;
-use etalon_case::scene::Params;
-use etalon_case::state::Shader;
 use etalon_case::{Library, Profile};
 use etalon_frame::{Comparison, Frame, LegalSet, compare};
 use etalon_pipeline::Plain;
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
 use etalon_reference::{Interval, Judging, Range, Texels, judgements, judgements_of};
+use etalon_scene::{Params, Scene, Shader};
 use proptest::prelude::*;
 use proptest::sample::select;
 

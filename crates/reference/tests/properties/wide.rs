@@ -1,7 +1,7 @@
 //! Random scenes from the whole model: formats, samples, viewports, every topology, every state.
 
 use crate::scenes::{Inputs, blend, four, list, maybe, number, stencil, winding};
-use etalon_case::state::{
+use etalon_scene::{
     BlendFactor, BlendOperation, CompareFunction, CullMode, FrontFace, LogicOperation,
 };
 use proptest::collection::vec;

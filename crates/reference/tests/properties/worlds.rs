@@ -1,9 +1,9 @@
 //! Samples on edges and at vertices: what is exactly once, what is open, and that open never fails.
 
 use crate::common::{APIS, config, draw, limits, scene};
-use etalon_case::Scene;
 use etalon_frame::{Api, TexelSet, compare};
 use etalon_reference::{Rules, judge, judgements};
+use etalon_scene::Scene;
 use proptest::prelude::*;
 
 /// Side of the attachment in texels.

@@ -5,8 +5,8 @@ use crate::loss::Loss;
 use crate::process::DRAW_TIMEOUT;
 use crate::protocol::{Payload, Request, Response};
 use etalon_backend::{BackendError, FrameTime};
-use etalon_case::Scene;
 use etalon_frame::Frame;
+use etalon_scene::Scene;
 use std::hash::{DefaultHasher, Hasher};
 use std::time::{Duration, Instant};
 

@@ -12,7 +12,7 @@ use etalon_backend::BackendError;
 use etalon_case::Case;
 use etalon_frame::Frame;
 use etalon_record::{Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Seconds, Verdict};
-use etalon_reference::TruthPicture;
+use etalon_truth::TruthPicture;
 use std::collections::VecDeque;
 use std::sync::PoisonError;
 use std::time::{Duration, Instant};
@@ -364,7 +364,7 @@ impl<'s, 'a> Lane<'s, 'a> {
             return Ok(());
         };
         let writer = lock(&shared.writer);
-        let seen = etalon_reference::shown(image);
+        let seen = etalon_truth::shown(image);
         measured.picture = Some(writer.write_picture(&record.case, image.size, &seen)?);
         let due = truth.shown();
         measured.truth =

@@ -2,8 +2,8 @@
 
 use crate::common::{BLACK, GREEN, RED, backend, check, draw_if_there, image, scene, scene_of};
 use etalon_backend::Backend;
-use etalon_case::Scene;
 use etalon_frame::{Aspect, ChannelEncoding, Frame, TextureFormat};
+use etalon_scene::Scene;
 
 const BLUE: [u32; 4] = [0, 0, 255, 255];
 /// What a chain's passes draw, by turns: all of 5 by 4 texels, or a part.

@@ -1,8 +1,9 @@
 //! What the tests share: an adapter, scenes from JSON, frames.
 
 use etalon_backend::Backend;
-use etalon_case::{CaseFile, Profile, Scene};
+use etalon_case::{CaseFile, Profile};
 use etalon_frame::{Aspect, Frame, Image};
+use etalon_scene::Scene;
 use etalon_vulkan::{Options, VulkanBackend, enumerate, open};
 
 pub(crate) const RED: [u32; 4] = [255, 0, 0, 255];

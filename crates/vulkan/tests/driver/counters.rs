@@ -2,8 +2,8 @@
 
 use crate::common::{BLACK, RED, backend, check, draw_if_there, image, scene};
 use etalon_backend::Backend;
-use etalon_case::Scene;
 use etalon_frame::{Aspect, Feature};
+use etalon_scene::Scene;
 
 const RED_PARAMS: &str = r#""params": { "color": [1, 0, 0, 1] }"#;
 /// The left half lies before the cleared depth, the right half behind it.

@@ -2,8 +2,8 @@
 
 use crate::common::{backend, check, draw, draw_if_there, image, one_draw, scene_of};
 use etalon_backend::Backend;
-use etalon_case::scene::Contents;
 use etalon_frame::{Aspect, ChannelEncoding, TextureFormat};
+use etalon_scene::Contents;
 
 /// What the columns of [`COLUMNS`] hold, as values.
 const VALUES: [[f64; 4]; 8] = [

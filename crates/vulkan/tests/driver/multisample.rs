@@ -1,8 +1,8 @@
 //! Samples: masks, alpha to coverage and to one, shaders that run per sample, averages.
 
 use crate::common::{BLACK, RED, backend, draw_if_there, image, scene_of};
-use etalon_case::Scene;
 use etalon_frame::{Aspect, Frame};
+use etalon_scene::Scene;
 
 /// A scene of one draw over four samples, cleared to 0.
 fn four_samples(draw: &str) -> Scene {

@@ -3,8 +3,8 @@
 use crate::common::{
     BLACK, GREEN, RED, backend, check, draw, draw_if_there, image, one_draw, scene_of,
 };
-use etalon_case::Scene;
 use etalon_frame::{Aspect, Image};
+use etalon_scene::Scene;
 
 /// A quadrilateral over exactly the viewport, as a strip.
 const WHOLE: &str = r#""topology": "triangle-strip", "mesh": { "kind": "vertices",

@@ -1,8 +1,8 @@
 //! Textures sampled with filters and address modes; attributes interpolated inside primitives.
 
 use crate::common::{BLACK, RED, backend, check, draw_if_there, image, scene_of};
-use etalon_case::Scene;
 use etalon_frame::Aspect;
+use etalon_scene::Scene;
 
 /// A texture of 4 by 4 texels, each different in red and green.
 fn texture() -> String {

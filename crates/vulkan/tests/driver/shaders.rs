@@ -1,7 +1,7 @@
 //! Every shader of the suite, translated and drawn.
 
 use crate::common::{backend, draw_if_there, scene};
-use etalon_case::state::Shader;
+use etalon_scene::Shader;
 
 /// With as many attachments as a shader has outputs, and with fewer.
 #[test]

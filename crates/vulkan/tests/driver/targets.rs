@@ -1,8 +1,8 @@
 //! Colour attachments: logic operations, two sources, several attachments; tests without writing.
 
 use crate::common::{BLACK, GREEN, RED, backend, check, draw, draw_if_there, image, scene_of};
-use etalon_case::state::LogicOperation;
 use etalon_frame::{Aspect, TextureFormat};
+use etalon_scene::LogicOperation;
 
 /// An attachment's JSON whose rows all hold the same texel.
 fn uploaded(name: &str, texel: [u32; 4]) -> String {

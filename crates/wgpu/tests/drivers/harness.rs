@@ -1,8 +1,9 @@
 //! Child processes with a driver's environment, and scenes out of JSON.
 
 use etalon_backend::Backend;
-use etalon_case::{CaseFile, Profile, Scene};
+use etalon_case::{CaseFile, Profile};
 use etalon_frame::{Aspect, Feature, Frame, Image};
+use etalon_scene::Scene;
 use etalon_wgpu::{Options, Via, WgpuBackend, enumerate, open};
 use std::fs;
 use std::path::PathBuf;

@@ -1,7 +1,7 @@
 //! Every shader of the suite, translated and drawn.
 
 use crate::chains::drawn;
-use etalon_case::state::Shader;
+use etalon_scene::Shader;
 use etalon_wgpu::WgpuBackend;
 
 /// With as many attachments as a shader has outputs, and with fewer.

@@ -1,0 +1,13 @@
+//! Texels side by side.
+
+/// Texels of a span.
+pub const LANES: usize = 16;
+
+/// A number per lane.
+pub type Real = [f32; LANES];
+
+/// A code per lane.
+pub type Codes = [u32; LANES];
+
+/// A truth value per lane.
+pub type Mask = [bool; LANES];

@@ -1,0 +1,33 @@
+//! Values that are linear over the window, in sub-texel units.
+
+use crate::lanes::LANES;
+use etalon_pipeline::{DepthPlane, Point};
+
+/// Bits of sub-pixel precision.
+pub(crate) const SUB_PIXEL_BITS: u8 = 8;
+
+/// Sub-texel units per texel.
+pub(crate) const UNITS: i64 = 1 << SUB_PIXEL_BITS;
+
+/// A value that grows linearly over the window.
+#[derive(Clone, Copy)]
+pub(crate) struct Linear(pub(crate) DepthPlane);
+
+impl Linear {
+    /// The values at the centres of a span's texels.
+    pub(crate) fn at_centers(&self, x: usize, y: usize) -> [f32; LANES] {
+        let center = Point {
+            x: UNITS / 2,
+            y: UNITS / 2,
+        };
+        std::array::from_fn(|lane| self.0.at(position(x + lane, y, center)) as f32)
+    }
+}
+
+/// A place in a texel, in sub-texel units of the window.
+pub(crate) fn position(x: usize, y: usize, sample: Point) -> Point {
+    Point {
+        x: x as i64 * UNITS + sample.x,
+        y: y as i64 * UNITS + sample.y,
+    }
+}

@@ -1,0 +1,105 @@
+//! A scene that the rasterizer draws.
+
+use crate::raster;
+use crate::span::Counted;
+use crate::steps::Steps;
+use crate::surface::{Surface, depth_encoding};
+use etalon_backend::{BackendError, FrameTime, Prepared};
+use etalon_frame::{Aspect, ChannelEncoding, CounterKind, Frame, Image, ReadPath};
+use etalon_scene::Scene;
+use std::time::Instant;
+
+/// A scene with the steps that draw it.
+#[derive(Debug)]
+pub struct PreparedScene<S> {
+    scene: Scene,
+    surfaces: Vec<Surface>,
+    counters: Vec<Counted>,
+    steps: S,
+}
+
+impl<S> PreparedScene<S> {
+    /// The scene, to be drawn by these steps.
+    pub fn new(scene: Scene, steps: S) -> Self {
+        Self {
+            scene,
+            surfaces: Vec::new(),
+            counters: Vec::new(),
+            steps,
+        }
+    }
+}
+
+impl<S: Steps> Prepared for PreparedScene<S> {
+    fn submit(&mut self) -> Result<FrameTime, BackendError> {
+        let start = Instant::now();
+        self.surfaces = self
+            .scene
+            .attachments
+            .iter()
+            .map(|a| Surface::new(a, |encoding, value| self.steps.clear_code(encoding, value)))
+            .collect();
+        let counters = self.scene.counters.iter();
+        self.counters = counters.map(|c| (c.kind, 0)).collect();
+        for pass in &self.scene.passes {
+            for draw in &pass.draws {
+                let (surfaces, counters) = (&mut self.surfaces, &mut self.counters);
+                raster::draw(&self.scene, pass, draw, surfaces, counters, &self.steps);
+            }
+            for (source, target) in pass.color.iter().zip(&pass.resolve) {
+                if let Some(target) = target {
+                    let both = self.surfaces.get_disjoint_mut([*source, *target]);
+                    let [source, target] = both.map_err(|_| {
+                        BackendError::Internal("an attachment is resolved to itself".to_owned())
+                    })?;
+                    target.resolve_from(source, |encoding, codes| {
+                        self.steps.resolve(encoding, codes)
+                    });
+                }
+            }
+        }
+        let elapsed = start.elapsed();
+        Ok(FrameTime {
+            cpu: elapsed,
+            gpu: None,
+            wall: elapsed,
+        })
+    }
+
+    fn read_back(&mut self) -> Result<Frame, BackendError> {
+        if self.surfaces.is_empty() {
+            return Err(BackendError::Internal(
+                "read back before anything was drawn".to_owned(),
+            ));
+        }
+        let mut frame = Frame::default();
+        for index in &self.scene.read {
+            let attachment = &self.scene.attachments[*index];
+            for aspect in attachment.format.aspects() {
+                let channels = match aspect {
+                    Aspect::Color => attachment.format.color_channels().to_vec(),
+                    Aspect::Depth => depth_encoding(attachment.format).into_iter().collect(),
+                    Aspect::Stencil => vec![ChannelEncoding::Uint(8)],
+                };
+                frame.images.push(Image {
+                    attachment: attachment.name.clone(),
+                    aspect: *aspect,
+                    size: attachment.size,
+                    samples: attachment.samples,
+                    channels,
+                    read: ReadPath::Copy,
+                    codes: self.surfaces[*index].codes(*aspect),
+                });
+            }
+        }
+        frame.counters = self
+            .counters
+            .iter()
+            .map(|(kind, count)| match kind {
+                CounterKind::AnySamplesPassed => *count.min(&1),
+                _ => *count,
+            })
+            .collect();
+        Ok(frame)
+    }
+}

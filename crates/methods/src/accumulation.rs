@@ -1,0 +1,136 @@
+//! What blending many times adds up to: the same colour laid over a background again and again.
+//!
+//! After `n` layers of alpha `a` the background counts `(1 - a)^n` and the colour all the rest. What is
+//! stored in between is rounded each time; a difference from the colour that is less than half a code
+//! over `a` stays for good.
+
+use super::stage::{self, Polygon, Stage};
+use super::{Made, within};
+use crate::error::ParameterError;
+use crate::picture::{Coverage, Truth};
+use etalon_frame::TextureFormat;
+use etalon_scene::Shader;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The most layers.
+const MOST: u32 = 1024;
+
+/// Columns of colours and rows of backgrounds, each 2 texels.
+const CELLS: u32 = 16;
+
+/// Width and height of the picture: each pair of a colour and a background a few times are enough.
+const SIZE: [u32; 2] = [2 * CELLS, 2 * CELLS];
+
+/// Layers over a background.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wire {
+    scene: SceneName,
+    method: MethodName,
+    /// How many, 1 to 1024.
+    layers: u32,
+    /// Their alpha, above 0 and up to 1.
+    alpha: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum SceneName {
+    /// Sixteen colours in columns over sixteen backgrounds in rows.
+    Columns,
+}
+
+/// In which format layers are blended, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+enum MethodName {
+    /// `rgba8unorm`.
+    #[serde(rename = "ordered-8-bit")]
+    Bits8,
+    /// `rgb10a2unorm`.
+    #[serde(rename = "ordered-10-bit")]
+    Bits10,
+    /// `rgba16float`.
+    #[serde(rename = "ordered-half")]
+    Half,
+    /// `rgba32float`.
+    #[serde(rename = "ordered-float")]
+    Float,
+}
+
+impl MethodName {
+    fn format(self) -> TextureFormat {
+        match self {
+            Self::Bits8 => TextureFormat::Rgba8Unorm,
+            Self::Bits10 => TextureFormat::Rgb10a2Unorm,
+            Self::Half => TextureFormat::Rgba16Float,
+            Self::Float => TextureFormat::Rgba32Float,
+        }
+    }
+}
+
+/// The background of a row: whole fifteenths, which 8 and 10 bits hold exactly or nearly so.
+fn background(row: u32) -> [f64; 4] {
+    let v = |step: u32| f64::from((row * step + 2) % CELLS) / 15.0;
+    [v(1), v(7), v(11), 1.0]
+}
+
+/// The colour of a column.
+fn color(column: u32, alpha: f64) -> [f64; 4] {
+    let v = |step: u32, start: u32| (f64::from((column * step + start) % CELLS) + 0.3) / 16.0;
+    [v(5, 0), v(3, 6), v(13, 11), alpha]
+}
+
+fn columns(alpha: f64) -> Vec<Polygon> {
+    let [width, height] = SIZE.map(f64::from);
+    let cell = width / f64::from(CELLS);
+    let column = |i: u32| {
+        let left = f64::from(i) * cell;
+        Polygon::rect([left, 0.0, left + cell, height], 0.25, color(i, alpha))
+    };
+    (0..CELLS).map(column).collect()
+}
+
+fn rows() -> Vec<Polygon> {
+    let [width, height] = SIZE.map(f64::from);
+    let cell = height / f64::from(CELLS);
+    let row = |i: u32| {
+        let top = f64::from(i) * cell;
+        Polygon::rect([0.0, top, width, top + cell], 0.75, background(i))
+    };
+    (0..CELLS).map(row).collect()
+}
+
+pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+    let Wire {
+        scene: SceneName::Columns,
+        method,
+        layers,
+        alpha,
+    } = *wire;
+    within("layers", layers.into(), 1.0..=MOST.into())?;
+    within("alpha", alpha, 1e-4..=1.0)?;
+    let mut stage = Stage::new();
+    let picture = stage.color("picture", method.format(), SIZE, [0.0, 0.0, 0.0, 1.0]);
+    let back = rows();
+    let front = columns(alpha);
+    let mut draws = vec![stage::draw(Shader::FlatColor, stage::mesh(SIZE, &back))];
+    let all: Vec<Polygon> = (0..layers).flat_map(|_| front.iter().cloned()).collect();
+    let mut layered = stage::draw(Shader::FlatColor, stage::mesh(SIZE, &all));
+    layered.targets[0].blend = stage::over();
+    draws.push(layered);
+    stage.pass(&[picture], None, draws);
+    // All layers of a colour are one that lets as much through as all of them.
+    let together = 1.0 - (1.0 - alpha).powf(layers.into());
+    let seen = columns(together);
+    let truth = Truth {
+        size: SIZE,
+        background: [0.0; 3],
+        coverage: Coverage::Center,
+        surfaces: back.iter().chain(&seen).map(Polygon::surface).collect(),
+    };
+    Ok(Made {
+        scene: stage.read(&[picture]),
+        truth,
+    })
+}

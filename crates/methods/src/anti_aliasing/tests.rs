@@ -1,0 +1,182 @@
+//! What methods draw, as scenes: the pictures are drawn and measured elsewhere.
+
+use super::scenes::{Edges, SceneName};
+use super::{MethodName, Wire, make};
+use crate::SIZE;
+use crate::stage::{Polygon, assert_valid};
+
+const SCENES: [SceneName; 4] = [
+    SceneName::HalfPlanes,
+    SceneName::ThinWedge,
+    SceneName::CheckerFan,
+    SceneName::WireTorus,
+];
+
+const METHODS: [MethodName; 9] = [
+    MethodName::None,
+    MethodName::Msaa2,
+    MethodName::Msaa4,
+    MethodName::Msaa8,
+    MethodName::Msaa16,
+    MethodName::Supersampling2x2,
+    MethodName::Supersampling4x4,
+    MethodName::CoverageToAlpha,
+    MethodName::CoverageToAlphaOverlap,
+];
+
+fn wire(scene: SceneName, method: MethodName) -> Wire {
+    Wire {
+        scene,
+        method,
+        angle: None,
+        opening: None,
+    }
+}
+
+fn edges(wire: &Wire) -> Edges {
+    Edges::new(wire).expect("the parameters are in range")
+}
+
+#[test]
+fn every_method_draws_every_scene_over_the_same_truth() {
+    for name in SCENES {
+        let truth = edges(&wire(name, MethodName::None)).truth();
+        for method in METHODS {
+            let made = make(&wire(name, method)).expect("the parameters are in range");
+            assert_valid(&made.scene);
+            assert_eq!(made.truth, truth, "{name:?} {method:?}");
+            let picture = &made.scene.attachments[made.scene.read[0]];
+            assert_eq!((picture.size, picture.samples), (SIZE, 1));
+        }
+    }
+}
+
+#[test]
+fn parameters_out_of_range_are_refused_by_name() {
+    let half = wire(SceneName::HalfPlanes, MethodName::None);
+    let wedge = wire(SceneName::ThinWedge, MethodName::None);
+    let bad = [
+        (
+            "angle",
+            Wire {
+                angle: Some(91.0),
+                ..half.clone()
+            },
+        ),
+        (
+            "angle",
+            Wire {
+                angle: Some(f64::NAN),
+                ..half
+            },
+        ),
+        (
+            "opening",
+            Wire {
+                opening: Some(0.0),
+                ..wedge.clone()
+            },
+        ),
+        (
+            "opening",
+            Wire {
+                opening: Some(61.0),
+                ..wedge
+            },
+        ),
+    ];
+    for (key, wire) in bad {
+        let Err(error) = make(&wire) else {
+            panic!("{wire:?} is drawn");
+        };
+        assert_eq!(error.key, key);
+    }
+}
+
+fn area(polygon: &Polygon) -> f64 {
+    let corners = &polygon.corners;
+    let next = corners.iter().cycle().skip(1);
+    let twice: f64 = corners
+        .iter()
+        .zip(next)
+        .map(|(p, q)| p[0] * q[1] - q[0] * p[1])
+        .sum();
+    twice.abs() / 2.0
+}
+
+#[test]
+fn pieces_in_front_and_behind_fill_the_picture_without_overlap() {
+    for name in [
+        SceneName::HalfPlanes,
+        SceneName::ThinWedge,
+        SceneName::CheckerFan,
+    ] {
+        for angle in [0.0, 20.0, 45.0, 90.0] {
+            let edges = edges(&Wire {
+                angle: Some(angle),
+                ..wire(name, MethodName::None)
+            });
+            let pieces = edges.front.iter().chain(&edges.back);
+            let sum: f64 = pieces.filter_map(|p| p.polygon()).map(|p| area(&p)).sum();
+            let all = f64::from(SIZE[0] * SIZE[1]);
+            // Nothing is missing; that nothing lies twice follows, as each piece lies in the picture.
+            assert!((sum - all).abs() < 1e-6, "{name:?}: {sum}");
+        }
+    }
+}
+
+#[test]
+fn a_smoothed_piece_knows_its_distance_from_the_nearest_edge() {
+    let edges = edges(&wire(SceneName::CheckerFan, MethodName::None));
+    for piece in &edges.front {
+        for part in piece.smooth(true) {
+            let nearest = |[x, y, _]: [f64; 3]| {
+                let all = piece.lines.iter().map(|l| l.distance([x, y]));
+                all.fold(f64::INFINITY, f64::min)
+            };
+            for (corner, uv) in part.corners.iter().zip(&part.uv) {
+                assert!((nearest(*corner) - uv[0]).abs() < 1e-9);
+                assert!(uv[0] >= -1.0 - 1e-9);
+            }
+        }
+    }
+}
+
+#[test]
+fn parts_of_a_smoothed_piece_hold_all_of_it() {
+    for name in SCENES {
+        let edges = edges(&wire(name, MethodName::None));
+        for piece in edges.front.iter().chain(&edges.back) {
+            let Some(whole) = piece.polygon() else {
+                continue;
+            };
+            for overlap in [false, true] {
+                let parts: f64 = piece.smooth(overlap).iter().map(area).sum();
+                assert!(parts > area(&whole) - 1e-9, "{name:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn ends_of_wires_are_smoothed_only_where_they_overlap() {
+    let edges = edges(&wire(SceneName::WireTorus, MethodName::None));
+    for wire in &edges.front {
+        assert_eq!(wire.smooth(false).len(), 2);
+        assert!(wire.smooth(true).len() > 2);
+    }
+}
+
+#[test]
+fn a_half_plane_at_no_angle_covers_known_shares() {
+    let edges = edges(&Wire {
+        angle: Some(0.0),
+        ..wire(SceneName::HalfPlanes, MethodName::None)
+    });
+    for (i, piece) in edges.front.iter().enumerate() {
+        let polygon = piece.polygon().expect("half of the cell is covered");
+        // The edge lies so much below the middle of the cell.
+        let offset = (i as f64 + 0.5) / 16.0;
+        assert!((area(&polygon) - 32.0 * (16.0 - offset)).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,252 @@
+//! How holes in a texture are drawn: cards of grass.
+
+use super::stage::{Noise, Polygon, Stage, depth, draw, mesh, over};
+use super::{Made, SIZE, within};
+use crate::error::ParameterError;
+use crate::picture::{Coverage, Paint, Surface, Texture, Truth};
+use etalon_frame::TextureFormat;
+use etalon_scene::{
+    AddressMode, CompareFunction, Contents, Draw, FilterMode, Params, Sampler, Scene, Shader,
+};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+#[cfg(test)]
+mod tests;
+
+/// Cards of grass and how they are drawn.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wire {
+    /// What is seen.
+    pub(crate) scene: SceneName,
+    /// How it is drawn.
+    pub(crate) method: MethodName,
+    /// What the sampler takes for texels beyond the texture's border, up to which the cards reach.
+    #[serde(default = "clamp")]
+    pub(crate) address: AddressMode,
+    /// Texels of the picture for one of the texture, 0.25 to 4.
+    pub(crate) scale: Option<f64>,
+    /// The alpha below which a fragment is discarded, 0.01 to 0.99.
+    pub(crate) cutoff: Option<f64>,
+}
+
+/// What is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum SceneName {
+    /// Pairs of crossed cards in rows, each with the same blades on it.
+    Grass,
+}
+
+/// How it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum MethodName {
+    /// Opaque where the filtered alpha reaches `cutoff`, nothing elsewhere.
+    Discard,
+    /// Blended card by card, farthest first, by the mean depth of the corners.
+    BlendSorted,
+    /// Opaque on a share of four samples.
+    AlphaToCoverage,
+}
+
+fn clamp() -> AddressMode {
+    AddressMode::ClampToEdge
+}
+
+/// Draws the scene by the method.
+///
+/// # Errors
+/// When a parameter is out of its range.
+pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+    let scale = within("scale", wire.scale.unwrap_or(1.0), 0.25..=4.0)?;
+    let cutoff = within("cutoff", wire.cutoff.unwrap_or(0.5), 0.01..=0.99)?;
+    let SceneName::Grass = wire.scene;
+    let cards = cards(scale);
+    let scene = match wire.method {
+        MethodName::Discard => discard(&cards, wire.address, cutoff),
+        MethodName::BlendSorted => blend_sorted(&cards, wire.address),
+        MethodName::AlphaToCoverage => alpha_to_coverage(&cards, wire.address),
+    };
+    Ok(Made {
+        scene,
+        truth: truth(&cards),
+    })
+}
+
+/// Red, green and blue behind the grass.
+const BACKGROUND: [f64; 3] = [0.6, 0.75, 0.9];
+
+const PICTURE: TextureFormat = TextureFormat::Rgba8Unorm;
+const DEPTH: TextureFormat = TextureFormat::Depth32Float;
+
+/// Width and height of the texture.
+const TEXTURE: u32 = 32;
+
+/// Blades on it.
+const BLADES: u32 = 7;
+
+/// The texture's codes: blades on full roots, transparent at the top. The colour goes on where nothing
+/// is seen, so that a filter finds no other one there.
+fn grass() -> Vec<[u32; 4]> {
+    let mut noise = Noise::new(7);
+    let side = f64::from(TEXTURE);
+    let blades: Vec<[f64; 4]> = (0..BLADES)
+        .map(|i| {
+            let root = side * (f64::from(i) + 0.5) / f64::from(BLADES);
+            let bend = noise.between(-4.0, 4.0);
+            [
+                root,
+                bend,
+                noise.between(0.6, 0.92),
+                noise.between(1.3, 2.2),
+            ]
+        })
+        .collect();
+    let mut texels = Vec::new();
+    for (row, column) in (0..TEXTURE).flat_map(|r| (0..TEXTURE).map(move |c| (r, c))) {
+        let (x, up) = (f64::from(column) + 0.5, 1.0 - (f64::from(row) + 0.5) / side);
+        let blade = |[root, bend, height, width]: &[f64; 4]| {
+            let middle = root + bend * up * up;
+            let half = width * (1.0 - up / height);
+            let below_tip = (height - up) * side;
+            let inside = (half - (x - middle).abs()).min(below_tip);
+            (inside + 0.5).clamp(0.0, 1.0)
+        };
+        // The lowest rows are grown over from side to side.
+        let roots = (1.5 - f64::from(TEXTURE - 1 - row) / 2.0).clamp(0.0, 1.0);
+        let alpha = blades.iter().map(blade).fold(roots, f64::max);
+        let color = [0.15 + 0.45 * up, 0.4 + 0.5 * up, 0.1, alpha];
+        texels.push(color.map(|v| (v * 255.0).round() as u32));
+    }
+    texels
+}
+
+/// Crossed cards in rows that come nearer downwards.
+fn cards(scale: f64) -> Vec<Polygon> {
+    let side = f64::from(TEXTURE) * scale;
+    let count = (f64::from(SIZE[0]) / side).ceil().max(1.0) as u32;
+    let mut noise = Noise::new(11);
+    let mut cards = Vec::new();
+    for (row, column) in (0..count).flat_map(|r| (0..count).map(move |c| (r, c))) {
+        let [left, top] = [column, row].map(|v| f64::from(v) * side);
+        let depth = 0.9 - 0.8 * (f64::from(row) + noise.next() * 0.5 + 0.25) / f64::from(count);
+        let tilt = 0.1 / f64::from(count);
+        // Of two that cross at a right angle, one is seen wider and one narrower, and each of them goes
+        // back to another side. Their borders lie on those of texels.
+        let narrow = [left + side * 0.25, top, left + side * 0.75, top + side];
+        let wide = [left, top, left + side, top + side];
+        cards.push(card(narrow, [depth - tilt, depth + tilt]));
+        cards.push(card(wide, [depth + tilt, depth - tilt]));
+    }
+    cards
+}
+
+/// A card at one depth at its left and another at its right.
+fn card(rect: [f64; 4], [left, right]: [f64; 2]) -> Polygon {
+    let mut card = Polygon::rect(rect, left, [1.0; 4]);
+    for corner in &mut card.corners[2..] {
+        corner[2] = right;
+    }
+    card.uv = vec![[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
+    card
+}
+
+/// The cards with their texture held at its border, whatever a sampler does: what was painted.
+fn truth(cards: &[Polygon]) -> Truth {
+    let texture = Texture {
+        size: [TEXTURE; 2],
+        texels: grass()
+            .iter()
+            .map(|t| t.map(|code| f64::from(code) / 255.0))
+            .collect(),
+        address: [AddressMode::ClampToEdge; 2],
+    };
+    let surface = |card: &Polygon| Surface {
+        corners: card.corners.clone(),
+        paint: Paint::Texture {
+            texture: texture.clone(),
+            uv: card.uv.clone(),
+        },
+    };
+    Truth {
+        size: SIZE,
+        background: BACKGROUND,
+        coverage: Coverage::Area,
+        surfaces: cards.iter().map(surface).collect(),
+    }
+}
+
+fn clear() -> [f64; 4] {
+    let [r, g, b] = BACKGROUND;
+    [r, g, b, 1.0]
+}
+
+/// Adds the texture and gives a draw of cards with it.
+fn textured(stage: &mut Stage, shader: Shader, cards: &[Polygon], address: AddressMode) -> Draw {
+    let contents = Contents::Texels(grass().concat());
+    let texture = stage.attachment(
+        "grass",
+        TextureFormat::Rgba8Unorm,
+        [TEXTURE; 2],
+        1,
+        contents,
+    );
+    let mut draw = draw(shader, mesh(SIZE, cards));
+    draw.textures = vec![texture];
+    draw.sampler = Some(Sampler {
+        filter: FilterMode::Linear,
+        address: [address; 2],
+    });
+    draw
+}
+
+fn discard(cards: &[Polygon], address: AddressMode, cutoff: f64) -> Scene {
+    let mut stage = Stage::new();
+    let picture = stage.color("picture", PICTURE, SIZE, clear());
+    let depth_stencil = stage.depth("depth", DEPTH, SIZE, 1, 1.0);
+    let mut draw = textured(&mut stage, Shader::SampledDiscard, cards, address);
+    draw.params = Params {
+        color: [0.0, 0.0, 0.0, cutoff as f32],
+        back_color: [0.0; 4],
+    };
+    draw.depth = depth(CompareFunction::Less, true);
+    stage.pass(&[picture], Some(depth_stencil), vec![draw]);
+    stage.read(&[picture])
+}
+
+/// The cards, farthest first.
+fn sorted(cards: &[Polygon]) -> Vec<Polygon> {
+    let mut sorted = cards.to_vec();
+    let depth = |card: &Polygon| card.corners.iter().map(|c| c[2]).sum::<f64>();
+    sorted.sort_by(|a, b| depth(b).total_cmp(&depth(a)));
+    sorted
+}
+
+fn blend_sorted(cards: &[Polygon], address: AddressMode) -> Scene {
+    let mut stage = Stage::new();
+    let picture = stage.color("picture", PICTURE, SIZE, clear());
+    let mut draw = textured(&mut stage, Shader::SampledColor, &sorted(cards), address);
+    draw.targets[0].blend = over();
+    stage.pass(&[picture], None, vec![draw]);
+    stage.read(&[picture])
+}
+
+fn alpha_to_coverage(cards: &[Polygon], address: AddressMode) -> Scene {
+    let mut stage = Stage::new();
+    let picture = stage.color("picture", PICTURE, SIZE, clear());
+    let contents = Contents::Color(clear().map(|c| c as f32));
+    let samples = stage.attachment("samples", PICTURE, SIZE, 4, contents);
+    let depth_stencil = stage.depth("depth", DEPTH, SIZE, 4, 1.0);
+    let mut draw = textured(&mut stage, Shader::SampledColor, cards, address);
+    draw.depth = depth(CompareFunction::Less, true);
+    draw.multisample.alpha_to_coverage = true;
+    stage.resolving_pass(
+        &[samples],
+        vec![Some(picture)],
+        Some(depth_stencil),
+        vec![draw],
+    );
+    stage.read(&[picture])
+}

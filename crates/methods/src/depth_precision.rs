@@ -1,0 +1,298 @@
+//! Which depths can be told apart: pairs of surfaces that nearly touch, at many distances.
+//!
+//! The near and the far surface of a pair take turns in being drawn first, so that a depth buffer that
+//! holds both to be equal goes wrong in half of the texels. Vertices come projected, with a depth that
+//! is rounded to 32 bits once, as a vertex shader would hand it on.
+
+use super::stage::{self, Polygon, Stage};
+use super::view::window_depth;
+use super::{Made, SIZE, within};
+use crate::error::ParameterError;
+use crate::picture::{Coverage, Surface, Truth};
+use etalon_frame::TextureFormat;
+use etalon_scene::{CompareFunction, DepthBias, Draw, Shader};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The distance of the far plane.
+const FAR: f64 = 1000.0;
+
+/// Behind everything.
+const BACKGROUND: [f64; 3] = [0.2, 0.3, 0.4];
+
+/// Two surfaces that nearly touch.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wire {
+    scene: SceneName,
+    method: MethodName,
+    /// In `planes`, how far the farther plane lies behind the nearer one, in units of distance; in
+    /// `slanted` and `decal`, the part of the distance by which the surface in front is nearer.
+    gap: f64,
+    /// Distance of the near plane; the far plane lies at 1000.
+    #[serde(default = "usual_near")]
+    near: f64,
+}
+
+fn usual_near() -> f64 {
+    0.1
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum SceneName {
+    /// Facing planes in pairs, at distances from 2 to 900.
+    Planes,
+    /// Two planes that lead away from the viewer, from 10 to 500.
+    Slanted,
+    /// Such a plane with a decal on it, at no distance, and a lid above both.
+    Decal,
+}
+
+/// How depth is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum MethodName {
+    /// 16 bits, normalized.
+    Depth16,
+    /// At least 24 bits.
+    Depth24,
+    /// A 32-bit float.
+    Depth32float,
+    /// A 32-bit float that is 1 at the near and 0 at the far plane.
+    ReversedDepth,
+    /// At least 24 bits of a depth that grows linearly with the distance.
+    LinearDepth,
+    /// At least 24 bits of a depth that grows with the logarithm of the distance.
+    LogarithmicDepth,
+    /// At least 24 bits, and a near plane ten times as far away.
+    LargerNear,
+    /// At least 24 bits, and decals pulled towards the viewer by one step and one slope.
+    PolygonOffset,
+}
+
+/// Four corners in the picture, with the inverse of their distance instead of a depth: it is linear
+/// over the picture wherever the surface is flat.
+#[derive(Clone, Copy, Debug)]
+struct Quad {
+    corners: [[f64; 3]; 4],
+    color: [f64; 4],
+    /// Whether it lies on another surface.
+    is_decal: bool,
+}
+
+impl Quad {
+    /// An upright rectangle whose top and bottom edges have these distances.
+    fn new([left, top, right, bottom]: [f64; 4], distances: [f64; 2], color: [f64; 4]) -> Self {
+        let [upper, lower] = distances.map(|d| 1.0 / d);
+        Self {
+            corners: [
+                [left, top, upper],
+                [left, bottom, lower],
+                [right, bottom, lower],
+                [right, top, upper],
+            ],
+            color,
+            is_decal: false,
+        }
+    }
+
+    fn surface(&self) -> Surface {
+        let corners = self.corners.map(|[x, y, inverse]| [x, y, -inverse]);
+        Polygon::new(corners.to_vec(), self.color).surface()
+    }
+}
+
+/// The quads in the order in which they are drawn, of which later ones lie in front where they touch.
+fn quads(wire: &Wire) -> Vec<Quad> {
+    match wire.scene {
+        SceneName::Planes => planes(wire.gap),
+        SceneName::Slanted => slanted(wire.gap),
+        SceneName::Decal => decal(wire.gap),
+    }
+}
+
+const RIGHT: [f64; 4] = [0.25, 0.8, 0.35, 1.0];
+const WRONG: [f64; 4] = [0.85, 0.15, 0.2, 1.0];
+
+fn planes(gap: f64) -> Vec<Quad> {
+    let distances = [2.0, 5.0, 12.0, 30.0, 70.0, 160.0, 380.0, 900.0];
+    let mut all = Vec::new();
+    for (i, distance) in distances.into_iter().enumerate() {
+        let left = 16.0 * i as f64;
+        // Whatever is behind the far plane would not be seen.
+        let behind = (distance + gap).min(FAR);
+        let pair = |top: f64| {
+            let area = [left, top, left + 16.0, top + 64.0];
+            let near = Quad::new(area, [distance; 2], RIGHT);
+            [near, Quad::new(area, [behind; 2], WRONG)]
+        };
+        all.extend(pair(0.0));
+        let [near, far] = pair(64.0);
+        all.extend([far, near]);
+    }
+    all
+}
+
+/// Distances at the top and at the bottom of a plane that leads away.
+const LEADING: [f64; 2] = [500.0, 10.0];
+
+fn slanted(gap: f64) -> Vec<Quad> {
+    let nearer = LEADING.map(|d| d * (1.0 - gap));
+    let pair = |left: f64| {
+        let area = [left, 0.0, left + 64.0, 128.0];
+        let above = Quad::new(area, nearer, RIGHT);
+        [above, Quad::new(area, LEADING, WRONG)]
+    };
+    let [above, below] = pair(64.0);
+    let mut all = pair(0.0).to_vec();
+    all.extend([below, above]);
+    all
+}
+
+fn decal(gap: f64) -> Vec<Quad> {
+    // The distance of the plane at a row, in which its inverse is linear.
+    let at = |row: f64| {
+        let [top, bottom] = LEADING.map(f64::recip);
+        (top + (bottom - top) * row / 128.0).recip()
+    };
+    let on_plane = |[left, top, right, bottom]: [f64; 4], lift: f64, color: [f64; 4]| {
+        let distances = [top, bottom].map(|row| at(row) * (1.0 - lift));
+        Quad::new([left, top, right, bottom], distances, color)
+    };
+    let plane = on_plane([0.0, 0.0, 128.0, 128.0], 0.0, [0.55, 0.5, 0.45, 1.0]);
+    let lid = on_plane([64.0, 0.0, 120.0, 128.0], gap, RIGHT);
+    let mut decal = plane;
+    // Turned, so that it shares no edge with the plane and is rounded in other ways.
+    decal.corners = [[30.0, 10.0], [18.0, 100.0], [98.0, 118.0], [110.0, 28.0]]
+        .map(|[x, y]| [x, y, at(y).recip()]);
+    decal.color = [0.9, 0.8, 0.2, 1.0];
+    decal.is_decal = true;
+    vec![lid, plane, decal]
+}
+
+/// How a method keeps depth.
+struct Buffer {
+    format: TextureFormat,
+    near: f64,
+    reversed: bool,
+    shader: Shader,
+    bias: DepthBias,
+}
+
+impl Buffer {
+    fn new(method: MethodName, near: f64) -> Self {
+        let usual = Self {
+            format: TextureFormat::Depth24Plus,
+            near,
+            reversed: false,
+            shader: Shader::FlatColor,
+            bias: DepthBias::default(),
+        };
+        match method {
+            MethodName::Depth24 => usual,
+            MethodName::Depth16 => Self {
+                format: TextureFormat::Depth16Unorm,
+                ..usual
+            },
+            MethodName::Depth32float => Self {
+                format: TextureFormat::Depth32Float,
+                ..usual
+            },
+            MethodName::ReversedDepth => Self {
+                format: TextureFormat::Depth32Float,
+                reversed: true,
+                ..usual
+            },
+            MethodName::LinearDepth => Self {
+                shader: Shader::LinearDepth,
+                ..usual
+            },
+            MethodName::LogarithmicDepth => Self {
+                shader: Shader::LogarithmicDepth,
+                ..usual
+            },
+            MethodName::LargerNear => Self {
+                near: near * 10.0,
+                ..usual
+            },
+            MethodName::PolygonOffset => Self {
+                bias: DepthBias {
+                    constant: -1,
+                    slope: -1.0,
+                    clamp: 0.0,
+                },
+                ..usual
+            },
+        }
+    }
+
+    fn polygon(&self, quad: &Quad) -> Polygon {
+        let corners = quad.corners.map(|[x, y, inverse]| {
+            let distance = inverse.recip();
+            let planes = [self.near, FAR];
+            let depth = match self.reversed {
+                false => window_depth(distance, planes),
+                // The same with near and far exchanged: small numbers far away, which a float keeps well.
+                true => window_depth(distance, [FAR, self.near]),
+            };
+            [x, y, depth]
+        });
+        let mut polygon = Polygon::new(corners.to_vec(), quad.color);
+        polygon.uv = quad.corners.map(|[_, _, inverse]| [inverse, 0.0]).to_vec();
+        polygon
+    }
+
+    fn draw(&self, polygons: &[Polygon], is_decal: bool) -> Draw {
+        let mut draw = stage::draw(self.shader, stage::mesh(SIZE, polygons));
+        // Whatever is rounded to the far plane is still there.
+        let compare = match self.reversed {
+            false => CompareFunction::LessEqual,
+            true => CompareFunction::GreaterEqual,
+        };
+        draw.depth = stage::depth(compare, true);
+        if is_decal {
+            draw.depth_bias = self.bias;
+        }
+        let octaves = (FAR / self.near).log2();
+        draw.params.color = [self.near, FAR, octaves.recip(), 0.0].map(|v| v as f32);
+        draw
+    }
+}
+
+pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+    let most = match wire.scene {
+        SceneName::Planes => 100.0,
+        SceneName::Slanted | SceneName::Decal => 0.5,
+    };
+    within("gap", wire.gap, 1e-9..=most)?;
+    within("near", wire.near, 1e-6..=50.0)?;
+    let offset = wire.method == MethodName::PolygonOffset;
+    if offset && wire.scene != SceneName::Decal {
+        let message = "`polygon-offset` is for the scene `decal`";
+        return Err(ParameterError::new("method", message));
+    }
+    let quads = quads(wire);
+    let buffer = Buffer::new(wire.method, wire.near);
+    let mut stage = Stage::new();
+    let background = [BACKGROUND[0], BACKGROUND[1], BACKGROUND[2], 1.0];
+    let picture = stage.color("picture", TextureFormat::Rgba8Unorm, SIZE, background);
+    let clear = if buffer.reversed { 0.0 } else { 1.0 };
+    let depth = stage.depth("depth", buffer.format, SIZE, 1, clear);
+    let draws = [false, true].into_iter().filter_map(|is_decal| {
+        let some = quads.iter().filter(|q| q.is_decal == is_decal);
+        let polygons: Vec<Polygon> = some.map(|q| buffer.polygon(q)).collect();
+        (!polygons.is_empty()).then(|| buffer.draw(&polygons, is_decal))
+    });
+    stage.pass(&[picture], Some(depth), draws.collect());
+    let truth = Truth {
+        size: SIZE,
+        background: BACKGROUND,
+        coverage: Coverage::Center,
+        surfaces: quads.iter().map(Quad::surface).collect(),
+    };
+    Ok(Made {
+        scene: stage.read(&[picture]),
+        truth,
+    })
+}

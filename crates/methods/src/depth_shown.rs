@@ -1,0 +1,215 @@
+//! How depth is shown, by formulae that have one right result: as grey, as distance, as fog; and two
+//! pictures that dissolve into each other.
+
+use super::stage::{self, Polygon, Stage};
+use super::view::window_depth;
+use super::{Made, SIZE, within};
+use crate::error::ParameterError;
+use crate::picture::{Coverage, Paint, Surface, Truth};
+use etalon_frame::TextureFormat;
+use etalon_scene::{BlendFactor, CompareFunction, Contents, Shader};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The distance of the far plane.
+const FAR: f64 = 1000.0;
+
+/// What fog looks like.
+const FOG: [f64; 3] = [0.75, 0.8, 0.9];
+
+/// Cells of each picture that dissolves, across and down.
+const CELLS: u32 = 16;
+
+/// Depth, or a dissolve.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(tag = "scene", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Wire {
+    /// Planes at a slant, from 12 to 900.
+    Slanted {
+        /// How depth is shown.
+        method: DepthMethod,
+        /// Distance of the near plane, 0.0001 to 10; the far plane lies at 1000. The nearer it is, the
+        /// closer all depths come to 1, and the less is left of the distance.
+        near: f64,
+    },
+    /// Two pictures, of which one is blended over the other.
+    Pictures {
+        /// How.
+        method: DissolveMethod,
+        /// How much of the second picture shows, 0 to 1.
+        t: f64,
+    },
+}
+
+/// How depth is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DepthMethod {
+    /// The window depth as grey.
+    Grey,
+    /// The distance as grey, 0 at the near plane and 1 at the far plane.
+    Linearized,
+    /// The surface's colour, which fades to that of fog with the distance.
+    Fog,
+}
+
+/// How pictures are mixed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum DissolveMethod {
+    /// The blend constant weighs the second picture, 1 minus the constant the first.
+    Dissolve,
+}
+
+pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+    match *wire {
+        Wire::Slanted { method, near } => {
+            within("near", near, 1e-4..=10.0)?;
+            Ok(slanted(method, near))
+        }
+        Wire::Pictures {
+            method: DissolveMethod::Dissolve,
+            t,
+        } => {
+            within("t", t, 0.0..=1.0)?;
+            Ok(dissolve(t))
+        }
+    }
+}
+
+/// Planes that do not meet: left, top, right and bottom, the distances at the four corners from the top
+/// left counter-clockwise, and a colour. The inverse of the distance is linear in the picture, so that
+/// of the last corner follows from the others.
+fn planes(near: f64) -> Vec<Polygon> {
+    let plane = |[left, top, right, bottom]: [f64; 4], distances: [f64; 3], color: [f64; 3]| {
+        let [a, b, c] = distances.map(|d| window_depth(d, [near, FAR]));
+        let [red, green, blue] = color;
+        let corners = vec![
+            [left, top, a],
+            [left, bottom, b],
+            [right, bottom, c],
+            [right, top, a + c - b],
+        ];
+        Polygon::new(corners, [red, green, blue, 1.0])
+    };
+    vec![
+        plane(
+            [0.0, 0.0, 128.0, 128.0],
+            [900.0, 150.0, 150.0],
+            [0.4, 0.5, 0.3],
+        ),
+        plane(
+            [8.0, 16.0, 48.0, 120.0],
+            [140.0, 100.0, 30.0],
+            [0.8, 0.3, 0.2],
+        ),
+        plane(
+            [40.0, 40.0, 120.0, 64.0],
+            [25.0, 25.0, 90.0],
+            [0.2, 0.3, 0.8],
+        ),
+        plane(
+            [64.0, 72.0, 116.0, 124.0],
+            [80.0, 12.0, 18.0],
+            [0.9, 0.8, 0.2],
+        ),
+    ]
+}
+
+fn slanted(method: DepthMethod, near: f64) -> Made {
+    let polygons = planes(near);
+    let shader = match method {
+        DepthMethod::Grey => Shader::DepthGrey,
+        DepthMethod::Linearized => Shader::DepthLinearized,
+        DepthMethod::Fog => Shader::Fog,
+    };
+    let mut draw = stage::draw(shader, stage::mesh(SIZE, &polygons));
+    // What rounds to the far plane is there too.
+    draw.depth = stage::depth(CompareFunction::LessEqual, true);
+    draw.params.color = [near as f32, FAR as f32, 0.0, 0.0];
+    draw.params.back_color = [FOG[0], FOG[1], FOG[2], 1.0].map(|v| v as f32);
+    let mut stage = Stage::new();
+    let format = TextureFormat::Rgba8Unorm;
+    let picture = stage.color("picture", format, SIZE, [0.0, 0.0, 0.0, 1.0]);
+    let depth = stage.depth("depth", TextureFormat::Depth32Float, SIZE, 1, 1.0);
+    stage.pass(&[picture], Some(depth), vec![draw]);
+    let surface = |polygon: &Polygon| {
+        let [red, green, blue, _] = polygon.color;
+        Surface {
+            corners: polygon.corners.clone(),
+            paint: match method {
+                DepthMethod::Grey => Paint::Depth,
+                DepthMethod::Linearized => Paint::Distance { near, far: FAR },
+                DepthMethod::Fog => Paint::Fog {
+                    color: [red, green, blue],
+                    fog: FOG,
+                    near,
+                    far: FAR,
+                },
+            },
+        }
+    };
+    let surfaces = polygons.iter().map(surface).collect();
+    made(stage, picture, surfaces)
+}
+
+/// A picture over nothing.
+fn made(stage: Stage, picture: usize, surfaces: Vec<Surface>) -> Made {
+    Made {
+        scene: stage.read(&[picture]),
+        truth: Truth {
+            size: SIZE,
+            background: [0.0; 3],
+            coverage: Coverage::Center,
+            surfaces,
+        },
+    }
+}
+
+/// The codes of a picture's cell: a sunset, or a board.
+fn cell(picture: usize, x: u32, y: u32) -> [u32; 3] {
+    match picture {
+        0 => [255 - y * 8, 60 + y * 9, 20 + x * 14],
+        _ => match (x + y) % 2 {
+            0 => [17 * x, 255 - 17 * y, 128],
+            _ => [y * 3, x * 5, 255 - 17 * x],
+        },
+    }
+}
+
+fn dissolve(t: f64) -> Made {
+    let texels_of_cell = SIZE[0] / CELLS;
+    let mut stage = Stage::new();
+    let format = TextureFormat::Rgba8Unorm;
+    let picture = stage.color("picture", format, SIZE, [0.0, 0.0, 0.0, 1.0]);
+    let mut draws = Vec::new();
+    let mut surfaces = Vec::new();
+    for (i, name) in ["first", "second"].into_iter().enumerate() {
+        let codes = |texel: u32| {
+            let [x, y] = [texel % SIZE[0], texel / SIZE[0]].map(|c| c / texels_of_cell);
+            let [r, g, b] = cell(i, x, y);
+            [r, g, b, 255]
+        };
+        let codes = (0..SIZE[0] * SIZE[1]).flat_map(codes).collect();
+        let texture = stage.attachment(name, format, SIZE, 1, Contents::Texels(codes));
+        let mut draw = stage::draw(Shader::TexelColor, stage::cover());
+        draw.textures = vec![texture];
+        if i == 1 {
+            let mix = stage::add(BlendFactor::Constant, BlendFactor::OneMinusConstant);
+            draw.targets[0].blend = stage::both(mix);
+            draw.blend_constant = [t as f32; 4];
+        }
+        draws.push(draw);
+        let alpha = if i == 1 { t } else { 1.0 };
+        for (x, y) in (0..CELLS).flat_map(|y| (0..CELLS).map(move |x| (x, y))) {
+            let [r, g, b] = cell(i, x, y).map(|code| f64::from(code) / 255.0);
+            let [left, top] = [x, y].map(|c| f64::from(c * texels_of_cell));
+            let side = f64::from(texels_of_cell);
+            let area = [left, top, left + side, top + side];
+            let depth = 0.5 - 0.25 * i as f64;
+            surfaces.push(Polygon::rect(area, depth, [r, g, b, alpha]).surface());
+        }
+    }
+    stage.pass(&[picture], None, draws);
+    made(stage, picture, surfaces)
+}

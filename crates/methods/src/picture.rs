@@ -1,0 +1,106 @@
+//! What a method's picture should show, as geometry: what the truth mode computes its picture from.
+
+use etalon_scene::AddressMode;
+
+/// A picture as it should be, independent of any method, format or API.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Truth {
+    /// Width and height in texels.
+    pub size: [u32; 2],
+    /// Red, green and blue behind everything, 0 to 1.
+    pub background: [f64; 3],
+    /// Where in a texel is looked.
+    pub coverage: Coverage,
+    /// What there is to be seen, in any order. Of two at the same depth the later one is in front.
+    pub surfaces: Vec<Surface>,
+}
+
+/// Where in a texel the picture is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coverage {
+    /// At its centre: for questions in which edges play no part, or where methods take one sample.
+    Center,
+    /// The mean over its area.
+    Area,
+}
+
+/// One flat convex polygon.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// At least three corners in order around it, either way: x and y in texels from the top left
+    /// corner, and a depth that grows away from the eye and is linear in x and y (a window depth, or
+    /// minus 1 over the distance).
+    pub corners: Vec<[f64; 3]>,
+    /// Its colour.
+    pub paint: Paint,
+}
+
+/// How a surface is coloured. Colours are straight (not premultiplied), 0 to 1.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Paint {
+    /// Red, green, blue and alpha.
+    Flat([f64; 4]),
+    /// The surface's depth as grey, opaque.
+    Depth,
+    /// The distance that the surface's depth stands for as grey, opaque: the depth is a window depth of
+    /// a perspective projection, 0 at the near and 1 at the far plane.
+    Distance {
+        /// Distance of the near plane.
+        near: f64,
+        /// Distance of the far plane.
+        far: f64,
+    },
+    /// A colour that fades to another with the distance, opaque; depths as in [`Paint::Distance`].
+    Fog {
+        /// Red, green and blue at the near plane.
+        color: [f64; 3],
+        /// Red, green and blue at the far plane.
+        fog: [f64; 3],
+        /// Distance of the near plane.
+        near: f64,
+        /// Distance of the far plane.
+        far: f64,
+    },
+    /// A texture, filtered linearly.
+    Texture {
+        /// Its texels.
+        texture: Texture,
+        /// Texture coordinates of each corner, linear in x and y.
+        uv: Vec<[f64; 2]>,
+    },
+}
+
+/// A texture of straight colours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// Width and height in texels.
+    pub size: [u32; 2],
+    /// Red, green, blue and alpha, row by row from the top.
+    pub texels: Vec<[f64; 4]>,
+    /// What lies beyond its edges, across and down.
+    pub address: [AddressMode; 2],
+}
+
+/// What a method case asks: which method draws which scene, and what should come of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Method {
+    /// The question, the second part of the id: `transparency`.
+    pub question: String,
+    /// The scene, the third part of the id: `windows`.
+    pub scene: String,
+    /// The method, as the id names it: `depth-peeling`.
+    pub name: String,
+    /// What the stability curve runs along.
+    pub parameter: Option<Parameter>,
+    /// What should be seen in the first attachment that is read back, whose alpha does not count.
+    pub truth: Truth,
+}
+
+/// A parameter of a family of method cases.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// The axis.
+    pub name: String,
+    /// Its value in this case.
+    pub value: f64,
+}

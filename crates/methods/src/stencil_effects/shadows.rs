@@ -1,0 +1,190 @@
+//! Shadow volumes (Crow 1977; Heidmann 1991): a point lies in shadow when more sides of volumes lead in
+//! than out between it and a point that surely does not.
+//!
+//! The picture is seen along z and light falls at a slant, so that a card's shadow on a plane behind it
+//! is the card moved. Cards stand on whole texels and light moves them by whole texels, so the edges of
+//! all shadows keep half a texel away from all centres.
+
+use super::{Shown, except, opaque, test};
+use crate::picture::Surface;
+use crate::{SIZE, stage, stage::Polygon, view::clip, view::settle};
+use etalon_scene::{CompareFunction, Draw, Shader, StencilOperation, StencilState};
+use glam::DVec3;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// What is counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+pub enum MethodName {
+    /// Sides before what is seen, from the near plane on, which should lie in no volume (Heidmann 1991).
+    #[serde(rename = "shadow-volume-depth-pass")]
+    DepthPass,
+    /// Sides behind what is seen; the volumes are closed at both ends (Carmack 2000; Everitt and
+    /// Kilgard 2002).
+    #[serde(rename = "shadow-volume-depth-fail")]
+    DepthFail,
+}
+
+/// A rectangle that faces the viewer: left, top, right and bottom in texels.
+#[derive(Clone, Copy, Debug)]
+struct Card {
+    area: [f64; 4],
+    z: f64,
+    color: [f64; 4],
+}
+
+const CARDS: [Card; 4] = [
+    Card {
+        area: [18.0, 10.0, 56.0, 40.0],
+        z: 0.1,
+        color: [0.9, 0.6, 0.3, 1.0],
+    },
+    Card {
+        area: [66.0, 34.0, 106.0, 66.0],
+        z: 0.3,
+        color: [0.4, 0.7, 0.9, 1.0],
+    },
+    Card {
+        area: [22.0, 66.0, 84.0, 104.0],
+        z: 0.5,
+        color: [0.5, 0.8, 0.4, 1.0],
+    },
+    // The wall; its own shadow is out of sight.
+    Card {
+        area: [0.0, 0.0, 128.0, 128.0],
+        z: 0.9,
+        color: [0.8, 0.8, 0.7, 1.0],
+    },
+];
+
+/// By how many texels light moves right and down on its way from z 0 to 1: 5 and 4 in a tenth.
+const LIGHT: [f64; 2] = [50.0, 40.0];
+
+/// Where volumes end: behind the wall, before the far plane at 1.
+const END: f64 = 0.97;
+
+/// How far behind its card a volume begins, so that the two do not touch.
+const BEHIND: f64 = 0.004;
+
+/// How much of its light a shadow keeps.
+const SHADE: f64 = 0.5;
+
+impl Card {
+    /// The corners of the shadow at another depth, counter-clockwise as seen.
+    fn shadow(&self, z: f64) -> [DVec3; 4] {
+        let [left, top, right, bottom] = self.shadow_area(z);
+        [[left, top], [left, bottom], [right, bottom], [right, top]]
+            .map(|[x, y]| DVec3::new(x, y, z))
+    }
+
+    fn shadow_area(&self, z: f64) -> [f64; 4] {
+        let [dx, dy] = LIGHT.map(|l| l * (z - self.z));
+        let [left, top, right, bottom] = self.area;
+        [left + dx, top + dy, right + dx, bottom + dy]
+    }
+
+    /// The closed volume in the card's shadow, seen from outside.
+    fn volume(&self) -> Vec<Vec<DVec3>> {
+        let [from, to] = [self.z + BEHIND, END].map(|z| self.shadow(z));
+        let mut faces = vec![from.to_vec(), to.iter().rev().copied().collect()];
+        faces.extend((0..4).map(|i| {
+            let next = (i + 1) % 4;
+            vec![from[i], to[i], to[next], from[next]]
+        }));
+        faces
+    }
+}
+
+/// Depth from 0 at the near plane, where the eye is, to 1 at the far plane, at z 1.
+fn window_depth(z: f64, eye: f64) -> f64 {
+    (z - eye) / (1.0 - eye)
+}
+
+/// What is left of faces behind the near plane, in the picture.
+fn seen(faces: &[Vec<DVec3>], eye: f64, color: [f64; 4]) -> Vec<Polygon> {
+    let [width, height] = SIZE.map(f64::from);
+    let polygon = |face: &Vec<DVec3>| {
+        let mut left = clip(face, |p| p.z - eye);
+        left = clip(&left, |p| p.x);
+        left = clip(&left, |p| width - p.x);
+        left = clip(&left, |p| p.y);
+        left = clip(&left, |p| height - p.y);
+        let corners = left.iter().map(|p| [p.x, p.y, window_depth(p.z, eye)]);
+        (left.len() >= 3).then(|| Polygon::new(corners.collect(), color))
+    };
+    let polygons: Vec<Polygon> = faces.iter().filter_map(polygon).collect();
+    settle(SIZE, &polygons)
+}
+
+/// Counts the sides of a volume.
+fn count(method: MethodName, volume: &[Polygon]) -> Draw {
+    let mut draw = stage::draw(Shader::FlatColor, stage::mesh(SIZE, volume));
+    draw.depth = stage::depth(CompareFunction::Less, false);
+    draw.targets[0].write_mask = 0;
+    let [mut front, mut back] = [test(CompareFunction::Always, 0); 2];
+    let [more, less] = [
+        StencilOperation::IncrementWrap,
+        StencilOperation::DecrementWrap,
+    ];
+    match method {
+        MethodName::DepthPass => {
+            front.pass_op = more;
+            back.pass_op = less;
+        }
+        MethodName::DepthFail => {
+            front.depth_fail_op = less;
+            back.depth_fail_op = more;
+        }
+    }
+    draw.stencil = Some(StencilState { front, back });
+    draw
+}
+
+/// Takes light away wherever a count is left.
+fn darken() -> Draw {
+    let mut draw = stage::draw(Shader::UniformColor, stage::cover());
+    draw.params.color = [0.0, 0.0, 0.0, 1.0 - SHADE as f32];
+    draw.targets[0].blend = stage::over();
+    draw.stencil = except(0);
+    draw
+}
+
+/// What the cards behind the near plane look like, each followed by the shadows on it.
+fn surfaces(eye: f64) -> Vec<Surface> {
+    let mut all = Vec::new();
+    for on in CARDS.iter().filter(|card| card.z > eye) {
+        let depth = window_depth(on.z, eye);
+        all.push(Polygon::rect(on.area, depth, on.color).surface());
+        let [r, g, b, a] = on.color;
+        let dark = [r * SHADE, g * SHADE, b * SHADE, a];
+        for of in CARDS.iter().filter(|card| card.z < on.z) {
+            let [left, top, right, bottom] = of.shadow_area(on.z);
+            let area = [
+                left.max(on.area[0]),
+                top.max(on.area[1]),
+                right.min(on.area[2]),
+                bottom.min(on.area[3]),
+            ];
+            if area[0] < area[2] && area[1] < area[3] {
+                all.push(Polygon::rect(area, depth, dark).surface());
+            }
+        }
+    }
+    all
+}
+
+pub(super) fn show(method: MethodName, eye: f64) -> Shown {
+    let visible = CARDS.iter().filter(|card| card.z > eye);
+    let rect = |card: &Card| Polygon::rect(card.area, window_depth(card.z, eye), card.color);
+    let cards: Vec<Polygon> = visible.map(rect).collect();
+    let volumes = CARDS[..3].iter().flat_map(|card| {
+        let faces = card.volume();
+        seen(&faces, eye, [0.0; 4])
+    });
+    let volumes: Vec<Polygon> = volumes.collect();
+    Shown {
+        background: [0.0; 3],
+        draws: vec![opaque(&cards), count(method, &volumes), darken()],
+        surfaces: surfaces(eye),
+    }
+}

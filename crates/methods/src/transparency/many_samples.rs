@@ -1,0 +1,115 @@
+//! Methods that spread what is seen through over four samples.
+
+use super::scenes::Glass;
+use super::{PICTURE, clear, depths, opaque};
+use crate::{
+    SIZE, stage::Noise, stage::Polygon, stage::Stage, stage::depth, stage::draw, stage::mesh,
+};
+use etalon_frame::TextureFormat;
+use etalon_scene::{CompareFunction, Contents, Draw, Scene, Shader};
+
+/// Samples of a texel. The shader `stochastic` knows no more.
+const SAMPLES: u32 = 4;
+
+/// Alpha says how many samples are drawn.
+pub(super) fn alpha_to_coverage(glass: &Glass, polygons: &[Polygon]) -> Scene {
+    let mut glassy = draw(Shader::FlatColor, mesh(SIZE, polygons));
+    glassy.multisample.alpha_to_coverage = true;
+    resolved(glass, Stage::new(), vec![glassy])
+}
+
+/// A threshold for each sample says whether it is drawn, another one for each of several polygons that
+/// overlap.
+pub(super) fn stochastic(glass: &Glass, polygons: &[Polygon]) -> Scene {
+    let mut alphas: Vec<f64> = polygons.iter().map(|p| p.color[3]).collect();
+    alphas.sort_by(f64::total_cmp);
+    alphas.dedup();
+    let mut stage = Stage::new();
+    let mut draws = Vec::new();
+    for (i, layer) in layers(polygons).iter().enumerate() {
+        let contents = Contents::Texels(thresholds(i as u64, &alphas));
+        let format = TextureFormat::Rgba8Unorm;
+        let texture = stage.attachment(format!("thresholds_{i}"), format, SIZE, 1, contents);
+        let mut glassy = draw(Shader::Stochastic, mesh(SIZE, layer));
+        glassy.textures = vec![texture];
+        draws.push(glassy);
+    }
+    resolved(glass, stage, draws)
+}
+
+/// Draws with depth over what is opaque, and the mean of the samples.
+fn resolved(glass: &Glass, mut stage: Stage, mut glassy: Vec<Draw>) -> Scene {
+    let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
+    let contents = Contents::Color(clear(glass).map(|c| c as f32));
+    let samples = stage.attachment("samples", PICTURE, SIZE, SAMPLES, contents);
+    let depth_stencil = depths(&mut stage, SAMPLES);
+    for draw in &mut glassy {
+        draw.depth = depth(CompareFunction::Less, true);
+    }
+    let first = opaque(glass, Shader::FlatColor);
+    let draws = first.into_iter().chain(glassy).collect();
+    stage.resolving_pass(&[samples], vec![Some(picture)], Some(depth_stencil), draws);
+    stage.read(&[picture])
+}
+
+/// Polygons in as few groups as a first fit finds, so that none overlaps another of its group: what
+/// does not meet may share its thresholds.
+pub(super) fn layers(polygons: &[Polygon]) -> Vec<Vec<Polygon>> {
+    let mut layers: Vec<Vec<Polygon>> = Vec::new();
+    for polygon in polygons {
+        let free = |layer: &&mut Vec<Polygon>| !layer.iter().any(|other| overlap(polygon, other));
+        match layers.iter_mut().find(free) {
+            Some(layer) => layer.push(polygon.clone()),
+            None => layers.push(vec![polygon.clone()]),
+        }
+    }
+    layers
+}
+
+/// Whether two convex polygons have a point of the picture in common: no edge of either separates
+/// them.
+fn overlap(a: &Polygon, b: &Polygon) -> bool {
+    let range = |polygon: &Polygon, [x, y]: [f64; 2]| {
+        let along = polygon.corners.iter().map(|c| c[0] * x + c[1] * y);
+        along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(v), high.max(v))
+        })
+    };
+    let separates = |normal: [f64; 2]| {
+        let ((low_a, high_a), (low_b, high_b)) = (range(a, normal), range(b, normal));
+        high_a < low_b || high_b < low_a
+    };
+    let normals = |polygon: &Polygon| {
+        let corners = &polygon.corners;
+        let next = corners.iter().cycle().skip(1);
+        let edges = corners.iter().zip(next);
+        edges
+            .map(|(p, q)| [p[1] - q[1], q[0] - p[0]])
+            .collect::<Vec<_>>()
+    };
+    !normals(a).into_iter().chain(normals(b)).any(separates)
+}
+
+/// A threshold for each sample of each texel. None is so close to an alpha that rounding decides, and
+/// each is below exactly those alphas that the number behind it is below.
+pub(super) fn thresholds(seed: u64, alphas: &[f64]) -> Vec<u32> {
+    let mut noise = Noise::new(seed);
+    let count = SIZE[0] * SIZE[1] * SAMPLES;
+    let mut one = || {
+        let number = noise.next();
+        let mut code = (number * 255.0).round();
+        for alpha in alphas {
+            let close = (code / 255.0 - alpha).abs() < 0.1 / 255.0;
+            if close || (code / 255.0 < *alpha) != (number < *alpha) {
+                let at = alpha * 255.0;
+                code = if number < *alpha {
+                    (at - 0.1).floor()
+                } else {
+                    (at + 0.1).ceil()
+                };
+            }
+        }
+        code as u32
+    };
+    (0..count).map(|_| one()).collect()
+}

@@ -1,0 +1,93 @@
+//! Methods of one pass that differ in order and depth.
+
+use super::scenes::{Glass, Object};
+use super::{PICTURE, clear, depths, opaque, premultiplied};
+use crate::{
+    SIZE, stage::Polygon, stage::Stage, stage::add, stage::both, stage::depth, stage::draw,
+    stage::mesh, stage::over,
+};
+use etalon_scene::{BlendFactor, BlendState, CompareFunction, Params, Scene, Shader};
+
+/// The polygons of all objects, the farthest object first.
+pub(super) fn by_object(glass: &Glass) -> Vec<Polygon> {
+    let mut objects: Vec<&Object> = glass.objects.iter().collect();
+    objects.sort_by(|a, b| b.depth().total_cmp(&a.depth()));
+    let polygons = objects.into_iter().flat_map(|o| &o.polygons);
+    polygons.cloned().collect()
+}
+
+/// The triangles of all objects, the farthest first.
+pub(super) fn by_triangle(glass: &Glass) -> Vec<Polygon> {
+    let mut triangles = Vec::new();
+    for polygon in glass.polygons() {
+        let corners = &polygon.corners;
+        for i in 1..corners.len().saturating_sub(1) {
+            let corners = vec![corners[0], corners[i], corners[i + 1]];
+            triangles.push(Polygon::new(corners, polygon.color));
+        }
+    }
+    let depth = |t: &Polygon| t.corners.iter().map(|c| c[2]).sum::<f64>();
+    triangles.sort_by(|a, b| depth(b).total_cmp(&depth(a)));
+    triangles
+}
+
+/// Blends polygons in their order over what is opaque.
+pub(super) fn blended(glass: &Glass, polygons: &[Polygon], write: bool) -> Scene {
+    let mut stage = Stage::new();
+    let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
+    let depth_stencil = depths(&mut stage, 1);
+    let mut glassy = draw(Shader::FlatColor, mesh(SIZE, polygons));
+    glassy.depth = depth(CompareFunction::Less, write);
+    glassy.targets[0].blend = over();
+    let draws = opaque(glass, Shader::FlatColor).into_iter().chain([glassy]);
+    stage.pass(&[picture], Some(depth_stencil), draws.collect());
+    stage.read(&[picture])
+}
+
+/// Draws what has an alpha of at least a half, and all of that as if it were opaque.
+pub(super) fn alpha_test(glass: &Glass, polygons: &[Polygon]) -> Scene {
+    let mut stage = Stage::new();
+    let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
+    let depth_stencil = depths(&mut stage, 1);
+    // The shader does no more than the test when it is given no steps of work.
+    let mut tested = draw(Shader::ExpensiveDiscard, mesh(SIZE, polygons));
+    tested.params = Params {
+        color: [0.0, 0.0, 0.0, 0.5],
+        back_color: [0.0; 4],
+    };
+    tested.depth = depth(CompareFunction::Less, true);
+    let draws = opaque(glass, Shader::FlatColor).into_iter().chain([tested]);
+    stage.pass(&[picture], Some(depth_stencil), draws.collect());
+    stage.read(&[picture])
+}
+
+/// Premultiplied colours under what is there, whose alpha says how much of it is covered.
+pub(super) fn under() -> Option<BlendState> {
+    both(add(BlendFactor::OneMinusDstAlpha, BlendFactor::One))
+}
+
+/// Everything opaque and the background, nearest first, to be drawn under what is there.
+pub(super) fn behind(glass: &Glass) -> Vec<Polygon> {
+    let mut polygons = glass.opaque.clone();
+    polygons.sort_by(|a, b| a.corners[0][2].total_cmp(&b.corners[0][2]));
+    let all = [0.0, 0.0, f64::from(SIZE[0]), f64::from(SIZE[1])];
+    polygons.push(Polygon::rect(all, 1.0, clear(glass)));
+    polygons
+}
+
+/// Blends objects nearest first. No depth is needed: nothing shows through what is opaque.
+pub(super) fn front_to_back(glass: &Glass) -> Scene {
+    let mut objects = glass.objects.clone();
+    objects.extend(behind(glass).into_iter().map(|polygon| Object {
+        polygons: vec![polygon],
+    }));
+    objects.sort_by(|a, b| a.depth().total_cmp(&b.depth()));
+    let polygons = objects.iter().flat_map(|o| &o.polygons);
+    let polygons: Vec<Polygon> = polygons.map(premultiplied).collect();
+    let mut stage = Stage::new();
+    let picture = stage.color("picture", PICTURE, SIZE, [0.0; 4]);
+    let mut all = draw(Shader::FlatColor, mesh(SIZE, &polygons));
+    all.targets[0].blend = under();
+    stage.pass(&[picture], None, vec![all]);
+    stage.read(&[picture])
+}

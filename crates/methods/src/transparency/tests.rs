@@ -1,0 +1,344 @@
+//! What methods draw, as scenes: the pictures are drawn and measured elsewhere.
+
+use super::ordered::{behind, by_object, by_triangle};
+use super::scenes::{Glass, SceneName};
+use super::{MethodName, Wire, make, many_samples};
+use crate::SIZE;
+use crate::picture::Coverage;
+use crate::stage::{Polygon, assert_valid};
+use etalon_scene::{Contents, Scene, Shader};
+
+const SCENES: [SceneName; 6] = [
+    SceneName::Windows,
+    SceneName::IntersectingPanes,
+    SceneName::NestedGlass,
+    SceneName::ThinLayers,
+    SceneName::Hair,
+    SceneName::Smoke,
+];
+
+const METHODS: [MethodName; 11] = [
+    MethodName::Unsorted,
+    MethodName::Sorted,
+    MethodName::SortedTriangles,
+    MethodName::DepthWriteOff,
+    MethodName::AlphaTest,
+    MethodName::AlphaToCoverage,
+    MethodName::Stochastic,
+    MethodName::DepthPeeling,
+    MethodName::DualDepthPeeling,
+    MethodName::WeightedBlended,
+    MethodName::FrontToBack,
+];
+
+fn wire(scene: SceneName, method: MethodName) -> Wire {
+    Wire {
+        scene,
+        method,
+        alpha: None,
+        layers: None,
+        angle: None,
+        k: None,
+    }
+}
+
+fn scene(wire: &Wire) -> Scene {
+    make(wire).expect("the parameters are in range").scene
+}
+
+fn glass(name: SceneName) -> Glass {
+    Glass::new(&wire(name, MethodName::Sorted)).expect("the parameters are in range")
+}
+
+#[test]
+fn every_method_draws_every_scene_over_the_same_truth() {
+    for name in SCENES {
+        let truth = glass(name).truth();
+        assert!(truth.surfaces.iter().all(|s| s.corners.len() > 2));
+        for method in METHODS {
+            let made = make(&wire(name, method)).expect("the parameters are in range");
+            assert_valid(&made.scene);
+            assert_eq!(made.truth, truth, "{name:?} {method:?}");
+            let picture = &made.scene.attachments[made.scene.read[0]];
+            assert_eq!((picture.size, picture.samples), (truth.size, 1));
+        }
+    }
+}
+
+#[test]
+fn parameters_at_their_ends_are_drawn_and_those_beyond_are_refused_by_name() {
+    let near = Wire {
+        angle: Some(65.0),
+        ..wire(SceneName::IntersectingPanes, MethodName::Sorted)
+    };
+    let one = Wire {
+        layers: Some(1),
+        ..wire(SceneName::ThinLayers, MethodName::Stochastic)
+    };
+    let most = Wire {
+        layers: Some(64),
+        ..one.clone()
+    };
+    let once = Wire {
+        k: Some(1),
+        ..wire(SceneName::Windows, MethodName::DepthPeeling)
+    };
+    let dual = Wire {
+        method: MethodName::DualDepthPeeling,
+        ..once.clone()
+    };
+    for wire in [near, one, most, once, dual] {
+        assert_valid(&scene(&wire));
+    }
+    let panes = wire(SceneName::IntersectingPanes, MethodName::Sorted);
+    let thin = wire(SceneName::ThinLayers, MethodName::Sorted);
+    let bad = [
+        (
+            "angle",
+            Wire {
+                angle: Some(66.0),
+                ..panes.clone()
+            },
+        ),
+        (
+            "angle",
+            Wire {
+                angle: Some(-1.0),
+                ..panes
+            },
+        ),
+        (
+            "layers",
+            Wire {
+                layers: Some(0),
+                ..thin.clone()
+            },
+        ),
+        (
+            "layers",
+            Wire {
+                layers: Some(65),
+                ..thin.clone()
+            },
+        ),
+        (
+            "alpha",
+            Wire {
+                alpha: Some(1.0),
+                ..thin.clone()
+            },
+        ),
+        (
+            "alpha",
+            Wire {
+                alpha: Some(f64::NAN),
+                ..thin.clone()
+            },
+        ),
+        (
+            "k",
+            Wire {
+                k: Some(0),
+                ..thin.clone()
+            },
+        ),
+        (
+            "k",
+            Wire {
+                k: Some(65),
+                ..thin
+            },
+        ),
+    ];
+    for (key, wire) in bad {
+        let Err(error) = make(&wire) else {
+            panic!("{wire:?} is drawn");
+        };
+        assert_eq!(error.key, key);
+    }
+}
+
+fn depth(polygon: &Polygon) -> f64 {
+    polygon.corners.iter().map(|c| c[2]).sum::<f64>() / polygon.corners.len() as f64
+}
+
+#[test]
+fn orders_are_what_they_say_and_the_list_has_another_one() {
+    for name in SCENES {
+        let glass = glass(name);
+        let sorted = by_object(&glass);
+        assert_eq!(sorted.len(), glass.polygons().count());
+        let triangles = by_triangle(&glass);
+        let corners: usize = glass.polygons().map(|p| p.corners.len() - 2).sum();
+        assert_eq!(triangles.len(), corners);
+        assert!(
+            triangles
+                .windows(2)
+                .all(|t| depth(&t[0]) >= depth(&t[1]) - 1e-12)
+        );
+        let flat = glass.objects.iter().all(|o| o.polygons.len() == 1);
+        if flat {
+            assert!(
+                sorted
+                    .windows(2)
+                    .all(|p| depth(&p[0]) >= depth(&p[1]) - 1e-12)
+            );
+        }
+        let listed: Vec<f64> = glass
+            .objects
+            .iter()
+            .map(super::scenes::Object::depth)
+            .collect();
+        assert!(listed.windows(2).any(|d| d[0] < d[1]), "{name:?} is sorted");
+        assert!(listed.windows(2).any(|d| d[0] > d[1]), "{name:?} is sorted");
+        let behind = behind(&glass);
+        assert!(behind.windows(2).all(|p| depth(&p[0]) <= depth(&p[1])));
+        assert_eq!(behind.last().map(depth), Some(1.0));
+    }
+}
+
+#[test]
+fn passes_grow_with_what_is_peeled_and_with_nothing_else() {
+    let passes = |method, layers, k| {
+        let wire = Wire {
+            layers: Some(layers),
+            k,
+            ..wire(SceneName::ThinLayers, method)
+        };
+        scene(&wire).passes.len()
+    };
+    for layers in [2, 16, 64] {
+        assert_eq!(passes(MethodName::WeightedBlended, layers, None), 2);
+        assert_eq!(passes(MethodName::Sorted, layers, None), 1);
+        // As many layers: one pass for each and one to blend it, or for two of them.
+        assert_eq!(passes(MethodName::DepthPeeling, layers, Some(8)), 16);
+        assert_eq!(passes(MethodName::DualDepthPeeling, layers, Some(4)), 9);
+        assert_eq!(passes(MethodName::DepthPeeling, layers, None), 16);
+        assert_eq!(passes(MethodName::DualDepthPeeling, layers, None), 9);
+    }
+}
+
+#[test]
+fn thresholds_keep_a_share_that_is_alpha_and_none_is_close_to_it() {
+    let alphas = [0.1, 0.4, 0.41, 0.6];
+    let codes = many_samples::thresholds(3, &alphas);
+    assert_eq!(codes.len(), (SIZE[0] * SIZE[1] * 4) as usize);
+    assert_ne!(codes, many_samples::thresholds(4, &alphas));
+    for alpha in alphas {
+        let values = || codes.iter().map(|c| f64::from(*c) / 255.0);
+        assert!(values().all(|v| (0.0..=1.0).contains(&v) && (v - alpha).abs() > 0.09 / 255.0));
+        let share = values().filter(|v| *v <= alpha).count() as f64 / codes.len() as f64;
+        // Six standard deviations of so many samples.
+        assert!(
+            (share - alpha).abs() < 6.0 * 0.5 / 256.0,
+            "{share} of {alpha}"
+        );
+    }
+}
+
+#[test]
+fn layers_that_overlap_have_thresholds_of_their_own() {
+    let wire = wire(SceneName::ThinLayers, MethodName::Stochastic);
+    let scene = scene(&wire);
+    let textures: Vec<&Contents> = scene
+        .attachments
+        .iter()
+        .map(|a| &a.contents)
+        .filter(|c| matches!(c, Contents::Texels(_)))
+        .collect();
+    assert_eq!(textures.len(), 16);
+    for (i, texture) in textures.iter().enumerate() {
+        assert!(!textures[..i].contains(texture));
+    }
+    let hair = glass(SceneName::Hair);
+    let strips: Vec<Polygon> = hair.polygons().cloned().collect();
+    let layers = many_samples::layers(&strips);
+    assert_eq!(layers.concat().len(), strips.len());
+    assert!(layers.len() < strips.len() / 2, "{}", layers.len());
+    // Two strips beside each other share a layer only where their boxes or their slants part them.
+    let apart = |a: &Polygon, b: &Polygon| {
+        let side = |p: &Polygon, y: f64| {
+            let [from, to] = [p.corners[0], p.corners[1]];
+            from[0] + (to[0] - from[0]) * (y - from[1]) / (to[1] - from[1])
+        };
+        let top = a.corners[0][1].max(b.corners[0][1]);
+        let bottom = a.corners[1][1].min(b.corners[1][1]);
+        let gap = |y: f64| side(a, y) - side(b, y);
+        gap(top) * gap(bottom) > 0.0
+    };
+    for layer in &layers {
+        for (i, a) in layer.iter().enumerate() {
+            assert!(layer[..i].iter().all(|b| apart(a, b)));
+        }
+    }
+}
+
+#[test]
+fn where_edges_are_no_question_none_comes_near_a_centre() {
+    let off = |value: f64| (value.fract() - 0.5).abs();
+    for name in SCENES {
+        let glass = glass(name);
+        if glass.coverage == Coverage::Area {
+            continue;
+        }
+        for polygon in glass.polygons().chain(&glass.opaque) {
+            let corners = &polygon.corners;
+            let next = corners.iter().cycle().skip(1);
+            for (p, q) in corners.iter().zip(next) {
+                assert!(p[0].fract() == 0.0 && p[1].fract() == 0.0, "{p:?}");
+                let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
+                if dx == 0.0 || dy == 0.0 {
+                    continue;
+                }
+                let (low, high) = (p[0].min(q[0]) as u32, p[0].max(q[0]) as u32);
+                for x in low..high {
+                    let y = p[1] + (f64::from(x) + 0.5 - p[0]) * dy / dx;
+                    assert!(off(y) > 0.04, "{name:?} {p:?} {q:?} at column {x}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn panes_pass_through_each_other_from_a_third_of_a_right_angle_on() {
+    let nearest = |angle: f64, x: f64| {
+        let glass = Glass::new(&Wire {
+            angle: Some(angle),
+            ..wire(SceneName::IntersectingPanes, MethodName::Sorted)
+        })
+        .expect("the angle is in range");
+        let at = |p: &Polygon| {
+            let [from, to] = [p.corners[0], p.corners[2]];
+            from[2] + (to[2] - from[2]) * (x - from[0]) / (to[0] - from[0])
+        };
+        let depths: Vec<f64> = glass.polygons().map(at).collect();
+        (0..3).min_by(|a, b| depths[*a].total_cmp(&depths[*b]))
+    };
+    // At the right end of what all of them cover.
+    assert_eq!(nearest(30.0, 103.0), Some(1));
+    assert_eq!(nearest(45.0, 103.0), Some(2));
+    assert_eq!(nearest(45.0, 64.0), Some(1));
+}
+
+#[test]
+fn no_shader_writes_what_half_floats_do_not_hold() {
+    for name in SCENES {
+        let made = scene(&Wire {
+            alpha: Some(0.99),
+            layers: Some(64),
+            ..wire(name, MethodName::WeightedBlended)
+        });
+        let draws = made.passes.iter().flat_map(|p| &p.draws);
+        let sum: f32 = draws
+            .filter(|d| d.shader == Shader::WeightedAccumulate && d.targets[0].write_mask != 0)
+            .flat_map(|d| d.mesh.vertices.chunks_exact(3))
+            .map(|t| 3000.0 * (1.0 - t[0].position[2]).powi(3) * t[0].color[3].powi(2))
+            .sum();
+        // The sum over all triangles is more than that at any texel.
+        assert!(
+            sum / 2.0 < 65504.0 || name == SceneName::Hair,
+            "{name:?}: {sum}"
+        );
+    }
+}

@@ -1,0 +1,217 @@
+//! What it costs to find out what is in front: rooms behind rooms, seen through openings, with a
+//! fragment shader that does much work. All methods give the same picture.
+
+use super::stage::{self, Polygon, Stage};
+use super::view::{Face, View, cuboid, settle};
+use super::{Made, SIZE, within};
+use crate::error::ParameterError;
+use crate::picture::{Coverage, Truth};
+use etalon_frame::TextureFormat;
+use etalon_scene::{CompareFunction, Draw, EarlyTests, Mesh, Shader};
+use glam::DVec3;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Steps of work of each fragment.
+const STEPS: f32 = 64.0;
+
+/// Behind everything.
+const BACKGROUND: [f64; 3] = [0.85, 0.9, 1.0];
+
+/// The most rooms behind each other.
+const MOST: u32 = 32;
+
+/// Rooms behind rooms.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Wire {
+    scene: SceneName,
+    method: MethodName,
+    /// How many walls stand behind each other, 1 to 32: about the depth complexity.
+    layers: u32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum SceneName {
+    /// Walls with openings, boxes between them.
+    Rooms,
+}
+
+/// How hidden surfaces are left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum MethodName {
+    /// Painter's order: back to front, without a depth buffer.
+    NoTest,
+    /// A depth test, triangles in no order.
+    Unsorted,
+    /// A depth test, near triangles first.
+    FrontToBack,
+    /// All depths first, without colour; then, in no order, the fragments of equal depth.
+    DepthPrepass,
+    /// As `discard`, with tests that are forced to happen before the shader.
+    ForcedEarlyTest,
+    /// As `front-to-back`, with a shader that could discard.
+    Discard,
+    /// As `front-to-back`, with a shader that writes the depth that the fragment has anyway.
+    WrittenDepth,
+}
+
+/// Faces back to front as the eye sees them: the farthest room first; in a room its far wall, what
+/// stands to the sides, the partitions, what stands in the middle.
+fn rooms(eye: DVec3, layers: u32) -> Vec<Face> {
+    let mut all = Vec::new();
+    for room in (0..layers).rev() {
+        let dice = |salt: u32| {
+            let hash = (room * 8 + salt + 1).wrapping_mul(0x9e37_79b1);
+            f64::from(hash >> 16) / 65536.0
+        };
+        let back = -30.0 - 4.0 * f64::from(room);
+        let hue = dice(0);
+        let color = [
+            0.35 + 0.55 * hue,
+            0.45 + 0.3 * dice(1),
+            0.9 - 0.55 * hue,
+            1.0,
+        ];
+        let open = [2.4 * (dice(2) - 0.5), 2.0 * (dice(3) - 0.5)];
+        all.extend(wall(back, open, color));
+        let front = back + 3.6;
+        let block = |[x, y]: [f64; 2], salt: u32| {
+            let half = 0.35 + 0.4 * dice(salt);
+            let color = [0.9 - 0.6 * dice(salt), 0.35 + 0.5 * hue, 0.3, 1.0];
+            let low = DVec3::new(x - half, y - half, back + 0.6);
+            cuboid(
+                low,
+                DVec3::new(x + half, y + half, back + 0.8 + half),
+                color,
+            )
+        };
+        let partition = |x: f64| {
+            let low = DVec3::new(x - 0.05, -1.6, back + 0.2);
+            cuboid(low, DVec3::new(x + 0.05, 0.4 + dice(4), front), color)
+        };
+        let mut solid = |faces: Vec<Face>| all.extend(behind_first(eye, faces));
+        solid(block([-2.6, 2.0 * (dice(5) - 0.5)], 5));
+        solid(block([2.6, 2.0 * (dice(6) - 0.5)], 6));
+        solid(partition(-1.5));
+        solid(partition(1.5));
+        solid(block([0.6 * (dice(7) - 0.5), 0.6 * dice(3) - 1.9], 7));
+    }
+    all
+}
+
+/// A wall across the whole picture with an opening at x and y.
+fn wall(z: f64, [x, y]: [f64; 2], color: [f64; 4]) -> Vec<Face> {
+    const EDGE: f64 = 30.0;
+    let [left, right, low, high] = [x - 1.2, x + 1.2, y - 1.1, y + 1.1];
+    let part = |[left, right, low, high]: [f64; 4]| Face {
+        corners: vec![
+            DVec3::new(left, low, z),
+            DVec3::new(right, low, z),
+            DVec3::new(right, high, z),
+            DVec3::new(left, high, z),
+        ],
+        color,
+    };
+    [
+        [-EDGE, left, -EDGE, EDGE],
+        [right, EDGE, -EDGE, EDGE],
+        [left, right, -EDGE, low],
+        [left, right, high, EDGE],
+    ]
+    .map(part)
+    .to_vec()
+}
+
+/// The faces of a convex solid, those that look away first.
+fn behind_first(eye: DVec3, faces: Vec<Face>) -> Vec<Face> {
+    let (front, mut all): (Vec<Face>, Vec<Face>) =
+        faces.into_iter().partition(|face| face.looks_at(eye));
+    all.extend(front);
+    all
+}
+
+/// Always the same order without a system.
+fn shuffled(polygons: &[Polygon]) -> Vec<Polygon> {
+    let key = |i: usize| (i as u32).wrapping_mul(0x9e37_79b1) >> 4;
+    let mut order: Vec<usize> = (0..polygons.len()).collect();
+    order.sort_by_key(|i| key(*i));
+    order.into_iter().map(|i| polygons[i].clone()).collect()
+}
+
+fn shade(shader: Shader, mesh: Mesh, compare: CompareFunction) -> Draw {
+    let mut draw = stage::draw(shader, mesh);
+    draw.params.back_color = [STEPS, 0.0, 0.0, 0.0];
+    draw.depth = stage::depth(compare, compare != CompareFunction::Equal);
+    draw
+}
+
+fn draws(method: MethodName, back_to_front: &[Polygon]) -> Vec<Draw> {
+    let mesh = |polygons: &[Polygon]| stage::mesh(SIZE, polygons);
+    let unsorted = || mesh(&shuffled(back_to_front));
+    let front_to_back = || {
+        let polygons: Vec<Polygon> = back_to_front.iter().rev().cloned().collect();
+        mesh(&polygons)
+    };
+    let less = CompareFunction::Less;
+    match method {
+        MethodName::NoTest => {
+            let mut draw = shade(Shader::ExpensiveColor, mesh(back_to_front), less);
+            draw.depth = None;
+            vec![draw]
+        }
+        MethodName::Unsorted => vec![shade(Shader::ExpensiveColor, unsorted(), less)],
+        MethodName::FrontToBack => vec![shade(Shader::ExpensiveColor, front_to_back(), less)],
+        MethodName::DepthPrepass => {
+            let mut depth = stage::draw(Shader::FlatColor, unsorted());
+            depth.depth = stage::depth(less, true);
+            depth.targets[0].write_mask = 0;
+            let equal = CompareFunction::Equal;
+            vec![depth, shade(Shader::ExpensiveColor, unsorted(), equal)]
+        }
+        MethodName::ForcedEarlyTest => {
+            let mut draw = shade(Shader::ExpensiveDiscard, front_to_back(), less);
+            draw.early_tests = EarlyTests::Forced;
+            vec![draw]
+        }
+        MethodName::Discard => vec![shade(Shader::ExpensiveDiscard, front_to_back(), less)],
+        MethodName::WrittenDepth => vec![shade(Shader::ExpensiveDepth, front_to_back(), less)],
+    }
+}
+
+/// The triangles of the rooms, back to front.
+fn triangles(layers: u32) -> Vec<Polygon> {
+    let eye = DVec3::new(0.25, 0.3, 0.0);
+    let at = DVec3::new(0.1, -0.1, -30.0);
+    let far = 34.0 + 4.0 * f64::from(layers);
+    let view = View::perspective(SIZE, [eye, at], 11.0, [10.0, far]);
+    settle(SIZE, &view.see(&rooms(eye, layers)))
+}
+
+pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+    let Wire {
+        scene: SceneName::Rooms,
+        method,
+        layers,
+    } = *wire;
+    within("layers", layers.into(), 1.0..=MOST.into())?;
+    let triangles = triangles(layers);
+    let mut stage = Stage::new();
+    let background = [BACKGROUND[0], BACKGROUND[1], BACKGROUND[2], 1.0];
+    let picture = stage.color("picture", TextureFormat::Rgba8Unorm, SIZE, background);
+    let depth = (method != MethodName::NoTest)
+        .then(|| stage.depth("depth", TextureFormat::Depth24Plus, SIZE, 1, 1.0));
+    stage.pass(&[picture], depth, draws(method, &triangles));
+    let truth = Truth {
+        size: SIZE,
+        background: BACKGROUND,
+        coverage: Coverage::Center,
+        surfaces: triangles.iter().map(Polygon::surface).collect(),
+    };
+    Ok(Made {
+        scene: stage.read(&[picture]),
+        truth,
+    })
+}

@@ -1,0 +1,116 @@
+//! The rasterizer with one bug in it.
+
+use super::plant::Plant;
+use super::{Mutant, mutants};
+use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
+use etalon_cpu::{CpuBackend, PreparedScene};
+use etalon_frame::{Frame, Limits};
+use etalon_scene::{RESTART, Scene};
+use std::cell::RefCell;
+
+/// The rasterizer with one planted bug.
+#[derive(Debug)]
+pub struct MutantBackend {
+    inner: CpuBackend,
+    mutant: &'static Mutant,
+    /// The scene before, for what sticks.
+    before: RefCell<Option<Scene>>,
+}
+
+impl MutantBackend {
+    /// The rasterizer with the bug of this name; `None` where there is no such bug.
+    pub fn new(name: &str) -> Option<Self> {
+        let mutant = mutants().iter().find(|m| m.name == name)?;
+        Some(Self {
+            inner: CpuBackend::new(&format!("cpu:{name}")),
+            mutant,
+            before: RefCell::new(None),
+        })
+    }
+
+    /// What the bug makes of a scene.
+    fn believed(&self, scene: &Scene) -> Scene {
+        let mut believed = scene.clone();
+        match &self.mutant.plant {
+            Plant::Scene(bug) => bug(&mut believed),
+            Plant::Sticky(bug) => {
+                if let Some(before) = &*self.before.borrow() {
+                    bug(before, &mut believed);
+                }
+            }
+            Plant::Steps(_) | Plant::Frame(_) => return believed,
+        }
+        keep_possible(scene, &mut believed);
+        believed
+    }
+}
+
+/// Takes back tests of aspects that a pass does not have, since no bug can make a driver test them,
+/// and indices of vertices that a bug left out.
+fn keep_possible(asked: &Scene, believed: &mut Scene) {
+    for (pass, original) in believed.passes.iter_mut().zip(&asked.passes) {
+        let format = pass.depth_stencil.map(|i| asked.attachments[i].format);
+        for (draw, original) in pass.draws.iter_mut().zip(&original.draws) {
+            if !format.is_some_and(|f| f.has_depth()) {
+                draw.depth = original.depth;
+            }
+            if !format.is_some_and(|f| f.has_stencil()) {
+                draw.stencil = original.stencil;
+            }
+            let count = draw.mesh.vertices.len() as u32;
+            if let Some(indices) = &mut draw.mesh.indices {
+                indices.retain(|i| *i == RESTART || *i < count);
+            }
+        }
+    }
+}
+
+impl Backend for MutantBackend {
+    fn adapter(&self) -> &AdapterInfo {
+        self.inner.adapter()
+    }
+
+    fn limits(&self) -> &Limits {
+        self.inner.limits()
+    }
+
+    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
+        if let Some(missing) = self.limits().missing(&scene.requirements()) {
+            return Err(BackendError::NotSupported(missing));
+        }
+        let believed = self.believed(scene);
+        if matches!(self.mutant.plant, Plant::Sticky(_)) {
+            *self.before.borrow_mut() = Some(scene.clone());
+        }
+        Ok(match &self.mutant.plant {
+            Plant::Steps(hooks) => Box::new(PreparedScene::new(believed, hooks.as_ref())),
+            Plant::Frame(bug) => Box::new(PreparedMutant {
+                inner: self.inner.prepare(&believed)?,
+                scene: believed,
+                bug,
+            }),
+            Plant::Scene(_) | Plant::Sticky(_) => {
+                Box::new(PreparedScene::new(believed, etalon_cpu::steps::Faithful))
+            }
+        })
+    }
+}
+
+/// A scene whose frame comes back changed.
+struct PreparedMutant<'a, F: ?Sized> {
+    inner: Box<dyn Prepared + 'a>,
+    scene: Scene,
+    bug: &'a F,
+}
+
+impl<F: Fn(&Scene, &mut Frame) + ?Sized> Prepared for PreparedMutant<'_, F> {
+    fn submit(&mut self) -> Result<FrameTime, BackendError> {
+        self.inner.submit()
+    }
+
+    fn read_back(&mut self) -> Result<Frame, BackendError> {
+        let mut frame = self.inner.read_back()?;
+        (self.bug)(&self.scene, &mut frame);
+        Ok(frame)
+    }
+}

@@ -1,0 +1,541 @@
+//! Bugs of colour formats: the rounding and range of each encoding, and the order of channels.
+
+mod orders;
+
+use super::hooks::{
+    blending, clear_code, code, color_code, color_value, faithful_blend, missing_alpha,
+};
+use super::plant::{Plant, nudge};
+use super::{CONFUSION, List, SMALL};
+use etalon_frame::ChannelEncoding::{self, Float16, Float32, Snorm, Srgb8, Ufloat, Unorm};
+use etalon_pipeline::{Arithmetic, BlendInput, Plain};
+use etalon_scene::{BlendFactor, BlendState};
+
+type Input = BlendInput<[f32; 1]>;
+type Encodings = [ChannelEncoding; 4];
+
+const ROUNDED: &str = "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized \
+                       Fixed-Point: one of the two closest values, the nearest only recommended";
+const SMALL_FLOATS: &str = "Vulkan: Fundamentals, 16-Bit and Unsigned 11-Bit and 10-Bit \
+                            Floating-Point Numbers: either neighbouring value, and the largest \
+                            finite one or infinity for values beyond it";
+const PRECISION: &str = "Vulkan: Blending: precision no lower than that used to represent \
+                         destination components, read as codes of the destination";
+
+/// The encodings, and how many codes off still leaves a code within their range.
+const ENCODINGS: [(&str, ChannelEncoding, i64); 12] = [
+    ("unorm1", Unorm(1), 1),
+    ("unorm2", Unorm(2), 1),
+    ("unorm4", Unorm(4), 3),
+    ("unorm5", Unorm(5), 3),
+    ("unorm6", Unorm(6), 3),
+    ("unorm10", Unorm(10), 3),
+    ("snorm8", Snorm(8), 3),
+    ("srgb8", Srgb8, 3),
+    ("float16", Float16, 3),
+    ("float32", Float32, 3),
+    ("ufloat11", Ufloat(6), 3),
+    ("ufloat10", Ufloat(5), 3),
+];
+
+pub(super) fn add(list: &mut List) {
+    list.class("format", "blend");
+    for (name, encoding, most) in ENCODINGS {
+        for steps in [1, -1, 3, -3_i64] {
+            if steps.abs() > most {
+                continue;
+            }
+            let by = if steps > 0 { "plus" } else { "minus" };
+            list.add(
+                &format!("{name}-stored-{by}-{}", steps.abs()),
+                SMALL,
+                format!("Channels of {encoding} are stored {steps} codes off, within their range."),
+                store(encoding, move |v| nudge(encoding, code(encoding, v), steps)),
+            );
+        }
+    }
+    srgb(list);
+    signed(list);
+    few_bits(list);
+    floats(list);
+    alpha(list);
+    orders::add(list);
+}
+
+/// How one encoding is stored.
+fn store(encoding: ChannelEncoding, bug: impl Fn(f32) -> u32 + Send + Sync + 'static) -> Plant {
+    color_code(move |e, v| if e == encoding { bug(v) } else { code(e, v) })
+}
+
+/// What is read of one encoding where a blend reads the destination.
+fn read(encoding: ChannelEncoding, bug: impl Fn(u32) -> f32 + Send + Sync + 'static) -> Plant {
+    color_value(move |e, c| if e == encoding { bug(c) } else { value(e, c) })
+}
+
+/// How attachments are blended whose red has this property.
+fn blend_of(
+    which: fn(ChannelEncoding) -> bool,
+    bug: impl Fn(&BlendState, Encodings, &Input) -> [f32; 4] + Send + Sync + 'static,
+) -> Plant {
+    blending(move |state, encodings, input| {
+        if which(encodings[0]) {
+            bug(state, encodings, input)
+        } else {
+            faithful_blend(state, encodings, input)
+        }
+    })
+}
+
+/// The value that a code rightly stands for.
+fn value(encoding: ChannelEncoding, code: u32) -> f32 {
+    let [value] = Plain::<1>.decode(encoding, [code]);
+    value
+}
+
+/// The sRGB-encoded value of a linear one, and back, as an 8-bit texture unit would convert them.
+fn encoded(linear: f32) -> f32 {
+    etalon_frame::linear_to_srgb(f64::from(linear.clamp(0.0, 1.0))) as f32
+}
+
+fn linear(encoded: f32) -> f32 {
+    etalon_frame::srgb_to_linear(f64::from(encoded.clamp(0.0, 1.0))) as f32
+}
+
+fn srgb(list: &mut List) {
+    const NONLINEAR: &str = "SwiftShader: sRGB taken for linear";
+    list.add(
+        "srgb-stored-linear",
+        NONLINEAR,
+        "An sRGB format stores linear values as they are.",
+        store(Srgb8, |v| code(Unorm(8), v)),
+    );
+    list.add(
+        "srgb-stored-by-gamma",
+        "a power of 1/2.2 for the sRGB curve",
+        "An sRGB format stores by a power of 1/2.2.",
+        store(Srgb8, |v| code(Unorm(8), v.clamp(0.0, 1.0).powf(1.0 / 2.2))),
+    );
+    list.add(
+        "srgb-stored-without-straight-part",
+        "the sRGB curve without its straight part",
+        "An sRGB format stores small values by the power alone.",
+        store(Srgb8, |v| {
+            let power = 1.055 * v.clamp(0.0, 1.0).powf(1.0 / 2.4) - 0.055;
+            code(Unorm(8), power)
+        }),
+    );
+    list.add(
+        "srgb-stored-in-7-bits",
+        SMALL,
+        "An sRGB format loses its lowest bit.",
+        store(Srgb8, |v| code(Srgb8, v) & 0xfe),
+    );
+    list.add(
+        "srgb-destination-read-linear",
+        NONLINEAR,
+        "An sRGB destination is read as if it were linear.",
+        read(Srgb8, |c| value(Unorm(8), c)),
+    );
+    list.add(
+        "srgb-blended-encoded",
+        NONLINEAR,
+        "An sRGB format is blended in encoded values.",
+        blend_of(
+            |e| e == Srgb8,
+            |state, _, input| {
+                let mut as_stored = *input;
+                for c in 0..3 {
+                    as_stored.src[c] = input.src[c].map(encoded);
+                    as_stored.dst[c] = input.dst[c].map(encoded);
+                }
+                let result = faithful_blend(state, [Unorm(8); 4], &as_stored);
+                std::array::from_fn(|c| if c == 3 { result[c] } else { linear(result[c]) })
+            },
+        ),
+    );
+    list.add(
+        "srgb-alpha-encoded",
+        CONFUSION,
+        "The alpha of an sRGB format is blended as if it were sRGB too.",
+        blend_of(
+            |e| e == Srgb8,
+            |state, encodings, input| {
+                let mut with_alpha = *input;
+                with_alpha.dst[3] = input.dst[3].map(linear);
+                let mut result = faithful_blend(state, encodings, &with_alpha);
+                result[3] = encoded(result[3]);
+                result
+            },
+        ),
+    );
+    list.add(
+        "srgb-cleared-linear",
+        NONLINEAR,
+        "An sRGB format takes clear values without converting them.",
+        clear_code(|e, v| code(if e == Srgb8 { Unorm(8) } else { e }, v)),
+    );
+    list.add(
+        "unorm8-stored-as-srgb",
+        "a linear format taken for an sRGB one",
+        "Linear 8-bit formats are stored as sRGB.",
+        store(Unorm(8), |v| code(Srgb8, v)),
+    );
+    list.add(
+        "unorm8-destination-read-as-srgb",
+        "a linear format taken for an sRGB one",
+        "Linear 8-bit destinations are read as sRGB.",
+        read(Unorm(8), |c| value(Srgb8, c)),
+    );
+}
+
+fn signed(list: &mut List) {
+    let snorm = Snorm(8);
+    let round = |name: &str, about: &str, list: &mut List, round: fn(f32) -> f32| {
+        list.add(
+            name,
+            "truncation instead of rounding",
+            about,
+            store(snorm, move |v| {
+                // Codes are where they belong, whatever the product's last bit says.
+                let exact = v.clamp(-1.0, 1.0) * 127.0;
+                let near = exact.round();
+                let whole = (exact - near).abs() < 1e-4;
+                snorm.code_of_order((if whole { near } else { round(exact) }) as i64)
+            }),
+        )
+        .legal(ROUNDED);
+    };
+    round(
+        "snorm8-truncated",
+        "Signed values are rounded towards 0.",
+        list,
+        f32::trunc,
+    );
+    round(
+        "snorm8-rounded-down",
+        "Signed values are rounded down.",
+        list,
+        f32::floor,
+    );
+    type Store = (&'static str, &'static str, fn(f32) -> u32);
+    let stores: [Store; 5] = [
+        (
+            "snorm8-negatives-lost",
+            "Signed formats store 0 for negative values.",
+            |v| code(Snorm(8), v.max(0.0)),
+        ),
+        (
+            "snorm8-minus-one-as-lowest",
+            "-1 is stored as the lowest code.",
+            |v| if v <= -1.0 { 0x80 } else { code(Snorm(8), v) },
+        ),
+        (
+            "snorm8-times-128",
+            "Signed formats are stored by the power of two.",
+            |v| Snorm(8).code_of_order((v * 128.0).round().clamp(-128.0, 127.0) as i64),
+        ),
+        (
+            "snorm8-wraps",
+            "Signed values outside -1 to 1 wrap round.",
+            |v| ((v * 127.0).round() as i64 & 0xff) as u32,
+        ),
+        (
+            "snorm8-stored-as-unorm8",
+            "Signed formats are stored as unsigned ones.",
+            |v| code(Unorm(8), v),
+        ),
+    ];
+    for (name, about, bug) in stores {
+        list.add(name, CONFUSION, about, store(snorm, bug));
+    }
+    list.add(
+        "snorm8-destination-read-as-unorm8",
+        CONFUSION,
+        "Signed destinations are read as unsigned ones.",
+        read(snorm, |c| value(Unorm(8), c)),
+    );
+    list.add(
+        "snorm8-destination-negatives-lost",
+        CONFUSION,
+        "Negative destinations are read as 0.",
+        read(snorm, |c| value(Snorm(8), c).max(0.0)),
+    );
+    let signed = |e| e == Snorm(8);
+    list.add(
+        "snorm8-inverse-factors-out-of-range",
+        "llvmpipe: snorm inverse factors out of range",
+        "On signed formats, factors 1 - x reach beyond 1.",
+        blend_of(signed, |state, _, input| {
+            let clamped = clamp(input, -1.0);
+            faithful_blend(state, [Float32; 4], &clamped)
+        }),
+    );
+    list.add(
+        "snorm8-operands-held-above-0",
+        CONFUSION,
+        "On signed formats, sources and constants are clamped to 0 to 1.",
+        blend_of(signed, |state, encodings, input| {
+            let mut held = clamp(input, 0.0);
+            held.dst = input.dst;
+            faithful_blend(state, encodings, &held)
+        }),
+    );
+    list.add(
+        "snorm8-cleared-above-0",
+        CONFUSION,
+        "Signed formats take negative clear values for 0.",
+        clear_code(|e, v| code(e, if e == Snorm(8) { v.max(0.0) } else { v })),
+    );
+}
+
+/// The input held between a lower end and 1.
+fn clamp(input: &Input, low: f32) -> Input {
+    let held = |values: [[f32; 1]; 4]| values.map(|[v]| [v.clamp(low, 1.0)]);
+    BlendInput {
+        src: held(input.src),
+        src1: held(input.src1),
+        dst: held(input.dst),
+        constant: held(input.constant),
+    }
+}
+
+fn few_bits(list: &mut List) {
+    const FEW: &str = "SwiftShader: 565/5551 blended on truncated bits";
+    for bits in [4_u8, 5, 6] {
+        list.add(
+            &format!("unorm{bits}-destination-truncated"),
+            FEW,
+            format!("Destinations of {bits} bits are shifted into 8 bits whose lowest stay 0."),
+            read(Unorm(bits), move |c| (c << (8 - bits)) as f32 / 255.0),
+        );
+        // Four bits repeated are exactly the value they stand for.
+        if bits > 4 {
+            list.add(
+                &format!("unorm{bits}-destination-replicated"),
+                "blending in 8 bits, as mobile GPUs do it",
+                format!("Destinations of {bits} bits are blended as 8 bits that repeat them."),
+                read(Unorm(bits), move |c| {
+                    (c << (8 - bits) | c >> (2 * bits - 8)) as f32 / 255.0
+                }),
+            )
+            .legal(PRECISION);
+        }
+        list.add(
+            &format!("unorm{bits}-stored-through-8-bits"),
+            "blending in 8 bits, as mobile GPUs do it",
+            format!("Formats of {bits} bits take the upper bits of 8."),
+            store(Unorm(bits), move |v| code(Unorm(8), v) >> (8 - bits)),
+        )
+        .legal(ROUNDED);
+        list.add(
+            &format!("unorm{bits}-stored-in-{}-bits", bits - 1),
+            SMALL,
+            format!("Formats of {bits} bits lose their lowest."),
+            store(Unorm(bits), move |v| code(Unorm(bits), v) & !1),
+        );
+    }
+    list.add(
+        "unorm10-stored-in-8-bits",
+        "a format of 10 bits backed by one of 8",
+        "Formats of 10 bits keep 8.",
+        store(Unorm(10), |v| {
+            code(Unorm(10), code(Unorm(8), v) as f32 / 255.0)
+        }),
+    );
+    list.add(
+        "unorm10-destination-in-8-bits",
+        "a format of 10 bits backed by one of 8",
+        "Destinations of 10 bits are read by their upper 8.",
+        read(Unorm(10), |c| (c >> 2) as f32 / 255.0),
+    );
+    list.add(
+        "unorm2-stored-in-1-bit",
+        SMALL,
+        "Alpha of 2 bits is stored as all or nothing.",
+        store(Unorm(2), |v| if v < 0.5 { 0 } else { 3 }),
+    );
+    list.add(
+        "unorm2-opaque",
+        CONFUSION,
+        "Alpha of 2 bits is stored as 1.",
+        store(Unorm(2), |_| 3),
+    );
+    list.add(
+        "unorm1-opaque",
+        CONFUSION,
+        "Alpha of 1 bit is stored as 1.",
+        store(Unorm(1), |_| 1),
+    );
+    list.add(
+        "unorm1-only-for-one",
+        "truncation instead of rounding",
+        "Alpha of 1 bit is set for 1 alone.",
+        store(Unorm(1), |v| u32::from(v >= 1.0)),
+    )
+    .legal(ROUNDED);
+}
+
+fn floats(list: &mut List) {
+    const CLAMPED: &str = "SwiftShader: negative float blends clamped";
+    let is_float: fn(ChannelEncoding) -> bool = ChannelEncoding::is_float;
+    for (name, encoding) in [("float16", Float16), ("float32", Float32)] {
+        list.add(
+            &format!("{name}-clamped"),
+            CLAMPED,
+            format!("Channels of {encoding} are clamped to 0 to 1 at the store."),
+            store(encoding, move |v| code(encoding, v.clamp(0.0, 1.0))),
+        );
+        list.add(
+            &format!("{name}-negatives-lost"),
+            CLAMPED,
+            format!("Channels of {encoding} store 0 for negative values."),
+            store(encoding, move |v| code(encoding, v.max(0.0))),
+        );
+        list.add(
+            &format!("{name}-sign-lost"),
+            CONFUSION,
+            format!("Channels of {encoding} lose their sign."),
+            store(encoding, move |v| code(encoding, v.abs())),
+        );
+    }
+    list.add(
+        "float16-truncated",
+        "truncation instead of rounding",
+        "16-bit floats are rounded towards 0.",
+        store(Float16, |v| truncated(Float16, v)),
+    )
+    .legal(SMALL_FLOATS);
+    list.add(
+        "float16-overflow-to-largest",
+        "a saturating conversion",
+        "16-bit floats hold the largest finite value instead of infinity.",
+        store(Float16, |v| code(Float16, v.clamp(-65504.0, 65504.0))),
+    )
+    .legal(SMALL_FLOATS);
+    list.add(
+        "float16-in-8-bits",
+        SMALL,
+        "16-bit floats lose the lowest two bits.",
+        store(Float16, |v| code(Float16, v) & !3),
+    );
+    list.add(
+        "float32-in-16-bits",
+        "a 32-bit float format backed by a 16-bit one",
+        "32-bit floats are rounded to 16-bit ones.",
+        store(Float32, |v| value(Float16, code(Float16, v)).to_bits()),
+    );
+    for (name, bits) in [("ufloat11", 6), ("ufloat10", 5)] {
+        let encoding = Ufloat(bits);
+        list.add(
+            &format!("{name}-truncated"),
+            "truncation instead of rounding",
+            format!("Channels of {encoding} are rounded down."),
+            store(encoding, move |v| truncated(encoding, v)),
+        )
+        .legal(SMALL_FLOATS);
+        list.add(
+            &format!("{name}-sign-lost"),
+            CONFUSION,
+            format!("Channels of {encoding} store negative values without their sign."),
+            store(encoding, move |v| code(encoding, v.abs())),
+        );
+        list.add(
+            &format!("{name}-clamped"),
+            CLAMPED,
+            format!("Channels of {encoding} are clamped to 0 to 1."),
+            store(encoding, move |v| code(encoding, v.min(1.0))),
+        );
+        list.add(
+            &format!("{name}-lowest-bit-lost"),
+            SMALL,
+            format!("Channels of {encoding} lose their lowest bit."),
+            store(encoding, move |v| code(encoding, v) & !1),
+        );
+    }
+    let blends: [super::Row<fn(&mut Input)>; 5] = [
+        (
+            "float-constant-clamped",
+            "On float formats, the constant is clamped to 0 to 1.",
+            |i| i.constant = clamp(i, 0.0).constant,
+        ),
+        (
+            "float-source-clamped",
+            "On float formats, sources are clamped to 0 to 1.",
+            |i| i.src = clamp(i, 0.0).src,
+        ),
+        (
+            "float-destination-clamped",
+            "On float formats, destinations are clamped to 0 to 1.",
+            |i| i.dst = clamp(i, 0.0).dst,
+        ),
+        (
+            "float-source-negatives-lost",
+            "On float formats, negative sources are blended as 0.",
+            |i| i.src = i.src.map(|[v]| [v.max(0.0)]),
+        ),
+        (
+            "float-destination-negatives-lost",
+            "On float formats, negative destinations are blended as 0.",
+            |i| i.dst = i.dst.map(|[v]| [v.max(0.0)]),
+        ),
+    ];
+    for (name, about, bug) in blends {
+        list.add(
+            name,
+            CLAMPED,
+            about,
+            blend_of(is_float, move |state, encodings, input| {
+                let mut changed = *input;
+                bug(&mut changed);
+                faithful_blend(state, encodings, &changed)
+            }),
+        );
+    }
+    list.add(
+        "float-result-clamped",
+        CLAMPED,
+        "On float formats, what was blended is clamped to 0 to 1.",
+        blend_of(is_float, |state, encodings, input| {
+            faithful_blend(state, encodings, input).map(|v| v.clamp(0.0, 1.0))
+        }),
+    );
+    list.add(
+        "float-result-negatives-lost",
+        CLAMPED,
+        "On float formats, negative results of blending become 0.",
+        blend_of(is_float, |state, encodings, input| {
+            faithful_blend(state, encodings, input).map(|v| v.max(0.0))
+        }),
+    );
+}
+
+/// The code next to a value on the side of 0.
+fn truncated(encoding: ChannelEncoding, v: f32) -> u32 {
+    let v = f64::from(v);
+    let order = if v < 0.0 {
+        encoding.order_above(v)
+    } else {
+        encoding.order_below(v)
+    };
+    encoding.code_of_order(order)
+}
+
+fn alpha(list: &mut List) {
+    list.add(
+        "missing-alpha-zero",
+        CONFUSION,
+        "Formats without alpha are blended as if it were 0.",
+        missing_alpha(|_| 0.0),
+    );
+    list.add(
+        "missing-alpha-zero-for-saturate",
+        "llvmpipe: saturate wrong on formats without alpha",
+        "On formats without alpha, saturate takes the destination's alpha for 0.",
+        missing_alpha(|state| {
+            let saturated = BlendFactor::SrcAlphaSaturated;
+            let color = &state.color;
+            let used = [color.src_factor, color.dst_factor].contains(&saturated);
+            if used { 0.0 } else { 1.0 }
+        }),
+    );
+}

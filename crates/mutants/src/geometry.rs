@@ -1,0 +1,367 @@
+//! Bugs of what is covered, of uploads and fetches, and of draws as a whole.
+
+use super::hooks::{covered, fetch};
+use super::plant::{Plant, draws, in_bits, scene};
+use super::{CONFUSION, List, Row, SMALL};
+use etalon_frame::{ChannelEncoding, TextureFormat};
+use etalon_scene::{Contents, FrontFace};
+
+pub(super) fn add(list: &mut List) {
+    list.class("geometry", "blend");
+    coverage(list);
+    positions(list);
+    list.class("geometry", "depth");
+    vertex_depth(list);
+    list.class("upload", "blend");
+    uploads(list);
+}
+
+fn coverage(list: &mut List) {
+    type Covered = fn([u32; 2], [u32; 2]) -> bool;
+    let missing: [(&str, &str, Covered); 7] = [
+        (
+            "last-column-missing",
+            "The last column is not drawn.",
+            |[x, _], [w, _]| x + 1 < w,
+        ),
+        (
+            "last-row-missing",
+            "The last row is not drawn.",
+            |[_, y], [_, h]| y + 1 < h,
+        ),
+        (
+            "first-column-missing",
+            "The first column is not drawn.",
+            |[x, _], _| x > 0,
+        ),
+        (
+            "first-row-missing",
+            "The first row is not drawn.",
+            |[_, y], _| y > 0,
+        ),
+        (
+            "first-texel-missing",
+            "The first texel is not drawn.",
+            |at, _| at != [0, 0],
+        ),
+        (
+            "last-texel-missing",
+            "The last texel is not drawn.",
+            |[x, y], [w, h]| x + 1 < w || y + 1 < h,
+        ),
+        (
+            "middle-texel-missing",
+            "The middle texel is not drawn.",
+            |[x, y], [w, h]| x != w / 2 || y != h / 2,
+        ),
+    ];
+    for (name, about, bug) in missing {
+        list.add(name, SMALL, about, covered(bug));
+    }
+    list.add(
+        "first-triangle-lost",
+        CONFUSION,
+        "The first triangle of every draw is lost.",
+        draws(|draw| {
+            let n = draw.mesh.vertices.len().min(3);
+            draw.mesh.vertices.drain(..n);
+        }),
+    );
+    list.add(
+        "last-triangle-lost",
+        CONFUSION,
+        "The last triangle of every draw is lost.",
+        draws(|draw| {
+            let n = draw.mesh.vertices.len();
+            draw.mesh.vertices.truncate(n.saturating_sub(3));
+        }),
+    );
+    list.add(
+        "last-draw-lost",
+        CONFUSION,
+        "The last draw of every pass is lost.",
+        scene(|scene| {
+            for pass in &mut scene.passes {
+                pass.draws.pop();
+            }
+        }),
+    );
+    list.add(
+        "draws-reversed",
+        CONFUSION,
+        "Draws are carried out in reverse order.",
+        scene(|scene| scene.passes.iter_mut().for_each(|p| p.draws.reverse())),
+    );
+    list.add(
+        "last-draw-twice",
+        CONFUSION,
+        "The last draw of every pass is carried out twice.",
+        scene(|scene| {
+            for pass in &mut scene.passes {
+                pass.draws.extend(pass.draws.last().cloned());
+            }
+        }),
+    );
+}
+
+/// Moves everything by so many texels to the right and down.
+fn shifted(right: f32, down: f32) -> Plant {
+    scene(move |scene| {
+        for pass in &mut scene.passes {
+            let Some(target) = pass.color.first().copied().or(pass.depth_stencil) else {
+                continue;
+            };
+            let [width, height] = scene.attachments[target].size.map(|s| s as f32);
+            for vertex in pass.draws.iter_mut().flat_map(|d| &mut d.mesh.vertices) {
+                vertex.position[0] += 2.0 * right / width * vertex.position[3];
+                vertex.position[1] -= 2.0 * down / height * vertex.position[3];
+            }
+        }
+    })
+}
+
+fn positions(list: &mut List) {
+    for (name, right, down) in [
+        ("one-texel-right", 1.0, 0.0),
+        ("one-texel-left", -1.0, 0.0),
+        ("one-texel-down", 0.0, 1.0),
+        ("one-texel-up", 0.0, -1.0),
+    ] {
+        list.add(
+            name,
+            SMALL,
+            "Everything is drawn one texel off.",
+            shifted(right, down),
+        );
+    }
+    for (name, right, down) in [
+        ("half-texel-right", 0.51, 0.0),
+        ("half-texel-left", -0.51, 0.0),
+        ("half-texel-down", 0.0, 0.51),
+        ("half-texel-up", 0.0, -0.51),
+    ] {
+        list.add(
+            name,
+            "texel centres at whole numbers, as in Direct3D 9",
+            "Everything is drawn half a texel off.",
+            shifted(right, down),
+        );
+    }
+    list.add(
+        "upside-down",
+        "ANGLE: y flip",
+        "Everything is drawn upside down, windings kept.",
+        draws(|draw| {
+            for vertex in &mut draw.mesh.vertices {
+                vertex.position[1] = -vertex.position[1];
+            }
+            draw.front_face = match draw.front_face {
+                FrontFace::Ccw => FrontFace::Cw,
+                FrontFace::Cw => FrontFace::Ccw,
+            };
+        }),
+    );
+    list.add(
+        "upside-down-and-turned",
+        "ANGLE: y flip",
+        "Everything is drawn upside down, and windings turn with it.",
+        draws(|draw| {
+            for vertex in &mut draw.mesh.vertices {
+                vertex.position[1] = -vertex.position[1];
+            }
+        }),
+    );
+}
+
+fn vertex_depth(list: &mut List) {
+    let depths = |bug: fn(f32) -> f32| {
+        draws(move |draw| {
+            for vertex in &mut draw.mesh.vertices {
+                vertex.position[2] = bug(vertex.position[2]);
+            }
+        })
+    };
+    list.add(
+        "depth-from-minus-one",
+        "OpenGL's range of -1 to 1 left on",
+        "Vertex depths are mapped from -1 to 1.",
+        depths(|z| z * 0.5 + 0.5),
+    );
+    list.add(
+        "depth-reversed",
+        "llvmpipe: reversed depth range",
+        "Vertex depths are reversed.",
+        depths(|z| 1.0 - z),
+    );
+    list.add(
+        "depth-zero",
+        CONFUSION,
+        "Vertex depths are 0.",
+        depths(|_| 0.0),
+    );
+    list.add(
+        "depth-in-8-bits",
+        SMALL,
+        "Vertex depths keep 8 bits.",
+        depths(|z| in_bits(z, 8)),
+    );
+    list.add(
+        "depth-in-16-bits",
+        SMALL,
+        "Vertex depths keep 16 bits.",
+        depths(|z| in_bits(z, 16)),
+    );
+}
+
+/// What is uploaded to an attachment.
+struct Upload {
+    format: TextureFormat,
+    /// Codes per texel.
+    texel: usize,
+    /// Codes per row.
+    row: usize,
+}
+
+/// Changes the codes of uploads.
+fn texels(bug: impl Fn(&Upload, &mut Vec<u32>) + Send + Sync + 'static) -> Plant {
+    scene(move |scene| {
+        for attachment in &mut scene.attachments {
+            if let Contents::Texels(codes) = &mut attachment.contents {
+                let texel = attachment.format.color_channels().len();
+                let upload = Upload {
+                    format: attachment.format,
+                    texel,
+                    row: texel * attachment.size[0] as usize,
+                };
+                bug(&upload, codes);
+            }
+        }
+    })
+}
+
+/// Changes every code of uploads of one format.
+fn codes(format: TextureFormat, bug: fn(u32) -> u32) -> Plant {
+    texels(move |upload, codes| {
+        if upload.format == format {
+            codes.iter_mut().for_each(|c| *c = bug(*c));
+        }
+    })
+}
+
+/// A value rounded to a 16-bit float.
+fn half(value: f32) -> f32 {
+    let encoding = ChannelEncoding::Float16;
+    let order = encoding.order_of_code(encoding.nearest_code(f64::from(value)));
+    encoding.value_of_order(order) as f32
+}
+
+fn uploads(list: &mut List) {
+    type Bug = fn(&Upload, &mut Vec<u32>);
+    let places: [Row<Bug>; 5] = [
+        (
+            "red-blue-swapped",
+            "Red and blue of uploads are exchanged.",
+            |upload, codes| {
+                if upload.texel > 2 {
+                    let texels = codes.chunks_exact_mut(upload.texel);
+                    texels.for_each(|t| t.swap(0, 2));
+                }
+            },
+        ),
+        (
+            "upside-down",
+            "Uploads are upside down.",
+            |upload, codes| {
+                let rows = codes.chunks_exact(upload.row).rev();
+                *codes = rows.flatten().copied().collect();
+            },
+        ),
+        (
+            "rows-one-late",
+            "Uploads start one row late.",
+            |upload, codes| codes.rotate_right(upload.row),
+        ),
+        (
+            "texels-one-late",
+            "Uploads start one texel late.",
+            |upload, codes| codes.rotate_right(upload.texel),
+        ),
+        (
+            "last-row-lost",
+            "The last row of uploads is 0.",
+            |upload, codes| {
+                let n = codes.len();
+                codes[n - upload.row..].fill(0);
+            },
+        ),
+    ];
+    list.rows("a row pitch or origin that is off", texels, &places);
+    type Code = (&'static str, TextureFormat, &'static str, fn(u32) -> u32);
+    let precisions: [Code; 5] = [
+        (
+            "code-plus-1",
+            TextureFormat::Rgba8Unorm,
+            "Uploaded 8-bit codes below 255 are one too large.",
+            |code| (code + 1).min(255),
+        ),
+        (
+            "lowest-bit-lost",
+            TextureFormat::Rgba8Unorm,
+            "Uploaded 8-bit codes lose their lowest bit.",
+            |code| code & 0xfe,
+        ),
+        (
+            "float-source-clamped-to-8-bits",
+            TextureFormat::Rgba32Float,
+            "Uploaded floats are clamped and kept in 8 bits.",
+            |code| in_bits(f32::from_bits(code).clamp(0.0, 1.0), 8).to_bits(),
+        ),
+        (
+            "float-source-in-6-bits",
+            TextureFormat::Rgba32Float,
+            "Uploaded floats keep 6 bits.",
+            |code| in_bits(f32::from_bits(code), 6).to_bits(),
+        ),
+        (
+            "float-source-in-16-bits",
+            TextureFormat::Rgba32Float,
+            "Uploaded floats are rounded to 16-bit ones.",
+            |code| half(f32::from_bits(code)).to_bits(),
+        ),
+    ];
+    for (name, format, about, bug) in precisions {
+        list.add(name, SMALL, about, codes(format, bug));
+    }
+    list.class("fetch", "blend");
+    type From = fn([u32; 2], [u32; 2]) -> [u32; 2];
+    let fetches: [(&str, &str, From); 5] = [
+        (
+            "one-texel-right",
+            "Texels are fetched one too far to the right.",
+            |[x, y], _| [x + 1, y],
+        ),
+        (
+            "one-texel-down",
+            "Texels are fetched one too far down.",
+            |[x, y], _| [x, y + 1],
+        ),
+        (
+            "upside-down",
+            "Texels are fetched upside down.",
+            |[x, y], [_, h]| [x, (h - 1).saturating_sub(y)],
+        ),
+        (
+            "first-texel-alone",
+            "The first texel is fetched everywhere.",
+            |_, _| [0, 0],
+        ),
+        (
+            "transposed",
+            "Columns are fetched for rows.",
+            |[x, y], _| [y, x],
+        ),
+    ];
+    for (name, about, bug) in fetches {
+        list.add(name, CONFUSION, about, fetch(bug));
+    }
+}

@@ -1,0 +1,340 @@
+//! Steps of the arithmetic with one of them replaced.
+
+use super::plant::Plant;
+use etalon_cpu::Surface;
+use etalon_cpu::steps::{Codes, Faithful, LANES, Mask, Path, Real, Steps, Tests, Written};
+use etalon_frame::{Aspect, ChannelEncoding};
+use etalon_pipeline::shader::Kept;
+use etalon_pipeline::{Arithmetic, BlendInput, Plain, blend};
+use etalon_scene::{
+    BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Shader, StencilFace,
+};
+
+/// Declares the replaceable steps: each a field of [`Hooks`] and a function that plants a bug there.
+macro_rules! hooks {
+    ($($(#[$doc:meta])* $name:ident($($argument:ty),*) -> $result:ty;)+) => {
+        /// Replacements of single steps, one texel at a time: planted bugs need not be fast.
+        #[derive(Default)]
+        pub(super) struct Hooks {
+            $($name: Option<Box<dyn Fn($($argument),*) -> $result + Send + Sync>>,)+
+        }
+
+        $($(#[$doc])*
+        pub(super) fn $name(
+            bug: impl Fn($($argument),*) -> $result + Send + Sync + 'static,
+        ) -> Plant {
+            Plant::Steps(Box::new(Hooks {
+                $name: Some(Box::new(bug)),
+                ..Hooks::default()
+            }))
+        })+
+    };
+}
+
+hooks! {
+    /// Only texels are covered of which `bug([x, y], [width, height])` says so too.
+    covered([u32; 2], [u32; 2]) -> bool;
+    /// Texels are fetched from `bug([x, y], [width, height])`.
+    fetch([u32; 2], [u32; 2]) -> [u32; 2];
+    /// The stencil test.
+    stencil_passes(&StencilFace, u8) -> bool;
+    /// The stencil update, write mask and all.
+    stencil_write(&StencilFace, Path, u8) -> u8;
+    /// The conversion of depths between 0 and 1.
+    depth_code(ChannelEncoding, f32) -> u32;
+    /// The depth comparison of codes, incoming first.
+    depth_passes(CompareFunction, u32, u32) -> bool;
+    /// Whether colour and depth are written, of whether a texel is covered and passes the stencil
+    /// and the depth test.
+    written([bool; 3]) -> [bool; 2];
+    /// Blending.
+    blending(&BlendState, [ChannelEncoding; 4], &BlendInput<[f32; 1]>) -> [f32; 4];
+    /// The conversion of colours at the store.
+    color_code(ChannelEncoding, f32) -> u32;
+    /// The conversion of clear values, colour and depth.
+    clear_code(ChannelEncoding, f32) -> u32;
+    /// The conversion of stored colours to what is blended.
+    color_value(ChannelEncoding, u32) -> f32;
+    /// The alpha that is blended with where the format has none.
+    missing_alpha(&BlendState) -> f32;
+    /// The second source after alpha to one.
+    second_source(&Multisample, [f32; 4]) -> [f32; 4];
+    /// Logic operations, of whether the attachment takes any, and the codes of source and
+    /// destination.
+    logic(bool, ChannelEncoding, LogicOperation, u32, u32) -> u32;
+    /// The least step of a depth bias, of the largest depth of a primitive.
+    bias_unit(ChannelEncoding, f64) -> f64;
+    /// The depth bias, of the least step and the slope.
+    bias(&DepthBias, f64, f64) -> f64;
+    /// Whether points and lines are biased.
+    biases_lines() -> bool;
+    /// Whether points and lines face front.
+    lines_face_front() -> bool;
+    /// How a depth is held to the viewport's range.
+    held_to_range(f32, [f32; 2]) -> f32;
+    /// The depth bounds test, of the bounds, the stored and the incoming depth.
+    in_bounds([f32; 2], f32, f32) -> bool;
+    /// Whether fragments outside the depth bounds count as failing the depth test.
+    bounds_fail_as_depth() -> bool;
+    /// The positions of samples, in 1/256 texel.
+    sample_positions(Vec<[u16; 2]>) -> Vec<[u16; 2]>;
+    /// Whether a fragment's alpha draws a sample, of its number and how many there are.
+    alpha_covers(f32, usize, usize) -> bool;
+    /// Whether a shader runs once per sample.
+    runs_per_sample(Shader) -> bool;
+    /// Whose stored value a sample's test or blend sees.
+    stored_sample(Aspect, usize) -> usize;
+    /// At whose position, of so many samples, a sample's depth is taken.
+    depth_sample(usize, usize) -> usize;
+    /// Whether a shader that may discard keeps a fragment, of the value and its limit.
+    kept(f32, f32) -> bool;
+    /// A channel of a resolved texel.
+    resolve(ChannelEncoding, &[u32]) -> u32;
+}
+
+/// The code that a value is rightly stored as.
+pub(super) fn code(encoding: ChannelEncoding, value: f32) -> u32 {
+    let [code] = Plain::<1>.encode(encoding, [value]);
+    code
+}
+
+/// Blending as it should be.
+pub(super) fn faithful_blend(
+    state: &BlendState,
+    encodings: [ChannelEncoding; 4],
+    input: &BlendInput<[f32; 1]>,
+) -> [f32; 4] {
+    blend(&mut Plain::<1>, state, encodings, input).map(|[v]| v)
+}
+
+impl Steps for &Hooks {
+    fn covered(&self, x: usize, y: usize, size: [u32; 2], mask: Mask) -> Mask {
+        match &self.covered {
+            None => mask,
+            Some(bug) => std::array::from_fn(|i| mask[i] && bug([(x + i) as u32, y as u32], size)),
+        }
+    }
+
+    fn fetch(&self, surface: &Surface, x: usize, y: usize) -> [Real; 4] {
+        let Some(bug) = &self.fetch else {
+            return Faithful.fetch(surface, x, y);
+        };
+        let size = [surface.width as u32, surface.height as u32];
+        let from: [usize; LANES] = std::array::from_fn(|i| {
+            let [x, y] = bug([(x + i) as u32, y as u32], size);
+            let (x, y) = (x.min(size[0] - 1), y.min(size[1] - 1));
+            y as usize * surface.stride + x as usize
+        });
+        std::array::from_fn(|c| match surface.encodings.get(c) {
+            Some(encoding) => {
+                let plane = surface.plane(c, 0);
+                Plain::<LANES>.decode(*encoding, from.map(|at| plane[at]))
+            }
+            None => [if c == 3 { 1.0 } else { 0.0 }; LANES],
+        })
+    }
+
+    fn stencil_passes(&self, face: &StencilFace, stored: u8) -> bool {
+        match &self.stencil_passes {
+            None => Faithful.stencil_passes(face, stored),
+            Some(bug) => bug(face, stored),
+        }
+    }
+
+    fn stencil_write(&self, face: &StencilFace, path: Path, stored: u8) -> u8 {
+        match &self.stencil_write {
+            None => Faithful.stencil_write(face, path, stored),
+            Some(bug) => bug(face, path, stored),
+        }
+    }
+
+    fn depth_codes(&self, encoding: ChannelEncoding, depth: Real) -> Codes {
+        match &self.depth_code {
+            None => Faithful.depth_codes(encoding, depth),
+            Some(bug) => depth.map(|v| bug(encoding, v.clamp(0.0, 1.0))),
+        }
+    }
+
+    fn depth_passes(&self, function: CompareFunction, incoming: u32, stored: u32) -> bool {
+        match &self.depth_passes {
+            None => Faithful.depth_passes(function, incoming, stored),
+            Some(bug) => bug(function, incoming, stored),
+        }
+    }
+
+    fn written(&self, tests: &Tests) -> Written {
+        let Some(bug) = &self.written else {
+            return Faithful.written(tests);
+        };
+        let both: [[bool; 2]; LANES] =
+            std::array::from_fn(|i| bug([tests.covered[i], tests.stencil[i], tests.depth[i]]));
+        Written {
+            color: both.map(|[color, _]| color),
+            depth: both.map(|[_, depth]| depth),
+        }
+    }
+
+    fn blend(
+        &self,
+        state: &BlendState,
+        encodings: [ChannelEncoding; 4],
+        input: &BlendInput<Real>,
+    ) -> [Real; 4] {
+        let Some(bug) = &self.blending else {
+            return Faithful.blend(state, encodings, input);
+        };
+        let mut result = [[0.0; LANES]; 4];
+        for lane in 0..LANES {
+            let one = BlendInput {
+                src: input.src.map(|v| [v[lane]]),
+                src1: input.src1.map(|v| [v[lane]]),
+                dst: input.dst.map(|v| [v[lane]]),
+                constant: input.constant.map(|v| [v[lane]]),
+            };
+            for (c, value) in bug(state, encodings, &one).into_iter().enumerate() {
+                result[c][lane] = value;
+            }
+        }
+        result
+    }
+
+    fn color_codes(&self, encoding: ChannelEncoding, value: Real) -> Codes {
+        match &self.color_code {
+            None => Faithful.color_codes(encoding, value),
+            Some(bug) => value.map(|v| bug(encoding, v)),
+        }
+    }
+
+    fn clear_code(&self, encoding: ChannelEncoding, value: f32) -> u32 {
+        match &self.clear_code {
+            None => Faithful.clear_code(encoding, value),
+            Some(bug) => bug(encoding, value),
+        }
+    }
+
+    fn color_value(&self, encoding: ChannelEncoding, codes: Codes) -> Real {
+        match &self.color_value {
+            None => Faithful.color_value(encoding, codes),
+            Some(bug) => codes.map(|c| bug(encoding, c)),
+        }
+    }
+
+    fn missing_alpha(&self, state: &BlendState) -> f32 {
+        match &self.missing_alpha {
+            None => Faithful.missing_alpha(state),
+            Some(bug) => bug(state),
+        }
+    }
+
+    fn second_source(&self, multisample: &Multisample, second: [Real; 4]) -> [Real; 4] {
+        let Some(bug) = &self.second_source else {
+            return Faithful.second_source(multisample, second);
+        };
+        let lanes: [[f32; 4]; LANES] =
+            std::array::from_fn(|lane| bug(multisample, second.map(|v| v[lane])));
+        std::array::from_fn(|c| lanes.map(|texel| texel[c]))
+    }
+
+    fn logic(
+        &self,
+        obeys: bool,
+        encoding: ChannelEncoding,
+        operation: LogicOperation,
+        src: Codes,
+        dst: Codes,
+    ) -> Codes {
+        match &self.logic {
+            None => Faithful.logic(obeys, encoding, operation, src, dst),
+            Some(bug) => std::array::from_fn(|i| bug(obeys, encoding, operation, src[i], dst[i])),
+        }
+    }
+
+    fn bias_unit(&self, encoding: ChannelEncoding, largest: f64) -> f64 {
+        match &self.bias_unit {
+            None => Faithful.bias_unit(encoding, largest),
+            Some(bug) => bug(encoding, largest),
+        }
+    }
+
+    fn bias(&self, state: &DepthBias, unit: f64, slope: f64) -> f64 {
+        match &self.bias {
+            None => Faithful.bias(state, unit, slope),
+            Some(bug) => bug(state, unit, slope),
+        }
+    }
+
+    fn biases_lines(&self) -> bool {
+        self.biases_lines.as_ref().is_some_and(|bug| bug())
+    }
+
+    fn lines_face_front(&self) -> bool {
+        self.lines_face_front.as_ref().is_none_or(|bug| bug())
+    }
+
+    fn held_to_range(&self, depth: f32, range: [f32; 2]) -> f32 {
+        match &self.held_to_range {
+            None => Faithful.held_to_range(depth, range),
+            Some(bug) => bug(depth, range),
+        }
+    }
+
+    fn in_bounds(&self, bounds: [f32; 2], stored: f32, incoming: f32) -> bool {
+        match &self.in_bounds {
+            None => Faithful.in_bounds(bounds, stored, incoming),
+            Some(bug) => bug(bounds, stored, incoming),
+        }
+    }
+
+    fn bounds_fail_as_depth(&self) -> bool {
+        self.bounds_fail_as_depth.as_ref().is_some_and(|bug| bug())
+    }
+
+    fn sample_positions(&self, standard: Vec<[u16; 2]>) -> Vec<[u16; 2]> {
+        match &self.sample_positions {
+            None => standard,
+            Some(bug) => bug(standard),
+        }
+    }
+
+    fn alpha_covers(&self, alpha: Real, sample: usize, samples: usize) -> Mask {
+        match &self.alpha_covers {
+            None => Faithful.alpha_covers(alpha, sample, samples),
+            Some(bug) => alpha.map(|a| bug(a, sample, samples)),
+        }
+    }
+
+    fn runs_per_sample(&self, shader: Shader) -> bool {
+        match &self.runs_per_sample {
+            None => Faithful.runs_per_sample(shader),
+            Some(bug) => bug(shader),
+        }
+    }
+
+    fn stored_sample(&self, aspect: Aspect, sample: usize) -> usize {
+        match &self.stored_sample {
+            None => sample,
+            Some(bug) => bug(aspect, sample),
+        }
+    }
+
+    fn depth_sample(&self, sample: usize, samples: usize) -> usize {
+        match &self.depth_sample {
+            None => sample,
+            Some(bug) => bug(sample, samples),
+        }
+    }
+
+    fn kept(&self, kept: &Kept<Real>) -> Mask {
+        match &self.kept {
+            None => Faithful.kept(kept),
+            Some(bug) => std::array::from_fn(|i| bug(kept.value[i], kept.limit[i])),
+        }
+    }
+
+    fn resolve(&self, encoding: ChannelEncoding, codes: &[u32]) -> u32 {
+        match &self.resolve {
+            None => Faithful.resolve(encoding, codes),
+            Some(bug) => bug(encoding, codes),
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! The ways to plant a bug.
+
+use super::hooks::Hooks;
+use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, TextureFormat};
+use etalon_scene::{BlendComponent, Draw, Scene, StencilFace};
+use std::fmt;
+
+type SceneBug = dyn Fn(&mut Scene) + Send + Sync;
+type StickyBug = dyn Fn(&Scene, &mut Scene) + Send + Sync;
+type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
+
+/// A planted bug.
+pub(super) enum Plant {
+    /// The driver believes that it was asked for another scene.
+    Scene(Box<SceneBug>),
+    /// The same, with something left over from the scene before.
+    Sticky(Box<StickyBug>),
+    /// A step of the arithmetic is another one.
+    Steps(Box<Hooks>),
+    /// Something else than what was drawn comes back.
+    Frame(Box<FrameBug>),
+}
+
+impl fmt::Debug for Plant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Scene(_) => "Scene",
+            Self::Sticky(_) => "Sticky",
+            Self::Steps(_) => "Steps",
+            Self::Frame(_) => "Frame",
+        })
+    }
+}
+
+/// Changes the scene.
+pub(super) fn scene(bug: impl Fn(&mut Scene) + Send + Sync + 'static) -> Plant {
+    Plant::Scene(Box::new(bug))
+}
+
+/// Changes every draw.
+pub(super) fn draws(bug: impl Fn(&mut Draw) + Send + Sync + 'static) -> Plant {
+    scene(move |scene| {
+        scene
+            .passes
+            .iter_mut()
+            .flat_map(|p| &mut p.draws)
+            .for_each(&bug);
+    })
+}
+
+/// Changes both faces of every stencil test.
+pub(super) fn faces(bug: impl Fn(&mut StencilFace) + Send + Sync + 'static) -> Plant {
+    draws(move |draw| {
+        if let Some(stencil) = &mut draw.stencil {
+            bug(&mut stencil.front);
+            bug(&mut stencil.back);
+        }
+    })
+}
+
+/// Changes the blend equation of colour.
+pub(super) fn color_blend(bug: impl Fn(&mut BlendComponent) + Send + Sync + 'static) -> Plant {
+    draws(move |draw| {
+        let states = draw.targets.iter_mut().filter_map(|t| t.blend.as_mut());
+        states.for_each(|state| bug(&mut state.color));
+    })
+}
+
+/// Changes the blend equation of alpha.
+pub(super) fn alpha_blend(bug: impl Fn(&mut BlendComponent) + Send + Sync + 'static) -> Plant {
+    draws(move |draw| {
+        let states = draw.targets.iter_mut().filter_map(|t| t.blend.as_mut());
+        states.for_each(|state| bug(&mut state.alpha));
+    })
+}
+
+/// The first draw of a scene sees the last draw of the scene before.
+pub(super) fn from_case(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) -> Plant {
+    Plant::Sticky(Box::new(move |before, scene| {
+        let last = before.passes.iter().flat_map(|p| &p.draws).next_back();
+        let first = scene.passes.iter_mut().flat_map(|p| &mut p.draws).next();
+        if let (Some(last), Some(first)) = (last, first) {
+            bug(last, first);
+        }
+    }))
+}
+
+/// Every draw but the first sees the one before it, as it was asked for.
+pub(super) fn from_draw(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) -> Plant {
+    scene(move |scene| {
+        let mut before: Option<Draw> = None;
+        for draw in scene.passes.iter_mut().flat_map(|p| &mut p.draws) {
+            let asked = draw.clone();
+            if let Some(before) = &before {
+                bug(before, draw);
+            }
+            before = Some(asked);
+        }
+    })
+}
+
+/// Changes every image of one aspect.
+pub(super) fn images(aspect: Aspect, bug: impl Fn(&mut Image) + Send + Sync + 'static) -> Plant {
+    Plant::Frame(Box::new(move |_, frame| {
+        let chosen = frame.images.iter_mut().filter(|i| i.aspect == aspect);
+        chosen.for_each(&bug);
+    }))
+}
+
+/// Changes every image of an attachment of this format.
+pub(super) fn images_of(
+    format: TextureFormat,
+    bug: impl Fn(&mut Image) + Send + Sync + 'static,
+) -> Plant {
+    Plant::Frame(Box::new(move |scene, frame| {
+        for image in &mut frame.images {
+            let mut all = scene.attachments.iter();
+            if all.any(|a| a.name == image.attachment && a.format == format) {
+                bug(image);
+            }
+        }
+    }))
+}
+
+/// Fetches every texel of one aspect from another place: `from([x, y], [width, height])`.
+pub(super) fn moved(
+    aspect: Aspect,
+    from: impl Fn([u32; 2], [u32; 2]) -> [u32; 2] + Send + Sync + 'static,
+) -> Plant {
+    images(aspect, move |image| {
+        let original = image.clone();
+        let [width, height] = image.size;
+        // A texel's samples lie side by side and move together.
+        let n = image.channels.len() * image.samples as usize;
+        for y in 0..height {
+            for x in 0..width {
+                let [from_x, from_y] = from([x, y], image.size);
+                let at = (y * width + x) as usize * n;
+                let source = (from_y.min(height - 1) * width + from_x.min(width - 1)) as usize * n;
+                image.codes[at..at + n].copy_from_slice(&original.codes[source..source + n]);
+            }
+        }
+    })
+}
+
+/// Adds steps to a code, held at the ends of its encoding.
+pub(super) fn nudge(encoding: ChannelEncoding, code: u32, steps: i64) -> u32 {
+    let order = encoding.order_of_code(code) + steps;
+    encoding.code_of_order(order.clamp(encoding.min_order(), encoding.max_order()))
+}
+
+/// A value kept in so many bits, as a normalized integer.
+pub(super) fn in_bits(value: f32, bits: u32) -> f32 {
+    let most = ((1_u64 << bits) - 1) as f32;
+    (value * most).round() / most
+}

@@ -1,0 +1,124 @@
+//! Which states are neighbours: those that a slip in a table would confuse.
+
+use etalon_scene::{
+    BlendFactor, BlendOperation, CompareFunction, LogicOperation, StencilOperation,
+};
+
+/// Functions that differ in one of the three outcomes below, equal and above.
+pub(super) fn compare_neighbours() -> Vec<(CompareFunction, CompareFunction)> {
+    use CompareFunction as F;
+    // Bit 0: true when below, bit 1: when equal, bit 2: when above. This is the order in which the
+    // functions are declared, and every API's.
+    let order = [
+        F::Never,
+        F::Less,
+        F::Equal,
+        F::LessEqual,
+        F::Greater,
+        F::NotEqual,
+        F::GreaterEqual,
+        F::Always,
+    ];
+    let mut pairs = Vec::new();
+    for (bits, function) in order.into_iter().enumerate() {
+        for bit in 0..3 {
+            pairs.push((function, order[bits ^ (1 << bit)]));
+        }
+    }
+    pairs
+}
+
+/// Values and those declared before and after them, round the end.
+fn round<T: Copy>(all: &[T]) -> Vec<(T, T)> {
+    let n = all.len();
+    (0..n)
+        .flat_map(|i| [(all[i], all[(i + 1) % n]), (all[i], all[(i + n - 1) % n])])
+        .collect()
+}
+
+/// Operations and those declared before and after them, round the end.
+pub(super) fn stencil_neighbours() -> Vec<(StencilOperation, StencilOperation)> {
+    round(StencilOperation::ALL)
+}
+
+/// Operations and those declared before and after them, round the end.
+pub(super) fn operation_neighbours() -> Vec<(BlendOperation, BlendOperation)> {
+    round(BlendOperation::ALL)
+}
+
+/// Operations and those declared before and after them, round the end; and those that differ in
+/// which of source and destination is inverted.
+pub(super) fn logic_neighbours() -> Vec<(LogicOperation, LogicOperation)> {
+    use LogicOperation as L;
+    let mut pairs = round(L::ALL);
+    for (a, b) in [
+        (L::AndReverse, L::AndInverted),
+        (L::OrReverse, L::OrInverted),
+        (L::Copy, L::Noop),
+        (L::CopyInverted, L::Invert),
+    ] {
+        pairs.extend([(a, b), (b, a)]);
+    }
+    pairs
+}
+
+/// Factors of the second source and those that differ in one thing: complement, channel or alpha,
+/// which source.
+pub(super) fn second_source_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
+    use BlendFactor as F;
+    let first = [F::Src, F::OneMinusSrc, F::SrcAlpha, F::OneMinusSrcAlpha];
+    let second = [F::Src1, F::OneMinusSrc1, F::Src1Alpha, F::OneMinusSrc1Alpha];
+    (0..4)
+        .flat_map(|c| [second[c ^ 1], second[c ^ 2], first[c]].map(|wrong| (second[c], wrong)))
+        .collect()
+}
+
+/// Factors and those that differ in one thing: complement, channel or alpha, whose value.
+pub(super) fn factor_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
+    use BlendFactor as F;
+    // Rows: whose value. Columns: channel or alpha, each with its complement.
+    let grid = [
+        [F::Src, F::OneMinusSrc, F::SrcAlpha, F::OneMinusSrcAlpha],
+        [F::Dst, F::OneMinusDst, F::DstAlpha, F::OneMinusDstAlpha],
+        [
+            F::Constant,
+            F::OneMinusConstant,
+            F::ConstantAlpha,
+            F::OneMinusConstantAlpha,
+        ],
+    ];
+    let mut pairs = vec![
+        (F::Zero, F::One),
+        (F::One, F::Zero),
+        (F::SrcAlphaSaturated, F::Zero),
+        (F::SrcAlphaSaturated, F::SrcAlpha),
+        (F::SrcAlphaSaturated, F::OneMinusDstAlpha),
+        (F::SrcAlphaSaturated, F::One),
+    ];
+    for (r, row) in grid.iter().enumerate() {
+        for (c, factor) in row.iter().enumerate() {
+            pairs.push((*factor, row[c ^ 1]));
+            pairs.push((*factor, row[c ^ 2]));
+            pairs.push((*factor, grid[(r + 1) % 3][c]));
+        }
+    }
+    pairs
+}
+
+/// Whether two factors mean the same in the equation of alpha.
+pub(super) fn same_for_alpha(a: BlendFactor, b: BlendFactor) -> bool {
+    use BlendFactor as F;
+    let meaning = |factor| match factor {
+        F::Src => F::SrcAlpha,
+        F::OneMinusSrc => F::OneMinusSrcAlpha,
+        F::Dst => F::DstAlpha,
+        F::OneMinusDst => F::OneMinusDstAlpha,
+        F::Constant => F::ConstantAlpha,
+        F::OneMinusConstant => F::OneMinusConstantAlpha,
+        F::Src1 => F::Src1Alpha,
+        F::OneMinusSrc1 => F::OneMinusSrc1Alpha,
+        F::SrcAlphaSaturated => F::One,
+        other => other,
+    };
+    meaning(a) == meaning(b)
+}

@@ -1,0 +1,254 @@
+//! Bugs of several attachments in one pass, and of the second source.
+
+use super::hooks::{blending, faithful_blend};
+use super::plant::{Plant, alpha_blend, color_blend, draws, scene};
+use super::{CONFUSION, List, Row, tables};
+use etalon_pipeline::BlendInput;
+use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget};
+
+pub(super) fn add(list: &mut List) {
+    list.class("targets", "blend");
+    independent(list);
+    mixed_alpha(list);
+    list.class("dual-source", "blend");
+    second_sources(list);
+}
+
+/// Changes the targets of draws to several attachments.
+fn targets(bug: fn(&mut [ColorTarget])) -> Plant {
+    draws(move |draw| {
+        if draw.targets.len() > 1 {
+            bug(&mut draw.targets);
+        }
+    })
+}
+
+fn independent(list: &mut List) {
+    let over = BlendComponent {
+        operation: BlendOperation::Add,
+        src_factor: BlendFactor::SrcAlpha,
+        dst_factor: BlendFactor::OneMinusSrcAlpha,
+    };
+    type Bug = fn(&mut [ColorTarget]);
+    let rows: [Row<Bug>; 13] = [
+        ("all-from-the-first", "All take the first's state.", |t| {
+            t.fill(t[0]);
+        }),
+        ("all-from-the-last", "All take the last's state.", |t| {
+            t.fill(t[t.len() - 1]);
+        }),
+        (
+            "second-from-the-first",
+            "The second takes the first's state.",
+            |t| {
+                t[1] = t[0];
+            },
+        ),
+        (
+            "last-from-the-one-before",
+            "The last takes the state of the one before.",
+            |t| {
+                t[t.len() - 1] = t[t.len() - 2];
+            },
+        ),
+        ("rotated", "Each takes the state of the next.", |t| {
+            t.rotate_left(1);
+        }),
+        (
+            "reversed",
+            "The first takes the last's state, and so on.",
+            <[_]>::reverse,
+        ),
+        (
+            "blend-from-the-first",
+            "All are blended as the first.",
+            |t| {
+                let blend = t[0].blend;
+                t.iter_mut().for_each(|t| t.blend = blend);
+            },
+        ),
+        (
+            "write-mask-from-the-first",
+            "All have the first's write mask.",
+            |t| {
+                let mask = t[0].write_mask;
+                t.iter_mut().for_each(|t| t.write_mask = mask);
+            },
+        ),
+        (
+            "write-masks-joined",
+            "A channel is written to all that is written to any.",
+            |t| {
+                let mask = t.iter().fold(0, |mask, t| mask | t.write_mask);
+                t.iter_mut().for_each(|t| t.write_mask = mask);
+            },
+        ),
+        (
+            "alpha-equation-from-the-first",
+            "All have the first's equation for alpha.",
+            |t| {
+                if let Some(first) = t[0].blend {
+                    let others = t.iter_mut().filter_map(|t| t.blend.as_mut());
+                    others.for_each(|b| b.alpha = first.alpha);
+                }
+            },
+        ),
+        (
+            "on-where-the-first-is-off",
+            "Blending is on or off for all as for the first.",
+            |t| {
+                let on = t.iter().find_map(|t| t.blend);
+                let first = t[0].blend.is_some();
+                for target in t {
+                    target.blend = if first { target.blend.or(on) } else { None };
+                }
+            },
+        ),
+        (
+            "operations-from-the-first",
+            "All have the first's operations.",
+            |t| {
+                if let Some(first) = t[0].blend {
+                    for blend in t.iter_mut().filter_map(|t| t.blend.as_mut()) {
+                        blend.color.operation = first.color.operation;
+                        blend.alpha.operation = first.alpha.operation;
+                    }
+                }
+            },
+        ),
+        (
+            "first-alone-is-written",
+            "Only the first is written.",
+            |t| {
+                t[1..].iter_mut().for_each(|t| t.write_mask = 0);
+            },
+        ),
+    ];
+    list.rows(
+        "lavapipe, v3d: one attachment's state for another",
+        targets,
+        &rows,
+    );
+    list.add(
+        "enables-inverted",
+        "wgpu: per-target enable arguments flipped",
+        "Where some are blended and others are not, it is the other way round.",
+        draws(move |draw| {
+            let on = draw.targets.iter().filter(|t| t.blend.is_some()).count();
+            if on > 0 && on < draw.targets.len() {
+                for target in &mut draw.targets {
+                    let state = BlendState {
+                        color: over,
+                        alpha: over,
+                    };
+                    target.blend = target.blend.is_none().then_some(state);
+                }
+            }
+        }),
+    );
+}
+
+/// What a destination alpha of 1 makes of a factor.
+fn with_alpha_one(factor: &mut BlendFactor) {
+    *factor = match *factor {
+        BlendFactor::DstAlpha => BlendFactor::One,
+        BlendFactor::OneMinusDstAlpha | BlendFactor::SrcAlphaSaturated => BlendFactor::Zero,
+        other => other,
+    };
+}
+
+/// Formats without alpha beside formats with it.
+fn mixed_alpha(list: &mut List) {
+    list.add(
+        "alpha-missing-on-one-is-missing-on-all",
+        "v3d: mixed-alpha targets changing the wrong one",
+        "Where one attachment has no alpha, all are blended as if they had none.",
+        scene(|scene| {
+            for pass in &mut scene.passes {
+                let channels = |i: &usize| scene.attachments[*i].format.color_channels().len();
+                if !pass.color.iter().any(|i| channels(i) < 4) {
+                    continue;
+                }
+                let targets = pass.draws.iter_mut().flat_map(|d| &mut d.targets);
+                for blend in targets.filter_map(|t| t.blend.as_mut()) {
+                    for component in [&mut blend.color, &mut blend.alpha] {
+                        with_alpha_one(&mut component.src_factor);
+                        with_alpha_one(&mut component.dst_factor);
+                    }
+                }
+            }
+        }),
+    );
+}
+
+fn second_sources(list: &mut List) {
+    for (right, wrong) in tables::second_source_neighbours() {
+        let swap = move |component: &mut BlendComponent| {
+            for factor in [&mut component.src_factor, &mut component.dst_factor] {
+                if *factor == right {
+                    *factor = wrong;
+                }
+            }
+        };
+        let (is, was) = (wrong.name(), right.name());
+        list.add(
+            &format!("color-factor-{was}-as-{is}"),
+            CONFUSION,
+            format!("For colour, factor {was} is done as {is}."),
+            color_blend(swap),
+        );
+        if !tables::same_for_alpha(right, wrong) {
+            list.add(
+                &format!("alpha-factor-{was}-as-{is}"),
+                CONFUSION,
+                format!("For alpha, factor {was} is done as {is}."),
+                alpha_blend(swap),
+            );
+        }
+    }
+    type Bug = fn(&mut BlendInput<[f32; 1]>);
+    let rows: [Row<Bug>; 7] = [
+        (
+            "second-is-the-first",
+            "The first source stands for both.",
+            |i| {
+                i.src1 = i.src;
+            },
+        ),
+        (
+            "first-is-the-second",
+            "The second source stands for both.",
+            |i| {
+                i.src = i.src1;
+            },
+        ),
+        ("exchanged", "The two sources are exchanged.", |i| {
+            std::mem::swap(&mut i.src, &mut i.src1);
+        }),
+        ("zero", "The second source is 0.", |i| i.src1 = [[0.0]; 4]),
+        ("alpha-zero", "The second source's alpha is 0.", |i| {
+            i.src1[3] = [0.0];
+        }),
+        ("alpha-one", "The second source's alpha is 1.", |i| {
+            i.src1[3] = [1.0];
+        }),
+        (
+            "alpha-from-the-first",
+            "The second source has the first's alpha.",
+            |i| {
+                i.src1[3] = i.src[3];
+            },
+        ),
+    ];
+    fn sources(bug: Bug) -> Plant {
+        blending(move |state, encodings, input| {
+            let factors = [state.color, state.alpha].map(|c| [c.src_factor, c.dst_factor]);
+            let mut changed = *input;
+            if factors.as_flattened().iter().any(|f| f.is_second_source()) {
+                bug(&mut changed);
+            }
+            faithful_blend(state, encodings, &changed)
+        })
+    }
+    list.rows("a second source lost on its way", sources, &rows);
+}

@@ -1,0 +1,129 @@
+//! What colour a surface has at a point, and along which lines that changes its formula.
+
+use super::cell::{Cell, Cut, Point};
+use super::surface::Ready;
+use etalon_methods::{Paint, Texture};
+use etalon_pipeline::texel_position;
+use etalon_scene::AddressMode;
+
+impl Ready<'_> {
+    /// The colour at a point: straight red, green, blue and alpha.
+    pub(super) fn color(&self, p: Point) -> [f64; 4] {
+        let grey = |v: f64| [v, v, v, 1.0];
+        match self.paint {
+            Paint::Flat([r, g, b, a]) => [*r, *g, *b, a.clamp(0.0, 1.0)],
+            Paint::Depth => grey(self.depth.at(p)),
+            Paint::Distance { near, far } => grey(fade(self.depth.at(p), *near, *far)),
+            Paint::Fog {
+                color,
+                fog,
+                near,
+                far,
+            } => {
+                let fade = fade(self.depth.at(p), *near, *far);
+                let mix = |c: usize| color[c] * (1.0 - fade) + fog[c] * fade;
+                [mix(0), mix(1), mix(2), 1.0]
+            }
+            Paint::Texture { texture, .. } => {
+                let [u, v] = self.positions(texture, p);
+                let [r, g, b, a] = filtered(texture, [u, v]);
+                [r, g, b, a.clamp(0.0, 1.0)]
+            }
+        }
+    }
+
+    /// Whether the colour is the same everywhere.
+    pub(super) fn is_flat(&self) -> bool {
+        matches!(self.paint, Paint::Flat(_))
+    }
+
+    /// Whether it is textured.
+    pub(super) fn is_textured(&self) -> bool {
+        matches!(self.paint, Paint::Texture { .. })
+    }
+
+    /// Whether it fades with the distance.
+    pub(super) fn fades(&self) -> bool {
+        matches!(self.paint, Paint::Distance { .. } | Paint::Fog { .. })
+    }
+
+    /// Cuts a cell in two where no single smooth formula gives the colour in all of it.
+    ///
+    /// A textured cell is cut between texel centres, so that each piece's colour and alpha are of the
+    /// second degree. A faded one is cut where the depth leaves 0 to 1, and halved until the distance
+    /// no more than doubles in it.
+    pub(super) fn kink(&self, cell: &Cell) -> Option<(Cell, Cell)> {
+        let cut = |function: &dyn Fn(Point) -> f64, range: (f64, f64)| match cell
+            .cut(function, 1e-9 * (range.1 - range.0))
+        {
+            Cut::Both(one, other) => Some((one, other)),
+            Cut::Positive | Cut::Negative => None,
+        };
+        match self.paint {
+            Paint::Flat(_) | Paint::Depth => None,
+            Paint::Distance { near, far } | Paint::Fog { near, far, .. } => {
+                let range = cell.range(|p| self.depth.at(p));
+                let at = |stop: f64| cut(&|p| self.depth.at(p) - stop, range);
+                if let Some(parts) = [0.0, 1.0].into_iter().find_map(at) {
+                    return Some(parts);
+                }
+                let [a, b] = [range.0, range.1].map(|z| far - z.clamp(0.0, 1.0) * (far - near));
+                if a.max(b) <= 2.0 * a.min(b) {
+                    return None;
+                }
+                let middle = (far - (a * b).sqrt()) / (far - near);
+                at(middle)
+            }
+            Paint::Texture { texture, .. } => (0..2).find_map(|axis| {
+                let position = |p| self.positions(texture, p)[axis];
+                let range = cell.range(position);
+                let room = 1e-9 * (1.0 + range.1 - range.0);
+                let (mut first, mut last) = ((range.0 + room).ceil(), (range.1 - room).floor());
+                if texture.address[axis] == AddressMode::ClampToEdge {
+                    first = first.max(0.0);
+                    last = last.min(f64::from(texture.size[axis]) - 1.0);
+                }
+                let middle = ((first + last) / 2.0).floor();
+                (first <= last)
+                    .then(|| cut(&|p| position(p) - middle, range))
+                    .flatten()
+            }),
+        }
+    }
+
+    /// Where a point lies in the texture, in texels from the centre of the first one.
+    fn positions(&self, texture: &Texture, p: Point) -> [f64; 2] {
+        std::array::from_fn(|axis| {
+            let coordinate = self.uv.as_ref().map_or(0.0, |uv| uv[axis].at(p));
+            coordinate * f64::from(texture.size[axis]) - 0.5
+        })
+    }
+}
+
+/// The distance that a window depth stands for, 0 at the near and 1 at the far plane and beyond.
+fn fade(depth: f64, near: f64, far: f64) -> f64 {
+    let distance = near * far / (far - depth.clamp(0.0, 1.0) * (far - near));
+    ((distance - near) / (far - near)).clamp(0.0, 1.0)
+}
+
+/// The weighted mean of the four texels around a position (Vulkan, Texel Filtering).
+fn filtered(texture: &Texture, position: [f64; 2]) -> [f64; 4] {
+    let first = position.map(f64::floor);
+    let weight = [position[0] - first[0], position[1] - first[1]];
+    let taps: [[usize; 2]; 2] = std::array::from_fn(|axis| {
+        let (mode, size, at) = (
+            texture.address[axis],
+            texture.size[axis],
+            first[axis] as i64,
+        );
+        [at, at.saturating_add(1)].map(|at| texel_position(mode, at, size))
+    });
+    let texel =
+        |x: usize, y: usize| texture.texels[taps[1][y] * texture.size[0] as usize + taps[0][x]];
+    let [top_left, top_right, left, right] = [texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1)];
+    std::array::from_fn(|c| {
+        let top = top_left[c] * (1.0 - weight[0]) + top_right[c] * weight[0];
+        let bottom = left[c] * (1.0 - weight[0]) + right[c] * weight[0];
+        top * (1.0 - weight[1]) + bottom * weight[1]
+    })
+}

@@ -1,0 +1,270 @@
+//! Surfaces made ready: edges, depth as a linear function, what can be said of their paint.
+
+use super::cell::{Cell, Point, SLACK};
+use etalon_methods::{Paint, Surface, Texture};
+
+/// A linear function of a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Linear {
+    origin: Point,
+    value: f64,
+    slope: [f64; 2],
+}
+
+impl Linear {
+    /// The function that has these values at these corners; where no linear function has, the mean of
+    /// those through the triangles around the first corner, weighted by their areas.
+    fn through(corners: &[Point], values: &[f64]) -> Self {
+        let (origin, value) = (corners[0], values[0]);
+        let (mut area, mut slope) = (0.0, [0.0; 2]);
+        for (corners, values) in corners.windows(2).zip(values.windows(2)).skip(1) {
+            let [a, b] = [0, 1].map(|i| [corners[i][0] - origin[0], corners[i][1] - origin[1]]);
+            let [u, v] = [values[0] - value, values[1] - value];
+            area += a[0] * b[1] - a[1] * b[0];
+            slope[0] += u * b[1] - v * a[1];
+            slope[1] += v * a[0] - u * b[0];
+        }
+        Self {
+            origin,
+            value,
+            slope: slope.map(|s| s / area),
+        }
+    }
+
+    /// Its value at a point.
+    pub(super) fn at(&self, p: Point) -> f64 {
+        self.value
+            + self.slope[0] * (p[0] - self.origin[0])
+            + self.slope[1] * (p[1] - self.origin[1])
+    }
+
+    fn is_finite(&self) -> bool {
+        self.slope.iter().all(|s| s.is_finite())
+    }
+}
+
+/// One side of a polygon, its ends in an order that both polygons at it agree on: so they compute
+/// the same number for a point, up to the sign.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    from: Point,
+    to: Point,
+    /// 1 over its length, negative where the inside lies on the other side.
+    scale: f64,
+    /// Whether a point on it belongs to this polygon: the top-left rule.
+    owns: bool,
+}
+
+impl Edge {
+    fn new(a: Point, b: Point, orientation: f64) -> Self {
+        let swapped = a > b;
+        let (from, to) = if swapped { (b, a) } else { (a, b) };
+        let sign = if swapped { -orientation } else { orientation };
+        let along = [to[0] - from[0], to[1] - from[1]];
+        // Points inwards: right of a left edge, down from a top edge.
+        let inwards = [-along[1] * sign, along[0] * sign];
+        Self {
+            from,
+            to,
+            scale: sign / along[0].hypot(along[1]),
+            owns: inwards[0] > 0.0 || (inwards[0] == 0.0 && inwards[1] > 0.0),
+        }
+    }
+
+    /// How far inside the edge a point lies, in texels.
+    fn distance(&self, p: Point) -> f64 {
+        let across = (self.to[0] - self.from[0]) * (p[1] - self.from[1])
+            - (self.to[1] - self.from[1]) * (p[0] - self.from[0]);
+        across * self.scale
+    }
+}
+
+/// How a polygon lies to a rectangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Overlap {
+    /// Nowhere in it, with room to spare.
+    None,
+    /// Perhaps in a part of it.
+    Part,
+    /// Everywhere in it, with room to spare.
+    Whole,
+}
+
+/// A surface that covers something.
+#[derive(Debug)]
+pub(super) struct Ready<'a> {
+    pub(super) paint: &'a Paint,
+    pub(super) depth: Linear,
+    /// The texture coordinates of a textured surface, across and down.
+    pub(super) uv: Option<[Linear; 2]>,
+    /// How far rounding can move a depth.
+    pub(super) slack: f64,
+    /// Whether nothing behind it is seen, wherever it is.
+    pub(super) opaque: bool,
+    /// The least and the largest value of any channel of its colour.
+    pub(super) tones: [(f64, f64); 3],
+    edges: Vec<Edge>,
+    low: Point,
+    high: Point,
+}
+
+impl<'a> Ready<'a> {
+    /// Makes a surface ready; `None` where it covers nothing: fewer than three different corners, no
+    /// area, or numbers in it or in its paint that mean nothing.
+    pub(super) fn new(surface: &'a Surface) -> Option<Self> {
+        let corners: Vec<Point> = surface.corners.iter().map(|c| [c[0], c[1]]).collect();
+        let depths: Vec<f64> = surface.corners.iter().map(|c| c[2]).collect();
+        let finite = surface.corners.iter().flatten().all(|v| v.is_finite());
+        if corners.len() < 3 || !finite {
+            return None;
+        }
+        let bound = |pick: fn(f64, f64) -> f64, axis: usize| {
+            corners.iter().map(|c| c[axis]).fold(corners[0][axis], pick)
+        };
+        let low = [0, 1].map(|axis| bound(f64::min, axis));
+        let high = [0, 1].map(|axis| bound(f64::max, axis));
+        let extent = (high[0] - low[0]).max(high[1] - low[1]);
+        let area: f64 = corners
+            .windows(2)
+            .map(|side| {
+                let [a, b] =
+                    [0, 1].map(|i| [side[i][0] - corners[0][0], side[i][1] - corners[0][1]]);
+                a[0] * b[1] - a[1] * b[0]
+            })
+            .sum();
+        // Below this the area is rounding. An extent or an area that overflows fails it too.
+        let least = 1e-13 * extent * extent;
+        if !(area.is_finite() && area.abs() > least) {
+            return None;
+        }
+        let next = corners.iter().cycle().skip(1);
+        let edges = corners.iter().zip(next).filter(|(a, b)| a != b);
+        let edges: Vec<Edge> = edges
+            .map(|(a, b)| Edge::new(*a, *b, area.signum()))
+            .collect();
+        let depth = Linear::through(&corners, &depths);
+        let uv = match &surface.paint {
+            Paint::Texture { uv, .. } => {
+                if uv.len() != corners.len() {
+                    return None;
+                }
+                let along = |axis: usize| {
+                    let values: Vec<f64> = uv.iter().map(|uv| uv[axis]).collect();
+                    Linear::through(&corners, &values)
+                };
+                Some([along(0), along(1)])
+            }
+            _ => None,
+        };
+        let largest = depths.iter().fold(0.0, |m: f64, z| m.max(z.abs()));
+        let across = (depth.slope[0].abs() + depth.slope[1].abs()) * (extent + 1.0);
+        let mut linears = uv.iter().flatten().chain([&depth]);
+        if !linears.all(Linear::is_finite) {
+            return None;
+        }
+        Some(Self {
+            paint: &surface.paint,
+            depth,
+            uv,
+            slack: 64.0 * f64::EPSILON * (largest + across),
+            opaque: is_opaque(&surface.paint),
+            tones: tones(&surface.paint, &depths)?,
+            edges,
+            low,
+            high,
+        })
+    }
+
+    /// Whether the surface covers a point; of two that share an edge, one covers a point on it.
+    pub(super) fn covers(&self, p: Point) -> bool {
+        self.edges.iter().all(|edge| {
+            let distance = edge.distance(p);
+            distance > 0.0 || (distance == 0.0 && edge.owns)
+        })
+    }
+
+    /// How the surface lies to a rectangle. "Perhaps" where rounding could decide.
+    pub(super) fn overlap(&self, low: Point, high: Point) -> Overlap {
+        const ROOM: f64 = 1e-9;
+        let apart =
+            |axis: usize| self.high[axis] < low[axis] - ROOM || self.low[axis] > high[axis] + ROOM;
+        if apart(0) || apart(1) {
+            return Overlap::None;
+        }
+        let rectangle = Cell::rectangle(low, high);
+        let mut overlap = Overlap::Whole;
+        for edge in &self.edges {
+            let (least, most) = rectangle.range(|p| edge.distance(p));
+            if most < -ROOM {
+                return Overlap::None;
+            }
+            if least < ROOM {
+                overlap = Overlap::Part;
+            }
+        }
+        overlap
+    }
+
+    /// The number of edges.
+    pub(super) fn edges(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// How far inside one of its edges a point lies, in texels.
+    pub(super) fn inside(&self, edge: usize, p: Point) -> f64 {
+        self.edges[edge].distance(p)
+    }
+
+    /// Whether the surface covers nothing of a cell, as one of its edges shows.
+    pub(super) fn misses(&self, cell: &Cell) -> bool {
+        let mut edges = self.edges.iter();
+        edges.any(|edge| cell.range(|p| edge.distance(p)).1 <= SLACK)
+    }
+}
+
+fn is_opaque(paint: &Paint) -> bool {
+    match paint {
+        Paint::Flat(color) => color[3] >= 1.0,
+        Paint::Depth | Paint::Distance { .. } | Paint::Fog { .. } => true,
+        Paint::Texture { texture, .. } => texture.texels.iter().all(|texel| texel[3] >= 1.0),
+    }
+}
+
+/// The least and the largest value of each channel; `None` where the paint means nothing.
+fn tones(paint: &Paint, depths: &[f64]) -> Option<[(f64, f64); 3]> {
+    let hull = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(v), high.max(v))
+        })
+    };
+    let planes =
+        |near: f64, far: f64| near > 0.0 && far > 0.0 && near != far && (near + far).is_finite();
+    match paint {
+        Paint::Flat(color) => {
+            let meant = color.iter().all(|v| v.is_finite());
+            meant.then(|| [0, 1, 2].map(|c| (color[c], color[c])))
+        }
+        Paint::Depth => Some([hull(&mut depths.iter().copied()); 3]),
+        Paint::Distance { near, far } => planes(*near, *far).then_some([(0.0, 1.0); 3]),
+        Paint::Fog {
+            color,
+            fog,
+            near,
+            far,
+        } => {
+            let meant = color.iter().chain(fog).all(|v| v.is_finite()) && planes(*near, *far);
+            meant.then(|| [0, 1, 2].map(|c| (color[c].min(fog[c]), color[c].max(fog[c]))))
+        }
+        Paint::Texture { texture, .. } => {
+            let meant =
+                has_all_texels(texture) && texture.texels.iter().flatten().all(|v| v.is_finite());
+            meant.then(|| [0, 1, 2].map(|c| hull(&mut texture.texels.iter().map(|t| t[c]))))
+        }
+    }
+}
+
+fn has_all_texels(texture: &Texture) -> bool {
+    let [width, height] = texture.size.map(|n| n as usize);
+    let texels = width.checked_mul(height);
+    texels.is_some_and(|n| n > 0 && n == texture.texels.len())
+}

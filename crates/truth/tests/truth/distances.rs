@@ -1,0 +1,151 @@
+//! Distances of pictures from the truth.
+
+use crate::common::{pane, scene};
+use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath, TextureFormat};
+use etalon_methods::{Coverage, Paint};
+use etalon_truth::{TruthPicture, distance, truth};
+
+const SIZE: [u32; 2] = [16, 8];
+
+fn image(format: TextureFormat, texel: impl Fn(u32, u32) -> Vec<f64>) -> Image {
+    let channels = format.color_channels();
+    let mut codes = Vec::new();
+    for y in 0..SIZE[1] {
+        for x in 0..SIZE[0] {
+            let values = texel(x, y);
+            codes.extend(channels.iter().zip(values).map(|(c, v)| c.nearest_code(v)));
+        }
+    }
+    Image {
+        attachment: "color".into(),
+        aspect: Aspect::Color,
+        size: SIZE,
+        samples: 1,
+        channels: channels.to_vec(),
+        read: ReadPath::Copy,
+        codes,
+    }
+}
+
+fn plain(color: [f64; 3]) -> TruthPicture {
+    let paint = Paint::Flat([color[0], color[1], color[2], 1.0]);
+    truth(&scene(SIZE, Coverage::Area, vec![pane(|_, _| 0.5, paint)]))
+}
+
+#[test]
+fn a_picture_has_no_distance_from_itself() {
+    let ramp = pane(|x, y| (x + 2.0 * y) / 40.0, Paint::Depth);
+    let expected = truth(&scene(SIZE, Coverage::Area, vec![ramp]));
+    let at = |x: u32, y: u32| {
+        let [r, g, b] = expected.rgb[(y * SIZE[0] + x) as usize];
+        vec![r, g, b, 0.3]
+    };
+    let found = distance(&expected, &image(TextureFormat::Rgba32Float, at)).unwrap();
+    assert!(found.rmse < 1e-7 && found.max < 1e-7, "{found:?}");
+    assert_eq!(
+        (found.flip, found.wrong, found.truth_error),
+        (0.0, 0.0, 0.0)
+    );
+    // Eight bits: half a code at most, uniformly distributed.
+    let found = distance(&expected, &image(TextureFormat::Rgba8Unorm, at)).unwrap();
+    assert!(
+        found.max <= 0.5 / 255.0 + 1e-12 && found.rmse > 0.0,
+        "{found:?}"
+    );
+    assert_eq!((found.flip, found.wrong), (0.0, 0.0));
+}
+
+#[test]
+fn black_is_as_far_from_white_as_can_be() {
+    let found = distance(
+        &plain([1.0; 3]),
+        &image(TextureFormat::Rgba8Unorm, |_, _| vec![0.0; 4]),
+    );
+    let found = found.unwrap();
+    assert_eq!((found.rmse, found.max, found.wrong), (1.0, 1.0, 1.0));
+    assert!(found.flip > 0.9 && found.flip <= 1.0, "{found:?}");
+}
+
+#[test]
+fn differences_are_counted_texel_by_texel() {
+    // One of 128 texels is wrong by 0.4 in one channel, one is off by 2 codes, which is not wrong.
+    let picture = image(TextureFormat::Rgba8Unorm, |x, y| match (x, y) {
+        (3, 2) => vec![0.6, 0.2, 0.2, 1.0],
+        (4, 2) => vec![0.2, 0.2 + 2.0 / 255.0, 0.2, 1.0],
+        _ => vec![0.2, 0.2, 0.2, 0.0],
+    });
+    let found = distance(&plain([0.2; 3]), &picture).unwrap();
+    let squares: f64 = 0.4 * 0.4 + (2.0 / 255.0_f64).powi(2);
+    assert!(
+        (found.rmse - (squares / 384.0).sqrt()).abs() < 1e-12,
+        "{found:?}"
+    );
+    assert!((found.max - 0.4).abs() < 1e-12);
+    assert_eq!(found.wrong, 1.0 / 128.0);
+    assert!(found.flip > 0.0 && found.flip < 0.1, "{found:?}");
+}
+
+#[test]
+fn codes_stand_for_linear_values_and_missing_channels_for_nothing() {
+    let srgb = image(TextureFormat::Rgba8UnormSrgb, |_, _| {
+        vec![0.5, 0.25, 0.125, 1.0]
+    });
+    let found = distance(&plain([0.5, 0.25, 0.125]), &srgb).unwrap();
+    assert!(found.max < 0.005, "{found:?}");
+    let red = image(TextureFormat::R8Unorm, |_, _| vec![1.0]);
+    let found = distance(&plain([1.0, 0.0, 0.0]), &red).unwrap();
+    assert_eq!(
+        (found.rmse, found.max, found.flip, found.wrong),
+        (0.0, 0.0, 0.0, 0.0)
+    );
+    let found = distance(&plain([1.0, 0.5, 0.0]), &red).unwrap();
+    assert_eq!((found.max, found.wrong), (0.5, 1.0));
+    // Beyond 1 nothing is cut off, except for FLIP.
+    let bright = image(TextureFormat::Rgba16Float, |_, _| vec![3.0, 1.0, 1.0, 1.0]);
+    let found = distance(&plain([1.0; 3]), &bright).unwrap();
+    assert_eq!((found.max, found.flip, found.wrong), (2.0, 0.0, 1.0));
+}
+
+#[test]
+fn values_that_are_not_finite_differ_by_one() {
+    for (bits, flips) in [
+        (f32::NAN.to_bits(), true),
+        (f32::INFINITY.to_bits(), false),
+        (f32::NEG_INFINITY.to_bits(), true),
+    ] {
+        let mut picture = image(TextureFormat::Rgba32Float, |_, _| vec![1.0; 4]);
+        picture.codes[4 * 40 + 1] = bits;
+        let found = distance(&plain([1.0; 3]), &picture).unwrap();
+        assert_eq!((found.max, found.wrong), (1.0, 1.0 / 128.0));
+        assert!((found.rmse - (1.0 / 384.0_f64).sqrt()).abs() < 1e-12);
+        assert_eq!(found.flip > 0.0, flips, "{found:?}");
+    }
+}
+
+#[test]
+fn what_cannot_be_compared_has_no_distance() {
+    let expected = plain([0.5; 3]);
+    let good = image(TextureFormat::Rgba8Unorm, |_, _| vec![0.5; 4]);
+    assert!(distance(&expected, &good).is_some());
+    type Spoil = fn(&mut Image);
+    let spoils: [Spoil; 8] = [
+        |image| image.aspect = Aspect::Depth,
+        |image| image.samples = 4,
+        |image| image.size = [8, 16],
+        |image| image.size = [u32::MAX; 2],
+        |image| image.channels.clear(),
+        |image| image.channels[3] = ChannelEncoding::Uint(8),
+        |image| image.codes.truncate(500),
+        |image| image.size = [0, 0],
+    ];
+    for spoil in spoils {
+        let mut image = good.clone();
+        spoil(&mut image);
+        assert_eq!(distance(&expected, &image), None);
+    }
+    let empty = truth(&scene([0, 0], Coverage::Area, Vec::new()));
+    let mut image = good;
+    image.size = [0, 0];
+    image.codes.clear();
+    assert_eq!(distance(&empty, &image), None);
+}
