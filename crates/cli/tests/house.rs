@@ -282,8 +282,12 @@ fn the_top_level_holds_what_belongs_there() {
     // Git keeps no empty folder, and there need not be a run worth keeping.
     found.insert("reports".to_owned());
     let due = [
+        "CHANGELOG.md",
+        "CONTRIBUTING.md",
         "Cargo.lock",
         "Cargo.toml",
+        "LICENSE-APACHE",
+        "LICENSE-MIT",
         "README.md",
         "cases",
         "ci",
@@ -292,6 +296,88 @@ fn the_top_level_holds_what_belongs_there() {
         "shaders",
     ];
     assert_eq!(found, due.map(str::to_owned).into());
+}
+
+/// Link targets of a Markdown text, and the code in it that begins with a folder of the repository.
+fn targets(text: &str) -> (Vec<&str>, Vec<&str>) {
+    let (mut links, mut code) = (Vec::new(), Vec::new());
+    let mut fenced = false;
+    for line in text.lines() {
+        if line.trim_start().starts_with("```") {
+            fenced = !fenced;
+        } else if !fenced {
+            let after = line.split("](").skip(1);
+            links.extend(after.filter_map(|rest| rest.split(')').next()));
+            let spans = line.split('`').skip(1).step_by(2);
+            code.extend(spans.filter_map(|span| {
+                let path = span.split_whitespace().next()?;
+                let (top, below) = path.split_once('/')?;
+                let ours = ["cases", "ci", "crates", "reports", "shaders"].contains(&top);
+                // New runs and patterns are no files.
+                let named = !below.contains("latest") && !path.contains(['<', '*', '{', '…']);
+                (ours && named).then_some(path)
+            }));
+        }
+    }
+    (links, code)
+}
+
+/// The anchors of a page's headings, as GitHub and GitLab make them.
+fn anchors(text: &str) -> BTreeSet<String> {
+    let headings = text.lines().filter(|line| line.starts_with('#'));
+    let titles = headings.map(|line| line.trim_start_matches('#').trim().to_lowercase());
+    let kept = |c: &char| c.is_alphanumeric() || " -_".contains(*c);
+    titles
+        .map(|title| title.chars().filter(kept).collect::<String>())
+        .map(|title| title.replace(' ', "-"))
+        .collect()
+}
+
+#[test]
+fn links_and_paths_in_pages_lead_somewhere() {
+    let mut broken = Vec::new();
+    for name in files().iter().filter(|name| name.ends_with(".md")) {
+        let page = root().join(name);
+        let text = fs::read_to_string(&page).unwrap();
+        let (links, code) = targets(&text);
+        for link in links.into_iter().filter(|link| !link.contains("://")) {
+            let (path, anchor) = link.split_once('#').unwrap_or((link, ""));
+            let target = match path {
+                "" => page.clone(),
+                path => page.parent().unwrap().join(path),
+            };
+            let reached = match anchor {
+                "" => target.exists(),
+                anchor => {
+                    fs::read_to_string(&target).is_ok_and(|text| anchors(&text).contains(anchor))
+                }
+            };
+            if !reached {
+                broken.push(format!("{name}: {link}"));
+            }
+        }
+        let missing = code.iter().filter(|path| !root().join(path).exists());
+        broken.extend(missing.map(|path| format!("{name}: `{path}`")));
+    }
+    assert!(broken.is_empty(), "{broken:#?}");
+}
+
+#[test]
+fn every_dependency_is_explained() {
+    let page = fs::read_to_string(root().join("crates/dependencies.md")).unwrap();
+    let manifest = fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let (_, table) = manifest.split_once("[workspace.dependencies]").unwrap();
+    let names = table
+        .lines()
+        .skip(1)
+        .take_while(|line| !line.starts_with('['))
+        .filter_map(|line| line.split_once(" = "))
+        .map(|(name, _)| name)
+        .filter(|name| !name.starts_with("etalon-"));
+    let unexplained: Vec<&str> = names
+        .filter(|name| !page.contains(&format!("`{name}`")))
+        .collect();
+    assert!(unexplained.is_empty(), "no row for {unexplained:?}");
 }
 
 #[test]
