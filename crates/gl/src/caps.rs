@@ -1,10 +1,7 @@
 //! What a context can do, by its version and extensions.
 
-use crate::context::Context;
-use etalon_frame::Feature;
 use glow::HasContext;
 use naga::back::glsl;
-use std::collections::BTreeSet;
 
 const VIEWPORT_SUBPIXEL_BITS: u32 = 0x825C;
 
@@ -121,42 +118,6 @@ impl Caps {
             max_viewport,
         }
     }
-}
-
-/// The features of a context, as far as its version and extensions tell.
-pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
-    let (caps, extra) = (&context.caps, &context.extra);
-    let known = |feature: &Feature| match feature {
-        // Versions from 3 on have these.
-        Feature::CentroidInterpolation
-        | Feature::ConstantAlphaBlendFactor
-        | Feature::FrontAndBackCulling
-        | Feature::MinMaxBlendFactors
-        | Feature::RasterizerDiscard
-        | Feature::ReversedDepthRange
-        | Feature::ScissorOutside
-        | Feature::SeparateStencilMasks
-        | Feature::TriangleFans
-        | Feature::ViewportOutside => true,
-        Feature::AlphaToOne => caps.alpha_to_one,
-        Feature::ConservativeDepth => caps.conservative_depth,
-        Feature::DepthBiasClamp => extra.polygon_offset_clamp.is_some(),
-        Feature::DepthBounds => extra.depth_bounds.is_some(),
-        Feature::DepthClamp => caps.depth_clamp,
-        Feature::DualSourceBlending => caps.dual_source,
-        Feature::ForcedEarlyTests => caps.early_tests,
-        Feature::FragmentInvocations => caps.fragment_invocations,
-        Feature::IndependentBlend => caps.indexed_blend,
-        Feature::LogicOperations => extra.logic_op.is_some(),
-        // Heights of viewports are positive.
-        Feature::MirroredViewport => false,
-        // ES has no `glPolygonMode`.
-        Feature::PolygonModeLine => !caps.es,
-        Feature::PreciseOcclusion => caps.samples_passed,
-        Feature::SampleShading => caps.sample_variables,
-        Feature::StorageCounters => caps.storage_alignment.is_some(),
-    };
-    Feature::ALL.into_iter().filter(known).collect()
 }
 
 /// The shading language of a context; of a future one, the newest that naga knows.

@@ -3,7 +3,7 @@
 use crate::caps::Caps;
 use crate::egl::EglContext;
 use crate::extra::Extra;
-use crate::{Options, Profile, Tuning};
+use crate::options::{Options, Profile, Tuning};
 use etalon_backend::{BackendError, Unavailable};
 use glow::HasContext;
 use std::ffi::{CStr, c_char, c_void};

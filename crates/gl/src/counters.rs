@@ -2,17 +2,11 @@
 
 use crate::context::{Context, refused};
 use crate::pool::Pool;
+use crate::query::Query;
 use etalon_backend::BackendError;
 use etalon_frame::CounterKind;
 use etalon_scene::{Counter, Draw};
 use glow::HasContext;
-
-/// A query around one draw. A query object stays with the target that it was first begun for.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Query {
-    pub(crate) target: u32,
-    pub(crate) object: glow::Query,
-}
 
 /// A scene's counters.
 #[derive(Default)]

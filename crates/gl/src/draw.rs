@@ -1,12 +1,12 @@
 //! Drawing a prepared scene.
 
+use crate::attachment::Attachment;
 use crate::context::Context;
-use crate::counters::Query;
 use crate::pool::Target;
-use crate::prepared::Attachment;
 use crate::program::{PARAMS_BINDING, RUNS_BINDING};
+use crate::query::Query;
 use crate::state::{self, DrawState};
-use crate::surface::{Surface, upload};
+use crate::surface::Surface;
 use etalon_frame::TextureFormat;
 use etalon_scene::Vertex;
 use glow::HasContext;
@@ -28,16 +28,6 @@ impl Inputs {
         let all = [self.vertices, self.indices, self.params, self.runs];
         all.into_iter().flatten()
     }
-}
-
-/// How an attachment gets its first contents at each submit.
-pub(crate) enum Start {
-    /// Uploaded once: no pass draws to it.
-    Uploaded,
-    Upload(Vec<u8>),
-    Color([f32; 4]),
-    Integers([u32; 4]),
-    DepthStencil(f32, u8),
 }
 
 pub(crate) struct Pass {
@@ -67,42 +57,6 @@ pub(crate) struct DrawCall {
     /// The first vertex or index.
     pub(crate) first: i32,
     pub(crate) count: i32,
-}
-
-/// Gives all attachments their first contents. Masks and scissor are open (`state::reset`).
-pub(crate) fn initialise(context: &Context, attachments: &[Attachment]) {
-    let gl = &context.gl;
-    for attachment in attachments {
-        let surface = &attachment.surface;
-        let format = attachment.format;
-        // SAFETY: the context is current and all objects are its own.
-        unsafe {
-            match &attachment.start {
-                Start::Uploaded => {}
-                Start::Upload(bytes) => upload(context, format, surface, bytes),
-                Start::Color(color) => {
-                    state::set_srgb(context, format == TextureFormat::Rgba8UnormSrgb);
-                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
-                    gl.clear_buffer_f32_slice(glow::COLOR, 0, color);
-                }
-                Start::Integers(color) => {
-                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
-                    gl.clear_buffer_u32_slice(glow::COLOR, 0, color);
-                }
-                Start::DepthStencil(depth, stencil) => {
-                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
-                    let stencil = i32::from(*stencil);
-                    match (format.has_depth(), format.has_stencil()) {
-                        (true, true) => {
-                            gl.clear_buffer_depth_stencil(glow::DEPTH_STENCIL, 0, *depth, stencil);
-                        }
-                        (true, false) => gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[*depth]),
-                        _ => gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[stencil]),
-                    }
-                }
-            }
-        }
-    }
 }
 
 /// Draws all passes.

@@ -1,7 +1,7 @@
 //! Surfaces, framebuffers, buffers, queries and samplers, kept from scene to scene.
 
 use crate::context::{Context, refused};
-use crate::counters::Query;
+use crate::query::Query;
 use crate::surface::{Surface, SurfaceKind, framebuffer};
 use crate::words::address;
 use etalon_backend::BackendError;

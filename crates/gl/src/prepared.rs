@@ -1,10 +1,11 @@
 //! A scene with all its objects, ready to be drawn.
 
-use crate::GlBackend;
+use crate::attachment::{self, Attachment, Start};
 use crate::codes;
-use crate::context::refused;
+use crate::context::{Context, refused};
 use crate::counters::Counters;
-use crate::draw::{self, DrawCall, Inputs, Pass, Start};
+use crate::draw::{self, DrawCall, Inputs, Pass};
+use crate::objects::Objects;
 use crate::pool::Pool;
 use crate::read::{Reading, Source};
 use crate::state::{self, DrawState};
@@ -16,9 +17,10 @@ use etalon_scene::{Contents, Draw, RESTART, Scene};
 use glow::HasContext;
 use std::time::{Duration, Instant};
 
-/// A scene's objects. On drop they go back to the backend.
+/// A scene prepared for drawing. On drop its objects go back to the pool.
 pub(crate) struct GlPrepared<'a> {
-    backend: &'a GlBackend,
+    context: &'a Context,
+    objects: &'a Objects,
     attachments: Vec<Attachment>,
     passes: Vec<Pass>,
     read: Vec<usize>,
@@ -27,13 +29,6 @@ pub(crate) struct GlPrepared<'a> {
     submitted: bool,
     /// Nothing has failed, so that the objects may serve another scene.
     sound: bool,
-}
-
-pub(crate) struct Attachment {
-    name: String,
-    pub(crate) format: TextureFormat,
-    pub(crate) surface: Surface,
-    pub(crate) start: Start,
 }
 
 /// How far the shared buffers are used.
@@ -48,27 +43,32 @@ struct Used {
 }
 
 impl<'a> GlPrepared<'a> {
-    pub(crate) fn new(backend: &'a GlBackend, scene: &Scene) -> Result<Self, BackendError> {
+    pub(crate) fn new(
+        context: &'a Context,
+        objects: &'a Objects,
+        scene: &Scene,
+    ) -> Result<Self, BackendError> {
         let mut prepared = Self {
-            backend,
+            context,
+            objects,
             attachments: Vec::new(),
             passes: Vec::new(),
             read: scene.read.clone(),
             inputs: Inputs::default(),
-            counters: Counters::new(&backend.context, &scene.counters),
+            counters: Counters::new(context, &scene.counters),
             submitted: false,
             sound: false,
         };
         prepared.fill(scene)?;
-        backend.context.check("preparing a scene")?;
+        context.check("preparing a scene")?;
         prepared.sound = true;
         Ok(prepared)
     }
 
     fn fill(&mut self, scene: &Scene) -> Result<(), BackendError> {
-        let context = &self.backend.context;
+        let context = self.context;
         state::reset(context);
-        let mut pool = self.backend.pool.borrow_mut();
+        let mut pool = self.objects.pool.borrow_mut();
         for (index, attachment) in scene.attachments.iter().enumerate() {
             let is_drawn = |p: &etalon_scene::Pass| {
                 p.color.contains(&index)
@@ -92,7 +92,7 @@ impl<'a> GlPrepared<'a> {
         attachment: &etalon_scene::Attachment,
         drawn: bool,
     ) -> Result<(), BackendError> {
-        let context = &self.backend.context;
+        let context = self.context;
         let format = attachment.format;
         let kind = SurfaceKind::Attachment(format, attachment.samples);
         let surface = pool.surface(context, kind, attachment.size)?;
@@ -137,7 +137,7 @@ impl<'a> GlPrepared<'a> {
 
     /// All vertices in one buffer, all indices in another, all parameter blocks in a third.
     fn buffers(&mut self, pool: &mut Pool, scene: &Scene) -> Result<(), BackendError> {
-        let context = &self.backend.context;
+        let context = self.context;
         let mut vertices = Vec::new();
         let mut indices = Vec::new();
         let mut params = Vec::new();
@@ -153,7 +153,7 @@ impl<'a> GlPrepared<'a> {
             first += draw.mesh.vertices.len() as u32;
             if draw.shader.uses_params() {
                 params.extend_from_slice(&draw.params.to_bytes());
-                params.resize(params.len().next_multiple_of(self.backend.params_stride), 0);
+                params.resize(params.len().next_multiple_of(self.objects.params_stride), 0);
             }
         }
         let mut buffer = |bytes: &[u8]| {
@@ -180,7 +180,7 @@ impl<'a> GlPrepared<'a> {
         pass: &etalon_scene::Pass,
         used: &mut Used,
     ) -> Result<(), BackendError> {
-        let context = &self.backend.context;
+        let context = self.context;
         let attachment = |index: usize| {
             let missing = || BackendError::Internal(format!("there is no attachment {index}"));
             self.attachments.get(index).ok_or_else(missing)
@@ -232,7 +232,7 @@ impl<'a> GlPrepared<'a> {
         read_only: bool,
         used: &mut Used,
     ) -> Result<DrawCall, BackendError> {
-        let context = &self.backend.context;
+        let context = self.context;
         let vertices = draw.mesh.vertices.len() as i32;
         let indices = draw.mesh.indices.as_ref().map(|list| list.len() as i32);
         let block = draw.shader.uses_params().then_some(used.params);
@@ -248,7 +248,7 @@ impl<'a> GlPrepared<'a> {
             .collect::<Result<_, _>>()?;
         let sampler = draw.sampler.map(|sampler| pool.sampler(context, sampler));
         let call = DrawCall {
-            program: self.backend.programs.borrow_mut().shader(
+            program: self.objects.programs.borrow_mut().shader(
                 context,
                 draw.shader,
                 draw.early_tests,
@@ -267,33 +267,32 @@ impl<'a> GlPrepared<'a> {
         used.vertices += vertices;
         used.indices += indices.unwrap_or(0);
         if block.is_some() {
-            used.params += self.backend.params_stride as i32;
+            used.params += self.objects.params_stride as i32;
         }
         Ok(call)
     }
 
     fn try_submit(&self) -> Result<FrameTime, BackendError> {
-        let backend = self.backend;
-        let context = &backend.context;
+        let (context, objects) = (self.context, self.objects);
         let gl = &context.gl;
         context.make_current()?;
         let start = Instant::now();
         state::reset(context);
-        draw::initialise(context, &self.attachments);
+        attachment::initialise(context, &self.attachments);
         self.counters.start(context, self.inputs.runs);
         // SAFETY: the context is current; a query exists only where timers count.
         let (cpu, wall) = unsafe {
-            if let Some(query) = backend.timer {
+            if let Some(query) = objects.timer {
                 gl.begin_query(glow::TIME_ELAPSED, query);
             }
             draw::draw_all(
                 context,
-                backend.vertex_array,
+                objects.vertex_array,
                 &self.inputs,
                 &self.passes,
                 &self.attachments,
             );
-            if backend.timer.is_some() {
+            if objects.timer.is_some() {
                 gl.end_query(glow::TIME_ELAPSED);
             }
             gl.flush();
@@ -302,7 +301,7 @@ impl<'a> GlPrepared<'a> {
             (cpu, start.elapsed())
         };
         context.check("drawing a scene")?;
-        let gpu = backend.timer.and_then(|query| context.elapsed(query));
+        let gpu = objects.timer.and_then(|query| context.elapsed(query));
         Ok(FrameTime {
             cpu,
             gpu: gpu.map(Duration::from_nanos),
@@ -311,21 +310,21 @@ impl<'a> GlPrepared<'a> {
     }
 
     fn try_read_back(&self) -> Result<Frame, BackendError> {
-        let backend = self.backend;
-        backend.context.make_current()?;
+        let (context, objects) = (self.context, self.objects);
+        context.make_current()?;
         let mut reading = Reading {
-            context: &backend.context,
-            pool: &mut backend.pool.borrow_mut(),
-            programs: &mut backend.programs.borrow_mut(),
-            no_vertices: backend.no_vertices,
+            context,
+            pool: &mut objects.pool.borrow_mut(),
+            programs: &mut objects.programs.borrow_mut(),
+            no_vertices: objects.no_vertices,
         };
         let mut frame = Frame {
-            counters: self.counters.read(&backend.context, self.inputs.runs)?,
+            counters: self.counters.read(context, self.inputs.runs)?,
             ..Frame::default()
         };
         for index in &self.read {
             let attachment = self.attachments.get(*index);
-            let known = attachment.and_then(|a| Some((a, backend.formats.get(&a.format)?)));
+            let known = attachment.and_then(|a| Some((a, objects.formats.get(&a.format)?)));
             let Some((attachment, support)) = known else {
                 let message = format!("attachment {index} cannot be read");
                 return Err(BackendError::Internal(message));
@@ -338,7 +337,7 @@ impl<'a> GlPrepared<'a> {
                 surface: &attachment.surface,
             })?);
         }
-        backend.context.check("reading a frame back")?;
+        context.check("reading a frame back")?;
         Ok(frame)
     }
 }
@@ -361,8 +360,7 @@ impl Prepared for GlPrepared<'_> {
         if result.is_err() {
             self.sound = false;
             // What was made for reading may be what failed.
-            let backend = self.backend;
-            backend.pool.borrow_mut().delete_surfaces(&backend.context);
+            self.objects.pool.borrow_mut().delete_surfaces(self.context);
         }
         result
     }
@@ -370,12 +368,12 @@ impl Prepared for GlPrepared<'_> {
 
 impl Drop for GlPrepared<'_> {
     fn drop(&mut self) {
-        let context = &self.backend.context;
+        let context = self.context;
         if context.make_current().is_err() {
             // All objects are gone with the context.
             return;
         }
-        let mut pool = self.backend.pool.borrow_mut();
+        let mut pool = self.objects.pool.borrow_mut();
         for pass in self.passes.drain(..) {
             if self.sound {
                 pool.put_target(context, pass.target);

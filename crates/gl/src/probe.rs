@@ -8,7 +8,7 @@ use crate::context::Context;
 use crate::format::{ReadPlan, ShaderStencil, Support, gl_format};
 use crate::read::{self, Reading};
 use crate::surface::{Surface, SurfaceKind, upload};
-use crate::{caps, codes};
+use crate::{codes, features};
 use etalon_frame::{ChannelEncoding, Feature, FormatSupport, ReadPath, TextureFormat};
 use etalon_scene::{EarlyTests, Shader};
 use glow::HasContext;
@@ -48,7 +48,7 @@ pub(crate) fn probe(reading: &mut Reading<'_>) -> Probed {
             probed.formats.insert(format, support);
         }
     }
-    probed.features = caps::features(context)
+    probed.features = features::features(context)
         .into_iter()
         .filter(|feature| compiles(reading, *feature))
         .collect();

@@ -1,21 +1,13 @@
 //! The crate's face: which adapters there are, and an open one.
 
-use crate::descriptors::Samplers;
 use crate::device::{Device, identify};
 use crate::error::unavailable;
-use crate::format::{self, Native};
+use crate::gpu::Gpu;
 use crate::instance::Instance;
-use crate::limits;
-use crate::memory::Pool;
-use crate::pipeline::Pipelines;
 use crate::prepared::PreparedScene;
-use crate::samples::SampleReaders;
-use crate::slot::Slots;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
-use etalon_frame::{Limits, TextureFormat};
+use etalon_frame::Limits;
 use etalon_scene::Scene;
-use std::cell::RefCell;
-use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// How to open an adapter.
@@ -32,21 +24,7 @@ pub struct Options {
 /// An open Vulkan device. It belongs to one thread.
 pub struct VulkanBackend {
     info: AdapterInfo,
-    limits: Limits,
-    pub(crate) natives: BTreeMap<TextureFormat, Native>,
-    pub(crate) pools: RefCell<Pools>,
-    /// Last, so that it outlives what was made of it.
-    pub(crate) device: Device,
-}
-
-/// Everything that is kept from scene to scene.
-#[derive(Default)]
-pub(crate) struct Pools {
-    pub(crate) slots: Slots,
-    pub(crate) memory: Pool,
-    pub(crate) pipelines: Pipelines,
-    pub(crate) readers: SampleReaders,
-    pub(crate) samplers: Samplers,
+    gpu: Gpu,
 }
 
 /// All physical devices that the installed drivers offer, in the order of [`Options::device`]. The
@@ -82,20 +60,13 @@ pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable>
     };
     let identity = identify(&instance, physical);
     let device = Device::new(instance, physical, &identity)?;
-    let natives = format::natives(&device);
-    let backend = VulkanBackend {
+    Ok(VulkanBackend {
         info: AdapterInfo {
             name: name.to_owned(),
             ..identity.info
         },
-        limits: limits::limits(&device, &natives),
-        natives,
-        pools: RefCell::default(),
-        device,
-    };
-    let created = backend.pools.borrow_mut().pipelines.create(&backend.device);
-    created.map_err(|error| unavailable(&error))?;
-    Ok(backend)
+        gpu: Gpu::new(device).map_err(|error| unavailable(&error))?,
+    })
 }
 
 impl Backend for VulkanBackend {
@@ -104,28 +75,15 @@ impl Backend for VulkanBackend {
     }
 
     fn limits(&self) -> &Limits {
-        &self.limits
+        &self.gpu.limits
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
-        Ok(Box::new(PreparedScene::new(self, scene)?))
+        Ok(Box::new(PreparedScene::new(&self.gpu, scene)?))
     }
 
     fn messages(&self) -> Vec<String> {
-        self.device.instance.take_messages()
-    }
-}
-
-impl Drop for VulkanBackend {
-    fn drop(&mut self) {
-        let pools = self.pools.get_mut();
-        // Prepared scenes borrow the backend, so all of them are gone, and each has waited for the
-        // device to be done with it.
-        pools.slots.destroy(&self.device);
-        pools.memory.destroy(&self.device);
-        pools.pipelines.destroy(&self.device);
-        pools.readers.destroy(&self.device);
-        pools.samplers.destroy(&self.device);
+        self.gpu.device.instance.take_messages()
     }
 }
 
@@ -148,14 +106,14 @@ mod tests {
         // refuses it.
         let buffer = unsafe {
             let info = vk::BufferCreateInfo::default().size(16);
-            backend.device.raw.create_buffer(&info, None)
+            backend.gpu.device.raw.create_buffer(&info, None)
         };
         let messages = backend.messages();
         assert!(messages.iter().any(|m| m.contains("usage")), "{messages:?}");
         assert_eq!(backend.messages(), Vec::<String>::new());
         if let Ok(buffer) = buffer {
             // SAFETY: just made, and used by nothing.
-            unsafe { backend.device.raw.destroy_buffer(buffer, None) };
+            unsafe { backend.gpu.device.raw.destroy_buffer(buffer, None) };
         }
     }
 
@@ -176,7 +134,7 @@ mod tests {
                 prepared.read_back().expect("a working driver");
             }
         }
-        let instance = backend.device.instance.clone();
+        let instance = backend.gpu.device.instance.clone();
         drop(backend);
         assert_eq!(instance.take_messages(), Vec::<String>::new());
     }

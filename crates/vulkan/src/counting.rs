@@ -1,9 +1,9 @@
 //! Counters: queries around draws, and words that shaders count in.
 
 use crate::device::Device;
+use crate::error::internal;
 use crate::inputs::Placer;
 use crate::memory::Buffer;
-use crate::plan::internal;
 use crate::slot::{Needs, Slot};
 use ash::vk;
 use etalon_backend::BackendError;

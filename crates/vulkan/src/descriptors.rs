@@ -2,23 +2,17 @@
 
 use crate::counting::Counting;
 use crate::device::Device;
-use crate::error::Check;
+use crate::error::internal;
 use crate::inputs::PARAMS_BYTES;
 use crate::memory::{Buffer, Image};
 use crate::pipeline::{Bindings, Pipelines, RUNS_BINDING, SAMPLER_BINDING};
-use crate::plan::internal;
+use crate::samplers::Samplers;
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_scene::{AddressMode, Draw, FilterMode, Sampler};
+use etalon_scene::{Draw, Sampler};
 use std::collections::HashMap;
 use std::mem::size_of;
-
-/// The samplers made so far; there are few ways to sample, so none needs to go early.
-#[derive(Debug, Default)]
-pub(crate) struct Samplers {
-    samplers: HashMap<Sampler, vk::Sampler>,
-}
 
 /// What a draw names. Draws that name the same share a set: the parameters' place is dynamic.
 #[derive(PartialEq, Eq, Hash)]
@@ -35,41 +29,6 @@ pub(crate) struct Descriptors<'a> {
     pub(crate) counts: Option<&'a Buffer>,
     pub(crate) images: &'a [Image],
     sets: HashMap<Named, vk::DescriptorSet>,
-}
-
-impl Samplers {
-    /// The sampler that samples so, made at its first use.
-    fn get(&mut self, device: &Device, sampler: Sampler) -> Result<vk::Sampler, BackendError> {
-        if let Some(raw) = self.samplers.get(&sampler) {
-            return Ok(*raw);
-        }
-        let filter = match sampler.filter {
-            FilterMode::Nearest => vk::Filter::NEAREST,
-            FilterMode::Linear => vk::Filter::LINEAR,
-        };
-        let [across, down] = sampler.address.map(|mode| match mode {
-            AddressMode::ClampToEdge => vk::SamplerAddressMode::CLAMP_TO_EDGE,
-            AddressMode::Repeat => vk::SamplerAddressMode::REPEAT,
-            AddressMode::MirrorRepeat => vk::SamplerAddressMode::MIRRORED_REPEAT,
-        });
-        let info = vk::SamplerCreateInfo::default()
-            .mag_filter(filter)
-            .min_filter(filter)
-            .address_mode_u(across)
-            .address_mode_v(down);
-        // SAFETY: the device lives.
-        let raw = unsafe { device.raw.create_sampler(&info, None) }.check("a sampler")?;
-        self.samplers.insert(sampler, raw);
-        Ok(raw)
-    }
-
-    /// Destroys everything; called once, before the device goes.
-    pub(crate) fn destroy(&mut self, device: &Device) {
-        for (_, raw) in self.samplers.drain() {
-            // SAFETY: nothing uses it any more.
-            unsafe { device.raw.destroy_sampler(raw, None) };
-        }
-    }
 }
 
 impl<'a> Descriptors<'a> {

@@ -21,6 +21,11 @@ impl<T> Check<T> for Result<T, vk::Result> {
     }
 }
 
+/// An error that the backend's own logic rules out.
+pub(crate) fn internal(message: &str) -> BackendError {
+    BackendError::Internal(message.to_owned())
+}
+
 /// A code's name and meaning, as in `ERROR_OUT_OF_HOST_MEMORY: A host memory allocation has failed`.
 pub(crate) fn describe(code: vk::Result) -> String {
     format!("{code:?}: {code}")

@@ -1,8 +1,9 @@
 //! What to record for a scene, in handles of the device.
 
-use crate::backend::VulkanBackend;
 use crate::counting::{Counting, Query};
 use crate::dynamic::Dynamic;
+use crate::error::internal;
+use crate::gpu::Gpu;
 use crate::inputs::DrawInputs;
 use crate::limits::attachment_usage;
 use crate::memory::{Image, ImageKey};
@@ -97,10 +98,6 @@ pub(crate) struct DrawPlan {
     pub(crate) dynamic: Dynamic,
     /// What is counted about it.
     pub(crate) queries: Vec<Query>,
-}
-
-pub(crate) fn internal(message: &str) -> BackendError {
-    BackendError::Internal(message.to_owned())
 }
 
 impl Role {
@@ -237,13 +234,13 @@ impl DrawPlan {
 /// The image that an attachment needs, which shaders fetch from or not, and which is read back or
 /// not.
 pub(crate) fn image_key(
-    backend: &VulkanBackend,
+    gpu: &Gpu,
     attachment: &Attachment,
     role: Role,
     (fetched, read): (bool, bool),
 ) -> Result<ImageKey, BackendError> {
     let format = attachment.format;
-    let Some(native) = backend.natives.get(&format) else {
+    let Some(native) = gpu.natives.get(&format) else {
         return Err(BackendError::NotSupported(Requirement::Format(format)));
     };
     let mut usage = vk::ImageUsageFlags::TRANSFER_DST;
@@ -272,18 +269,14 @@ pub(crate) fn image_key(
 }
 
 /// What a pass's attachments are to its pipelines.
-pub(crate) fn targets(
-    backend: &VulkanBackend,
-    scene: &Scene,
-    pass: &Pass,
-) -> Result<Targets, BackendError> {
+pub(crate) fn targets(gpu: &Gpu, scene: &Scene, pass: &Pass) -> Result<Targets, BackendError> {
     let attachment = |index: &usize| {
         let attachment = scene
             .attachments
             .get(*index)
             .ok_or_else(|| internal("a pass names no attachment"))?;
         let format = attachment.format;
-        let native = backend
+        let native = gpu
             .natives
             .get(&format)
             .ok_or(BackendError::NotSupported(Requirement::Format(format)))?;

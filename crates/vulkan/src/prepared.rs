@@ -1,24 +1,25 @@
 //! A scene turned into objects of the device.
 
-use crate::backend::VulkanBackend;
 use crate::counting::Counting;
 use crate::descriptors::Descriptors;
+use crate::error::internal;
+use crate::gpu::Gpu;
 use crate::inputs::Inputs;
 use crate::memory::{Buffer, BufferUse, Image};
 use crate::plan::{
-    AttachmentPlan, DrawPlan, PassPlan, Plan, Role, Start, image_key, internal, is_fetched, targets,
+    AttachmentPlan, DrawPlan, PassPlan, Plan, Role, Start, image_key, is_fetched, targets,
 };
 use crate::read::ReadPlan;
 use crate::record;
 use crate::slot::{Needs, Slot};
-use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
+use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::Frame;
 use etalon_scene::{Contents, Scene};
 use std::time::Instant;
 
 /// A scene with everything that drawing it takes.
 pub(crate) struct PreparedScene<'a> {
-    backend: &'a VulkanBackend,
+    gpu: &'a Gpu,
     /// Taken by `drop` alone.
     slot: Option<Slot>,
     input: Option<Buffer>,
@@ -42,13 +43,13 @@ enum Drawn {
 }
 
 impl<'a> PreparedScene<'a> {
-    pub(crate) fn new(backend: &'a VulkanBackend, scene: &Scene) -> Result<Self, BackendError> {
-        if let Some(missing) = backend.limits().missing(&scene.requirements()) {
+    pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> Result<Self, BackendError> {
+        if let Some(missing) = gpu.limits.missing(&scene.requirements()) {
             return Err(BackendError::NotSupported(missing));
         }
         // Filled bit by bit, so that `drop` gives everything back wherever it ends.
         let mut prepared = Self {
-            backend,
+            gpu,
             slot: None,
             input: None,
             output: None,
@@ -62,11 +63,11 @@ impl<'a> PreparedScene<'a> {
     }
 
     fn fill(&mut self, scene: &Scene) -> Result<(), BackendError> {
-        let device = &self.backend.device;
-        let mut pools = self.backend.pools.borrow_mut();
+        let device = &self.gpu.device;
+        let mut pools = self.gpu.pools.borrow_mut();
         let pools = &mut *pools;
 
-        let inputs = Inputs::place(device, &self.backend.natives, scene);
+        let inputs = Inputs::place(device, &self.gpu.natives, scene);
         let memory = &mut pools.memory;
         let input = memory.buffer(device, BufferUse::Input, inputs.bytes)?;
         let input = self.input.insert(input);
@@ -81,7 +82,7 @@ impl<'a> PreparedScene<'a> {
             }
             let role = Role::of(scene, index);
             let (fetched, read) = (is_fetched(scene, index), scene.read.contains(&index));
-            let key = image_key(self.backend, attachment, role, (fetched, read))?;
+            let key = image_key(self.gpu, attachment, role, (fetched, read))?;
             let image = pools.memory.image(device, key)?;
             self.plan.attachments.push(AttachmentPlan {
                 image: image.raw,
@@ -123,7 +124,7 @@ impl<'a> PreparedScene<'a> {
 
         let mut sets = Descriptors::new(input, self.counts.as_ref(), &self.images);
         for (pass, places) in scene.passes.iter().zip(&inputs.draws) {
-            let targets = targets(self.backend, scene, pass)?;
+            let targets = targets(self.gpu, scene, pass)?;
             let mut planned = PassPlan::new(scene, pass, &self.images)?;
             for (draw, place) in pass.draws.iter().zip(places) {
                 if draw.targets.len() != pass.color.len() {
@@ -140,7 +141,7 @@ impl<'a> PreparedScene<'a> {
             self.plan.passes.push(planned);
         }
 
-        let (reads, bytes) = ReadPlan::all(self.backend, scene)?;
+        let (reads, bytes) = ReadPlan::all(self.gpu, scene)?;
         let output = pools.memory.buffer(device, BufferUse::Output, bytes)?;
         let output = self.output.insert(output);
         self.plan.reads = reads;
@@ -157,7 +158,7 @@ impl<'a> PreparedScene<'a> {
 
 impl Prepared for PreparedScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
-        let device = &self.backend.device;
+        let device = &self.gpu.device;
         let (Some(slot), Some(input)) = (&mut self.slot, &self.input) else {
             return Err(internal("the scene is not prepared"));
         };
@@ -179,7 +180,7 @@ impl Prepared for PreparedScene<'_> {
     }
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
-        let device = &self.backend.device;
+        let device = &self.gpu.device;
         let (Some(slot), Some(output)) = (&mut self.slot, &self.output) else {
             return Err(internal("the scene is not prepared"));
         };
@@ -212,8 +213,8 @@ impl Prepared for PreparedScene<'_> {
 
 impl Drop for PreparedScene<'_> {
     fn drop(&mut self) {
-        let device = &self.backend.device;
-        let mut pools = self.backend.pools.borrow_mut();
+        let device = &self.gpu.device;
+        let mut pools = self.gpu.pools.borrow_mut();
         // The slot first: it waits for the device where that is still due.
         if let Some(slot) = self.slot.take() {
             pools.slots.give_back(device, slot);

@@ -1,8 +1,8 @@
 //! From the output buffer to the frame's images.
 
-use crate::backend::VulkanBackend;
 use crate::device::Device;
 use crate::format;
+use crate::gpu::Gpu;
 use crate::inputs::Placer;
 use crate::memory::{Buffer, Image};
 use crate::samples::{self, SampleReader, SampleReaders, Seen};
@@ -31,11 +31,8 @@ pub(crate) struct ReadPlan {
 
 impl ReadPlan {
     /// Everything that a scene reads, and the size of the buffer that takes it.
-    pub(crate) fn all(
-        backend: &VulkanBackend,
-        scene: &Scene,
-    ) -> Result<(Vec<Self>, u64), BackendError> {
-        let limits = &backend.device.limits;
+    pub(crate) fn all(gpu: &Gpu, scene: &Scene) -> Result<(Vec<Self>, u64), BackendError> {
+        let limits = &gpu.device.limits;
         // Offsets of depth and stencil copies are multiples of 4, of others of the texel's size.
         let alignment = limits.min_storage_buffer_offset_alignment.max(16);
         let mut placer = Placer::default();
@@ -46,7 +43,7 @@ impl ReadPlan {
                 return Err(BackendError::Internal(message));
             };
             let format = attachment.format;
-            let native = backend
+            let native = gpu
                 .natives
                 .get(&format)
                 .ok_or(BackendError::NotSupported(Requirement::Format(format)))?;

@@ -3,8 +3,8 @@
 //! WebGPU's occlusion queries tell whether any sample passed, not how many (GPUQueryType), so
 //! `PreciseOcclusion` is denied.
 
-use crate::binding::RUNS_BYTES;
 use crate::gpu::{BufferLease, Gpu};
+use crate::layout::RUNS_BYTES;
 use etalon_frame::CounterKind;
 use etalon_scene::{Draw, Scene};
 use wgpu::BufferUsages;

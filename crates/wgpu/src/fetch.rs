@@ -1,8 +1,8 @@
 //! Pipelines that bring an attachment into a texture that can be copied.
 
-use crate::binding::Layouts;
 use crate::error::Errors;
 use crate::format;
+use crate::layout::Layouts;
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
 

@@ -1,8 +1,8 @@
 //! A device and everything that is kept on it from scene to scene.
 
-use crate::binding::Layout;
 use crate::error::Errors;
 use crate::format;
+use crate::layout::Layout;
 use crate::limits::{Abilities, fetched};
 use crate::pipeline::Pipelines;
 use crate::pool::{Lease, Pool};

@@ -19,6 +19,7 @@ mod fetch;
 mod format;
 mod gpu;
 mod kept;
+mod layout;
 mod limits;
 mod messages;
 mod open;

@@ -1,10 +1,10 @@
 //! Shaders and pipelines, kept by their state.
 
-use crate::binding::{Bindings, Layouts};
 use crate::error::Errors;
 use crate::fetch::{self, FetchKey};
 use crate::format::{self, Shape};
 use crate::kept::Kept;
+use crate::layout::{Bindings, Layouts};
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
 use etalon_scene::{

@@ -1,0 +1,60 @@
+//! An open device and everything that is kept on it from scene to scene.
+
+use crate::device::Device;
+use crate::format::{self, Native};
+use crate::limits;
+use crate::memory::Pool;
+use crate::pipeline::Pipelines;
+use crate::samplers::Samplers;
+use crate::samples::SampleReaders;
+use crate::slot::Slots;
+use etalon_backend::BackendError;
+use etalon_frame::{Limits, TextureFormat};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+/// An open device.
+pub(crate) struct Gpu {
+    pub(crate) limits: Limits,
+    pub(crate) natives: BTreeMap<TextureFormat, Native>,
+    pub(crate) pools: RefCell<Pools>,
+    /// Last, so that it outlives what was made of it.
+    pub(crate) device: Device,
+}
+
+/// Everything that is kept from scene to scene.
+#[derive(Default)]
+pub(crate) struct Pools {
+    pub(crate) slots: Slots,
+    pub(crate) memory: Pool,
+    pub(crate) pipelines: Pipelines,
+    pub(crate) readers: SampleReaders,
+    pub(crate) samplers: Samplers,
+}
+
+impl Gpu {
+    pub(crate) fn new(device: Device) -> Result<Self, BackendError> {
+        let natives = format::natives(&device);
+        let gpu = Self {
+            limits: limits::limits(&device, &natives),
+            natives,
+            pools: RefCell::default(),
+            device,
+        };
+        gpu.pools.borrow_mut().pipelines.create(&gpu.device)?;
+        Ok(gpu)
+    }
+}
+
+impl Drop for Gpu {
+    fn drop(&mut self) {
+        let pools = self.pools.get_mut();
+        // Prepared scenes borrow the device, so all of them are gone, and each has waited for the
+        // device to be done with it.
+        pools.slots.destroy(&self.device);
+        pools.memory.destroy(&self.device);
+        pools.pipelines.destroy(&self.device);
+        pools.readers.destroy(&self.device);
+        pools.samplers.destroy(&self.device);
+    }
+}
