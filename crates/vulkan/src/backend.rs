@@ -1,4 +1,4 @@
-//! The crate's face: which adapters there are, and an open one.
+//! Adapter enumeration and the open adapter.
 
 use crate::device::{Device, identify};
 use crate::error::unavailable;
@@ -10,14 +10,14 @@ use etalon_frame::Limits;
 use etalon_scene::Scene;
 use std::rc::Rc;
 
-/// How to open an adapter.
+/// Options for [`open`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// The device's place in the order of `vkEnumeratePhysicalDevices`, which is also the order of
+    /// The device's index in `vkEnumeratePhysicalDevices`, which is also the order of
     /// [`enumerate`].
     pub device: usize,
-    /// Whether the Khronos validation layer watches our calls, synchronization included; what it
-    /// says comes out of [`Backend::messages`].
+    /// Enables the Khronos validation layer, synchronization validation included. Its messages are
+    /// returned by [`Backend::messages`].
     pub validate: bool,
 }
 
@@ -27,24 +27,24 @@ pub struct VulkanBackend {
     gpu: Gpu,
 }
 
-/// All physical devices that the installed drivers offer, in the order of [`Options::device`]. The
-/// name is `vulkan:<driver>`; two devices of one driver have the same.
+/// Returns all physical devices of the installed drivers, in the order of [`Options::device`]. An
+/// adapter's name is `vulkan:<driver>`; two devices of one driver share a name.
 ///
-/// A device may be listed that [`open`] then refuses, for want of Vulkan 1.3.
+/// The list includes devices without Vulkan 1.3, which [`open`] refuses.
 ///
 /// # Errors
-/// When there is no Vulkan loader, no driver, or none that lists a device.
+/// If there is no Vulkan loader, no driver, or no device.
 pub fn enumerate() -> Result<Vec<AdapterInfo>, Unavailable> {
     let instance = Instance::new(false)?;
     let devices = instance.physical_devices()?.into_iter();
     Ok(devices.map(|d| identify(&instance, d).info).collect())
 }
 
-/// Opens a device under a name, which becomes [`AdapterInfo::name`].
+/// Opens a device. `name` becomes [`AdapterInfo::name`].
 ///
 /// # Errors
-/// When there is no such device, it speaks no Vulkan 1.3, its driver fails, or validation was asked
-/// for and is not installed.
+/// If there is no such device, it lacks Vulkan 1.3, its driver fails, or the validation layer is
+/// requested and not installed.
 pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable> {
     let instance = Rc::new(Instance::new(options.validate)?);
     let devices = instance.physical_devices()?;
@@ -93,7 +93,7 @@ mod tests {
     use ash::vk;
     use etalon_case::{Library, Profile};
 
-    /// The layer listens: without this, its silence elsewhere would prove nothing.
+    /// The layer reports errors: without this, its silence elsewhere would prove nothing.
     #[test]
     fn a_planted_mistake_is_told() {
         let options = Options {
@@ -117,7 +117,7 @@ mod tests {
         }
     }
 
-    /// The validation layer names every object that outlives its device.
+    /// The validation layer reports every object that outlives its device.
     #[test]
     fn a_closed_backend_leaves_nothing_behind() {
         let options = Options {

@@ -1,4 +1,4 @@
-//! Descriptor sets: the parameters, textures, sampler and counter of a draw.
+//! Descriptor sets of draws: parameters, textures, sampler and counter.
 
 use crate::counting::Counting;
 use crate::device::Device;
@@ -14,21 +14,22 @@ use etalon_scene::{Draw, Sampler};
 use std::collections::HashMap;
 use std::mem::size_of;
 
-/// What a draw names. Draws that name the same share a set: the parameters' place is dynamic.
+/// The resources of a draw. Draws with equal resources share a set, since the parameters' offset is
+/// dynamic.
 #[derive(PartialEq, Eq, Hash)]
-struct Named {
+struct Resources {
     textures: Vec<usize>,
     sampler: Option<Sampler>,
     counter: Option<usize>,
 }
 
-/// What the sets of a scene are made of, and those made so far.
+/// The resources of a scene and the descriptor sets made so far.
 pub(crate) struct Descriptors<'a> {
     pub(crate) input: &'a Buffer,
-    /// The words that shaders count in, where any do.
+    /// The buffer that shaders count in, if any shader counts.
     pub(crate) counts: Option<&'a Buffer>,
     pub(crate) images: &'a [Image],
-    sets: HashMap<Named, vk::DescriptorSet>,
+    sets: HashMap<Resources, vk::DescriptorSet>,
 }
 
 impl<'a> Descriptors<'a> {
@@ -41,7 +42,7 @@ impl<'a> Descriptors<'a> {
         }
     }
 
-    /// The set of a draw.
+    /// Returns the descriptor set of a draw.
     pub(crate) fn get(
         &mut self,
         device: &Device,
@@ -55,12 +56,12 @@ impl<'a> Descriptors<'a> {
         if draw.textures.len() != bindings.textures || draw.sampler.is_some() != bindings.sampler {
             return Err(internal("a draw has not the textures its shader reads"));
         }
-        let named = Named {
+        let resources = Resources {
             textures: draw.textures.clone(),
             sampler: draw.sampler,
             counter: word.map(|(counter, _)| counter),
         };
-        if let Some(set) = self.sets.get(&named) {
+        if let Some(set) = self.sets.get(&resources) {
             return Ok(*set);
         }
         let layout = pipelines.layout(device, bindings)?;
@@ -70,7 +71,7 @@ impl<'a> Descriptors<'a> {
             None => None,
         };
         self.write(device, set, draw, sampler, word.map(|(_, offset)| offset))?;
-        self.sets.insert(named, set);
+        self.sets.insert(resources, set);
         Ok(set)
     }
 

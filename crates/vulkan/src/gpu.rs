@@ -1,4 +1,4 @@
-//! An open device and everything that is kept on it from scene to scene.
+//! An open device and everything that outlives a scene on it.
 
 use crate::device::Device;
 use crate::format::{self, Native};
@@ -13,16 +13,16 @@ use etalon_frame::{Limits, TextureFormat};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-/// An open device.
+/// An open device with its limits and pools.
 pub(crate) struct Gpu {
     pub(crate) limits: Limits,
     pub(crate) natives: BTreeMap<TextureFormat, Native>,
     pub(crate) pools: RefCell<Pools>,
-    /// Last, so that it outlives what was made of it.
+    /// Dropped last: everything else was created from it.
     pub(crate) device: Device,
 }
 
-/// Everything that is kept from scene to scene.
+/// The objects that outlive a scene.
 #[derive(Default)]
 pub(crate) struct Pools {
     pub(crate) slots: Slots,
@@ -49,8 +49,8 @@ impl Gpu {
 impl Drop for Gpu {
     fn drop(&mut self) {
         let pools = self.pools.get_mut();
-        // Prepared scenes borrow the device, so all of them are gone, and each has waited for the
-        // device to be done with it.
+        // Prepared scenes borrow the device, so all of them are gone, and each waited for the
+        // device to finish.
         pools.slots.destroy(&self.device);
         pools.memory.destroy(&self.device);
         pools.pipelines.destroy(&self.device);

@@ -1,30 +1,30 @@
-//! Buffers and images, and the bounded pools that scenes draw them from.
+//! Buffers and images, reused from bounded pools.
 
 use crate::device::Device;
-use crate::error::Check;
+use crate::error::{Check, internal};
 use crate::format;
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
 
-/// The most objects and bytes that a pool keeps for later.
+/// The most objects and bytes that a pool keeps.
 const KEPT_OBJECTS: usize = 64;
 const KEPT_BYTES: u64 = 256 << 20;
-/// Buffers come in powers of two from here on, so that they fit later scenes.
+/// The smallest buffer. Sizes are powers of two, so that buffers fit later scenes.
 const SMALLEST_BUFFER: u64 = 64 << 10;
 
-/// What a buffer is for.
+/// The use of a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BufferUse {
-    /// Written by the processor: vertices, indices, parameters, uploads.
+    /// Written by the host: vertices, indices, parameters, uploads.
     Input,
-    /// Read by the processor: what comes back.
+    /// Read by the host: attachments that are read back.
     Output,
-    /// Counted in by shaders, then read by the processor: a few words.
+    /// Incremented by shaders, then read by the host: a few words.
     Counts,
 }
 
-/// A buffer, mapped as long as it lives, in coherent memory.
+/// A persistently mapped buffer in coherent memory.
 #[derive(Debug)]
 pub(crate) struct Buffer {
     pub(crate) raw: vk::Buffer,
@@ -34,7 +34,7 @@ pub(crate) struct Buffer {
     usage: BufferUse,
 }
 
-/// What makes two images interchangeable.
+/// The properties that interchangeable images share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ImageKey {
     pub(crate) format: vk::Format,
@@ -43,20 +43,20 @@ pub(crate) struct ImageKey {
     pub(crate) usage: vk::ImageUsageFlags,
 }
 
-/// An image in memory of its own.
+/// An image with its own memory.
 #[derive(Debug)]
 pub(crate) struct Image {
     pub(crate) key: ImageKey,
     pub(crate) raw: vk::Image,
     memory: vk::DeviceMemory,
     bytes: u64,
-    /// One view of all aspects, and one of each aspect where there are two and shaders read them.
+    /// A view of all aspects, and one per aspect for depth-stencil images that shaders read.
     views: Vec<(vk::ImageAspectFlags, vk::ImageView)>,
-    /// For a multisampled sRGB image that shaders read, a view that shows its codes unconverted.
+    /// A view without sRGB conversion, for a multisampled sRGB image that shaders read.
     unconverted: Option<vk::ImageView>,
 }
 
-/// Objects that no scene uses at present, oldest first.
+/// Unused objects, oldest first.
 #[derive(Debug, Default)]
 pub(crate) struct Pool {
     buffers: Vec<Buffer>,
@@ -64,7 +64,7 @@ pub(crate) struct Pool {
 }
 
 impl Buffer {
-    /// Gives a null buffer's parts to `create` one by one, so that a failure leaks nothing.
+    /// Passes a buffer of null handles to `create`, so that a failure leaks nothing.
     fn new(device: &Device, usage: BufferUse, size: u64) -> Result<Self, BackendError> {
         let size = size.max(SMALLEST_BUFFER).checked_next_power_of_two();
         let mut buffer = Self {
@@ -124,7 +124,7 @@ impl Buffer {
         Ok(())
     }
 
-    /// Writes bytes at an offset; what would not fit is an internal error.
+    /// Writes bytes at an offset. Fails if they do not fit.
     pub(crate) fn write(&mut self, offset: u64, bytes: &[u8]) -> Result<(), BackendError> {
         let at = self.range(offset, bytes.len())?;
         // SAFETY: `range` checked that the mapping holds all of it, the device does not use the
@@ -151,7 +151,7 @@ impl Buffer {
         {
             return Ok(at);
         }
-        Err(BackendError::Internal(format!(
+        Err(internal(format!(
             "{length} bytes at {offset} leave a buffer of {}",
             self.size
         )))
@@ -189,7 +189,7 @@ impl Image {
         let key = self.key;
         let read_by_sample = key.samples > 1 && key.usage.contains(vk::ImageUsageFlags::SAMPLED);
         let unconverted = format::unconverted(key.format).filter(|_| read_by_sample);
-        // Told of both formats, a driver need not store the image otherwise than usual.
+        // The list of both formats keeps a mutable format from changing the image's memory layout.
         let both_formats = [key.format, unconverted.unwrap_or(key.format)];
         let mut list = vk::ImageFormatListCreateInfo::default().view_formats(&both_formats);
         let mut info = vk::ImageCreateInfo::default()
@@ -215,11 +215,11 @@ impl Image {
         // SAFETY: the image was just made.
         let needs = unsafe { device.raw.get_image_memory_requirements(self.raw) };
         self.bytes = needs.size;
-        let wanted = [
+        let preferences = [
             vk::MemoryPropertyFlags::DEVICE_LOCAL,
             vk::MemoryPropertyFlags::empty(),
         ];
-        self.memory = device.allocate(needs, &wanted, "image memory")?;
+        self.memory = device.allocate(needs, &preferences, "image memory")?;
         // SAFETY: image and memory are new, and the memory type allows the image.
         unsafe { device.raw.bind_image_memory(self.raw, self.memory, 0) }.check("image memory")?;
 
@@ -260,7 +260,7 @@ impl Image {
         unsafe { device.raw.create_image_view(&info, None) }.check("an image view")
     }
 
-    /// The view through which a shader reads the samples of one aspect.
+    /// Returns the view through which a shader reads the samples of one aspect.
     pub(crate) fn sample_view(
         &self,
         mask: vk::ImageAspectFlags,
@@ -268,20 +268,20 @@ impl Image {
         self.unconverted.map_or_else(|| self.view(mask), Ok)
     }
 
-    /// The view of exactly these aspects.
+    /// Returns the view of exactly these aspects.
     pub(crate) fn view(&self, mask: vk::ImageAspectFlags) -> Result<vk::ImageView, BackendError> {
         let found = self.views.iter().find(|(aspects, _)| *aspects == mask);
         found
             .map(|(_, view)| *view)
-            .ok_or_else(|| BackendError::Internal(format!("no view of the aspects {mask:?}")))
+            .ok_or_else(|| internal(format!("no view of the aspects {mask:?}")))
     }
 
-    /// The view of all aspects.
+    /// Returns the view of all aspects.
     pub(crate) fn whole(&self) -> Result<vk::ImageView, BackendError> {
         self.view(self.aspects())
     }
 
-    /// All aspects of the image.
+    /// Returns all aspects of the image.
     pub(crate) fn aspects(&self) -> vk::ImageAspectFlags {
         format::aspect_mask(self.key.format)
     }
@@ -299,7 +299,7 @@ impl Image {
     }
 }
 
-/// The one layer and level that our images have.
+/// The only mip level and array layer of an image.
 pub(crate) fn range(mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
     vk::ImageSubresourceRange {
         aspect_mask: mask,
@@ -311,7 +311,7 @@ pub(crate) fn range(mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
 }
 
 impl Pool {
-    /// A buffer of at least so many bytes.
+    /// Returns a buffer of at least this size.
     pub(crate) fn buffer(
         &mut self,
         device: &Device,
@@ -325,7 +325,7 @@ impl Pool {
         }
     }
 
-    /// An image; its contents are whatever they are.
+    /// Returns an image with undefined contents.
     pub(crate) fn image(&mut self, device: &Device, key: ImageKey) -> Result<Image, BackendError> {
         match self.images.iter().rposition(|i| i.key == key) {
             Some(index) => Ok(self.images.remove(index)),
@@ -333,7 +333,7 @@ impl Pool {
         }
     }
 
-    /// Takes back what the device is done with.
+    /// Returns objects to the pool once the device is done with them.
     pub(crate) fn give_back(
         &mut self,
         device: &Device,
@@ -348,14 +348,14 @@ impl Pool {
         self.images.drain(..excess).for_each(|i| i.destroy(device));
     }
 
-    /// Destroys everything; called once, before the device goes.
+    /// Destroys everything, before the device is destroyed.
     pub(crate) fn destroy(&mut self, device: &Device) {
         self.buffers.drain(..).for_each(|b| b.destroy(device));
         self.images.drain(..).for_each(|i| i.destroy(device));
     }
 }
 
-/// How many of the oldest objects must go so that the rest keeps within the bounds.
+/// Returns the number of oldest objects to destroy to keep the rest within the bounds.
 fn excess(sizes: impl DoubleEndedIterator<Item = u64> + ExactSizeIterator) -> usize {
     let count = sizes.len();
     let mut bytes = 0_u64;

@@ -1,4 +1,4 @@
-//! A scene turned into objects of the device.
+//! A scene prepared for drawing.
 
 use crate::counting::Counting;
 use crate::descriptors::Descriptors;
@@ -7,7 +7,7 @@ use crate::gpu::Gpu;
 use crate::inputs::Inputs;
 use crate::memory::{Buffer, BufferUse, Image};
 use crate::plan::{
-    AttachmentPlan, DrawPlan, PassPlan, Plan, Role, Start, image_key, is_fetched, targets,
+    AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role, image_key, is_fetched, targets,
 };
 use crate::read::ReadPlan;
 use crate::record;
@@ -17,28 +17,28 @@ use etalon_frame::Frame;
 use etalon_scene::{Contents, Scene};
 use std::time::Instant;
 
-/// A scene with everything that drawing it takes.
+/// A scene with all objects that drawing it needs.
 pub(crate) struct PreparedScene<'a> {
     gpu: &'a Gpu,
-    /// Taken by `drop` alone.
+    /// Always present until `drop` takes it.
     slot: Option<Slot>,
     input: Option<Buffer>,
     output: Option<Buffer>,
-    /// What shaders count in, where any do.
+    /// The buffer that shaders count in, if any shader counts.
     counts: Option<Buffer>,
     images: Vec<Image>,
     plan: Plan,
-    drawn: Drawn,
+    progress: Progress,
 }
 
-/// Where a scene stands.
+/// The state of the attachments and the output buffer.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Drawn {
-    /// Not yet, or a failure came between.
-    No,
-    /// The attachments are as the passes left them.
-    Passes,
-    /// The attachments have been read, and lie as reading needs them.
+enum Progress {
+    /// Not drawn since the start or the last failure.
+    NotDrawn,
+    /// Drawn.
+    Drawn,
+    /// Drawn and copied to the output buffer.
     Read,
 }
 
@@ -47,7 +47,7 @@ impl<'a> PreparedScene<'a> {
         if let Some(missing) = gpu.limits.missing(&scene.requirements()) {
             return Err(BackendError::NotSupported(missing));
         }
-        // Filled bit by bit, so that `drop` gives everything back wherever it ends.
+        // Filled step by step, so that `drop` returns everything wherever a step fails.
         let mut prepared = Self {
             gpu,
             slot: None,
@@ -56,7 +56,7 @@ impl<'a> PreparedScene<'a> {
             counts: None,
             images: Vec::new(),
             plan: Plan::default(),
-            drawn: Drawn::No,
+            progress: Progress::NotDrawn,
         };
         prepared.fill(scene)?;
         Ok(prepared)
@@ -89,7 +89,7 @@ impl<'a> PreparedScene<'a> {
                 aspects: image.aspects(),
                 size: attachment.size,
                 samples: attachment.samples,
-                start: Start::of(attachment, inputs.texels(index)),
+                initial: InitialContents::of(attachment, inputs.texels(index)),
                 role,
                 read,
             });
@@ -162,19 +162,19 @@ impl Prepared for PreparedScene<'_> {
         let (Some(slot), Some(input)) = (&mut self.slot, &self.input) else {
             return Err(internal("the scene is not prepared"));
         };
-        self.drawn = Drawn::No;
+        self.progress = Progress::NotDrawn;
         let start = Instant::now();
         let commands = slot.begin(device)?;
         slot.reset_timestamps(device);
         let counting = &self.plan.counting;
-        counting.start(device, commands, slot, self.counts.as_ref())?;
-        record::start(device, commands, &self.plan, input.raw);
+        counting.reset(device, commands, slot, self.counts.as_ref())?;
+        record::initial_contents(device, commands, &self.plan, input.raw);
         slot.timestamp(device, 0);
         record::passes(device, commands, &self.plan, input.raw);
         slot.timestamp(device, 1);
         counting.end(device, commands);
         let (cpu, wall) = slot.submit(device, start)?;
-        self.drawn = Drawn::Passes;
+        self.progress = Progress::Drawn;
         let gpu = slot.gpu_time(device)?;
         Ok(FrameTime { cpu, gpu, wall })
     }
@@ -184,18 +184,18 @@ impl Prepared for PreparedScene<'_> {
         let (Some(slot), Some(output)) = (&mut self.slot, &self.output) else {
             return Err(internal("the scene is not prepared"));
         };
-        match self.drawn {
-            Drawn::No => return Err(internal("read back before anything was drawn")),
-            Drawn::Passes => {
+        match self.progress {
+            Progress::NotDrawn => return Err(internal("read back before anything was drawn")),
+            Progress::Drawn => {
                 let start = Instant::now();
                 let commands = slot.begin(device)?;
                 record::reads(device, commands, &self.plan, output.raw);
-                self.drawn = Drawn::No;
+                self.progress = Progress::NotDrawn;
                 slot.submit(device, start)?;
-                self.drawn = Drawn::Read;
+                self.progress = Progress::Read;
             }
-            // The codes still lie in the output buffer.
-            Drawn::Read => {}
+            // The codes are still in the output buffer.
+            Progress::Read => {}
         }
         let mut frame = Frame {
             images: Vec::with_capacity(self.plan.reads.len()),
@@ -215,7 +215,7 @@ impl Drop for PreparedScene<'_> {
     fn drop(&mut self) {
         let device = &self.gpu.device;
         let mut pools = self.gpu.pools.borrow_mut();
-        // The slot first: it waits for the device where that is still due.
+        // The slot first, since it waits for the device if work is in flight.
         if let Some(slot) = self.slot.take() {
             pools.slots.give_back(device, slot);
         }

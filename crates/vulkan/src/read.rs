@@ -1,27 +1,28 @@
-//! From the output buffer to the frame's images.
+//! Reading attachments back: from the output buffer to the frame's images.
 
 use crate::device::Device;
+use crate::error::internal;
 use crate::format;
 use crate::gpu::Gpu;
-use crate::inputs::Placer;
+use crate::inputs::OffsetAllocator;
 use crate::memory::{Buffer, Image};
-use crate::samples::{self, SampleReader, SampleReaders, Seen};
+use crate::samples::{self, SampleReader, SampleReaders, SampleType};
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{Aspect, ChannelEncoding, ReadPath, Requirement};
 use etalon_scene::Scene;
 
-/// One aspect of one attachment on its way back.
+/// The read-back of one aspect of an attachment.
 pub(crate) struct ReadPlan {
     pub(crate) attachment: usize,
     pub(crate) aspect: Aspect,
-    /// Where its bytes lie in the output buffer.
+    /// The offset of its bytes in the output buffer.
     pub(crate) offset: u64,
-    /// For multisampled attachments, the shader that reads them, and its descriptors.
+    /// The shader that reads a multisampled attachment, and its descriptors.
     pub(crate) reader: Option<(SampleReader, vk::DescriptorSet)>,
     name: String,
-    seen: Seen,
+    sample_type: SampleType,
     size: [u32; 2],
     samples: u32,
     raw: vk::Format,
@@ -30,17 +31,16 @@ pub(crate) struct ReadPlan {
 }
 
 impl ReadPlan {
-    /// Everything that a scene reads, and the size of the buffer that takes it.
+    /// Returns all reads of a scene and the size of the output buffer.
     pub(crate) fn all(gpu: &Gpu, scene: &Scene) -> Result<(Vec<Self>, u64), BackendError> {
         let limits = &gpu.device.limits;
-        // Offsets of depth and stencil copies are multiples of 4, of others of the texel's size.
+        // Offsets of depth and stencil copies are multiples of 4, others of the texel size.
         let alignment = limits.min_storage_buffer_offset_alignment.max(16);
-        let mut placer = Placer::default();
+        let mut offsets = OffsetAllocator::default();
         let mut reads = Vec::new();
         for index in &scene.read {
             let Some(attachment) = scene.attachments.get(*index) else {
-                let message = "a read names no attachment".to_owned();
-                return Err(BackendError::Internal(message));
+                return Err(internal("a read names no attachment"));
             };
             let format = attachment.format;
             let native = gpu
@@ -59,10 +59,10 @@ impl ReadPlan {
                 reads.push(Self {
                     attachment: *index,
                     aspect: *aspect,
-                    offset: placer.place(bytes, alignment),
+                    offset: offsets.allocate(bytes, alignment),
                     reader: None,
                     name: attachment.name.clone(),
-                    seen: Seen::of(format, *aspect),
+                    sample_type: SampleType::of(format, *aspect),
                     size: attachment.size,
                     samples: attachment.samples,
                     raw: native.raw,
@@ -71,11 +71,11 @@ impl ReadPlan {
                 });
             }
         }
-        let bytes = placer.place(0, 1);
+        let bytes = offsets.allocate(0, 1);
         Ok((reads, bytes))
     }
 
-    /// Gives the read of a multisampled image its shader.
+    /// Sets the shader of a multisampled read.
     pub(crate) fn connect(
         &mut self,
         device: &Device,
@@ -93,7 +93,7 @@ impl ReadPlan {
                 message: "maxStorageBufferRange is smaller".to_owned(),
             });
         }
-        let reader = readers.get(device, self.seen)?;
+        let reader = readers.get(device, self.sample_type)?;
         let set = slot.descriptor_set(device, reader.layout.set)?;
         let images = [vk::DescriptorImageInfo {
             sampler: vk::Sampler::null(),
@@ -121,10 +121,10 @@ impl ReadPlan {
         Ok(())
     }
 
-    /// The image, after the device wrote the output buffer.
+    /// Returns the image, after the device wrote the output buffer.
     pub(crate) fn image(&self, output: &Buffer) -> Result<etalon_frame::Image, BackendError> {
-        let length = usize::try_from(self.bytes)
-            .map_err(|_| BackendError::Internal("an image too large to read".to_owned()))?;
+        let length =
+            usize::try_from(self.bytes).map_err(|_| internal("an image too large to read"))?;
         let bytes = output.read(self.offset, length)?;
         let codes = if self.reader.is_some() {
             self.codes_of_samples(&bytes)
@@ -142,7 +142,8 @@ impl ReadPlan {
         })
     }
 
-    /// The codes of what the shader stored, the channels that the format lacks left out.
+    /// Returns the codes of the samples that the shader stored, without the channels that the
+    /// format lacks.
     fn codes_of_samples(&self, bytes: &[u8]) -> Vec<u32> {
         let sample = samples::words(self.aspect) * size_of::<u32>();
         let mut codes = Vec::with_capacity(bytes.len() / sample * self.channels.len());

@@ -7,14 +7,14 @@ use etalon_backend::BackendError;
 use etalon_scene::{AddressMode, FilterMode, Sampler};
 use std::collections::HashMap;
 
-/// The samplers made so far; there are few ways to sample, so none needs to go early.
+/// The samplers made so far. There are few distinct ones, so all are kept.
 #[derive(Debug, Default)]
 pub(crate) struct Samplers {
     samplers: HashMap<Sampler, vk::Sampler>,
 }
 
 impl Samplers {
-    /// The sampler that samples so, made at its first use.
+    /// Returns the Vulkan sampler, created on first use.
     pub(crate) fn get(
         &mut self,
         device: &Device,
@@ -43,7 +43,7 @@ impl Samplers {
         Ok(raw)
     }
 
-    /// Destroys everything; called once, before the device goes.
+    /// Destroys everything, before the device is destroyed.
     pub(crate) fn destroy(&mut self, device: &Device) {
         for (_, raw) in self.samplers.drain() {
             // SAFETY: nothing uses it any more.
