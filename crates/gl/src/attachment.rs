@@ -1,4 +1,4 @@
-//! The attachments of a scene and their first contents.
+//! The attachments of a scene and their initial contents.
 
 use crate::context::Context;
 use crate::state;
@@ -10,12 +10,12 @@ pub(crate) struct Attachment {
     pub(crate) name: String,
     pub(crate) format: TextureFormat,
     pub(crate) surface: Surface,
-    pub(crate) start: Start,
+    pub(crate) initial: InitialContents,
 }
 
-/// How an attachment gets its first contents at each submit.
-pub(crate) enum Start {
-    /// Uploaded once: no pass draws to it.
+/// The initial contents of an attachment at each submit.
+pub(crate) enum InitialContents {
+    /// Uploaded once, since no pass draws to it.
     Uploaded,
     Upload(Vec<u8>),
     Color([f32; 4]),
@@ -23,27 +23,27 @@ pub(crate) enum Start {
     DepthStencil(f32, u8),
 }
 
-/// Gives all attachments their first contents. Masks and scissor are open (`state::reset`).
-pub(crate) fn initialise(context: &Context, attachments: &[Attachment]) {
+/// Sets the initial contents of all attachments. Masks and scissor are open (`state::reset`).
+pub(crate) fn set_initial_contents(context: &Context, attachments: &[Attachment]) {
     let gl = &context.gl;
     for attachment in attachments {
         let surface = &attachment.surface;
         let format = attachment.format;
         // SAFETY: the context is current and all objects are its own.
         unsafe {
-            match &attachment.start {
-                Start::Uploaded => {}
-                Start::Upload(bytes) => upload(context, format, surface, bytes),
-                Start::Color(color) => {
+            match &attachment.initial {
+                InitialContents::Uploaded => {}
+                InitialContents::Upload(bytes) => upload(context, format, surface, bytes),
+                InitialContents::Color(color) => {
                     state::set_srgb(context, format == TextureFormat::Rgba8UnormSrgb);
                     gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
                     gl.clear_buffer_f32_slice(glow::COLOR, 0, color);
                 }
-                Start::Integers(color) => {
+                InitialContents::Integers(color) => {
                     gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
                     gl.clear_buffer_u32_slice(glow::COLOR, 0, color);
                 }
-                Start::DepthStencil(depth, stencil) => {
+                InitialContents::DepthStencil(depth, stencil) => {
                     gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
                     let stencil = i32::from(*stencil);
                     match (format.has_depth(), format.has_stencil()) {

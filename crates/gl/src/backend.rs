@@ -1,7 +1,7 @@
-//! An open adapter.
+//! Opening an adapter: its context, objects and limits.
 
 use crate::context::Context;
-use crate::egl::{Wanted, egl};
+use crate::egl::{self, ContextRequest};
 use crate::objects::Objects;
 use crate::options::{Options, Profile, Tuning};
 use crate::prepared::GlPrepared;
@@ -12,7 +12,7 @@ use etalon_frame::{Api, Limits};
 use etalon_scene::Scene;
 use glow::HasContext;
 
-/// An open context of one driver.
+/// An open OpenGL context.
 pub struct GlBackend {
     info: AdapterInfo,
     limits: Limits,
@@ -20,10 +20,10 @@ pub struct GlBackend {
     pub(crate) context: Context,
 }
 
-/// Opens an adapter; `name` becomes its name.
+/// Opens an adapter. `name` becomes [`AdapterInfo::name`].
 ///
 /// # Errors
-/// When libEGL, the driver or the version is missing, with what would help.
+/// If libEGL, the driver or the version is missing; the error names a remedy.
 pub fn open(name: &str, options: &Options) -> Result<GlBackend, Unavailable> {
     open_with(name, options, Tuning { clip_control: true })
 }
@@ -45,13 +45,13 @@ pub(crate) fn open_with(
     ];
     const ES: [(i32, i32); 3] = [(3, 2), (3, 1), (3, 0)];
     let es = options.profile == Profile::Es;
-    let wanted = Wanted {
+    let request = ContextRequest {
         es,
         debug: options.debug,
     };
     let versions: &[(i32, i32)] = if es { &ES } else { &CORE };
     let egl_context =
-        egl(options.library.as_deref())?.context(options.platform, wanted, versions)?;
+        egl::library(options.library.as_deref())?.context(options.platform, request, versions)?;
     let context = Context::new(egl_context, options, tuning)?;
     state::reset(&context);
     let unusable = |e: BackendError| Unavailable::new(e.to_string(), "use another driver");
@@ -67,7 +67,7 @@ pub(crate) fn open_with(
         .context
         .check("opening the adapter")
         .map_err(unusable)?;
-    // What probing made the driver say concerns nobody.
+    // Messages about probing are not the scenes'.
     backend.context.messages();
     Ok(backend)
 }

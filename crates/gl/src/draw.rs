@@ -1,4 +1,4 @@
-//! Drawing a prepared scene.
+//! The draw calls of a prepared scene.
 
 use crate::attachment::Attachment;
 use crate::context::Context;
@@ -18,12 +18,12 @@ pub(crate) struct Inputs {
     pub(crate) vertices: Option<(glow::Buffer, usize)>,
     pub(crate) indices: Option<(glow::Buffer, usize)>,
     pub(crate) params: Option<(glow::Buffer, usize)>,
-    /// Where shaders count their runs.
+    /// The storage buffer that shaders count in.
     pub(crate) runs: Option<(glow::Buffer, usize)>,
 }
 
 impl Inputs {
-    /// The buffers that there are.
+    /// Returns all buffers.
     pub(crate) fn into_buffers(self) -> impl Iterator<Item = (glow::Buffer, usize)> {
         let all = [self.vertices, self.indices, self.params, self.runs];
         all.into_iter().flatten()
@@ -32,10 +32,10 @@ impl Inputs {
 
 pub(crate) struct Pass {
     pub(crate) target: Target,
-    /// A colour attachment is sRGB.
+    /// True if a colour attachment is sRGB.
     pub(crate) srgb: bool,
     pub(crate) draws: Vec<DrawCall>,
-    /// Attachments with several samples and those that they are averaged to.
+    /// Multisampled attachments and their resolve targets.
     pub(crate) resolves: Vec<(usize, usize)>,
 }
 
@@ -43,16 +43,16 @@ pub(crate) struct DrawCall {
     pub(crate) program: glow::Program,
     pub(crate) state: DrawState,
     pub(crate) textures: Vec<glow::Texture>,
-    /// How they are sampled; `None` where texels are fetched.
+    /// The sampler; `None` if texels are fetched.
     pub(crate) sampler: Option<glow::Sampler>,
-    /// What is counted around the draw.
+    /// The queries around the draw.
     pub(crate) queries: Vec<Query>,
-    /// Where the shader's runs are counted, if it counts them.
+    /// The offset of the counter, if the shader counts.
     pub(crate) runs: Option<i32>,
-    /// Where the parameter block lies, if the shader has one.
+    /// The offset of the parameter block, if the shader has one.
     pub(crate) params: Option<i32>,
     pub(crate) mode: u32,
-    /// Vertices are named by indices.
+    /// True for an indexed draw.
     pub(crate) indexed: bool,
     /// The first vertex or index.
     pub(crate) first: i32,
@@ -75,7 +75,7 @@ pub(crate) fn draw_all(
             glow::ARRAY_BUFFER,
             inputs.vertices.map(|(buffer, _)| buffer),
         );
-        // The vertex array keeps this one.
+        // The vertex array stores this binding.
         let indices = inputs.indices.map(|(buffer, _)| buffer);
         gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, indices);
         let attributes = [
@@ -107,7 +107,7 @@ pub(crate) fn draw_all(
         }
         for (from, to) in &pass.resolves {
             if let (Some(from), Some(to)) = (attachments.get(*from), attachments.get(*to)) {
-                // Copies obey the scissor.
+                // Blits are subject to the scissor test.
                 state::reset(context);
                 state::set_srgb(context, to.format == TextureFormat::Rgba8UnormSrgb);
                 resolve(context, &from.surface, &to.surface);
@@ -156,13 +156,13 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
             gl.end_query(query.target);
         }
         if draw.runs.is_some() {
-            // The next draw may count on.
+            // The next draw may use the same counter.
             gl.memory_barrier(glow::SHADER_STORAGE_BARRIER_BIT);
         }
     }
 }
 
-/// Averages the samples of one colour surface into another of the same size and format.
+/// Resolves a colour surface to another of the same size and format.
 fn resolve(context: &Context, from: &Surface, to: &Surface) {
     let gl = &context.gl;
     let [w, h] = from.size().map(|side| side as i32);

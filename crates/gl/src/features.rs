@@ -4,11 +4,11 @@ use crate::context::Context;
 use etalon_frame::Feature;
 use std::collections::BTreeSet;
 
-/// The features of a context, as far as its version and extensions tell.
+/// Returns the features that a context's version and extensions define.
 pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
-    let (caps, extra) = (&context.caps, &context.extra);
+    let (caps, entry_points) = (&context.caps, &context.entry_points);
     let known = |feature: &Feature| match feature {
-        // Versions from 3 on have these.
+        // Part of version 3.
         Feature::CentroidInterpolation
         | Feature::ConstantAlphaBlendFactor
         | Feature::FrontAndBackCulling
@@ -21,15 +21,15 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         | Feature::ViewportOutside => true,
         Feature::AlphaToOne => caps.alpha_to_one,
         Feature::ConservativeDepth => caps.conservative_depth,
-        Feature::DepthBiasClamp => extra.polygon_offset_clamp.is_some(),
-        Feature::DepthBounds => extra.depth_bounds.is_some(),
+        Feature::DepthBiasClamp => entry_points.polygon_offset_clamp.is_some(),
+        Feature::DepthBounds => entry_points.depth_bounds.is_some(),
         Feature::DepthClamp => caps.depth_clamp,
         Feature::DualSourceBlending => caps.dual_source,
         Feature::ForcedEarlyTests => caps.early_tests,
         Feature::FragmentInvocations => caps.fragment_invocations,
         Feature::IndependentBlend => caps.indexed_blend,
-        Feature::LogicOperations => extra.logic_op.is_some(),
-        // Heights of viewports are positive.
+        Feature::LogicOperations => entry_points.logic_op.is_some(),
+        // Viewport heights are positive.
         Feature::MirroredViewport => false,
         // ES has no `glPolygonMode`.
         Feature::PolygonModeLine => !caps.es,

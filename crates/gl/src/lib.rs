@@ -1,14 +1,14 @@
 //! The OpenGL and OpenGL ES backend, through glow and EGL.
 //!
-//! [`open`] makes a context without a window and wraps it as a [`etalon_backend::Backend`]. Which driver answers is
-//! up to the environment of the process (`LIBGL_ALWAYS_SOFTWARE`, `GALLIUM_DRIVER`, …) or to the
-//! EGL device; a process should hold one driver only. libEGL is loaded at run time.
+//! [`open`] creates a context without a window and wraps it as an [`etalon_backend::Backend`]. The
+//! environment of the process (`LIBGL_ALWAYS_SOFTWARE`, `GALLIUM_DRIVER`, …) or the EGL device
+//! selects the driver; a process should load only one. libEGL is loaded at run time.
 //!
-//! WebGPU's conventions come from `glClipControl(UPPER_LEFT, ZERO_TO_ONE)`, under which row 0 of
-//! every image is the top one, depth is what Vulkan computes and windings keep their sense; without
-//! it the vertex shaders mirror y and remap z, and front faces are told apart the other way round.
+//! `glClipControl(UPPER_LEFT, ZERO_TO_ONE)` sets WebGPU's conventions: row 0 of every image is the
+//! top one, depth is computed as in Vulkan, and windings keep their sense. Without it the vertex
+//! shaders mirror y and remap z, and the front face is inverted.
 //!
-//! Attachments with several samples are textures; a shader reads them back, sample by sample.
+//! Multisampled attachments are textures, which a shader reads back sample by sample.
 
 mod attachment;
 mod backend;
@@ -18,7 +18,8 @@ mod context;
 mod counters;
 mod draw;
 mod egl;
-mod extra;
+mod entry_points;
+mod enums;
 mod features;
 mod format;
 mod objects;
@@ -33,7 +34,6 @@ mod state;
 mod surface;
 #[cfg(test)]
 mod tests;
-mod words;
 
 pub use backend::{GlBackend, open};
 pub use egl::{EglDevice, Platform, enumerate};

@@ -13,12 +13,12 @@ use glow::HasContext;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-/// Everything that is kept from scene to scene.
+/// The objects that outlive a scene, and the supported formats.
 pub(crate) struct Objects {
     pub(crate) formats: BTreeMap<TextureFormat, Support>,
     pub(crate) pool: RefCell<Pool>,
     pub(crate) programs: RefCell<Programs>,
-    /// The distance of parameter blocks in bytes.
+    /// The distance between parameter blocks in bytes.
     pub(crate) params_stride: usize,
     pub(crate) vertex_array: glow::VertexArray,
     pub(crate) no_vertices: glow::VertexArray,
@@ -26,7 +26,7 @@ pub(crate) struct Objects {
 }
 
 impl Objects {
-    /// Makes the objects and probes the formats with them.
+    /// Creates the objects and probes the formats with them.
     pub(crate) fn new(context: &Context) -> Result<(Self, Probed), Unavailable> {
         let gl = &context.gl;
         let refused = |message: String| Unavailable::new(message, "use another driver");

@@ -1,33 +1,33 @@
-//! How an adapter is opened.
+//! The options of an adapter.
 
 use crate::egl::Platform;
 use std::path::PathBuf;
 
-/// Which OpenGL to open.
+/// The OpenGL variant of a context.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Profile {
-    /// OpenGL 3.3 to 4.6, core profile; the highest that the driver has.
+    /// The highest available version of OpenGL 3.3 to 4.6, core profile.
     Core,
-    /// OpenGL ES 3.0 to 3.2; the highest that the driver has.
+    /// The highest available version of OpenGL ES 3.0 to 3.2.
     Es,
 }
 
-/// How to open an adapter.
+/// Options for [`crate::open`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Options {
-    /// The API.
+    /// The variant of OpenGL.
     pub profile: Profile,
-    /// The way to the driver.
+    /// The platform that selects the driver.
     pub platform: Platform,
-    /// The EGL library: a path, or a name that the system's loader looks for; without it, `libEGL.so.1`.
+    /// The EGL library, a path or a name for the system's loader; `libEGL.so.1` by default.
     pub library: Option<PathBuf>,
-    /// Whether to collect the driver's debug messages, see [`etalon_backend::Backend::messages`].
+    /// Enables debug output. Its messages are returned by [`etalon_backend::Backend::messages`].
     pub debug: bool,
 }
 
-/// What tests may hold back.
+/// Capabilities that tests can disable.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tuning {
-    /// Use `glClipControl` where there is one.
+    /// Use `glClipControl` if available.
     pub(crate) clip_control: bool,
 }

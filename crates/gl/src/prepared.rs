@@ -1,23 +1,23 @@
-//! A scene with all its objects, ready to be drawn.
+//! A scene prepared for drawing.
 
-use crate::attachment::{self, Attachment, Start};
+use crate::attachment::{self, Attachment, InitialContents};
 use crate::codes;
 use crate::context::{Context, refused};
 use crate::counters::Counters;
 use crate::draw::{self, DrawCall, Inputs, Pass};
+use crate::enums::topology;
 use crate::objects::Objects;
 use crate::pool::Pool;
 use crate::read::{Reading, Source};
 use crate::state::{self, DrawState};
 use crate::surface::{Surface, SurfaceKind, upload};
-use crate::words::topology;
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::{Frame, Requirement, TextureFormat};
 use etalon_scene::{Contents, Draw, RESTART, Scene};
 use glow::HasContext;
 use std::time::{Duration, Instant};
 
-/// A scene prepared for drawing. On drop its objects go back to the pool.
+/// A scene's objects. They return to the pool on drop.
 pub(crate) struct GlPrepared<'a> {
     context: &'a Context,
     objects: &'a Objects,
@@ -27,11 +27,11 @@ pub(crate) struct GlPrepared<'a> {
     inputs: Inputs,
     counters: Counters,
     submitted: bool,
-    /// Nothing has failed, so that the objects may serve another scene.
-    sound: bool,
+    /// True if nothing has failed, so that other scenes may reuse the objects.
+    reusable: bool,
 }
 
-/// How far the shared buffers are used.
+/// The used parts of the shared buffers.
 #[derive(Default)]
 struct Used {
     /// Vertices.
@@ -57,11 +57,11 @@ impl<'a> GlPrepared<'a> {
             inputs: Inputs::default(),
             counters: Counters::new(context, &scene.counters),
             submitted: false,
-            sound: false,
+            reusable: false,
         };
         prepared.fill(scene)?;
         context.check("preparing a scene")?;
-        prepared.sound = true;
+        prepared.reusable = true;
         Ok(prepared)
     }
 
@@ -98,36 +98,39 @@ impl<'a> GlPrepared<'a> {
         let surface = pool.surface(context, kind, attachment.size)?;
         let texels = attachment.size[0] as usize * attachment.size[1] as usize;
         let complete = surface.is_complete();
-        let start = match &attachment.contents {
-            // Only `rgba32float` is offered where nothing can be drawn to it.
-            Contents::Color(color) if !complete => {
-                Start::Upload(codes::pack(format, &color.map(f32::to_bits).repeat(texels)))
-            }
+        let initial = match &attachment.contents {
+            // Only `rgba32float` is offered without being drawable.
+            Contents::Color(color) if !complete => InitialContents::Upload(codes::pack(
+                format,
+                &color.map(f32::to_bits).repeat(texels),
+            )),
             Contents::Color(color) if format.is_integer() => {
-                Start::Integers(color.map(|value| value as u32))
+                InitialContents::Integers(color.map(|value| value as u32))
             }
-            Contents::Color(color) => Start::Color(*color),
-            Contents::DepthStencil { depth, stencil } => Start::DepthStencil(*depth, *stencil),
+            Contents::Color(color) => InitialContents::Color(*color),
+            Contents::DepthStencil { depth, stencil } => {
+                InitialContents::DepthStencil(*depth, *stencil)
+            }
             Contents::Texels(codes) if codes.len() != texels * format.color_channels().len() => {
                 return Err(BackendError::Internal(format!(
                     "{} codes for {texels} texels of {format}",
                     codes.len()
                 )));
             }
-            Contents::Texels(codes) => Start::Upload(codes::pack(format, codes)),
+            Contents::Texels(codes) => InitialContents::Upload(codes::pack(format, codes)),
         };
-        let start = match start {
-            Start::Upload(bytes) if !drawn => {
+        let initial = match initial {
+            InitialContents::Upload(bytes) if !drawn => {
                 upload(context, format, &surface, &bytes);
-                Start::Uploaded
+                InitialContents::Uploaded
             }
-            start => start,
+            initial => initial,
         };
         self.attachments.push(Attachment {
             name: attachment.name.clone(),
             format,
             surface,
-            start,
+            initial,
         });
         if !complete && (drawn || format != TextureFormat::Rgba32Float) {
             return Err(BackendError::NotSupported(Requirement::Format(format)));
@@ -135,7 +138,7 @@ impl<'a> GlPrepared<'a> {
         Ok(())
     }
 
-    /// All vertices in one buffer, all indices in another, all parameter blocks in a third.
+    /// Fills one buffer with all vertices, one with all indices, one with all parameter blocks.
     fn buffers(&mut self, pool: &mut Pool, scene: &Scene) -> Result<(), BackendError> {
         let context = self.context;
         let mut vertices = Vec::new();
@@ -144,7 +147,7 @@ impl<'a> GlPrepared<'a> {
         let mut first = 0;
         for draw in scene.passes.iter().flat_map(|pass| &pass.draws) {
             vertices.extend_from_slice(draw.mesh.bytes());
-            // Not every version adds a base to indices.
+            // Not every version has a base vertex.
             let shifted = |index: &u32| match *index {
                 RESTART => RESTART,
                 index => index + first,
@@ -157,7 +160,7 @@ impl<'a> GlPrepared<'a> {
             }
         }
         let mut buffer = |bytes: &[u8]| {
-            // Positions within buffers are 32-bit.
+            // Offsets in buffers are 32-bit.
             if bytes.len() > i32::MAX as usize {
                 let message = "the scene has too many vertices or draws";
                 return Err(refused("a buffer", message));
@@ -213,7 +216,7 @@ impl<'a> GlPrepared<'a> {
             .ok_or(BackendError::NotSupported(Requirement::Drawing(format)))?;
         let mut draws = Vec::new();
         for draw in &pass.draws {
-            // On error the target is lost to the pool; it goes with the context.
+            // On error the target is not returned to the pool; it is deleted with the context.
             draws.push(self.draw(pool, draw, pass.depth_stencil_read_only, used)?);
         }
         self.passes.push(Pass {
@@ -278,8 +281,8 @@ impl<'a> GlPrepared<'a> {
         context.make_current()?;
         let start = Instant::now();
         state::reset(context);
-        attachment::initialise(context, &self.attachments);
-        self.counters.start(context, self.inputs.runs);
+        attachment::set_initial_contents(context, &self.attachments);
+        self.counters.reset(context, self.inputs.runs);
         // SAFETY: the context is current; a query exists only where timers count.
         let (cpu, wall) = unsafe {
             if let Some(query) = objects.timer {
@@ -345,7 +348,7 @@ impl<'a> GlPrepared<'a> {
 impl Prepared for GlPrepared<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         let result = self.try_submit();
-        self.sound &= result.is_ok();
+        self.reusable &= result.is_ok();
         self.submitted |= result.is_ok();
         result
     }
@@ -358,8 +361,8 @@ impl Prepared for GlPrepared<'_> {
         }
         let result = self.try_read_back();
         if result.is_err() {
-            self.sound = false;
-            // What was made for reading may be what failed.
+            self.reusable = false;
+            // The objects used for reading may be what failed.
             self.objects.pool.borrow_mut().delete_surfaces(self.context);
         }
         result
@@ -375,21 +378,21 @@ impl Drop for GlPrepared<'_> {
         }
         let mut pool = self.objects.pool.borrow_mut();
         for pass in self.passes.drain(..) {
-            if self.sound {
+            if self.reusable {
                 pool.put_target(context, pass.target);
             } else {
                 pass.target.delete(context);
             }
         }
         for attachment in self.attachments.drain(..) {
-            if self.sound {
+            if self.reusable {
                 pool.put_surface(context, attachment.surface);
             } else {
-                // Its storage may never have come to be.
+                // Its storage may not exist.
                 attachment.surface.delete(context);
             }
         }
-        std::mem::take(&mut self.counters).give_back(context, &mut pool, self.sound);
+        std::mem::take(&mut self.counters).give_back(context, &mut pool, self.reusable);
         for (buffer, size) in std::mem::take(&mut self.inputs).into_buffers() {
             pool.put_buffer(context, buffer, size);
         }

@@ -1,8 +1,8 @@
-//! What the driver really makes of each format.
+//! Probing of the formats that a driver supports.
 //!
-//! A driver may take another internal format than the one asked for. A format is offered only where
-//! the framebuffer tells exactly the channels that the format's name promises, and where all codes
-//! survive being uploaded and read.
+//! A driver may use another internal format than the requested one. A format is offered only if the
+//! framebuffer reports exactly the channels of the format's name, and all codes survive an upload
+//! and a read.
 
 use crate::context::Context;
 use crate::format::{ReadPlan, ShaderStencil, Support, gl_format};
@@ -14,15 +14,14 @@ use etalon_scene::{EarlyTests, Shader};
 use glow::HasContext;
 use std::collections::{BTreeMap, BTreeSet};
 
-const SIGNED_NORMALIZED: u32 = 0x8F9C;
 const SAMPLE_COUNTS: [u32; 4] = [2, 4, 8, 16];
-/// Enough for every code of a 16-bit channel when four channels share them.
+/// Enough texels for every code of a 16-bit channel spread over four channels.
 const SIZE: [u32; 2] = [128, 128];
 
-/// Where the samples lie, by their number: 1/256 texel from the top left corner.
+/// Sample positions by sample count, in 1/256 texel from the top left corner.
 type Positions = BTreeMap<u32, Vec<[u16; 2]>>;
 
-/// What all formats give.
+/// The results of probing.
 #[derive(Default)]
 pub(crate) struct Probed {
     pub(crate) formats: BTreeMap<TextureFormat, Support>,
@@ -30,7 +29,7 @@ pub(crate) struct Probed {
     pub(crate) features: BTreeSet<Feature>,
 }
 
-/// Tries every format.
+/// Probes every format.
 pub(crate) fn probe(reading: &mut Reading<'_>) -> Probed {
     let mut probed = Probed::default();
     let context = reading.context;
@@ -38,12 +37,12 @@ pub(crate) fn probe(reading: &mut Reading<'_>) -> Probed {
         let Some(mut support) = with_surface(context, format, 1, |surface| {
             examine(reading, format, surface)
         }) else {
-            // A refused format may leave errors behind, which are no news to anybody.
+            // A refused format may leave errors behind.
             context.check("probing formats").ok();
             continue;
         };
         if context.check("probing formats").is_ok() {
-            let more = several_samples(reading, format, &support, &mut probed.positions);
+            let more = sample_counts(reading, format, &support, &mut probed.positions);
             support.limits.samples.extend(more);
             probed.formats.insert(format, support);
         }
@@ -55,8 +54,7 @@ pub(crate) fn probe(reading: &mut Reading<'_>) -> Probed {
     probed
 }
 
-/// Whether the driver takes what naga writes for a feature of the shading language, and naga writes
-/// anything.
+/// Returns true if naga can write the shaders of a feature and the driver compiles them.
 fn compiles(reading: &mut Reading<'_>, feature: Feature) -> bool {
     let shader = Shader::FlatColorDepth;
     let tried: &[_] = match feature {
@@ -75,7 +73,7 @@ fn compiles(reading: &mut Reading<'_>, feature: Feature) -> bool {
     tried.iter().all(&mut takes)
 }
 
-/// Does something with a surface of a format.
+/// Calls `body` with a surface of a format.
 fn with_surface<T>(
     context: &Context,
     format: TextureFormat,
@@ -108,7 +106,7 @@ fn examine(reading: &mut Reading<'_>, format: TextureFormat, surface: &Surface) 
         })
     };
     if format.is_color() && !surface.is_complete() {
-        // The exact source of values is of use even where nothing can be drawn to it.
+        // Useful as an exact source of values even if it is not drawable.
         let useful = format == TextureFormat::Rgba32Float
             && color_round_trips(reading, surface, format, ReadPlan::Fetched);
         return if useful {
@@ -117,12 +115,12 @@ fn examine(reading: &mut Reading<'_>, format: TextureFormat, surface: &Surface) 
             None
         };
     }
-    if !surface.is_complete() || !holds(context, surface, format) {
+    if !surface.is_complete() || !has_promised_channels(context, surface, format) {
         return None;
     }
     if format.is_color() {
         // Mesa's ES reads negative values of `rgba8snorm` as 0, and a shader sees one value for
-        // both codes of -1, so that nothing reads that format exactly there.
+        // both codes of -1, so nothing reads that format exactly there.
         let plans: &[ReadPlan] = if format.is_integer() {
             &[ReadPlan::Integers]
         } else {
@@ -139,7 +137,7 @@ fn examine(reading: &mut Reading<'_>, format: TextureFormat, surface: &Surface) 
         return done(&[1], blendable, &[], read);
     }
     if format == TextureFormat::Stencil8 {
-        // In ES nothing but a shader reads stencil.
+        // In ES only a shader can read stencil.
         if !context.caps.es {
             return done(&[1], false, &[], ReadPlan::Stencil);
         }
@@ -191,11 +189,10 @@ fn copy_plan(format: TextureFormat, encoding: ChannelEncoding) -> ReadPlan {
     }
 }
 
-/// Whether a complete surface holds the channels that its format promises.
-fn holds(context: &Context, surface: &Surface, format: TextureFormat) -> bool {
+/// Returns true if a complete surface has the channels that its format promises.
+fn has_promised_channels(context: &Context, surface: &Surface, format: TextureFormat) -> bool {
     if format.has_depth() {
-        // A driver may store more bits than it was asked for; then the format is not what its
-        // name says, and no rule speaks of it.
+        // A driver may store more bits than requested; the format is then not what its name says.
         return depth_encoding(context, surface)
             .is_some_and(|encoding| format.depth_encodings().contains(&encoding));
     }
@@ -222,7 +219,7 @@ fn holds(context: &Context, surface: &Surface, format: TextureFormat) -> bool {
     });
     let due = match channels.first() {
         Some(ChannelEncoding::Unorm(_) | ChannelEncoding::Srgb8) => glow::UNSIGNED_NORMALIZED,
-        Some(ChannelEncoding::Snorm(_)) => SIGNED_NORMALIZED,
+        Some(ChannelEncoding::Snorm(_)) => glow::SIGNED_NORMALIZED,
         Some(ChannelEncoding::Uint(_)) => glow::UNSIGNED_INT,
         _ => glow::FLOAT,
     };
@@ -236,7 +233,7 @@ fn holds(context: &Context, surface: &Surface, format: TextureFormat) -> bool {
     same && u32::try_from(kind) == Ok(due) && u32::try_from(encoding) == Ok(due_encoding)
 }
 
-/// A property of an attachment of a complete surface.
+/// Returns a property of an attachment of a complete surface.
 fn query(context: &Context, surface: &Surface, attachment: u32, name: u32) -> i32 {
     let gl = &context.gl;
     // SAFETY: the context is current, the framebuffer lives and has the attachment.
@@ -246,7 +243,7 @@ fn query(context: &Context, surface: &Surface, attachment: u32, name: u32) -> i3
     }
 }
 
-/// What the driver says it stores.
+/// Returns the depth encoding that the driver reports.
 fn depth_encoding(context: &Context, surface: &Surface) -> Option<ChannelEncoding> {
     let of_depth = |name| query(context, surface, glow::DEPTH_ATTACHMENT, name);
     let bits = of_depth(glow::FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
@@ -258,8 +255,9 @@ fn depth_encoding(context: &Context, surface: &Surface) -> Option<ChannelEncodin
     }
 }
 
-/// Whether all codes come back unchanged: every code of channels of up to 16 bits, each channel in
-/// an order of its own; a spread of 32-bit floats. NaNs are left out, whose payload nobody keeps.
+/// Returns true if all codes are read back unchanged: every code of channels of up to 16 bits, each
+/// channel in another order, and a spread of 32-bit floats. NaNs are left out, since their payload
+/// may change.
 fn color_round_trips(
     reading: &mut Reading<'_>,
     surface: &Surface,
@@ -270,7 +268,7 @@ fn color_round_trips(
     let mut all = Vec::new();
     for texel in 0..SIZE[0] * SIZE[1] {
         for (c, encoding) in (0..).zip(channels) {
-            // Odd factors reach every code; those of a 16-bit float are shared by four channels.
+            // Odd factors reach every code; four channels share those of a 16-bit float.
             let code = match codes::bits(*encoding) {
                 32 => (texel * 4 + c).wrapping_mul(0x9e37_79b1),
                 bits => (texel * 4 + c).wrapping_mul(2 * c + 1) >> (2 * u32::from(bits < 16)),
@@ -286,8 +284,8 @@ fn color_round_trips(
     clean && read.is_ok_and(|codes| codes == all)
 }
 
-/// The sample counts above one that attachments of a format really get, can be drawn to and read.
-fn several_samples(
+/// Returns the sample counts above 1 for which the driver creates, draws to and reads attachments.
+fn sample_counts(
     reading: &mut Reading<'_>,
     format: TextureFormat,
     support: &Support,
@@ -299,15 +297,15 @@ fn several_samples(
         caps.stencil_texturing && (caps.stencil_textures || format != TextureFormat::Stencil8);
     let drawn = !support.limits.samples.is_empty();
     // A shader sees one value for both codes of -1.
-    let told_apart = format != TextureFormat::Rgba8Snorm;
-    let readable = drawn && told_apart && (!format.has_stencil() || stencil_fetched);
+    let has_distinct_codes = format != TextureFormat::Rgba8Snorm;
+    let readable = drawn && has_distinct_codes && (!format.has_stencil() || stencil_fetched);
     if !caps.multisample_textures || !readable {
         return Vec::new();
     }
     let mut counts = Vec::new();
     for count in SAMPLE_COUNTS {
         let found = with_surface(context, format, count, |surface| {
-            let good = surface.is_complete() && holds(context, surface, format);
+            let good = surface.is_complete() && has_promised_channels(context, surface, format);
             good.then(|| sample_positions(context, surface, count))?
         });
         let clean = context.check("probing samples").is_ok();
@@ -325,8 +323,8 @@ fn several_samples(
     }
 }
 
-/// Whether a shader's fetch gives the codes that a copy of the same format would give. Short
-/// normalized codes and floats are exact in any float; sRGB and 24-bit depth may not be.
+/// Returns true if a shader's fetch returns the same codes as a copy. Short normalized codes and
+/// floats are exact in any float; sRGB and 24-bit depth may not be.
 fn fetch_is_exact(reading: &mut Reading<'_>, format: TextureFormat, support: &Support) -> bool {
     if format == TextureFormat::Rgba8UnormSrgb {
         let context = reading.context;
@@ -356,9 +354,9 @@ fn fetch_is_exact(reading: &mut Reading<'_>, format: TextureFormat, support: &Su
     true
 }
 
-/// Where a surface's samples lie; `None` where it has another number of them.
+/// Returns the sample positions of a surface; `None` if it has another sample count.
 fn sample_positions(context: &Context, surface: &Surface, count: u32) -> Option<Vec<[u16; 2]>> {
-    let get = context.extra.get_multisample?;
+    let get = context.entry_points.get_multisample?;
     let gl = &context.gl;
     // SAFETY: the context is current, the surface lives, and the pair has room. The texture is
     // bound to the target of its own.
@@ -368,15 +366,15 @@ fn sample_positions(context: &Context, surface: &Surface, count: u32) -> Option<
         let stored = gl.get_tex_level_parameter_i32(target, 0, glow::TEXTURE_SAMPLES);
         gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
         let drawn = gl.get_parameter_i32(glow::SAMPLES);
-        // Asking for 2 may give 4.
+        // A request for 2 samples may yield 4.
         if [stored, drawn].map(u32::try_from) != [Ok(count); 2] {
             return None;
         }
         let position = |i| {
             let mut position = [0.0_f32; 2];
             get(glow::SAMPLE_POSITION, i, position.as_mut_ptr());
-            // Rows count upwards in window coordinates, and row 0 is the top one here, so that
-            // nothing is mirrored.
+            // Rows count upwards in window coordinates, and row 0 is the top one here: nothing is
+            // mirrored.
             position.map(|v| (v * 256.0).round() as u16)
         };
         Some((0..count).map(position).collect())

@@ -1,6 +1,6 @@
 //! Query objects.
 
-/// A query around one draw. A query object stays with the target that it was first begun for.
+/// A query around one draw. A query object keeps the target it was first used with.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Query {
     pub(crate) target: u32,
