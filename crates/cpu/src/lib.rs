@@ -1,7 +1,7 @@
 //! The pipeline as a rasterizer backend: plain arithmetic in lanes, no dispatch per texel.
 //!
-//! It draws what every scene of the suite can ask for, follows Direct3D's top-left rule and
-//! nearest snapping at 8 sub-pixel bits, and is judged like any driver, by Vulkan's rules.
+//! It draws every scene of the suite, follows Direct3D's top-left rule and nearest snapping at 8
+//! sub-pixel bits, and is judged like any driver, by Vulkan's rules.
 
 mod lanes;
 mod linear;
@@ -33,7 +33,7 @@ pub struct CpuBackend {
 }
 
 impl CpuBackend {
-    /// The rasterizer under an adapter name.
+    /// Returns the rasterizer with an adapter name.
     pub fn new(name: &str) -> Self {
         let formats = TextureFormat::ALL
             .into_iter()

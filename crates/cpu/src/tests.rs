@@ -49,8 +49,8 @@ fn a_slanted_triangle_has_depths_between_its_vertices() {
     }
 }
 
-/// Three layers over the whole picture, nearest first, under a depth test, with one shader; how many
-/// fragments were shaded, and the picture.
+/// Draws three layers over the whole picture with one shader, nearest first, under a depth test.
+/// Returns the number of shaded fragments and the picture.
 fn layers(shader: &str) -> (u64, Vec<u32>) {
     let layer = |z: f32, color: &str| {
         format!(

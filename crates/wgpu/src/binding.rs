@@ -1,35 +1,35 @@
 //! The bind groups of a scene's draws.
 
+use crate::attachment::DeviceAttachment;
 use crate::counting::Counting;
 use crate::format;
 use crate::gpu::{BufferLease, Gpu};
 use crate::layout::{Bindings, PARAMS_BYTES, RUNS_BYTES};
-use crate::slot::Slot;
 use etalon_backend::BackendError;
 use etalon_scene::{Draw, Sampler, Scene};
 use std::collections::HashMap;
 use wgpu::BufferUsages;
 
-/// A bind group and the offset of its parameters, where it has some.
+/// A bind group and the dynamic offset of its parameters, if it has any.
 pub(crate) struct Bound {
     pub(crate) group: wgpu::BindGroup,
     pub(crate) offset: Option<u32>,
 }
 
-/// The bind groups of a scene, each made once.
+/// The bind groups of a scene, each created once.
 pub(crate) struct Groups<'a, 's> {
     gpu: &'a Gpu,
-    slots: &'s [Slot<'a>],
+    attachments: &'s [DeviceAttachment<'a>],
     counting: &'s Counting<'a>,
     /// The parameter blocks of all draws.
     buffer: Option<BufferLease<'a>>,
-    /// What is to go there.
+    /// The contents of `buffer`.
     params: Vec<u8>,
     stride: usize,
     made: HashMap<Key, wgpu::BindGroup>,
 }
 
-/// What a bind group is made from.
+/// The resources of a bind group.
 #[derive(PartialEq, Eq, Hash)]
 struct Key {
     bindings: Bindings,
@@ -42,7 +42,7 @@ impl<'a, 's> Groups<'a, 's> {
     pub(crate) fn new(
         gpu: &'a Gpu,
         scene: &Scene,
-        slots: &'s [Slot<'a>],
+        attachments: &'s [DeviceAttachment<'a>],
         counting: &'s Counting<'a>,
     ) -> Self {
         let draws = scene.passes.iter().flat_map(|pass| &pass.draws);
@@ -52,7 +52,7 @@ impl<'a, 's> Groups<'a, 's> {
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         Self {
             gpu,
-            slots,
+            attachments,
             counting,
             buffer: (blocks > 0).then(|| gpu.buffer(usage, blocks as u64 * stride)),
             params: Vec::new(),
@@ -61,7 +61,8 @@ impl<'a, 's> Groups<'a, 's> {
         }
     }
 
-    /// What a draw's shader is given; `runs` is the counter of its runs.
+    /// Returns the bind group of a draw; `None` if its shader has no bindings. `runs` is the
+    /// counter of its shader runs.
     pub(crate) fn bind(
         &mut self,
         draw: &Draw,
@@ -100,7 +101,7 @@ impl<'a, 's> Groups<'a, 's> {
             give(0, part(buffer, 0, PARAMS_BYTES));
         }
         for (binding, texture) in (1..).zip(&key.textures) {
-            let view = self.slots[*texture].target.fetch();
+            let view = self.attachments[*texture].target.fetch();
             give(binding, wgpu::BindingResource::TextureView(view));
         }
         if let Some((buffer, offset)) = key.runs.and_then(|counter| self.counting.runs(counter)) {
@@ -127,7 +128,7 @@ impl<'a, 's> Groups<'a, 's> {
         })))
     }
 
-    /// Sends the parameters and hands over their buffer, which must live as long as the groups.
+    /// Uploads the parameters and returns their buffer, which must outlive the groups.
     pub(crate) fn finish(self) -> Option<BufferLease<'a>> {
         if let Some(buffer) = &self.buffer {
             self.gpu.queue.write_buffer(buffer, 0, &self.params);

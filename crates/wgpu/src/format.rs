@@ -1,4 +1,4 @@
-//! This suite's words in wgpu's.
+//! wgpu's values of formats and pipeline state.
 
 use etalon_backend::BackendError;
 use etalon_frame::{Requirement, TextureFormat};
@@ -8,7 +8,7 @@ use etalon_scene::{
     Sampler, StencilFace, StencilOperation, StencilState,
 };
 
-/// WebGPU's format, where it has it.
+/// Returns WebGPU's format, if it has one.
 pub(crate) fn texture(format: TextureFormat) -> Option<wgpu::TextureFormat> {
     Some(match format {
         TextureFormat::R8Unorm => wgpu::TextureFormat::R8Unorm,
@@ -34,12 +34,12 @@ pub(crate) fn texture(format: TextureFormat) -> Option<wgpu::TextureFormat> {
     })
 }
 
-/// WebGPU's format of an attachment, which the limits have let through.
+/// Returns WebGPU's format of an attachment that the limits allow.
 pub(crate) fn known(format: TextureFormat) -> Result<wgpu::TextureFormat, BackendError> {
     texture(format).ok_or(BackendError::NotSupported(Requirement::Format(format)))
 }
 
-/// A pipeline's depth and stencil state. A test that is off passes always and writes nothing.
+/// Returns a pipeline's depth and stencil state. A disabled test always passes and writes nothing.
 pub(crate) fn depth_stencil(
     format: TextureFormat,
     depth: Option<DepthState>,
@@ -56,7 +56,7 @@ pub(crate) fn depth_stencil(
     })
 }
 
-/// Only polygons have a bias, and WebGPU refuses one on anything else (GPUDepthStencilState).
+/// Only polygons have a bias, and WebGPU refuses it for other topologies (GPUDepthStencilState).
 pub(crate) fn bias(bias: DepthBias, topology: PrimitiveTopology) -> wgpu::DepthBiasState {
     match topology {
         PrimitiveTopology::PointList
@@ -72,7 +72,8 @@ pub(crate) fn bias(bias: DepthBias, topology: PrimitiveTopology) -> wgpu::DepthB
     }
 }
 
-/// WebGPU has one pair of masks for both faces; `SeparateStencilMasks` is denied, so they agree.
+/// WebGPU has one pair of masks for both faces; `SeparateStencilMasks` is denied, so they are
+/// equal.
 fn stencil(state: StencilState) -> wgpu::StencilState {
     wgpu::StencilState {
         front: stencil_face(&state.front),
@@ -138,8 +139,8 @@ fn blend_component(component: BlendComponent) -> wgpu::BlendComponent {
     }
 }
 
-/// `constant-alpha` arrives only in the alpha equation, where it is `constant`: for colour it needs
-/// a feature that is denied.
+/// `constant-alpha` occurs only in the alpha equation, where it equals `constant`: for colour it
+/// needs a feature that is denied.
 fn factor(factor: BlendFactor) -> wgpu::BlendFactor {
     match factor {
         BlendFactor::Zero => wgpu::BlendFactor::Zero,
@@ -164,7 +165,7 @@ fn factor(factor: BlendFactor) -> wgpu::BlendFactor {
     }
 }
 
-/// How a draw makes primitives and which of their sides and parts it draws.
+/// The primitive state of a draw.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Shape {
     pub(crate) topology: PrimitiveTopology,
@@ -175,7 +176,7 @@ pub(crate) struct Shape {
     pub(crate) depth_clamp: bool,
 }
 
-/// Whether each vertex goes on from the one before.
+/// Returns true for a strip.
 pub(crate) fn is_strip(topology: PrimitiveTopology) -> bool {
     matches!(
         topology,
@@ -216,7 +217,7 @@ pub(crate) fn primitive(shape: Shape) -> wgpu::PrimitiveState {
     }
 }
 
-/// A sampler of a texture without smaller images.
+/// Returns a sampler of textures with one mip level.
 pub(crate) fn sampler(sampler: Sampler) -> wgpu::SamplerDescriptor<'static> {
     let filter = match sampler.filter {
         FilterMode::Nearest => wgpu::FilterMode::Nearest,
@@ -236,7 +237,7 @@ pub(crate) fn sampler(sampler: Sampler) -> wgpu::SamplerDescriptor<'static> {
     }
 }
 
-/// A value that WebGPU takes as a double and hands on as a float.
+/// Returns four values as WebGPU's doubles.
 pub(crate) fn color(value: [f32; 4]) -> wgpu::Color {
     let [r, g, b, a] = value.map(f64::from);
     wgpu::Color { r, g, b, a }

@@ -1,29 +1,29 @@
 //! Layouts of bind groups and pipelines.
 
-use crate::kept::Kept;
+use crate::cache::Cache;
 use etalon_backend::BackendError;
 use etalon_scene::Shader;
 
 /// The size of [`etalon_scene::Params`].
 pub(crate) const PARAMS_BYTES: u64 = 32;
-/// The size of a counter of runs.
+/// The size of a counter of shader runs.
 pub(crate) const RUNS_BYTES: u64 = 4;
 
-/// A bind group layout and the pipeline layout made of it.
+/// A bind group layout and a pipeline layout with that one group.
 #[derive(Clone)]
 pub(crate) struct Layout {
     pub(crate) bindings: wgpu::BindGroupLayout,
     pub(crate) pipeline: wgpu::PipelineLayout,
 }
 
-/// What a draw's shader is given, at the bindings that the suite's shaders agree on.
+/// The bindings of a shader, at the numbers that the suite's shaders use.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Bindings {
     /// The parameter block, at binding 0.
     pub(crate) params: bool,
-    /// So many textures, from binding 1.
+    /// The number of textures, from binding 1.
     textures: usize,
-    /// A counter of runs, at binding 3.
+    /// A counter of shader runs, at binding 3.
     runs: bool,
     /// A sampler, at binding 4.
     sampler: bool,
@@ -64,16 +64,16 @@ impl Bindings {
     }
 }
 
-/// Layouts for draws, and for reading attachments.
+/// The layouts of draws and of fetches.
 pub(crate) struct Layouts {
-    draws: Kept<Bindings, Layout>,
-    /// Nothing.
+    draws: Cache<Bindings, Layout>,
+    /// No binding.
     pub(crate) none: Layout,
     /// One texture.
     pub(crate) texture: Layout,
-    /// One texture of several samples of floats.
+    /// One multisampled texture of floats.
     pub(crate) samples: Layout,
-    /// One texture of several samples of integers.
+    /// One multisampled texture of integers.
     pub(crate) integers: Layout,
 }
 
@@ -82,7 +82,7 @@ impl Layouts {
         let float = wgpu::TextureSampleType::Float { filterable: false };
         let integer = wgpu::TextureSampleType::Uint;
         Self {
-            draws: Kept::default(),
+            draws: Cache::default(),
             none: layout(device, &[]),
             texture: layout(device, &[entry(1, texture(float, false))]),
             samples: layout(device, &[entry(1, texture(float, true))]),
@@ -90,7 +90,7 @@ impl Layouts {
         }
     }
 
-    /// The layout of a draw.
+    /// Returns the layout of a draw.
     pub(crate) fn draw(
         &self,
         device: &wgpu::Device,

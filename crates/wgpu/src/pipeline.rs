@@ -1,9 +1,9 @@
-//! Shaders and pipelines, kept by their state.
+//! Shader modules and pipelines, cached by their state.
 
+use crate::cache::Cache;
 use crate::error::Errors;
 use crate::fetch::{self, FetchKey};
 use crate::format::{self, Shape};
-use crate::kept::Kept;
 use crate::layout::{Bindings, Layouts};
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
@@ -16,21 +16,21 @@ use std::borrow::Cow;
 /// The size of [`etalon_scene::Vertex`].
 pub(crate) const VERTEX_BYTES: u64 = 40;
 
-/// Pipelines and what they are made of.
+/// Pipelines with their shaders, layouts and samplers.
 pub(crate) struct Pipelines {
     pub(crate) layouts: Layouts,
-    pub(crate) samplers: Kept<Sampler, wgpu::Sampler>,
-    shaders: Kept<(Shader, EarlyTests), wgpu::ShaderModule>,
-    draws: Kept<DrawKey, wgpu::RenderPipeline>,
-    fetch: Kept<(), wgpu::ShaderModule>,
-    fetches: Kept<FetchKey, wgpu::RenderPipeline>,
+    pub(crate) samplers: Cache<Sampler, wgpu::Sampler>,
+    shaders: Cache<(Shader, EarlyTests), wgpu::ShaderModule>,
+    draws: Cache<DrawKey, wgpu::RenderPipeline>,
+    fetch: Cache<(), wgpu::ShaderModule>,
+    fetches: Cache<FetchKey, wgpu::RenderPipeline>,
 }
 
-/// All state of a draw that is not set while drawing.
+/// The state of a draw that is part of the pipeline.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub(crate) struct DrawKey {
     shader: Shader,
-    /// What the draw gives, which may be more than its shader asks for.
+    /// The bindings of the draw, of which the shader may use fewer.
     bindings: Bindings,
     early_tests: EarlyTests,
     shape: Shape,
@@ -43,7 +43,7 @@ pub(crate) struct DrawKey {
     multisample: Multisample,
 }
 
-/// A depth bias by the bits of its floats.
+/// A depth bias with floats as bits, for hashing.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Bias {
     constant: i32,
@@ -69,8 +69,8 @@ impl DrawKey {
         samples: u32,
     ) -> Self {
         let (mut shader, mut early_tests) = (draw.shader, draw.early_tests);
-        // WebGPU refuses a shader that writes depth where there is none (10.3.6). There the depth
-        // is lost, with what the shader promises of it, and another shader gives the same colours.
+        // WebGPU refuses a shader that writes depth without a depth attachment (10.3.6). The depth
+        // would be discarded, so another shader gives the same colours.
         if !depth_stencil.is_some_and(TextureFormat::has_depth) {
             shader = match shader {
                 Shader::FlatColorDepth => Shader::UniformColor,
@@ -78,7 +78,7 @@ impl DrawKey {
                 Shader::FragCoordDepth => Shader::FlatColor,
                 Shader::ExpensiveDepth => Shader::ExpensiveColor,
                 Shader::LinearDepth | Shader::LogarithmicDepth => Shader::FlatColor,
-                // It runs more often than the other, which a counter would tell.
+                // Runs per sample, which a counter would reveal.
                 Shader::SampleDepth if draw.counters.is_empty() => Shader::UniformColor,
                 other => other,
             };
@@ -121,11 +121,11 @@ impl Pipelines {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
         Self {
             layouts: Layouts::new(device),
-            samplers: Kept::default(),
-            shaders: Kept::default(),
-            draws: Kept::default(),
-            fetch: Kept::default(),
-            fetches: Kept::default(),
+            samplers: Cache::default(),
+            shaders: Cache::default(),
+            draws: Cache::default(),
+            fetch: Cache::default(),
+            fetches: Cache::default(),
         }
     }
 
@@ -137,7 +137,7 @@ impl Pipelines {
         self.fetches.clear();
     }
 
-    /// The pipeline of a draw.
+    /// Returns the pipeline of a draw.
     pub(crate) fn draw(
         &self,
         device: &wgpu::Device,
@@ -193,7 +193,7 @@ impl Pipelines {
         })
     }
 
-    /// A pipeline that reads depth or stencil.
+    /// Returns the pipeline of a fetch.
     pub(crate) fn fetch(
         &self,
         device: &wgpu::Device,
@@ -209,8 +209,7 @@ impl Pipelines {
     }
 }
 
-/// The vertex attributes that a shader takes: position, and colour and texture coordinates where it
-/// wants them. A validation layer warns of those that it does not.
+/// Returns the vertex attributes that a shader reads. A validation layer warns of others.
 fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
     const ALL: [wgpu::VertexAttribute; 3] =
         wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x2];
@@ -255,7 +254,7 @@ fn target(
     Ok(Some(wgpu::ColorTargetState {
         format: format::known(format)?,
         blend: target.blend.map(format::blend),
-        // Both count from bit 0, red, to bit 3, alpha.
+        // Bit 0 is red in both.
         write_mask: wgpu::ColorWrites::from_bits_truncate(target.write_mask.into()),
     }))
 }

@@ -1,8 +1,9 @@
-//! Texels as bytes, as a shader's floats, and as the frame's codes.
+//! Conversion of texels between bytes, a shader's floats and codes.
 
 use etalon_frame::{ChannelEncoding, TextureFormat};
 
-/// The first bit of each channel in a texel of little-endian bytes, red to alpha, and its width.
+/// Returns the first bit and the width of each channel in a texel of little-endian bytes, red to
+/// alpha.
 fn layout(format: TextureFormat) -> &'static [(u32, u32)] {
     match format {
         TextureFormat::R8Unorm => &[(0, 8)],
@@ -20,13 +21,13 @@ fn layout(format: TextureFormat) -> &'static [(u32, u32)] {
     }
 }
 
-/// Bytes of a colour texel.
+/// Returns the size of a colour texel.
 pub(crate) fn bytes(format: TextureFormat) -> usize {
     let bits: u32 = layout(format).iter().map(|(_, width)| width).sum();
     bits.div_ceil(8) as usize
 }
 
-/// Appends a colour texel, given one code per channel.
+/// Appends a colour texel with these codes.
 pub(crate) fn pack(format: TextureFormat, codes: &[u32], out: &mut Vec<u8>) {
     let channels = layout(format).iter().zip(codes);
     let texel = channels.fold(0_u128, |texel, ((shift, _), code)| {
@@ -47,7 +48,8 @@ pub(crate) fn unpack(format: TextureFormat, texel: &[u8], out: &mut Vec<u32>) {
     }));
 }
 
-/// The code that a shader saw as the float of these bits; of an sRGB code it saw the encoded value.
+/// Returns the code that a shader fetched as the float of these bits; of an sRGB code it fetched
+/// the encoded value.
 pub(crate) fn code(encoding: ChannelEncoding, seen: u32) -> u32 {
     match encoding {
         ChannelEncoding::Float32 => seen,
@@ -63,12 +65,13 @@ fn value(seen: u32) -> f64 {
     f32::from_bits(seen).into()
 }
 
-/// The magnitude of a float, which came from one of 5 exponent bits and so many mantissa bits.
+/// Returns the magnitude of a 32-bit float in a format of 5 exponent bits and this many mantissa
+/// bits, which can represent it exactly.
 fn shortened(seen: u32, mantissa: u32) -> u32 {
     let (exponent, fraction) = (seen >> 23 & 0xff, seen & 0x7f_ffff);
     match exponent {
         0xff => 31 << mantissa | fraction >> (23 - mantissa) | u32::from(fraction != 0),
-        // The shorter exponent is 112 less; from there down it stays 0 and the mantissa moves.
+        // The bias is 112 less; below the least exponent the mantissa is shifted.
         113.. => (exponent - 112) << mantissa | fraction >> (23 - mantissa),
         _ => (fraction | 0x80_0000)
             .checked_shr(23 - mantissa + 113 - exponent)
