@@ -13,6 +13,8 @@
 //!   its top row.
 //! - Front faces: `ccw` is counter-clockwise as seen on the framebuffer.
 
+pub mod codes;
+
 use etalon_frame::{Frame, Limits, Requirement};
 use etalon_scene::Scene;
 use serde::{Deserialize, Serialize};

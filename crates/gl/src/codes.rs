@@ -1,4 +1,4 @@
-//! Colour codes in client memory, and the codes of floats that a shader or a driver returned.
+//! Colour codes in client memory.
 
 use etalon_frame::{ChannelEncoding, TextureFormat};
 
@@ -97,38 +97,6 @@ pub(crate) fn bits(encoding: ChannelEncoding) -> u32 {
     }
 }
 
-/// Returns the code whose value the 32-bit float with these bits represents, exactly or as nearly
-/// as a float can: this undoes a conversion and adds no rounding.
-pub(crate) fn of_float(encoding: ChannelEncoding, float: u32) -> u32 {
-    let value = f64::from(f32::from_bits(float));
-    match encoding {
-        ChannelEncoding::Float32 => float,
-        ChannelEncoding::Float16 => short_float(float, 10),
-        ChannelEncoding::Ufloat(mantissa) => short_float(float, u32::from(mantissa)),
-        ChannelEncoding::Unorm(_)
-        | ChannelEncoding::Snorm(_)
-        | ChannelEncoding::Srgb8
-        | ChannelEncoding::Uint(_) => encoding.nearest_code(value),
-    }
-}
-
-/// Returns a float of 5 exponent bits with the same value as a 32-bit one.
-fn short_float(float: u32, mantissa: u32) -> u32 {
-    let exponent = (float >> 23 & 0xff) as i32 - 127;
-    let fraction = float & 0x7f_ffff;
-    let shift = 23 - mantissa;
-    let infinity = 31 << mantissa;
-    let magnitude = match exponent {
-        128 if fraction != 0 => infinity | (fraction >> shift).max(1),
-        16.. => infinity,
-        -14..=15 => ((exponent + 15) as u32) << mantissa | fraction >> shift,
-        _ => (0x80_0000 | fraction)
-            .checked_shr(shift + (-14 - exponent) as u32)
-            .unwrap_or(0),
-    };
-    (float >> 31) << (5 + mantissa) | magnitude
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -146,35 +114,5 @@ mod tests {
             assert_eq!(bytes.len(), texel_bytes(format) * 3, "{format}");
             assert_eq!(unpack(format, &bytes), codes, "{format}");
         }
-    }
-
-    #[test]
-    fn codes_come_back_from_floats() {
-        for encoding in [
-            ChannelEncoding::Unorm(16),
-            ChannelEncoding::Unorm(10),
-            ChannelEncoding::Snorm(8),
-            ChannelEncoding::Srgb8,
-            ChannelEncoding::Float16,
-            ChannelEncoding::Ufloat(6),
-            ChannelEncoding::Ufloat(5),
-        ] {
-            for order in encoding.min_order()..=encoding.max_order() {
-                let code = encoding.code_of_order(order);
-                let float = (encoding.value_of_order(order) as f32).to_bits();
-                let back = of_float(encoding, float);
-                // -1 has two codes.
-                let same = encoding.value_of_order(encoding.order_of_code(back));
-                assert_eq!(same, encoding.value_of_order(order), "{encoding} {code}");
-            }
-        }
-        assert_eq!(of_float(ChannelEncoding::Float16, 0x8000_0000), 0x8000);
-        let infinity = f32::INFINITY.to_bits();
-        assert_eq!(of_float(ChannelEncoding::Float16, infinity), 0x7c00);
-        assert_eq!(of_float(ChannelEncoding::Ufloat(6), infinity), 0x7c0);
-        assert_eq!(
-            of_float(ChannelEncoding::Float16, f32::NAN.to_bits()),
-            0x7e00
-        );
     }
 }

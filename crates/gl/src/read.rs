@@ -8,6 +8,7 @@ use crate::program::{Programs, Reader};
 use crate::state;
 use crate::surface::{Storage, Surface, SurfaceKind};
 use etalon_backend::BackendError;
+use etalon_backend::codes::code_of_float;
 use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath, TextureFormat};
 use glow::HasContext;
 
@@ -147,7 +148,7 @@ impl Reading<'_> {
         let gl = &context.gl;
         let Storage::Texture(texture, binding) = surface.storage else {
             return Err(BackendError::Internal(
-                "a renderbuffer was to be fetched from".to_owned(),
+                "a renderbuffer cannot be fetched from".to_owned(),
             ));
         };
         let samples = surface.samples();
@@ -162,7 +163,7 @@ impl Reading<'_> {
         let has_stencil = matches!(surface.kind, SurfaceKind::Attachment(f, _) if f.has_stencil());
         let set_mode = |mode: u32| {
             if reader == Reader::Integers && has_stencil && context.caps.stencil_texturing {
-                // SAFETY: the texture is bound and the context knows the parameter.
+                // SAFETY: the texture is bound and the context has the parameter.
                 unsafe {
                     gl.tex_parameter_i32(binding, glow::DEPTH_STENCIL_TEXTURE_MODE, mode as i32)
                 }
@@ -203,9 +204,7 @@ fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
     let texels = wide.chunks_exact(4);
     let narrow = |texel: &[u32]| -> Vec<u32> {
         let values = channels.iter().zip(texel);
-        values
-            .map(|(e, float)| codes::of_float(*e, *float))
-            .collect()
+        values.map(|(e, float)| code_of_float(*e, *float)).collect()
     };
     texels.flat_map(narrow).collect()
 }

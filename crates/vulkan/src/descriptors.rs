@@ -32,6 +32,18 @@ pub(crate) struct Descriptors<'a> {
     sets: HashMap<Resources, vk::DescriptorSet>,
 }
 
+/// Returns a write of one binding of a set, without its resource.
+pub(crate) fn write(
+    set: vk::DescriptorSet,
+    binding: u32,
+    kind: vk::DescriptorType,
+) -> vk::WriteDescriptorSet<'static> {
+    vk::WriteDescriptorSet::default()
+        .dst_set(set)
+        .dst_binding(binding)
+        .descriptor_type(kind)
+}
+
 impl<'a> Descriptors<'a> {
     pub(crate) fn new(input: &'a Buffer, counts: Option<&'a Buffer>, images: &'a [Image]) -> Self {
         Self {
@@ -54,7 +66,7 @@ impl<'a> Descriptors<'a> {
         let word = counting.word(draw)?;
         let bindings = Bindings::of(draw.shader);
         if draw.textures.len() != bindings.textures || draw.sampler.is_some() != bindings.sampler {
-            return Err(internal("a draw has not the textures its shader reads"));
+            return Err(internal("a draw lacks the textures that its shader reads"));
         }
         let resources = Resources {
             textures: draw.textures.clone(),
@@ -83,12 +95,7 @@ impl<'a> Descriptors<'a> {
         sampler: Option<vk::Sampler>,
         word: Option<u64>,
     ) -> Result<(), BackendError> {
-        let write = |binding, kind| {
-            vk::WriteDescriptorSet::default()
-                .dst_set(set)
-                .dst_binding(binding)
-                .descriptor_type(kind)
-        };
+        let write = |binding, kind| write(set, binding, kind);
         let params = [vk::DescriptorBufferInfo {
             buffer: self.input.raw,
             offset: 0,

@@ -2,7 +2,9 @@
 
 use crate::device::Device;
 use ash::vk;
-use etalon_frame::{Aspect, ChannelEncoding, TextureFormat};
+use etalon_backend::BackendError;
+use etalon_backend::codes::{self, TexelLayout};
+use etalon_frame::{Aspect, ChannelEncoding, Requirement, TextureFormat};
 use std::collections::BTreeMap;
 
 /// The Vulkan format that this device uses for a texture format.
@@ -13,6 +15,15 @@ pub(crate) struct Native {
     pub(crate) attachment: bool,
     /// True if attachments of the format can be blended.
     pub(crate) blendable: bool,
+}
+
+/// Returns the Vulkan format that the device uses for a texture format.
+pub(crate) fn native(
+    natives: &BTreeMap<TextureFormat, Native>,
+    format: TextureFormat,
+) -> Result<Native, BackendError> {
+    let native = natives.get(&format).copied();
+    native.ok_or(BackendError::NotSupported(Requirement::Format(format)))
 }
 
 /// Returns the candidates for a format, best first. They have the same channels of the same widths
@@ -109,7 +120,7 @@ pub(crate) fn natives(device: &Device) -> BTreeMap<TextureFormat, Native> {
 
 /// Returns the first bit and the width of each channel of a colour format, red to alpha, in a
 /// texel's little-endian bytes (Vulkan, Packed Formats; Byte mappings).
-pub(crate) fn layout(raw: vk::Format) -> &'static [(u32, u32)] {
+pub(crate) fn layout(raw: vk::Format) -> &'static TexelLayout {
     match raw {
         vk::Format::R8_UNORM => &[(0, 8)],
         vk::Format::R8G8_UNORM => &[(0, 8), (8, 8)],
@@ -193,10 +204,7 @@ pub(crate) fn depth_encoding(raw: vk::Format) -> ChannelEncoding {
 /// Images).
 pub(crate) fn texel_bytes(raw: vk::Format, aspect: Aspect) -> usize {
     match (aspect, depth_encoding(raw)) {
-        (Aspect::Color, _) => {
-            let bits: u32 = layout(raw).iter().map(|(_, width)| width).sum();
-            bits.div_ceil(8) as usize
-        }
+        (Aspect::Color, _) => codes::texel_bytes(layout(raw)),
         (Aspect::Depth, ChannelEncoding::Unorm(16)) => 2,
         (Aspect::Depth, _) => 4,
         (Aspect::Stencil, _) => 1,
@@ -205,7 +213,7 @@ pub(crate) fn texel_bytes(raw: vk::Format, aspect: Aspect) -> usize {
 
 /// Returns the bits of an aspect's channels in a copied texel. The upper bits of a copied 24-bit
 /// depth are undefined.
-fn copied_layout(raw: vk::Format, aspect: Aspect) -> &'static [(u32, u32)] {
+fn copied_layout(raw: vk::Format, aspect: Aspect) -> &'static TexelLayout {
     match (aspect, depth_encoding(raw)) {
         (Aspect::Color, _) => layout(raw),
         (Aspect::Depth, ChannelEncoding::Unorm(16)) => &[(0, 16)],
@@ -221,29 +229,19 @@ pub(crate) fn decode(bytes: &[u8], raw: vk::Format, aspect: Aspect) -> Vec<u32> 
     let texels = bytes.chunks_exact(texel_bytes(raw, aspect).max(1));
     let mut codes = Vec::with_capacity(texels.len() * layout.len());
     for texel in texels {
-        let mut whole = [0; 16];
-        whole[..texel.len()].copy_from_slice(texel);
-        let bits = u128::from_le_bytes(whole);
-        codes.extend(layout.iter().map(|(shift, width)| {
-            let mask = u128::from(u32::MAX >> (32 - width));
-            (bits >> shift & mask) as u32
-        }));
+        codes::unpack(layout, texel, &mut codes);
     }
     codes
 }
 
 /// Returns the bytes of colour codes as texels of a buffer.
 pub(crate) fn encode(codes: &[u32], raw: vk::Format) -> Vec<u8> {
-    let (layout, bytes) = (layout(raw), texel_bytes(raw, Aspect::Color));
-    let mut out = Vec::with_capacity(codes.len() / layout.len().max(1) * bytes);
+    let layout = layout(raw);
+    let mut bytes = Vec::new();
     for texel in codes.chunks_exact(layout.len().max(1)) {
-        let channels = layout.iter().zip(texel);
-        let bits = channels.fold(0_u128, |bits, ((shift, _), code)| {
-            bits | u128::from(*code) << shift
-        });
-        out.extend_from_slice(&bits.to_le_bytes()[..bytes]);
+        codes::pack(layout, texel, &mut bytes);
     }
-    out
+    bytes
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use crate::counting::{Counting, Query};
 use crate::dynamic::Dynamic;
 use crate::error::internal;
+use crate::format;
 use crate::gpu::Gpu;
 use crate::inputs::DrawInputs;
 use crate::limits::attachment_usage;
@@ -241,9 +242,7 @@ pub(crate) fn image_key(
     (fetched, read): (bool, bool),
 ) -> Result<ImageKey, BackendError> {
     let format = attachment.format;
-    let Some(native) = gpu.natives.get(&format) else {
-        return Err(BackendError::NotSupported(Requirement::Format(format)));
-    };
+    let native = format::native(&gpu.natives, format)?;
     let mut usage = vk::ImageUsageFlags::TRANSFER_DST;
     match role {
         Role::Color | Role::DepthStencil | Role::DepthStencilReadOnly if !native.attachment => {
@@ -279,11 +278,7 @@ pub(crate) fn targets(gpu: &Gpu, scene: &Scene, pass: &Pass) -> Result<Targets, 
             .get(*index)
             .ok_or_else(|| internal("a pass names no attachment"))?;
         let format = attachment.format;
-        let native = gpu
-            .natives
-            .get(&format)
-            .ok_or(BackendError::NotSupported(Requirement::Format(format)))?;
-        Ok((format, native.raw))
+        Ok((format, format::native(&gpu.natives, format)?.raw))
     };
     let mut targets = Targets {
         color: Vec::with_capacity(pass.color.len()),

@@ -1,5 +1,6 @@
 //! Reading attachments back: from the output buffer to the frame's images.
 
+use crate::descriptors;
 use crate::device::Device;
 use crate::error::internal;
 use crate::format;
@@ -10,7 +11,8 @@ use crate::samples::{self, SampleReader, SampleReaders, SampleType};
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_frame::{Aspect, ChannelEncoding, ReadPath, Requirement};
+use etalon_backend::codes::code_of_fetched;
+use etalon_frame::{Aspect, ChannelEncoding, ReadPath};
 use etalon_scene::Scene;
 
 /// The read-back of one aspect of an attachment.
@@ -43,10 +45,7 @@ impl ReadPlan {
                 return Err(internal("a read names no attachment"));
             };
             let format = attachment.format;
-            let native = gpu
-                .natives
-                .get(&format)
-                .ok_or(BackendError::NotSupported(Requirement::Format(format)))?;
+            let native = format::native(&gpu.natives, format)?;
             for aspect in format.aspects() {
                 let channels = format::channels(format, native.raw, *aspect);
                 let texels = u64::from(attachment.size[0]) * u64::from(attachment.size[1]);
@@ -105,12 +104,7 @@ impl ReadPlan {
             offset: self.offset,
             range: self.bytes,
         }];
-        let write = |binding, kind| {
-            vk::WriteDescriptorSet::default()
-                .dst_set(set)
-                .dst_binding(binding)
-                .descriptor_type(kind)
-        };
+        let write = |binding, kind| descriptors::write(set, binding, kind);
         let writes = [
             write(0, vk::DescriptorType::SAMPLED_IMAGE).image_info(&images),
             write(1, vk::DescriptorType::STORAGE_BUFFER).buffer_info(&buffers),
@@ -150,8 +144,8 @@ impl ReadPlan {
         for stored in bytes.chunks_exact(sample) {
             let words = stored.chunks_exact(4);
             for (encoding, word) in self.channels.iter().zip(words) {
-                let seen = u32::from_le_bytes([word[0], word[1], word[2], word[3]]);
-                codes.push(samples::code(*encoding, seen));
+                let bits = u32::from_le_bytes([word[0], word[1], word[2], word[3]]);
+                codes.push(code_of_fetched(*encoding, bits));
             }
         }
         codes

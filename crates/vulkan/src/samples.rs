@@ -69,33 +69,6 @@ pub(crate) fn words(aspect: Aspect) -> usize {
     if aspect == Aspect::Color { 4 } else { 1 }
 }
 
-/// Returns the code of a channel that a shader fetched as these bits.
-pub(crate) fn code(encoding: ChannelEncoding, seen: u32) -> u32 {
-    match encoding {
-        ChannelEncoding::Float32 | ChannelEncoding::Uint(_) => seen,
-        ChannelEncoding::Float16 => shortened(seen, 10) | seen >> 31 << 15,
-        ChannelEncoding::Ufloat(mantissa) => shortened(seen, mantissa.into()),
-        ChannelEncoding::Srgb8 => code(ChannelEncoding::Unorm(8), seen),
-        ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => {
-            encoding.nearest_code(f32::from_bits(seen).into())
-        }
-    }
-}
-
-/// Returns the magnitude of a 32-bit float in a format of 5 exponent bits and this many mantissa
-/// bits, which can represent it exactly.
-fn shortened(seen: u32, mantissa: u32) -> u32 {
-    let (exponent, fraction) = (seen >> 23 & 0xff, seen & 0x7f_ffff);
-    match exponent {
-        // A NaN stays a NaN whichever mantissa bits are lost.
-        0xff => 31 << mantissa | fraction >> (23 - mantissa) | u32::from(fraction != 0),
-        // The bias is 15 instead of 127.
-        113.. => (exponent - 112) << mantissa | fraction >> (23 - mantissa),
-        // Denormal in the shorter format: a multiple of the least value, 2^-(14 + mantissa).
-        _ => (f32::from_bits(seen).abs() * f32::from_bits((127 + 14 + mantissa) << 23)) as u32,
-    }
-}
-
 /// Returns the WGSL of a reader.
 fn source(seen: SampleType) -> String {
     let (texture, code, aspect) = match seen {
@@ -201,7 +174,7 @@ fn pipeline(
     let info = vk::ComputePipelineCreateInfo::default()
         .stage(stage)
         .layout(layout);
-    // SAFETY: module and layout live; the module may go once the pipeline is made.
+    // SAFETY: module and layout live; the module is not needed once the pipeline is created.
     let made = unsafe {
         let made = device
             .raw
@@ -232,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn every_code_comes_back_from_what_a_shader_sees() {
+    fn short_codes_can_be_read() {
         for encoding in [
             ChannelEncoding::Unorm(1),
             ChannelEncoding::Unorm(5),
@@ -244,30 +217,7 @@ mod tests {
             ChannelEncoding::Ufloat(5),
         ] {
             assert!(can_read(encoding));
-            for order in encoding.min_order()..=encoding.max_order() {
-                let value = encoding.value_of_order(order) as f32;
-                if encoding == ChannelEncoding::Snorm(8) && order == encoding.min_order() {
-                    assert_eq!(code(encoding, value.to_bits()), 0x81);
-                    continue;
-                }
-                // The last bits of the conversion are unspecified.
-                for ulps in if encoding.is_float() { 0..1 } else { -40..41 } {
-                    let seen = value.to_bits().saturating_add_signed(ulps);
-                    assert_eq!(code(encoding, seen), encoding.code_of_order(order));
-                }
-            }
         }
         assert!(!can_read(ChannelEncoding::Unorm(24)));
-    }
-
-    #[test]
-    fn signs_infinities_and_nan_keep_what_they_are() {
-        let short = |value: f32, e| code(e, value.to_bits());
-        assert_eq!(short(-0.0, ChannelEncoding::Float16), 0x8000);
-        assert_eq!(short(f32::NEG_INFINITY, ChannelEncoding::Float16), 0xfc00);
-        assert_eq!(short(f32::INFINITY, ChannelEncoding::Ufloat(5)), 31 << 5);
-        for e in [ChannelEncoding::Float16, ChannelEncoding::Ufloat(6)] {
-            assert!(e.is_nan(short(f32::NAN, e)));
-        }
     }
 }

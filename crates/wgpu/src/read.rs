@@ -6,6 +6,7 @@ use crate::gpu::{Gpu, Target, TextureLease, extent};
 use crate::limits::{Abilities, read_path};
 use crate::texel;
 use etalon_backend::BackendError;
+use etalon_backend::codes::code_of_fetched;
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, ReadPath, TextureFormat};
 use wgpu::BufferUsages;
 
@@ -338,15 +339,16 @@ impl<'a> ReadPlan<'a> {
         let mut codes = Vec::with_capacity(texels * images.len() * self.channels.len());
         for _ in 0..texels {
             for texel in images.iter_mut().filter_map(Iterator::next) {
-                let seen = texel
-                    .chunks(4)
-                    .zip(&self.channels)
-                    .map(|(bytes, encoding)| {
-                        let bytes = bytes.iter().rev();
-                        let seen = bytes.fold(0, |value, byte| value << 8 | u32::from(*byte));
-                        texel::code(*encoding, seen)
-                    });
-                codes.extend(seen);
+                let codes_of_texel =
+                    texel
+                        .chunks(4)
+                        .zip(&self.channels)
+                        .map(|(bytes, encoding)| {
+                            let bytes = bytes.iter().rev();
+                            let bits = bytes.fold(0, |value, byte| value << 8 | u32::from(*byte));
+                            code_of_fetched(*encoding, bits)
+                        });
+                codes.extend(codes_of_texel);
             }
         }
         codes
