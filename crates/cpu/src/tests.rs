@@ -22,12 +22,12 @@ fn the_first_row_is_at_the_top_and_the_first_column_at_the_left() {
     );
     for y in 0..8 {
         for x in 0..20 {
-            let due = if x < 3 && y < 2 {
+            let expected = if x < 3 && y < 2 {
                 [255, 0, 0, 255]
             } else {
                 [0; 4]
             };
-            assert_eq!(frame.images[0].sample(x, y, 0), due, "({x}, {y})");
+            assert_eq!(frame.images[0].sample(x, y, 0), expected, "({x}, {y})");
         }
     }
 }
@@ -44,8 +44,12 @@ fn a_slanted_triangle_has_depths_between_its_vertices() {
     let image = &frame.images[0];
     let at = |x| f32::from_bits(image.sample(x, 9, 0)[0]);
     for x in 0..16 {
-        let due = 0.25 * (x as f32 + 0.5) / 16.0;
-        assert!((at(x) - due).abs() < 1e-6, "{x}: {} for {due}", at(x));
+        let expected = 0.25 * (x as f32 + 0.5) / 16.0;
+        assert!(
+            (at(x) - expected).abs() < 1e-6,
+            "{x}: {} for {expected}",
+            at(x)
+        );
     }
 }
 
@@ -106,7 +110,10 @@ fn texture_coordinates_reach_shaders_that_read_them_as_numbers() {
     );
     for x in 0..16 {
         let alpha = f32::from_bits(frame.images[0].sample(x, 2, 0)[3]);
-        let due = (x as f32 + 0.5) / 16.0;
-        assert!((alpha - due).abs() < 1e-6, "{x}: {alpha} for {due}");
+        let expected = (x as f32 + 0.5) / 16.0;
+        assert!(
+            (alpha - expected).abs() < 1e-6,
+            "{x}: {alpha} for {expected}"
+        );
     }
 }

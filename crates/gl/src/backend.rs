@@ -4,11 +4,11 @@ use crate::context::Context;
 use crate::egl::{self, ContextRequest};
 use crate::objects::Objects;
 use crate::options::{Options, Profile, Tuning};
-use crate::prepared::GlPrepared;
+use crate::prepared::PreparedScene;
 use crate::probe::Probed;
 use crate::state;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
-use etalon_frame::{Api, Limits};
+use etalon_frame::{Api, Limits, standard_sample_positions};
 use etalon_scene::Scene;
 use glow::HasContext;
 
@@ -106,7 +106,7 @@ fn limits(context: &Context, probed: &Probed) -> Limits {
         )
     };
     let mut sample_positions = probed.positions.clone();
-    sample_positions.insert(1, vec![[128, 128]]);
+    sample_positions.insert(1, standard_sample_positions(1));
     let max_size = sides.into_iter().min().unwrap_or(0);
     Limits {
         api: if context.caps.es {
@@ -142,7 +142,7 @@ impl Backend for GlBackend {
             return Err(BackendError::NotSupported(requirement));
         }
         self.context.make_current()?;
-        Ok(Box::new(GlPrepared::new(
+        Ok(Box::new(PreparedScene::new(
             &self.context,
             &self.objects,
             scene,

@@ -63,7 +63,7 @@ impl Caps {
             || (es && has("GL_OES_viewport_array"));
         let dual_source = since(ALWAYS, NEVER) || has("GL_EXT_blend_func_extended");
         let integer = |name| {
-            // SAFETY: the context is current, and the limit is asked for only where it is known.
+            // SAFETY: the context is current, and only limits that it has are queried.
             unsafe { gl.get_parameter_i32(name) }
         };
         let targets = integer(glow::MAX_DRAW_BUFFERS).min(integer(glow::MAX_COLOR_ATTACHMENTS));

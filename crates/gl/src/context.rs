@@ -1,7 +1,7 @@
 //! The current context with its entry points, capabilities and errors.
 
 use crate::caps::Caps;
-use crate::egl::EglContext;
+use crate::egl::{EglContext, function_at};
 use crate::entry_points::EntryPoints;
 use crate::options::{Options, Profile, Tuning};
 use etalon_backend::{BackendError, Unavailable};
@@ -47,7 +47,7 @@ impl Context {
         if version < if es { (3, 0) } else { (3, 3) } {
             return Err(unusable("GL_VERSION"));
         }
-        // SAFETY: the context is current, has told a version in the documented form, and stays
+        // SAFETY: the context is current, reports a version in the documented form, and stays
         // current on this thread whenever the functions are called.
         let gl = unsafe { glow::Context::from_loader_function_cstr(|name| egl.proc_address(name)) };
         let known = gl.supported_extensions();
@@ -231,13 +231,10 @@ impl Drop for Context {
 
 impl Names {
     fn query(egl: &EglContext) -> Result<Self, Unavailable> {
-        let address = egl.proc_address(c"glGetString");
-        if address.is_null() {
-            return Err(unusable("glGetString"));
-        }
         type GetString = unsafe extern "system" fn(u32) -> *const c_char;
         // SAFETY: every version of GL gives this name this type.
-        let get = unsafe { std::mem::transmute::<*const c_void, GetString>(address) };
+        let get: Option<GetString> = unsafe { function_at(egl.proc_address(c"glGetString")) };
+        let get = get.ok_or_else(|| unusable("glGetString"))?;
         let text = |name, what| {
             // SAFETY: a context is current, and GL's strings are terminated.
             let pointer = unsafe { get(name) };
@@ -281,7 +278,7 @@ extern "system" fn debug_message(
         return;
     }
     let length = usize::try_from(length).unwrap_or(0);
-    // SAFETY: the driver gives a message of this length and the pointer that it was given, which
+    // SAFETY: the driver passes a message of this length and the pointer of the callback, which
     // outlives the context.
     let (bytes, log) = unsafe {
         (
@@ -328,7 +325,7 @@ fn lost(what: &str) -> BackendError {
 
 fn unusable(what: &str) -> Unavailable {
     Unavailable::new(
-        format!("the context tells no usable {what}"),
+        format!("the context reports no usable {what}"),
         "use another driver",
     )
 }
@@ -356,7 +353,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn mistakes_are_told_and_hints_are_not() {
+    fn mistakes_are_reported_and_hints_are_not() {
         let low = glow::DEBUG_SEVERITY_LOW;
         let medium = glow::DEBUG_SEVERITY_MEDIUM;
         let high = glow::DEBUG_SEVERITY_HIGH;

@@ -60,6 +60,9 @@ pub struct EglDevice {
     pub driver: Option<String>,
 }
 
+/// The client extensions that define the device queries.
+const DEVICE_QUERY: [&str; 2] = ["EGL_EXT_device_base", "EGL_EXT_device_query"];
+
 type GetProcAddress = unsafe extern "system" fn(*const c_char) -> *const c_void;
 type GetPlatformDisplay = unsafe extern "system" fn(u32, *mut c_void, *const i32) -> Display;
 type QueryDevices = unsafe extern "system" fn(i32, *mut Device, *mut i32) -> u32;
@@ -132,6 +135,17 @@ impl Egl {
         unsafe { (self.get_proc_address)(name.as_ptr()) }
     }
 
+    /// Returns a function, if EGL has one of the client extensions that define it.
+    ///
+    /// # Safety
+    /// `F` is the type of the function of this name.
+    unsafe fn function<F: Copy>(&self, extensions: &[&str], name: &CStr) -> Option<F> {
+        let supported = extensions.iter().any(|e| self.extensions.contains(*e));
+        let address = supported.then(|| self.proc_address(name))?;
+        // SAFETY: the caller's.
+        unsafe { function_at(address) }
+    }
+
     fn display_extensions(&self, display: Display) -> HashSet<String> {
         // SAFETY: EGL takes any display handle it made, and none for client extensions.
         let text = unsafe { text(self.functions.eglQueryString(display, egl::EXTENSIONS)) };
@@ -149,18 +163,12 @@ impl Egl {
     }
 
     fn devices(&self) -> Result<Vec<Device>, Unavailable> {
-        let enumerates = ["EGL_EXT_device_base", "EGL_EXT_device_enumeration"]
-            .iter()
-            .any(|e| self.extensions.contains(*e));
-        let address = self.proc_address(c"eglQueryDevicesEXT");
-        if !enumerates || address.is_null() {
-            return Err(Unavailable::new(
-                "EGL lacks EGL_EXT_device_enumeration",
-                INSTALL_EGL,
-            ));
-        }
-        // SAFETY: the extension gives this name this type.
-        let query = unsafe { std::mem::transmute::<*const c_void, QueryDevices>(address) };
+        let extensions = ["EGL_EXT_device_base", "EGL_EXT_device_enumeration"];
+        // SAFETY: the extensions give this name this type.
+        let query: Option<QueryDevices> =
+            unsafe { self.function(&extensions, c"eglQueryDevicesEXT") };
+        let query = query
+            .ok_or_else(|| Unavailable::new("EGL lacks EGL_EXT_device_enumeration", INSTALL_EGL))?;
         let mut devices = [std::ptr::null_mut(); 64];
         let mut count = 0;
         // SAFETY: the array is as long as it is said to be.
@@ -174,15 +182,9 @@ impl Egl {
     }
 
     fn device_string(&self, device: Device, name: i32) -> Option<String> {
-        let known = ["EGL_EXT_device_base", "EGL_EXT_device_query"]
-            .iter()
-            .any(|e| self.extensions.contains(*e));
-        let address = self.proc_address(c"eglQueryDeviceStringEXT");
-        if !known || address.is_null() {
-            return None;
-        }
-        // SAFETY: the extension gives this name this type.
-        let query = unsafe { std::mem::transmute::<*const c_void, QueryDeviceString>(address) };
+        // SAFETY: the extensions give this name this type.
+        let query: QueryDeviceString =
+            unsafe { self.function(&DEVICE_QUERY, c"eglQueryDeviceStringEXT") }?;
         // SAFETY: the handle came from EGL.
         let result = unsafe { text(query(device, name)) };
         if result.is_none() {
@@ -207,22 +209,19 @@ impl Egl {
                 let devices = self.devices()?;
                 let device = devices.get(index).copied().ok_or_else(|| {
                     Unavailable::new(
-                        format!("EGL device {index} asked for, {} found", devices.len()),
+                        format!("EGL device {index} requested, {} found", devices.len()),
                         "name one of the devices that EGL enumerates",
                     )
                 })?;
                 (ext::PLATFORM_DEVICE_EXT, device)
             }
         };
-        let address = self.proc_address(c"eglGetPlatformDisplayEXT");
-        if !self.extensions.contains("EGL_EXT_platform_base") || address.is_null() {
-            return Err(Unavailable::new(
-                "EGL lacks EGL_EXT_platform_base",
-                INSTALL_EGL,
-            ));
-        }
+        let extension = "EGL_EXT_platform_base";
         // SAFETY: the extension gives this name this type.
-        let get = unsafe { std::mem::transmute::<*const c_void, GetPlatformDisplay>(address) };
+        let get: Option<GetPlatformDisplay> =
+            unsafe { self.function(&[extension], c"eglGetPlatformDisplayEXT") };
+        let get =
+            get.ok_or_else(|| Unavailable::new(format!("EGL lacks {extension}"), INSTALL_EGL))?;
         // SAFETY: the native handle is what the platform asks for: none, or a device.
         let display = unsafe { get(platform, native, [egl::NONE].as_ptr()) };
         self.some_display(display, "EGL has no display for this platform")
@@ -237,15 +236,12 @@ impl Egl {
     }
 
     fn display_is_software(&self, display: Display) -> bool {
-        let known = ["EGL_EXT_device_base", "EGL_EXT_device_query"]
-            .iter()
-            .any(|e| self.extensions.contains(*e));
-        let address = self.proc_address(c"eglQueryDisplayAttribEXT");
-        if !known || address.is_null() {
+        // SAFETY: the extensions give this name this type.
+        let query: Option<QueryDisplayAttrib> =
+            unsafe { self.function(&DEVICE_QUERY, c"eglQueryDisplayAttribEXT") };
+        let Some(query) = query else {
             return false;
-        }
-        // SAFETY: the extension gives this name this type.
-        let query = unsafe { std::mem::transmute::<*const c_void, QueryDisplayAttrib>(address) };
+        };
         let mut device = 0_isize;
         // SAFETY: the display is initialised and the result has room.
         if unsafe { query(display, ext::DEVICE_EXT, &mut device) } == 0 || device == 0 {
@@ -258,12 +254,13 @@ impl Egl {
     /// Returns the driver's short name of an initialised display, or else the first word of its
     /// vendor.
     fn driver_name(&self, display: Display) -> Option<String> {
-        let address = self.proc_address(c"eglGetDisplayDriverName");
         let known = self.display_extensions(display);
-        let name = if known.contains("EGL_MESA_query_driver") && !address.is_null() {
-            // SAFETY: the extension gives this name this type.
-            let get =
-                unsafe { std::mem::transmute::<*const c_void, GetDisplayDriverName>(address) };
+        let address = match known.contains("EGL_MESA_query_driver") {
+            true => self.proc_address(c"eglGetDisplayDriverName"),
+            false => std::ptr::null(),
+        };
+        // SAFETY: the extension gives this name this type.
+        let name = if let Some(get) = unsafe { function_at::<GetDisplayDriverName>(address) } {
             // SAFETY: the display is initialised.
             unsafe { text(get(display)) }
         } else {
@@ -280,7 +277,7 @@ impl Egl {
     /// Returns the driver's short name of a device that is not open.
     fn device_driver(&self, index: usize) -> Option<String> {
         let display = self.display(Platform::Device(index)).ok()?;
-        // SAFETY: the display came from EGL; the version need not be told.
+        // SAFETY: the display came from EGL; the version pointers may be null.
         if unsafe {
             self.functions
                 .eglInitialize(display, std::ptr::null_mut(), std::ptr::null_mut())
@@ -535,6 +532,16 @@ impl Drop for EglContext {
     }
 }
 
+/// Returns the function at an address, if it is not null.
+///
+/// # Safety
+/// `F` is the type of the function there.
+pub(crate) unsafe fn function_at<F: Copy>(address: *const c_void) -> Option<F> {
+    const { assert!(size_of::<F>() == size_of::<*const c_void>()) };
+    // SAFETY: function pointers have the size of an address, and the caller promises the type.
+    (!address.is_null()).then(|| unsafe { std::mem::transmute_copy(&address) })
+}
+
 /// Returns a driver's string, if it is not null.
 ///
 /// # Safety
@@ -543,7 +550,7 @@ unsafe fn text(pointer: *const c_char) -> Option<String> {
     if pointer.is_null() {
         return None;
     }
-    // SAFETY: not null, and the caller vouches for the rest.
+    // SAFETY: not null, and the caller promises a terminated string.
     let text = unsafe { CStr::from_ptr(pointer) };
     Some(text.to_string_lossy().into_owned())
 }

@@ -1,6 +1,6 @@
 //! Entry points that glow lacks.
 
-use crate::egl::EglContext;
+use crate::egl::{EglContext, function_at};
 use std::collections::HashSet;
 use std::ffi::{c_char, c_void};
 
@@ -48,7 +48,7 @@ impl EntryPoints {
             ($field:ident, $name:literal) => {
                 // SAFETY: the specification gives this name the field's type, and the version or
                 // extension that promises it has been seen.
-                loaded.$field = unsafe { entry_point(egl.proc_address($name)) };
+                loaded.$field = unsafe { function_at(egl.proc_address($name)) };
             };
         }
         if es {
@@ -108,14 +108,4 @@ impl EntryPoints {
         }
         loaded
     }
-}
-
-/// Returns the function at an address, if it is not null.
-///
-/// # Safety
-/// `F` is the type of the function there.
-unsafe fn entry_point<F: Copy>(address: *const c_void) -> Option<F> {
-    const { assert!(size_of::<F>() == size_of::<*const c_void>()) };
-    // SAFETY: function pointers have the size of an address, and the caller vouches for the type.
-    (!address.is_null()).then(|| unsafe { std::mem::transmute_copy(&address) })
 }

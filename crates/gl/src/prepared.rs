@@ -18,7 +18,7 @@ use glow::HasContext;
 use std::time::{Duration, Instant};
 
 /// A scene's objects. They return to the pool on drop.
-pub(crate) struct GlPrepared<'a> {
+pub(crate) struct PreparedScene<'a> {
     context: &'a Context,
     objects: &'a Objects,
     attachments: Vec<Attachment>,
@@ -42,7 +42,7 @@ struct Used {
     params: i32,
 }
 
-impl<'a> GlPrepared<'a> {
+impl<'a> PreparedScene<'a> {
     pub(crate) fn new(
         context: &'a Context,
         objects: &'a Objects,
@@ -345,7 +345,7 @@ impl<'a> GlPrepared<'a> {
     }
 }
 
-impl Prepared for GlPrepared<'_> {
+impl Prepared for PreparedScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         let result = self.try_submit();
         self.reusable &= result.is_ok();
@@ -356,7 +356,7 @@ impl Prepared for GlPrepared<'_> {
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         if !self.submitted {
             return Err(BackendError::Internal(
-                "a frame was to be read before it was drawn".to_owned(),
+                "read back before anything was drawn".to_owned(),
             ));
         }
         let result = self.try_read_back();
@@ -369,7 +369,7 @@ impl Prepared for GlPrepared<'_> {
     }
 }
 
-impl Drop for GlPrepared<'_> {
+impl Drop for PreparedScene<'_> {
     fn drop(&mut self) {
         let context = self.context;
         if context.make_current().is_err() {

@@ -214,10 +214,10 @@ fn has_promised_channels(context: &Context, surface: &Surface, format: TextureFo
     ];
     let channels = format.color_channels();
     let same = (0..).zip(sizes).all(|(i, name)| {
-        let due = channels.get(i).map_or(0, |e| codes::bits(*e));
-        u32::try_from(of_color(name)) == Ok(due)
+        let expected = channels.get(i).map_or(0, |e| codes::bits(*e));
+        u32::try_from(of_color(name)) == Ok(expected)
     });
-    let due = match channels.first() {
+    let expected = match channels.first() {
         Some(ChannelEncoding::Unorm(_) | ChannelEncoding::Srgb8) => glow::UNSIGNED_NORMALIZED,
         Some(ChannelEncoding::Snorm(_)) => glow::SIGNED_NORMALIZED,
         Some(ChannelEncoding::Uint(_)) => glow::UNSIGNED_INT,
@@ -225,12 +225,12 @@ fn has_promised_channels(context: &Context, surface: &Surface, format: TextureFo
     };
     let kind = of_color(glow::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
     let encoding = of_color(glow::FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING);
-    let due_encoding = if format == TextureFormat::Rgba8UnormSrgb {
+    let expected_encoding = if format == TextureFormat::Rgba8UnormSrgb {
         glow::SRGB
     } else {
         glow::LINEAR
     };
-    same && u32::try_from(kind) == Ok(due) && u32::try_from(encoding) == Ok(due_encoding)
+    same && u32::try_from(kind) == Ok(expected) && u32::try_from(encoding) == Ok(expected_encoding)
 }
 
 /// Returns a property of an attachment of a complete surface.
@@ -344,10 +344,10 @@ fn fetch_is_exact(reading: &mut Reading<'_>, format: TextureFormat, support: &Su
         return with_surface(context, format, 1, |surface| {
             // The surface then holds a spread of codes.
             let plan = support.read;
-            let told = read::round_trips(context, surface, format, plan);
-            let (due, _) = read::copy(context, surface, format, plan);
+            let exact = read::round_trips(context, surface, format, plan);
+            let (expected, _) = read::copy(context, surface, format, plan);
             let seen = reading.fetched_depth(surface, ChannelEncoding::Unorm(24));
-            Some(told && seen.is_ok_and(|codes| codes == due))
+            Some(exact && seen.is_ok_and(|codes| codes == expected))
         })
         .unwrap_or(false);
     }
@@ -359,7 +359,7 @@ fn sample_positions(context: &Context, surface: &Surface, count: u32) -> Option<
     let get = context.entry_points.get_multisample?;
     let gl = &context.gl;
     // SAFETY: the context is current, the surface lives, and the pair has room. The texture is
-    // bound to the target of its own.
+    // bound to its target.
     unsafe {
         gl.bind_texture(glow::TEXTURE_2D_MULTISAMPLE, surface.texture());
         let target = glow::TEXTURE_2D_MULTISAMPLE;

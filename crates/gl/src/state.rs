@@ -95,7 +95,7 @@ impl DrawState {
         set(gl, glow::RASTERIZER_DISCARD, self.rasterizer_discard);
         set(gl, glow::SCISSOR_TEST, self.scissor.is_some());
         set(gl, glow::POLYGON_OFFSET_FILL, self.depth_bias.is_some());
-        // SAFETY: the context is current; entry points are of version 3 or were asked for, and
+        // SAFETY: the context is current; entry points are of version 3 or supported, and
         // polygon modes are set in core profiles only.
         unsafe {
             if let Some(face) = self.cull {
@@ -193,8 +193,8 @@ impl DrawState {
             // SAFETY: the context is current and has the function.
             unsafe { set_logic(self.logic.unwrap_or(glow::COPY)) };
         }
-        // SAFETY: the context is current; the entry points are of version 3, and targets that
-        // differ were asked for.
+        // SAFETY: the context is current; the entry points are of version 3, and targets
+        // differ only if the context supports it.
         unsafe {
             let [r, g, b, a] = self.blend_constant;
             gl.blend_color(r, g, b, a);
@@ -306,7 +306,7 @@ fn stencil_face(gl: &glow::Context, face: u32, state: StencilFace) {
 /// clears and uploads.
 pub(crate) fn reset(context: &Context) {
     let gl = &context.gl;
-    // SAFETY: the context is current; what only one profile knows is set in that one.
+    // SAFETY: the context is current; state of one profile is set in that profile only.
     unsafe {
         for capability in [
             glow::SCISSOR_TEST,

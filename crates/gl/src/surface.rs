@@ -210,8 +210,8 @@ fn multisample_texture(
     let target = glow::TEXTURE_2D_MULTISAMPLE;
     let (samples, width, height) = (samples as i32, width as i32, height as i32);
     let internal = format.internal;
-    // SAFETY: the context is current. ES has the one entry point since 3.1, core profiles have the
-    // other; several samples are offered from these on.
+    // SAFETY: the context is current. Multisampling is offered from ES 3.1 and OpenGL 3.3 on,
+    // which have these entry points.
     unsafe {
         let texture = gl.create_texture().map_err(|e| refused("a texture", e))?;
         gl.active_texture(glow::TEXTURE0);

@@ -51,7 +51,7 @@ pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable>
     let Some(physical) = devices.get(options.device).copied() else {
         return Err(Unavailable::new(
             format!(
-                "there is no Vulkan device {}, but {} devices",
+                "there is no Vulkan device {}; {} found",
                 options.device,
                 devices.len()
             ),
@@ -95,7 +95,7 @@ mod tests {
 
     /// The layer reports errors: without this, its silence elsewhere would prove nothing.
     #[test]
-    fn a_planted_mistake_is_told() {
+    fn a_planted_error_is_reported() {
         let options = Options {
             device: 0,
             validate: true,

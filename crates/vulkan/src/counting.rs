@@ -105,7 +105,7 @@ impl Counting {
         let place = |counter: &usize| Some((*counter, self.words.get(*counter).copied()??));
         let word = draw.counters.iter().find_map(place);
         if word.is_some() != draw.shader.counts_runs() {
-            return Err(internal("a draw has not the counter its shader counts in"));
+            return Err(internal("a draw lacks the counter of its shader"));
         }
         Ok(word)
     }

@@ -37,7 +37,7 @@ pub(crate) fn identify(instance: &Instance, physical: vk::PhysicalDevice) -> Ide
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     if properties.api_version >= vk::API_VERSION_1_2 {
         let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
-        // SAFETY: a device of Vulkan 1.2 knows the chained structure.
+        // SAFETY: the chained structure is part of Vulkan 1.2.
         unsafe {
             instance
                 .raw()
@@ -138,7 +138,7 @@ impl Device {
         if properties.api_version < vk::API_VERSION_1_3 {
             return Err(Unavailable::new(
                 format!(
-                    "{} speaks Vulkan {}, and 1.3 is needed",
+                    "{} supports Vulkan {}, but 1.3 is required",
                     identity.info.device, identity.info.api_version
                 ),
                 "update the driver, or use an OpenGL adapter of the same device",
@@ -153,7 +153,7 @@ impl Device {
             numbered.find(|(_, f)| f.queue_flags.contains(*flags))
         }) else {
             return Err(Unavailable::new(
-                format!("{} cannot draw", identity.info.device),
+                format!("{} has no graphics queue", identity.info.device),
                 "choose another device",
             ));
         };
@@ -186,7 +186,7 @@ impl Device {
                 "check that this user may open the device (/dev/dri, /dev/nvidia*)",
             )
         })?;
-        // SAFETY: one queue of this family was asked for.
+        // SAFETY: the device was created with one queue of this family.
         let queue = unsafe { raw.get_device_queue(index, 0) };
         Ok(Self {
             physical,

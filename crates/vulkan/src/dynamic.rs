@@ -181,7 +181,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_viewport_is_turned_about_its_own_middle() {
+    fn a_viewport_is_flipped_about_its_centre() {
         let turned = viewport(&Viewport {
             rect: [2.0, 3.0, 4.0, 6.0],
             depth: [0.75, 0.25],
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scissor_keeps_within_what_vulkan_can_add() {
+    fn a_scissor_is_clamped_to_what_vulkan_can_represent() {
         let rect = scissor([3_000_000_000, 1, 5, u32::MAX]);
         assert_eq!(rect.offset.x, i32::MAX);
         assert_eq!(rect.extent.width, 0);

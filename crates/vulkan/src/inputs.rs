@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn restarts_of_a_list_take_incomplete_primitives_along() {
+    fn restarts_of_a_list_remove_incomplete_primitives() {
         let indices = [0, 1, 2, 3, RESTART, 4, 5, 6, RESTART, 7];
         let list = |topology| device_indices(topology, &indices);
         assert_eq!(list(PrimitiveTopology::TriangleList), [0, 1, 2, 4, 5, 6]);

@@ -30,7 +30,7 @@ type Messages = Mutex<Vec<String>>;
 /// Returns the loader, which is never unloaded: some drivers do not survive `dlclose`.
 fn entry() -> Result<&'static ash::Entry, Unavailable> {
     static ENTRY: OnceLock<Result<ash::Entry, String>> = OnceLock::new();
-    // SAFETY: loading the system's Vulkan loader runs no code of ours, and it is never unloaded.
+    // SAFETY: the system's Vulkan loader is safe to load, and it is never unloaded.
     let loaded = ENTRY.get_or_init(|| unsafe { ash::Entry::load() }.map_err(|e| e.to_string()));
     loaded.as_ref().map_err(|message| {
         Unavailable::new(format!("libvulkan.so.1 not found ({message})"), NO_DRIVER)
@@ -47,7 +47,7 @@ impl Instance {
             .unwrap_or(vk::API_VERSION_1_0);
         if version < vk::API_VERSION_1_1 {
             return Err(Unavailable::new(
-                "the Vulkan loader speaks only Vulkan 1.0",
+                "the Vulkan loader supports only Vulkan 1.0",
                 "apt-get install libvulkan1 of a current distribution",
             ));
         }
@@ -81,7 +81,7 @@ impl Instance {
         // SAFETY: every pointer in `info` outlives the call.
         let raw = unsafe { entry.create_instance(&info, None) }.map_err(|code| {
             if let Some(messages) = messages {
-                // SAFETY: made by `Box::into_raw` above and given to nobody.
+                // SAFETY: from `Box::into_raw` above, and not shared yet.
                 drop(unsafe { Box::from_raw(messages) });
             }
             let reason = format!("no Vulkan instance: {}", describe(code));
@@ -128,7 +128,7 @@ impl Instance {
 impl Drop for Instance {
     fn drop(&mut self) {
         if let Some(messenger) = &self.messenger {
-            // SAFETY: ours, and destroyed once.
+            // SAFETY: the messenger is valid and destroyed once.
             unsafe {
                 messenger
                     .functions
@@ -138,7 +138,7 @@ impl Drop for Instance {
         // SAFETY: devices hold the instance in an `Rc`, so none is left.
         unsafe { self.raw.destroy_instance(None) };
         if let Some(messenger) = self.messenger.take() {
-            // SAFETY: made by `Box::into_raw`; the messenger that knew the pointer is gone.
+            // SAFETY: from `Box::into_raw`; the messenger that used the pointer is destroyed.
             drop(unsafe { Box::from_raw(messenger.messages) });
         }
     }
@@ -190,7 +190,7 @@ fn messenger(
             messages,
         }),
         Err(code) => {
-            // SAFETY: made by `Box::into_raw`; no messenger knows the pointer.
+            // SAFETY: from `Box::into_raw`; no messenger uses the pointer.
             drop(unsafe { Box::from_raw(messages) });
             Err(Unavailable::new(
                 format!("no validation messages: {}", describe(code)),
@@ -219,7 +219,7 @@ unsafe extern "system" fn on_message(
     data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
     user: *mut c_void,
 ) -> vk::Bool32 {
-    // SAFETY: the layer passes valid data or null, and `user` is the pointer that it was given.
+    // SAFETY: the layer passes valid data or null, and `user` is the pointer of the messenger.
     let (data, messages) = unsafe { (data.as_ref(), user.cast::<Messages>().as_ref()) };
     if let (Some(data), Some(messages)) = (data, messages) {
         // SAFETY: the layer's strings are null or zero-terminated, and live during the call.

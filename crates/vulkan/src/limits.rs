@@ -165,7 +165,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn positions_are_as_many_as_samples_and_differ() {
+    fn every_sample_has_a_position_of_its_own() {
         for count in [1, 2, 4, 8, 16] {
             let mut positions = standard_sample_positions(count);
             positions.sort_unstable();

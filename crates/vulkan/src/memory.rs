@@ -137,7 +137,7 @@ impl Buffer {
     pub(crate) fn read(&self, offset: u64, length: usize) -> Result<Vec<u8>, BackendError> {
         let at = self.range(offset, length)?;
         let mut bytes = vec![0; length];
-        // SAFETY: as in `write`; a fence told that the device is done.
+        // SAFETY: as in `write`; a fence signalled that the device is done.
         unsafe {
             std::ptr::copy_nonoverlapping(self.pointer.add(at), bytes.as_mut_ptr(), length);
         }
@@ -210,7 +210,7 @@ impl Image {
                 .flags(vk::ImageCreateFlags::MUTABLE_FORMAT)
                 .push_next(&mut list);
         }
-        // SAFETY: the device lives, and the format's support was asked for.
+        // SAFETY: the device lives, and it supports the format.
         self.raw = unsafe { device.raw.create_image(&info, None) }.check("an image")?;
         // SAFETY: the image was just made.
         let needs = unsafe { device.raw.get_image_memory_requirements(self.raw) };

@@ -294,8 +294,8 @@ fn create(
         .dynamic_state(&dynamic)
         .layout(layout)
         .push_next(&mut rendering);
-    // SAFETY: all parts of `info` live, the formats are those the device can draw to, and the limits
-    // were asked for every feature used.
+    // SAFETY: all parts of `info` live, the device can draw to the formats, and has every feature
+    // used.
     let made = unsafe {
         device
             .raw

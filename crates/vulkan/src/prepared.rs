@@ -128,7 +128,7 @@ impl<'a> PreparedScene<'a> {
             let mut planned = PassPlan::new(scene, pass, &self.images)?;
             for (draw, place) in pass.draws.iter().zip(places) {
                 if draw.targets.len() != pass.color.len() {
-                    return Err(internal("a draw has not one target per colour attachment"));
+                    return Err(internal("a draw lacks a target for each colour attachment"));
                 }
                 let pipelines = &mut pools.pipelines;
                 let made = (&mut *pipelines, &mut pools.samplers);

@@ -34,7 +34,7 @@ impl Queries {
             let statistic = vk::QueryPipelineStatisticFlags::FRAGMENT_SHADER_INVOCATIONS;
             info = info.pipeline_statistics(statistic);
         }
-        // SAFETY: the limits were asked for every type of query but occlusion, which always is.
+        // SAFETY: the device has the feature of every query type.
         let made = unsafe { device.raw.create_query_pool(&info, None) };
         self.raw = made.check("a query pool")?;
         self.room = room;

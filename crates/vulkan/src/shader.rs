@@ -132,8 +132,8 @@ mod tests {
     /// SPIR-V, Execution Mode: EarlyFragmentTests, DepthReplacing, DepthGreater, DepthLess,
     /// DepthUnchanged.
     #[test]
-    fn the_time_of_tests_reaches_the_driver() {
-        let due = |tests| match tests {
+    fn early_test_modes_become_execution_modes() {
+        let expected = |tests| match tests {
             EarlyTests::Implicit => None,
             EarlyTests::Forced => Some(9),
             EarlyTests::GreaterEqual => Some(14),
@@ -150,7 +150,7 @@ mod tests {
                 let mut modes = execution_modes(&translated.words);
                 modes.retain(|m| matches!(m, 9 | 12 | 14 | 15 | 16));
                 let replaces = shader.writes_depth().then_some(12);
-                let all: Vec<u32> = due(*tests).into_iter().chain(replaces).collect();
+                let all: Vec<u32> = expected(*tests).into_iter().chain(replaces).collect();
                 assert_eq!(modes, all, "{} {}", shader.name(), tests.name());
             }
         }

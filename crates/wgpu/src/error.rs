@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_error_tells_and_the_rest_is_forgotten() {
+    fn the_first_error_is_returned_and_the_rest_discarded() {
         let errors = Errors::default();
         raise(
             &errors,
@@ -155,11 +155,11 @@ mod tests {
             },
         );
         raise(&errors, internal());
-        let due = BackendError::Resource {
+        let expected = BackendError::Resource {
             what: "drawing".to_owned(),
             message: "full".to_owned(),
         };
-        assert_eq!(errors.check("drawing"), Err(due));
+        assert_eq!(errors.check("drawing"), Err(expected));
         assert_eq!(errors.check("drawing"), Ok(()));
         raise(&errors, internal());
         let shader = errors.check_pipeline("flat_color");

@@ -2,10 +2,10 @@
 
 use crate::cache::Cache;
 use etalon_backend::BackendError;
-use etalon_scene::Shader;
+use etalon_scene::{Params, Shader};
 
-/// The size of [`etalon_scene::Params`].
-pub(crate) const PARAMS_BYTES: u64 = 32;
+/// The size of the parameter block.
+pub(crate) const PARAMS_BYTES: u64 = size_of::<Params>() as u64;
 /// The size of a counter of shader runs.
 pub(crate) const RUNS_BYTES: u64 = 4;
 

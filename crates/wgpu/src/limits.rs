@@ -1,7 +1,10 @@
 //! The limits and features of an adapter.
 
 use crate::format;
-use etalon_frame::{Api, ChannelEncoding, Feature, FormatSupport, Limits, ReadPath, TextureFormat};
+use etalon_frame::{
+    Api, ChannelEncoding, Feature, FormatSupport, Limits, ReadPath, TextureFormat,
+    standard_sample_positions,
+};
 use std::collections::{BTreeMap, BTreeSet};
 use wgpu::{DownlevelFlags, Features, TextureFormatFeatureFlags, TextureUsages};
 
@@ -126,8 +129,8 @@ fn support(
         && (format != TextureFormat::Rg11b10Ufloat
             || features.contains(Features::RG11B10UFLOAT_RENDERABLE)
             || features.contains(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES));
-    let due = fetched(format);
-    if !found.allowed_usages.contains(due) || !format.is_color() && !drawable {
+    let needed = fetched(format);
+    if !found.allowed_usages.contains(needed) || !format.is_color() && !drawable {
         return None;
     }
     // WebGPU does not resolve integers (26.1.1).
@@ -235,11 +238,8 @@ pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abi
             .min(of.max_color_attachment_bytes_per_sample / MOST_TEXEL_BYTES),
         formats,
         features: offered(flags, features, &of),
-        // Fixed by WebGPU for all adapters (Rasterization).
-        sample_positions: BTreeMap::from([
-            (1, vec![[128, 128]]),
-            (SAMPLES, vec![[96, 32], [224, 96], [32, 160], [160, 224]]),
-        ]),
+        // WebGPU requires the standard ones of all adapters (Rasterization).
+        sample_positions: BTreeMap::from([1, SAMPLES].map(|n| (n, standard_sample_positions(n)))),
     }
 }
 

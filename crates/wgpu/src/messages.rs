@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn mistakes_are_kept_and_chatter_is_not() {
+    fn mistakes_are_kept_and_other_records_are_not() {
         for text in [
             "VALIDATION [VUID-VkBufferCreateInfo-size-00912 (0x7de4ae4d)]\n\tno size",
             "VALIDATION | PERFORMANCE [x (0x1)]\n\tboth",

@@ -271,7 +271,7 @@ mod tests {
 
     /// The layer reports errors: without this, its silence elsewhere would prove nothing.
     #[test]
-    fn a_mistake_planted_below_wgpu_is_told_by_the_layer() {
+    fn an_error_planted_below_wgpu_is_reported_by_the_layer() {
         let backend = watched(Via::Vulkan);
         // SAFETY: the layer stops at the size, which is zero; what the driver makes of it is leaked.
         let made = unsafe {
@@ -291,7 +291,7 @@ mod tests {
 
     /// As above, of OpenGL's debug output.
     #[test]
-    fn a_mistake_planted_below_wgpu_is_told_by_opengl() {
+    fn an_error_planted_below_wgpu_is_reported_by_opengl() {
         let backend = watched(Via::Gl);
         // SAFETY: the context is current while it is locked, and GL gives this name this type.
         unsafe {
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn drivers_get_the_names_users_know() {
+    fn drivers_have_their_well_known_names() {
         let llvmpipe = "llvmpipe (llvm 15.0.6, 256 bits) llvmpipe";
         assert_eq!(driver(Via::Vulkan, llvmpipe), "lavapipe");
         assert_eq!(driver(Via::Gl, llvmpipe), "llvmpipe");

@@ -9,12 +9,12 @@ use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
 use etalon_scene::{
     ColorTarget, DepthBias, DepthState, Draw, EarlyTests, Multisample, Sampler, Shader,
-    StencilState,
+    StencilState, Vertex,
 };
 use std::borrow::Cow;
 
-/// The size of [`etalon_scene::Vertex`].
-pub(crate) const VERTEX_BYTES: u64 = 40;
+/// The size of a vertex.
+pub(crate) const VERTEX_BYTES: u64 = size_of::<Vertex>() as u64;
 
 /// Pipelines with their shaders, layouts and samplers.
 pub(crate) struct Pipelines {
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn shaders_are_given_the_attributes_that_they_take() {
+    fn attributes_are_those_that_the_shader_reads() {
         for shader in Shader::ALL {
             let given = attributes(*shader).iter();
             let given: Vec<_> = given.map(|a| a.shader_location).collect();

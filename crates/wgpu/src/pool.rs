@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn objects_come_back_within_the_bound_and_not_after_an_error() {
+    fn objects_are_reused_within_the_bound_and_not_after_an_error() {
         let pool = Pool::new(2);
         let made = Cell::new(0);
         let take = || {

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use wgpu::BufferUsages;
 
 /// The size of an index.
-const INDEX_BYTES: u64 = 4;
+const INDEX_BYTES: u64 = size_of::<u32>() as u64;
 
 /// A scene with all objects that drawing it needs.
 pub(crate) struct PreparedScene<'a> {
@@ -230,7 +230,7 @@ impl Prepared for PreparedScene<'_> {
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         if !self.submitted {
-            let message = "read back before the first submit".to_owned();
+            let message = "read back before anything was drawn".to_owned();
             return Err(BackendError::Internal(message));
         }
         let source = |index: &usize| {
