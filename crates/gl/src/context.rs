@@ -1,16 +1,15 @@
 //! The current context with its entry points, capabilities and errors.
 
 use crate::caps::Caps;
+use crate::debug_output::{self, Log};
 use crate::egl::{EglContext, function_at};
 use crate::entry_points::EntryPoints;
 use crate::options::{Options, Profile, Tuning};
 use etalon_backend::{BackendError, Unavailable};
 use glow::HasContext;
-use std::ffi::{CStr, c_char, c_void};
-use std::sync::{Mutex, PoisonError};
+use std::ffi::{CStr, c_char};
+use std::sync::PoisonError;
 
-/// The most debug messages kept between two calls of [`Context::messages`].
-const MAX_MESSAGES: usize = 1000;
 /// A lost context may report errors forever.
 const MAX_ERRORS: usize = 16;
 
@@ -24,7 +23,7 @@ pub(crate) struct Context {
     pub(crate) entry_points: EntryPoints,
     // Fields drop in order: the driver may write to the log until the context is destroyed.
     egl: EglContext,
-    log: Box<Mutex<Vec<String>>>,
+    log: Box<Log>,
 }
 
 /// The driver's own names.
@@ -172,12 +171,12 @@ impl Context {
         let Some(set) = self.entry_points.debug_callback else {
             return;
         };
-        let log: *const Mutex<Vec<String>> = &*self.log;
+        let log: *const Log = &*self.log;
         // SAFETY: the context is current and has debug output; the log outlives the context.
         unsafe {
             self.gl.enable(glow::DEBUG_OUTPUT);
             self.gl.enable(glow::DEBUG_OUTPUT_SYNCHRONOUS);
-            set(Some(debug_message), log.cast());
+            set(Some(debug_output::collect), log.cast());
         }
     }
 
@@ -261,56 +260,6 @@ impl Names {
     }
 }
 
-/// Collects messages that a correct program never causes.
-extern "system" fn debug_message(
-    _source: u32,
-    kind: u32,
-    id: u32,
-    severity: u32,
-    length: i32,
-    message: *const c_char,
-    user: *const c_void,
-) {
-    let Some(kind) = mistake_name(kind, severity) else {
-        return;
-    };
-    if message.is_null() {
-        return;
-    }
-    let length = usize::try_from(length).unwrap_or(0);
-    // SAFETY: the driver passes a message of this length and the pointer of the callback, which
-    // outlives the context.
-    let (bytes, log) = unsafe {
-        (
-            std::slice::from_raw_parts(message.cast::<u8>(), length),
-            &*user.cast::<Mutex<Vec<String>>>(),
-        )
-    };
-    let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
-    if log.len() < MAX_MESSAGES {
-        log.push(format!(
-            "{kind} {id}: {}",
-            String::from_utf8_lossy(bytes).trim()
-        ));
-    }
-}
-
-/// Returns the name of a message type if the message reports a mistake: errors and undefined
-/// behaviour at any severity, deprecated and unportable use from medium severity, others at high
-/// severity.
-fn mistake_name(kind: u32, severity: u32) -> Option<&'static str> {
-    let high = severity == glow::DEBUG_SEVERITY_HIGH;
-    let medium = high || severity == glow::DEBUG_SEVERITY_MEDIUM;
-    match kind {
-        glow::DEBUG_TYPE_ERROR => Some("error"),
-        glow::DEBUG_TYPE_UNDEFINED_BEHAVIOR => Some("undefined behaviour"),
-        glow::DEBUG_TYPE_DEPRECATED_BEHAVIOR if medium => Some("deprecated"),
-        glow::DEBUG_TYPE_PORTABILITY if medium => Some("portability"),
-        glow::DEBUG_TYPE_OTHER if high => Some("other"),
-        _ => None,
-    }
-}
-
 /// Returns the error of an object that the driver refused to create.
 pub(crate) fn refused(what: &str, message: impl Into<String>) -> BackendError {
     BackendError::Resource {
@@ -351,20 +300,6 @@ fn parse_version(text: &str) -> Option<(u32, u32)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn mistakes_are_reported_and_hints_are_not() {
-        let low = glow::DEBUG_SEVERITY_LOW;
-        let medium = glow::DEBUG_SEVERITY_MEDIUM;
-        let high = glow::DEBUG_SEVERITY_HIGH;
-        assert!(mistake_name(glow::DEBUG_TYPE_ERROR, low).is_some());
-        assert!(mistake_name(glow::DEBUG_TYPE_UNDEFINED_BEHAVIOR, low).is_some());
-        assert!(mistake_name(glow::DEBUG_TYPE_PORTABILITY, medium).is_some());
-        assert!(mistake_name(glow::DEBUG_TYPE_PORTABILITY, low).is_none());
-        assert!(mistake_name(glow::DEBUG_TYPE_OTHER, high).is_some());
-        assert!(mistake_name(glow::DEBUG_TYPE_OTHER, medium).is_none());
-        assert!(mistake_name(glow::DEBUG_TYPE_PERFORMANCE, high).is_none());
-    }
 
     #[test]
     fn versions_are_parsed() {

@@ -16,6 +16,7 @@ mod caps;
 mod codes;
 mod context;
 mod counters;
+mod debug_output;
 mod draw;
 mod egl;
 mod entry_points;
@@ -31,6 +32,7 @@ mod program;
 mod query;
 mod read;
 mod state;
+mod support;
 mod surface;
 #[cfg(test)]
 mod tests;

@@ -1,11 +1,11 @@
 //! The objects of a context that outlive a scene.
 
 use crate::context::Context;
-use crate::format::Support;
 use crate::pool::Pool;
 use crate::probe::{self, Probed};
 use crate::program::Programs;
 use crate::read::Reading;
+use crate::support::Support;
 use etalon_backend::Unavailable;
 use etalon_frame::TextureFormat;
 use etalon_scene::Params;

@@ -5,8 +5,9 @@
 //! and a read.
 
 use crate::context::Context;
-use crate::format::{ReadPlan, ShaderStencil, Support, gl_format};
+use crate::format::gl_format;
 use crate::read::{self, Reading};
+use crate::support::{ReadPlan, ShaderStencil, Support};
 use crate::surface::{Surface, SurfaceKind, upload};
 use crate::{codes, features};
 use etalon_frame::{ChannelEncoding, Feature, FormatSupport, ReadPath, TextureFormat};
@@ -157,7 +158,7 @@ fn examine(reading: &mut Reading<'_>, format: TextureFormat, surface: &Surface) 
         by_shader(context, format)?
     } else {
         let plan = copy_plan(format, encoding);
-        if read::round_trips(context, surface, format, plan) {
+        if depth_round_trips(context, surface, format, plan) {
             plan
         } else {
             by_shader(context, format)?
@@ -344,7 +345,7 @@ fn fetch_is_exact(reading: &mut Reading<'_>, format: TextureFormat, support: &Su
         return with_surface(context, format, 1, |surface| {
             // The surface then holds a spread of codes.
             let plan = support.read;
-            let exact = read::round_trips(context, surface, format, plan);
+            let exact = depth_round_trips(context, surface, format, plan);
             let (expected, _) = read::copy(context, surface, format, plan);
             let seen = reading.fetched_depth(surface, ChannelEncoding::Unorm(24));
             Some(exact && seen.is_ok_and(|codes| codes == expected))
@@ -379,4 +380,96 @@ fn sample_positions(context: &Context, surface: &Surface, count: u32) -> Option<
         };
         Some((0..count).map(position).collect())
     }
+}
+
+/// Returns the first 32-bit code that is not below a 24-bit one. Truncation and rounding both
+/// return it to the same code.
+fn widened(code: u32) -> u32 {
+    let exact = u64::from(code) * u64::from(u32::MAX);
+    exact.div_ceil(0xff_ffff) as u32
+}
+
+/// Returns true if codes uploaded to a depth texture are read back unchanged, so that reading is an
+/// exact copy: GL describes both ways as conversions, which might round.
+fn depth_round_trips(
+    context: &Context,
+    surface: &Surface,
+    format: TextureFormat,
+    plan: ReadPlan,
+) -> bool {
+    let Some(texture) = surface.texture() else {
+        return false;
+    };
+    let size = surface.size();
+    let last = size[0] * size[1] - 1;
+    let spread = |most: u32| {
+        let code = move |i| (u64::from(i) * u64::from(most) / u64::from(last)) as u32;
+        (0..=last).map(code)
+    };
+    let floats = || (0..=last).map(|i| (i as f32 / last as f32).to_bits());
+    let stencils = || (0..=last).map(|i| i & 0xff);
+    let (kind, bytes, codes): (u32, Vec<u8>, Vec<u32>) = match plan {
+        ReadPlan::Depth16 => (
+            glow::UNSIGNED_SHORT,
+            spread(0xffff)
+                .flat_map(|c| (c as u16).to_ne_bytes())
+                .collect(),
+            spread(0xffff).collect(),
+        ),
+        ReadPlan::Depth24 => (
+            glow::UNSIGNED_INT,
+            spread(0xff_ffff)
+                .flat_map(|c| widened(c).to_ne_bytes())
+                .collect(),
+            spread(0xff_ffff).collect(),
+        ),
+        ReadPlan::DepthFloat => (
+            glow::FLOAT,
+            floats().flat_map(u32::to_ne_bytes).collect(),
+            floats().collect(),
+        ),
+        ReadPlan::Depth24Stencil8 => (
+            glow::UNSIGNED_INT_24_8,
+            spread(0xff_ffff)
+                .zip(stencils())
+                .flat_map(|(c, s)| (c << 8 | s).to_ne_bytes())
+                .collect(),
+            spread(0xff_ffff).collect(),
+        ),
+        ReadPlan::DepthFloatStencil8 => (
+            glow::FLOAT_32_UNSIGNED_INT_24_8_REV,
+            floats()
+                .zip(stencils())
+                .flat_map(|(c, s)| [c, s])
+                .flat_map(u32::to_ne_bytes)
+                .collect(),
+            floats().collect(),
+        ),
+        _ => return false,
+    };
+    let layout = if format.has_stencil() {
+        glow::DEPTH_STENCIL
+    } else {
+        glow::DEPTH_COMPONENT
+    };
+    let gl = &context.gl;
+    crate::state::reset(context);
+    // SAFETY: the context is current, rows are packed tightly, and the bytes cover the texture.
+    unsafe {
+        gl.active_texture(glow::TEXTURE0);
+        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+        gl.tex_sub_image_2d(
+            glow::TEXTURE_2D,
+            0,
+            0,
+            0,
+            size[0] as i32,
+            size[1] as i32,
+            layout,
+            kind,
+            glow::PixelUnpackData::Slice(Some(&bytes)),
+        );
+    }
+    let (read, stencil) = read::copy(context, surface, format, plan);
+    read == codes && stencil.is_none_or(|s| s.into_iter().eq(stencils()))
 }

@@ -2,10 +2,11 @@
 
 use crate::codes;
 use crate::context::{Context, refused};
-use crate::format::{ReadPlan, ShaderStencil, gl_format};
+use crate::format::gl_format;
 use crate::pool::Pool;
 use crate::program::{Programs, Reader};
 use crate::state;
+use crate::support::{ReadPlan, ShaderStencil};
 use crate::surface::{Storage, Surface, SurfaceKind};
 use etalon_backend::BackendError;
 use etalon_backend::codes::code_of_float;
@@ -315,96 +316,4 @@ fn read_pixels<T: bytemuck::Pod>(
         gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
         gl.read_pixels(0, 0, size[0] as i32, size[1] as i32, format, kind, pixels);
     }
-}
-
-/// Returns the first 32-bit code that is not below a 24-bit one. Truncation and rounding both
-/// return it to the same code.
-fn widened(code: u32) -> u32 {
-    let exact = u64::from(code) * u64::from(u32::MAX);
-    exact.div_ceil(0xff_ffff) as u32
-}
-
-/// Returns true if codes uploaded to a depth texture are read back unchanged, so that reading is an
-/// exact copy: GL describes both ways as conversions, which might round.
-pub(crate) fn round_trips(
-    context: &Context,
-    surface: &Surface,
-    format: TextureFormat,
-    plan: ReadPlan,
-) -> bool {
-    let Some(texture) = surface.texture() else {
-        return false;
-    };
-    let size = surface.size();
-    let last = size[0] * size[1] - 1;
-    let spread = |most: u32| {
-        let code = move |i| (u64::from(i) * u64::from(most) / u64::from(last)) as u32;
-        (0..=last).map(code)
-    };
-    let floats = || (0..=last).map(|i| (i as f32 / last as f32).to_bits());
-    let stencils = || (0..=last).map(|i| i & 0xff);
-    let (kind, bytes, codes): (u32, Vec<u8>, Vec<u32>) = match plan {
-        ReadPlan::Depth16 => (
-            glow::UNSIGNED_SHORT,
-            spread(0xffff)
-                .flat_map(|c| (c as u16).to_ne_bytes())
-                .collect(),
-            spread(0xffff).collect(),
-        ),
-        ReadPlan::Depth24 => (
-            glow::UNSIGNED_INT,
-            spread(0xff_ffff)
-                .flat_map(|c| widened(c).to_ne_bytes())
-                .collect(),
-            spread(0xff_ffff).collect(),
-        ),
-        ReadPlan::DepthFloat => (
-            glow::FLOAT,
-            floats().flat_map(u32::to_ne_bytes).collect(),
-            floats().collect(),
-        ),
-        ReadPlan::Depth24Stencil8 => (
-            glow::UNSIGNED_INT_24_8,
-            spread(0xff_ffff)
-                .zip(stencils())
-                .flat_map(|(c, s)| (c << 8 | s).to_ne_bytes())
-                .collect(),
-            spread(0xff_ffff).collect(),
-        ),
-        ReadPlan::DepthFloatStencil8 => (
-            glow::FLOAT_32_UNSIGNED_INT_24_8_REV,
-            floats()
-                .zip(stencils())
-                .flat_map(|(c, s)| [c, s])
-                .flat_map(u32::to_ne_bytes)
-                .collect(),
-            floats().collect(),
-        ),
-        _ => return false,
-    };
-    let layout = if format.has_stencil() {
-        glow::DEPTH_STENCIL
-    } else {
-        glow::DEPTH_COMPONENT
-    };
-    let gl = &context.gl;
-    state::reset(context);
-    // SAFETY: the context is current, rows are packed tightly, and the bytes cover the texture.
-    unsafe {
-        gl.active_texture(glow::TEXTURE0);
-        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
-        gl.tex_sub_image_2d(
-            glow::TEXTURE_2D,
-            0,
-            0,
-            0,
-            size[0] as i32,
-            size[1] as i32,
-            layout,
-            kind,
-            glow::PixelUnpackData::Slice(Some(&bytes)),
-        );
-    }
-    let (read, stencil) = copy(context, surface, format, plan);
-    read == codes && stencil.is_none_or(|s| s.into_iter().eq(stencils()))
 }

@@ -1,9 +1,9 @@
 //! Counters: queries around draws, and storage words that shaders increment.
 
+use crate::buffer::Buffer;
 use crate::device::Device;
 use crate::error::internal;
 use crate::inputs::OffsetAllocator;
-use crate::memory::Buffer;
 use crate::slot::{Needs, Slot};
 use ash::vk;
 use etalon_backend::BackendError;

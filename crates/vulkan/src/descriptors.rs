@@ -1,10 +1,11 @@
 //! Descriptor sets of draws: parameters, textures, sampler and counter.
 
+use crate::buffer::Buffer;
 use crate::counting::Counting;
 use crate::device::Device;
 use crate::error::internal;
+use crate::image::Image;
 use crate::inputs::PARAMS_BYTES;
-use crate::memory::{Buffer, Image};
 use crate::pipeline::{Bindings, Pipelines, RUNS_BINDING, SAMPLER_BINDING};
 use crate::samplers::Samplers;
 use crate::slot::Slot;

@@ -3,8 +3,8 @@
 use crate::device::Device;
 use crate::format::{self, Native};
 use crate::limits;
-use crate::memory::Pool;
 use crate::pipeline::Pipelines;
+use crate::pool::Pool;
 use crate::samplers::Samplers;
 use crate::samples::SampleReaders;
 use crate::slot::Slots;

@@ -1,8 +1,8 @@
 //! The inputs of a scene in one buffer: vertices, indices, parameters, texels.
 
+use crate::buffer::Buffer;
 use crate::device::Device;
 use crate::format::{self, Native};
-use crate::memory::Buffer;
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
 use etalon_scene::{Contents, Draw, Params, PrimitiveTopology, RESTART, Scene, Vertex};

@@ -10,6 +10,7 @@
 //! suite draws many thousands of small scenes.
 
 mod backend;
+mod buffer;
 mod counting;
 mod descriptors;
 mod device;
@@ -17,12 +18,13 @@ mod dynamic;
 mod error;
 mod format;
 mod gpu;
+mod image;
 mod inputs;
 mod instance;
 mod limits;
-mod memory;
 mod pipeline;
 mod plan;
+mod pool;
 mod prepared;
 mod queries;
 mod read;

@@ -1,11 +1,12 @@
 //! A scene prepared for drawing.
 
+use crate::buffer::{Buffer, BufferUse};
 use crate::counting::Counting;
 use crate::descriptors::Descriptors;
 use crate::error::internal;
 use crate::gpu::Gpu;
+use crate::image::Image;
 use crate::inputs::Inputs;
-use crate::memory::{Buffer, BufferUse, Image};
 use crate::plan::{
     AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role, image_key, is_fetched, targets,
 };

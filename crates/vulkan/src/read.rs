@@ -1,12 +1,13 @@
 //! Reading attachments back: from the output buffer to the frame's images.
 
+use crate::buffer::Buffer;
 use crate::descriptors;
 use crate::device::Device;
 use crate::error::internal;
 use crate::format;
 use crate::gpu::Gpu;
+use crate::image::Image;
 use crate::inputs::OffsetAllocator;
-use crate::memory::{Buffer, Image};
 use crate::samples::{self, SampleReader, SampleReaders, SampleType};
 use crate::slot::Slot;
 use ash::vk;

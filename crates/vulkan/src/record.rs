@@ -1,7 +1,7 @@
 //! Recording of commands: initial contents, passes, and copies for reading back.
 
 use crate::device::Device;
-use crate::memory::range;
+use crate::image::range;
 use crate::pipeline::Pipeline;
 use crate::plan::{
     AttachmentPlan, DepthStencilPlan, DrawPlan, InitialContents, PassPlan, Plan, Role,

@@ -1,7 +1,7 @@
 //! The attachments of a scene and their initial contents.
 
-use crate::format;
 use crate::gpu::{BufferLease, Gpu, TextureLease, extent};
+use crate::state;
 use crate::texel;
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
@@ -40,7 +40,7 @@ impl<'a> DeviceAttachment<'a> {
         };
         let initial = match &attachment.contents {
             Contents::Color(color) if gpu.draws(format) => {
-                InitialContents::Color(format::color(*color))
+                InitialContents::Color(state::color(*color))
             }
             // The API cannot clear it, so the nearest codes are uploaded.
             Contents::Color(color) => {

@@ -2,9 +2,9 @@
 
 use crate::attachment::DeviceAttachment;
 use crate::counting::Counting;
-use crate::format;
 use crate::gpu::{BufferLease, Gpu};
 use crate::layout::{Bindings, PARAMS_BYTES, RUNS_BYTES};
+use crate::state;
 use etalon_backend::BackendError;
 use etalon_scene::{Draw, Sampler, Scene};
 use std::collections::HashMap;
@@ -111,7 +111,7 @@ impl<'a, 's> Groups<'a, 's> {
         let sampler = match key.sampler {
             None => None,
             Some(sampler) => Some(pipelines.samplers.get(sampler, |sampler| {
-                Ok(device.create_sampler(&format::sampler(*sampler)))
+                Ok(device.create_sampler(&state::sampler(*sampler)))
             })?),
         };
         if let Some(sampler) = &sampler {

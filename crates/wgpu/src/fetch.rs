@@ -1,8 +1,8 @@
 //! Pipelines that render an attachment into a texture that can be copied.
 
 use crate::error::Errors;
-use crate::format;
 use crate::layout::Layouts;
+use crate::state;
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
 
@@ -101,6 +101,6 @@ fn stencil_bit(format: TextureFormat, bit: u8) -> Result<wgpu::DepthStencilState
             read_mask: 1 << bit,
             write_mask: 0,
         },
-        ..format::depth_stencil(format, None, None, bias)?
+        ..state::depth_stencil(format, None, None, bias)?
     })
 }

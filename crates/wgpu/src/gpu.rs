@@ -1,14 +1,15 @@
 //! An open device and everything that outlives a scene on it.
 
+use crate::clock::Clock;
 use crate::error::Errors;
 use crate::format;
 use crate::layout::Layout;
 use crate::limits::{Abilities, fetched};
 use crate::pipeline::Pipelines;
 use crate::pool::{Lease, Pool};
+use crate::target::Target;
 use etalon_backend::BackendError;
 use etalon_frame::{Limits, TextureFormat};
-use std::cell::OnceCell;
 use std::rc::Rc;
 use wgpu::{BufferUsages, TextureUsages};
 
@@ -45,83 +46,6 @@ pub(crate) struct BufferKey {
 
 pub(crate) type TextureLease<'a> = Lease<'a, TextureKey, Rc<Target>>;
 pub(crate) type BufferLease<'a> = Lease<'a, BufferKey, wgpu::Buffer>;
-
-/// A texture with its views.
-pub(crate) struct Target {
-    pub(crate) texture: wgpu::Texture,
-    /// The view of all aspects, for passes.
-    pub(crate) view: wgpu::TextureView,
-    /// The view of colour or depth, for fetches.
-    fetch: OnceCell<wgpu::TextureView>,
-    /// The view of stencil, for fetches.
-    stencil: OnceCell<wgpu::TextureView>,
-}
-
-impl Target {
-    /// Returns the view of colour or depth, for fetches.
-    pub(crate) fn fetch(&self) -> &wgpu::TextureView {
-        self.fetch.get_or_init(|| {
-            let depth = self.texture.format().has_depth_aspect();
-            self.seen(if depth {
-                wgpu::TextureAspect::DepthOnly
-            } else {
-                wgpu::TextureAspect::All
-            })
-        })
-    }
-
-    /// Returns the view of stencil, for fetches.
-    pub(crate) fn stencil(&self) -> &wgpu::TextureView {
-        let aspect = wgpu::TextureAspect::StencilOnly;
-        self.stencil.get_or_init(|| self.seen(aspect))
-    }
-
-    fn seen(&self, aspect: wgpu::TextureAspect) -> wgpu::TextureView {
-        // The samples of an sRGB texture are fetched without conversion, as codes.
-        let format = self.texture.format();
-        let cast = self.texture.sample_count() > 1 && format.is_srgb();
-        self.texture.create_view(&wgpu::TextureViewDescriptor {
-            aspect,
-            format: cast.then(|| format.remove_srgb_suffix()),
-            ..wgpu::TextureViewDescriptor::default()
-        })
-    }
-}
-
-/// Two timestamps around the passes of a submit.
-pub(crate) struct Clock {
-    pub(crate) queries: wgpu::QuerySet,
-    pub(crate) resolved: wgpu::Buffer,
-    pub(crate) mapped: wgpu::Buffer,
-    /// Nanoseconds per tick.
-    pub(crate) period: f32,
-}
-
-impl Clock {
-    /// The size of both timestamps.
-    pub(crate) const BYTES: u64 = 16;
-
-    fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        let buffer = |usage| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: None,
-                size: Self::BYTES,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
-        Self {
-            queries: device.create_query_set(&wgpu::QuerySetDescriptor {
-                label: None,
-                ty: wgpu::QueryType::Timestamp,
-                count: 2,
-            }),
-            resolved: buffer(BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC),
-            mapped: buffer(BufferUsages::MAP_READ | BufferUsages::COPY_DST),
-            period: queue.get_timestamp_period(),
-        }
-    }
-}
 
 impl Gpu {
     pub(crate) fn new(
@@ -235,13 +159,7 @@ impl Gpu {
                     &[]
                 },
             });
-            let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-            Rc::new(Target {
-                texture,
-                view,
-                fetch: OnceCell::new(),
-                stencil: OnceCell::new(),
-            })
+            Rc::new(Target::new(texture))
         })
     }
 

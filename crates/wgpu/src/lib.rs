@@ -14,6 +14,7 @@
 mod attachment;
 mod binding;
 mod cache;
+mod clock;
 mod counting;
 mod error;
 mod fetch;
@@ -28,6 +29,8 @@ mod pool;
 mod prepared;
 mod probe;
 mod read;
+mod state;
+mod target;
 mod texel;
 
 pub use open::{Options, Via, WgpuBackend, enumerate, open};

@@ -3,8 +3,9 @@
 use crate::cache::Cache;
 use crate::error::Errors;
 use crate::fetch::{self, FetchKey};
-use crate::format::{self, Shape};
+use crate::format;
 use crate::layout::{Bindings, Layouts};
+use crate::state::{self, Shape};
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
 use etalon_scene::{
@@ -159,10 +160,10 @@ impl Pipelines {
             };
             let targets: Result<Vec<_>, _> =
                 key.targets.iter().map(|(f, t)| target(*f, *t)).collect();
-            let bias = format::bias(key.bias.get(), key.shape.topology);
+            let bias = state::bias(key.bias.get(), key.shape.topology);
             let depth_stencil = key
                 .depth_stencil
-                .map(|f| format::depth_stencil(f, key.depth, key.stencil, bias));
+                .map(|f| state::depth_stencil(f, key.depth, key.stencil, bias));
             let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(shader.name()),
                 layout: Some(&layout.pipeline),
@@ -172,7 +173,7 @@ impl Pipelines {
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
                     buffers: &[Some(vertices)],
                 },
-                primitive: format::primitive(key.shape),
+                primitive: state::primitive(key.shape),
                 depth_stencil: depth_stencil.transpose()?,
                 multisample: wgpu::MultisampleState {
                     count: key.samples,
@@ -253,7 +254,7 @@ fn target(
 ) -> Result<Option<wgpu::ColorTargetState>, BackendError> {
     Ok(Some(wgpu::ColorTargetState {
         format: format::known(format)?,
-        blend: target.blend.map(format::blend),
+        blend: target.blend.map(state::blend),
         // Bit 0 is red in both.
         write_mask: wgpu::ColorWrites::from_bits_truncate(target.write_mask.into()),
     }))

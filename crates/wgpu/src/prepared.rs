@@ -2,15 +2,16 @@
 
 use crate::attachment::DeviceAttachment;
 use crate::binding::{Bound, Groups};
+use crate::clock::Clock;
 use crate::counting::{Counted, Counting};
-use crate::format;
-use crate::gpu::{BufferLease, Clock, Gpu};
+use crate::gpu::{BufferLease, Gpu};
 use crate::pipeline::{DrawKey, VERTEX_BYTES};
 use crate::read::{self, Source};
+use crate::state;
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::Frame;
 use etalon_scene::{Draw, Pass, PrimitiveTopology, RESTART, Scene, Viewport};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use wgpu::BufferUsages;
 
 /// The size of an index.
@@ -217,7 +218,7 @@ impl<'a> PreparedScene<'a> {
         self.gpu.wait(index)?;
         let wall = begin.elapsed();
         self.submitted = true;
-        let gpu = clock.and_then(elapsed);
+        let gpu = clock.and_then(Clock::elapsed);
         Ok(FrameTime { cpu, gpu, wall })
     }
 }
@@ -276,7 +277,7 @@ impl PreparedDraw {
             counted,
             viewport: draw.viewport,
             scissor: draw.scissor.unwrap_or([0, 0, width, height]),
-            blend_constant: format::color(draw.blend_constant),
+            blend_constant: state::color(draw.blend_constant),
             stencil_reference: reference(draw),
             first_vertex,
             vertices: draw.mesh.vertices.len() as u32,
@@ -303,20 +304,4 @@ fn drawn(indices: &[u32], topology: PrimitiveTopology) -> Vec<u32> {
 /// WebGPU has one reference for both faces; `SeparateStencilMasks` is denied, so they are equal.
 fn reference(draw: &Draw) -> Option<u32> {
     draw.stencil.map(|s| s.front.reference.into())
-}
-
-/// Returns the time between the two timestamps, which are mapped, and unmaps them.
-fn elapsed(clock: &Clock) -> Option<Duration> {
-    let ticks = {
-        let bytes = clock.mapped.slice(..).get_mapped_range().ok()?;
-        let tick = |at: usize| {
-            let bytes = bytes.get(at..at + 8)?.try_into().ok()?;
-            Some(u64::from_le_bytes(bytes))
-        };
-        // `None` if the clock went backwards.
-        tick(8)?.checked_sub(tick(0)?)
-    };
-    clock.mapped.unmap();
-    let nanoseconds = ticks? as f64 * f64::from(clock.period);
-    Some(Duration::from_nanos(nanoseconds as u64))
 }

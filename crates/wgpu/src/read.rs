@@ -2,8 +2,9 @@
 
 use crate::counting::Counting;
 use crate::fetch::FetchKey;
-use crate::gpu::{Gpu, Target, TextureLease, extent};
+use crate::gpu::{Gpu, TextureLease, extent};
 use crate::limits::{Abilities, read_path};
+use crate::target::Target;
 use crate::texel;
 use etalon_backend::BackendError;
 use etalon_backend::codes::code_of_fetched;
