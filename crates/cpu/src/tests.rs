@@ -1,4 +1,5 @@
-use super::*;
+use crate::CpuBackend;
+use etalon_backend::Backend;
 use etalon_case::{CaseFile, Profile};
 use etalon_frame::Frame;
 

@@ -2,7 +2,7 @@
 
 use crate::context::{Context, refused};
 use crate::pool::Pool;
-use crate::query::Query;
+use crate::query::{Query, query_target};
 use etalon_backend::BackendError;
 use etalon_frame::CounterKind;
 use etalon_scene::{Counter, Draw};
@@ -16,16 +16,6 @@ pub(crate) struct Counters {
     queries: Vec<(usize, Query)>,
     /// The distance between two counters in the storage buffer, in bytes.
     stride: usize,
-}
-
-/// Returns the query target of a kind; `None` for counters that shaders increment.
-pub(crate) fn query_target(kind: CounterKind) -> Option<u32> {
-    match kind {
-        CounterKind::SamplesPassed => Some(glow::SAMPLES_PASSED),
-        CounterKind::AnySamplesPassed => Some(glow::ANY_SAMPLES_PASSED),
-        CounterKind::FragmentInvocations => Some(glow::FRAGMENT_SHADER_INVOCATIONS),
-        CounterKind::ShaderRuns => None,
-    }
 }
 
 impl Counters {
