@@ -1,5 +1,5 @@
 //! Attachments in memory: one plane of codes per channel and sample, with rows padded to whole
-//! spans.
+//! spans, so that a span loads and stores contiguous codes.
 
 use crate::lanes::LANES;
 use etalon_frame::{Aspect, ChannelEncoding, TextureFormat};

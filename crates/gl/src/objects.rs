@@ -1,4 +1,5 @@
-//! The objects of a context that outlive a scene.
+//! The objects of a context that outlive a scene. They are apart from the backend, so that a
+//! prepared scene needs no more than it uses.
 
 use crate::context::Context;
 use crate::pool::Pool;

@@ -1,4 +1,4 @@
-//! The options of an adapter.
+//! The options of an adapter: the API, and the way to its driver.
 
 use crate::egl::Platform;
 use std::path::PathBuf;

@@ -1,4 +1,5 @@
-//! Host-visible buffers.
+//! Host-visible buffers, mapped as long as they exist: inputs are written and results read in place,
+//! without staging copies.
 
 use crate::device::Device;
 use crate::error::{Check, internal};

@@ -1,4 +1,5 @@
-//! An open device and everything that outlives a scene on it.
+//! An open device and everything that outlives a scene on it. It is apart from the backend, so that
+//! a prepared scene needs no more than it uses.
 
 use crate::device::Device;
 use crate::format::{self, Native};

@@ -1,4 +1,5 @@
-//! The inputs of a scene in one buffer: vertices, indices, parameters, texels.
+//! The inputs of a scene: vertices, indices, parameters, texels. All are in one buffer, so that a
+//! scene takes one allocation.
 
 use crate::buffer::Buffer;
 use crate::device::Device;

@@ -1,4 +1,4 @@
-//! Sampler objects, one for each way to sample.
+//! Samplers, shared by all scenes.
 
 use crate::device::Device;
 use crate::error::Check;

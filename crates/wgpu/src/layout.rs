@@ -1,4 +1,4 @@
-//! Layouts of bind groups and pipelines.
+//! Layouts of bind groups and pipelines, shared by shaders with the same bindings.
 
 use crate::cache::Cache;
 use etalon_backend::BackendError;

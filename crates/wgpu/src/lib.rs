@@ -12,6 +12,7 @@
 //! that a driver's failure costs one case.
 
 mod attachment;
+mod backend;
 mod binding;
 mod cache;
 mod clock;
@@ -23,7 +24,6 @@ mod gpu;
 mod layout;
 mod limits;
 mod messages;
-mod open;
 mod pipeline;
 mod pool;
 mod prepared;
@@ -33,4 +33,4 @@ mod state;
 mod target;
 mod texel;
 
-pub use open::{Options, Via, WgpuBackend, enumerate, open};
+pub use backend::{Options, Via, WgpuBackend, enumerate, open};

@@ -1,4 +1,4 @@
-//! Textures with their views.
+//! Textures with their views. Views for fetches are created on first use: few scenes need them.
 
 use std::cell::OnceCell;
 
