@@ -1,8 +1,19 @@
-//! The seam between the suite and a graphics API.
+//! The interface between the suite and a graphics API.
 //!
-//! A backend draws a [`Scene`] and hands back a [`Frame`]; it never sees what is expected of it,
-//! nor the case's name. Conventions are WebGPU's: y up in clip space, depth 0..=1, framebuffer
-//! origin at the top left, counter-clockwise front faces. Each backend adapts inside itself.
+//! A backend draws a [`Scene`] and returns a [`Frame`]. It sees neither the expected result nor the
+//! case's name, so it cannot adapt to them.
+//!
+//! # Conventions
+//!
+//! The coordinates of scenes and frames are WebGPU's, on every backend; each backend converts
+//! internally.
+//!
+//! - Clip space: y points up, depth is 0..=1.
+//! - Framebuffer: the origin is the top left corner, y points down. Row 0 of an image is
+//!   its top row.
+//! - Front faces: `ccw` is counter-clockwise as seen on the framebuffer.
+
+pub mod codes;
 
 use etalon_frame::{Frame, Limits, Requirement};
 use etalon_scene::Scene;
@@ -10,7 +21,7 @@ use serde::{Deserialize, Serialize};
 use std::time::Duration;
 use thiserror::Error;
 
-/// Who an adapter is.
+/// The identity of an adapter.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AdapterInfo {
@@ -22,109 +33,109 @@ pub struct AdapterInfo {
     pub device: String,
     /// The driver as it names itself.
     pub driver: String,
-    /// The driver's version, as far as it tells.
+    /// The driver's version, if it reports one.
     pub driver_version: String,
-    /// What tells the driver from others for programs: `VkDriverId` and PCI ids in Vulkan; empty where
-    /// the API tells none.
+    /// The driver's identity for programs: `VkDriverId` and PCI ids in Vulkan. Empty if the API
+    /// reports none.
     #[serde(default)]
     pub driver_id: String,
     /// The API's version.
     pub api_version: String,
-    /// Whether the device is the processor.
+    /// True for a software rasterizer.
     pub software: bool,
 }
 
 /// An open connection to one driver.
 pub trait Backend {
-    /// Who it is.
+    /// Returns the adapter's identity.
     fn adapter(&self) -> &AdapterInfo;
 
-    /// What it can do; truthful, for the judge builds on it.
+    /// Returns the adapter's limits. They must be true, since the judge relies on them.
     fn limits(&self) -> &Limits;
 
-    /// Creates everything that drawing the scene takes. Several prepared scenes may live at once.
+    /// Creates all objects that drawing the scene needs. Several prepared scenes may exist at once.
     ///
     /// # Errors
-    /// When the scene asks for what the limits deny, or the driver fails.
+    /// If the scene needs what the limits deny, or the driver fails.
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError>;
 
-    /// Messages of a validation layer or of debug output since the last call, oldest first; empty
-    /// where none was asked for.
+    /// Returns the messages of a validation layer or of debug output since the last call, oldest
+    /// first; none if they are not enabled.
     fn messages(&self) -> Vec<String> {
         Vec::new()
     }
 }
 
-/// A scene, ready to be drawn.
+/// A scene prepared for drawing.
 pub trait Prepared {
-    /// Initialises the attachments, draws all passes, and returns when the device is done. Drawing
-    /// again starts from the same contents.
+    /// Initialises the attachments, draws all passes, and returns when the device is done. Each
+    /// submit starts from the same contents.
     ///
     /// # Errors
-    /// When the driver fails.
+    /// If the driver fails.
     fn submit(&mut self) -> Result<FrameTime, BackendError>;
 
     /// Reads back what the scene asks for, after at least one [`Prepared::submit`].
     ///
     /// # Errors
-    /// When the driver fails.
+    /// If the driver fails.
     fn read_back(&mut self) -> Result<Frame, BackendError>;
 }
 
-/// How long one submit took.
+/// The duration of one submit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FrameTime {
-    /// From the first call to the API's return from the last one that submits work.
+    /// From the first call until the API returned from submitting the last work.
     pub cpu: Duration,
-    /// Between GPU timestamps around the passes, where there are any.
+    /// Between GPU timestamps around the passes, if supported.
     pub gpu: Option<Duration>,
     /// Until the device was done.
     pub wall: Duration,
 }
 
-/// Why a backend could not do what was asked.
+/// An error of a backend.
 #[derive(Clone, Debug, PartialEq, Eq, Error, Serialize, Deserialize)]
 pub enum BackendError {
-    /// The scene needs what the adapter's limits deny. The runner asks the limits first, so this
-    /// arrives only where a driver denies what it advertised.
+    /// The scene needs what the adapter's limits deny. The runner checks the limits first, so this
+    /// occurs only if a driver denies what it advertises.
     #[error("not supported: {0}")]
     NotSupported(Requirement),
-    /// The device is gone.
+    /// The device was lost.
     #[error("the device was lost: {0}")]
     DeviceLost(String),
     /// The driver refused an allocation or an object.
     #[error("the driver refused {what}: {message}")]
     Resource {
-        /// What was being made.
+        /// The object.
         what: String,
-        /// The driver's word.
+        /// The driver's message.
         message: String,
     },
-    /// Our shader could not be translated or compiled.
+    /// A shader could not be translated or compiled.
     #[error("shader {shader}: {message}")]
     Shader {
-        /// The shader.
+        /// The shader's name.
         shader: String,
-        /// Translator's or driver's log.
+        /// The log of the translator or the driver.
         message: String,
     },
-    /// Something that the backend's own logic rules out.
+    /// A condition that the backend's own logic rules out.
     #[error("internal error: {0}")]
     Internal(String),
 }
 
-/// Why an adapter cannot be used, and what would help.
+/// The reason why an adapter cannot be used, and a remedy.
 #[derive(Clone, Debug, PartialEq, Eq, Error, Serialize, Deserialize)]
 #[error("{reason}; {remedy}")]
 pub struct Unavailable {
-    /// What is missing or failed.
+    /// The reason.
     pub reason: String,
-    /// What to do about it.
+    /// The remedy.
     pub remedy: String,
 }
 
 impl Unavailable {
-    /// An adapter that cannot be used for a reason, with its remedy.
+    /// Returns an error with this reason and remedy.
     pub fn new(reason: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self {
             reason: reason.into(),

@@ -1,5 +1,5 @@
-//! What drawing costs: representative 16 by 16 cases, pictures blended sixteen times over, and a million
-//! small triangles.
+//! Frame times of three 16 by 16 cases, of sixteen blended full-screen quads, and of a million small
+//! triangles: dispatch, fill rate and setup.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_backend::Backend;

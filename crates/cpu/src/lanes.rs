@@ -1,6 +1,6 @@
-//! Texels side by side.
+//! Lanes: the texels of a span as arrays.
 
-/// Texels of a span.
+/// The number of texels of a span.
 pub const LANES: usize = 16;
 
 /// A number per lane.

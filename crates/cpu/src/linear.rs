@@ -6,15 +6,15 @@ use etalon_pipeline::{DepthPlane, Point};
 /// Bits of sub-pixel precision.
 pub(crate) const SUB_PIXEL_BITS: u8 = 8;
 
-/// Sub-texel units per texel.
+/// The number of sub-texel units per texel.
 pub(crate) const UNITS: i64 = 1 << SUB_PIXEL_BITS;
 
-/// A value that grows linearly over the window.
+/// A value that is linear over the window.
 #[derive(Clone, Copy)]
 pub(crate) struct Linear(pub(crate) DepthPlane);
 
 impl Linear {
-    /// The values at the centres of a span's texels.
+    /// Returns the values at the centres of a span's texels.
     pub(crate) fn at_centers(&self, x: usize, y: usize) -> [f32; LANES] {
         let center = Point {
             x: UNITS / 2,
@@ -24,7 +24,7 @@ impl Linear {
     }
 }
 
-/// A place in a texel, in sub-texel units of the window.
+/// Returns a position in a texel in sub-texel units of the window.
 pub(crate) fn position(x: usize, y: usize, sample: Point) -> Point {
     Point {
         x: x as i64 * UNITS + sample.x,

@@ -1,4 +1,4 @@
-//! A scene that the rasterizer draws.
+//! A scene prepared for drawing.
 
 use crate::raster;
 use crate::span::Counted;
@@ -19,7 +19,7 @@ pub struct PreparedScene<S> {
 }
 
 impl<S> PreparedScene<S> {
-    /// The scene, to be drawn by these steps.
+    /// Returns the scene, to be drawn by these steps.
     pub fn new(scene: Scene, steps: S) -> Self {
         Self {
             scene,

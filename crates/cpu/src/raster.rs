@@ -1,4 +1,4 @@
-//! Primitives to spans.
+//! Rasterization of primitives to spans.
 
 use crate::lanes::{LANES, Mask};
 use crate::linear::{Linear, UNITS, position};
@@ -12,7 +12,7 @@ use etalon_pipeline::{
 };
 use etalon_scene::{Draw, Pass, PolygonMode, Primitive, Scene};
 
-/// Sample counts.
+/// The supported sample counts.
 pub(crate) const SAMPLES: [u32; 5] = [1, 2, 4, 8, 16];
 
 /// The most samples of a texel.
@@ -27,10 +27,10 @@ struct Vertex {
     uv: [f32; 2],
 }
 
-/// What is linear over a primitive, its window depth first, and what clipping leaves of it.
+/// The linear values over a primitive, window depth first, and its clipping.
 struct Planes {
     window: DepthPlane,
-    /// Texture coordinates, where the shader reads them.
+    /// Texture coordinates, if the shader reads them.
     uv: Option<[Linear; 2]>,
     clip: DepthPlane,
     range: [f32; 2],
@@ -38,9 +38,9 @@ struct Planes {
     bias: f64,
     clamp: Option<[f32; 2]>,
     clips: bool,
-    /// Whether some of it may lie outside of the viewport.
+    /// True if the primitive may extend beyond the viewport.
     leaves: bool,
-    /// Left, top, right and bottom of the viewport in sub-texel units.
+    /// The viewport's left, top, right and bottom edges in sub-texel units.
     viewport: [i64; 4],
 }
 
@@ -74,7 +74,8 @@ impl Planes {
         .reaching(points, wide)
     }
 
-    /// Points and lines are clipped before they get a width: unclipped, they reach beyond the edges.
+    /// Points and lines are clipped before they are widened, so unclipped ones extend beyond the
+    /// edges.
     fn reaching(mut self, points: [Point; 3], wide: bool) -> Self {
         let [left, top, right, bottom] = self.viewport;
         let inside = |p: &Point| (left..=right).contains(&p.x) && (top..=bottom).contains(&p.y);
@@ -84,11 +85,11 @@ impl Planes {
         self
     }
 
-    /// The depths of a span's texels at one sample position.
+    /// Returns the depths of a span's texels at one sample position.
     fn at(&self, x: usize, y: usize, sample: Point) -> [f32; LANES] {
         std::array::from_fn(|lane| {
             let depth = self.window.at(position(x + lane, y, sample)) as f32;
-            // Between the vertices' depths nothing leaves.
+            // Interpolation stays between the depths of the vertices.
             let depth = depth.clamp(self.range[0], self.range[1]);
             let depth = (f64::from(depth) + self.bias) as f32;
             match self.clamp {
@@ -98,7 +99,7 @@ impl Planes {
         })
     }
 
-    /// Takes texels out of a mask that the viewport's edges, the near or the far plane clip away.
+    /// Removes the texels that the viewport's edges, the near or the far plane clip from a mask.
     fn clip(&self, mask: &mut Mask, x: usize, y: usize, sample: Point) {
         if self.leaves {
             let [left, top, right, bottom] = self.viewport;
@@ -117,15 +118,15 @@ impl Planes {
     }
 }
 
-/// The least and the greatest of three numbers.
+/// Returns the least and the greatest of three numbers.
 fn ends([a, b, c]: [f32; 3]) -> [f32; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// Left, top, right and bottom of what a draw may write, the last two excluded.
+/// Left, top, right and bottom of the texels that a draw may write; the last two are exclusive.
 type Bounds = [usize; 4];
 
-/// Draws one draw into the pass's attachments.
+/// Draws into the pass's attachments.
 pub(crate) fn draw<S: Steps>(
     scene: &Scene,
     pass: &Pass,
@@ -225,7 +226,7 @@ pub(crate) fn draw<S: Steps>(
     }
 }
 
-/// Scissor rectangle, attachments and the viewport with a texel around it, together.
+/// Returns the intersection of scissor, attachments and the viewport with a texel around it.
 fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
     let [x, y, w, h] = draw.viewport.area();
     let [sx, sy, sw, sh] = draw.scissor.unwrap_or([0, 0, size[0], size[1]]);
@@ -241,7 +242,7 @@ fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
     [left, top, right, bottom]
 }
 
-/// What is added to a polygon's depths.
+/// Returns the depth bias of a polygon.
 fn depth_bias(
     draw: &Draw,
     points: [Point; 3],
@@ -260,7 +261,7 @@ fn depth_bias(
     steps.bias(state, unit, steepest)
 }
 
-/// What is added to the depths of a point or line: nothing.
+/// Returns the depth bias of a point or line, which is 0.
 fn line_bias(
     draw: &Draw,
     points: [Point; 3],
@@ -275,14 +276,14 @@ fn line_bias(
     }
 }
 
-/// A triangle to be filled, and what is the same or linear over it.
+/// A triangle to fill, with its flat values.
 struct Inside<'a> {
     triangle: &'a SnappedTriangle,
     front: bool,
     color: [f32; 4],
 }
 
-/// Runs the spans of a triangle's inside.
+/// Runs the spans of a triangle.
 fn fill<S: Steps>(
     inside: &Inside<'_>,
     planes: &Planes,
@@ -301,7 +302,7 @@ fn fill<S: Steps>(
     };
     let (left, right) = bound(|p| p.x, bounds[0], bounds[2]);
     let (top, bottom) = bound(|p| p.y, bounds[1], bounds[3]);
-    // As many as there can be samples.
+    // Enough for any sample count.
     let mut all = [[false; LANES]; MOST_SAMPLES];
     let masks = &mut all[..samples.len().min(MOST_SAMPLES)];
     for y in top..bottom {
@@ -309,7 +310,7 @@ fn fill<S: Steps>(
             let mut any = false;
             for (mask, sample) in masks.iter_mut().zip(samples) {
                 let edges = triangle.edges_at(position(x, y, *sample));
-                // An edge function is linear: its ends tell where it has one sign all along.
+                // An edge function is linear: equal signs at both ends hold for the whole span.
                 let last = |(value, dx): &(i64, i64)| value + dx * (LANES as i64 - 1) * UNITS;
                 if edges.iter().any(|edge| edge.0 < 0 && last(edge) < 0) {
                     *mask = [false; LANES];
@@ -341,7 +342,7 @@ fn fill<S: Steps>(
     }
 }
 
-/// Runs the one texel, or the samples of up to four, that a point covers.
+/// Runs the texels of which a point covers samples, at most four.
 fn point<S: Steps>(
     vertex: Vertex,
     front: bool,
@@ -368,8 +369,9 @@ fn point<S: Steps>(
     }
 }
 
-/// Runs the texels of a line: one per column or row, whichever it has more of, all samples of each;
-/// the last one is the next line's (the diamond-exit rule where it does not run through corners).
+/// Runs the texels of a line: one per column or row, along the longer direction, all samples of
+/// each. The last texel belongs to the next line (the diamond-exit rule where the line does not
+/// pass through corners).
 fn line<S: Steps>(
     ends: [Vertex; 2],
     front: bool,

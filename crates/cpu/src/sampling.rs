@@ -5,7 +5,7 @@ use crate::surface::Surface;
 use etalon_pipeline::{Arithmetic, Plain, texel_position};
 use etalon_scene::{FilterMode, Sampler};
 
-/// The texture at one coordinate per lane.
+/// Returns the texture's value at one coordinate per lane.
 pub(crate) fn sample(surface: &Surface, sampler: Sampler, u: Real, v: Real) -> [Real; 4] {
     let mut result = [[0.0; LANES]; 4];
     for lane in 0..LANES {
@@ -39,7 +39,7 @@ fn tap(surface: &Surface, sampler: Sampler, at: [i64; 2]) -> [f32; 4] {
     })
 }
 
-/// The average at a position counted from the centre of the first texel.
+/// Returns the weighted average at a position counted from the centre of the first texel.
 fn weighted(surface: &Surface, sampler: Sampler, at: [f32; 2]) -> [f32; 4] {
     let first = at.map(f32::floor);
     let weight = [at[0] - first[0], at[1] - first[1]];

@@ -1,4 +1,4 @@
-//! One span of texels through the fragment pipeline, all lanes at once.
+//! The fragment pipeline for one span of texels, all lanes at once.
 
 use crate::lanes::{Codes, LANES, Mask, Real};
 use crate::linear::Linear;
@@ -9,7 +9,7 @@ use etalon_pipeline::shader::{FragmentInput, FragmentOutput, cost, fragment};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, takes_logic};
 use etalon_scene::{Draw, EarlyTests, Pass, Scene, Shader, StencilFace};
 
-/// Covered texels of one primitive in one row. `x` is a multiple of [`LANES`].
+/// The covered texels of one primitive in one row. `x` is a multiple of [`LANES`].
 pub(crate) struct Span<'a> {
     pub(crate) x: usize,
     pub(crate) y: usize,
@@ -19,33 +19,32 @@ pub(crate) struct Span<'a> {
     pub(crate) color: [f32; 4],
     /// Window depths at one sample.
     pub(crate) depth: &'a dyn Fn(usize) -> Real,
-    /// Texture coordinates, where the shader reads them.
+    /// Texture coordinates, if the shader reads them.
     pub(crate) uv: Option<[Linear; 2]>,
 }
 
-/// A draw's state and the attachments it works on.
+/// The state of a draw and the attachments it draws to.
 pub(crate) struct SpanState<'a, S> {
     draw: &'a Draw,
     pass: &'a Pass,
     depth: Option<ChannelEncoding>,
     encodings: Vec<[ChannelEncoding; 4]>,
-    /// Whether each target obeys logic operations.
+    /// True for each target that logic operations apply to.
     logic: Vec<bool>,
     size: [u32; 2],
-    /// Whether the tests come before the shader: where that is forced, and where nobody could tell but
-    /// by the time.
+    /// True if the fragment tests run before the shader: if forced, or if the result is the same.
     early: bool,
-    /// Whether anyone asks for the fragment's own depth.
+    /// True if a test or the shader uses the fragment's own depth.
     asks_depth: bool,
     surfaces: &'a mut [Surface],
     counters: &'a mut [Counted],
     steps: &'a S,
 }
 
-/// Texels of which an expensive shader's work is done side by side.
+/// The number of texels for which an expensive shader's loop runs at once.
 const TOGETHER: usize = 4;
 
-/// A counter and how far it has come.
+/// A counter and its count.
 pub(crate) type Counted = (CounterKind, u64);
 
 fn and(a: Mask, b: Mask) -> Mask {
@@ -80,8 +79,8 @@ fn four(channels: &[ChannelEncoding]) -> [ChannelEncoding; 4] {
     })
 }
 
-/// Whether a draw's fragment tests come before its shader: where they are forced to, and where the
-/// result is the same.
+/// Returns true if a draw's fragment tests run before its shader: if forced, or if the result is
+/// the same.
 fn tests_early(draw: &Draw) -> bool {
     let shader = draw.shader;
     let same = !(shader.discards()
@@ -91,7 +90,7 @@ fn tests_early(draw: &Draw) -> bool {
     same || draw.early_tests == EarlyTests::Forced
 }
 
-/// Whether a shader may read its fragment's depth.
+/// Returns true if a shader may read its fragment's depth.
 fn reads_depth(shader: Shader) -> bool {
     !matches!(
         shader,
@@ -148,7 +147,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         }
     }
 
-    /// How the pass stores depth, if it does.
+    /// Returns the encoding of the pass's depth attachment, if it has one.
     pub(crate) fn depth_encoding(&self) -> Option<ChannelEncoding> {
         self.depth
     }
@@ -157,7 +156,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
     pub(crate) fn run(&mut self, span: &Span<'_>) {
         let per_sample = self.steps.runs_per_sample(self.draw.shader);
         let mut shaded: Option<FragmentOutput<Real>> = None;
-        // The depth that a shader sees that stands for all samples: the first one's that is covered.
+        // A shader run for all samples sees the depth of the first covered one.
         let mut seen: Option<Real> = None;
         let mut ran = [false; LANES];
         for sample in 0..span.masks.len() {
@@ -182,8 +181,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
             }
             let new = if per_sample { mask } else { and_not(mask, ran) };
             ran = or(ran, mask);
-            // A shader that does not ask for the sample runs once; its depth is a sample's own only
-            // where it writes none.
+            // A shader that does not use the sample index runs once. The depth is each sample's own
+            // unless the shader writes one.
             let mut output = match shaded {
                 Some(output) if !per_sample => output,
                 _ => {
@@ -191,7 +190,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
                     self.shade(span, sample, depth)
                 }
             };
-            self.labour(span, new, &mut output);
+            self.run_expensive_loop(span, new, &mut output);
             shaded = Some(output);
             if let Some(kept) = &output.kept {
                 mask = and(mask, self.steps.kept(kept));
@@ -214,7 +213,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         self.count(|kind| !kind.is_occlusion(), ran);
     }
 
-    /// Runs the fragment shader, but for the work that it is slow for.
+    /// Runs the fragment shader without the loop of an expensive shader.
     fn shade(&self, span: &Span<'_>, sample: usize, depth: Real) -> FragmentOutput<Real> {
         let input = FragmentInput {
             color: span.color.map(|v| [v; LANES]),
@@ -228,9 +227,9 @@ impl<'a, S: Steps> SpanState<'a, S> {
         fragment(&mut Plain::<LANES>, self.draw.shader, &input)
     }
 
-    /// Does the work of an expensive shader for the texels that it runs for, so that times tell how often
-    /// it ran.
-    fn labour(&self, span: &Span<'_>, mask: Mask, output: &mut FragmentOutput<Real>) {
+    /// Runs the loop of an expensive shader for the texels that it shades, so that times depend on
+    /// their number.
+    fn run_expensive_loop(&self, span: &Span<'_>, mask: Mask, output: &mut FragmentOutput<Real>) {
         let steps = self.draw.params.back_color[0];
         if !is_expensive(self.draw.shader) {
             return;
@@ -238,7 +237,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let lanes = mask.iter().enumerate().filter(|(_, set)| **set);
         let columns: Vec<u32> = lanes.map(|(lane, _)| (span.x + lane) as u32).collect();
         for some in columns.chunks(TOGETHER) {
-            // What is left over does the work of the last one again beside it, in the same time.
+            // The remaining lanes repeat the last texel, at no cost.
             let at: [u32; TOGETHER] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
             let zeros = cost(at, span.y as u32, steps);
             for (x, zero) in some.iter().zip(zeros) {
@@ -252,7 +251,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         self.count(CounterKind::is_occlusion, passed);
     }
 
-    /// Adds the set lanes to the draw's counters of some kinds.
+    /// Adds the lanes of a mask to the draw's counters of these kinds.
     fn count(&mut self, kinds: impl Fn(CounterKind) -> bool, mask: Mask) {
         for index in &self.draw.counters {
             let (kind, count) = &mut self.counters[*index];
@@ -266,7 +265,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         span.y * self.surfaces[index].stride + span.x
     }
 
-    /// The texture coordinates of a span's texels.
+    /// Returns the texture coordinates of a span's texels.
     fn uv(&self, span: &Span<'_>) -> [Real; 2] {
         match &span.uv {
             Some(planes) => planes
@@ -292,7 +291,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         }
     }
 
-    /// Runs depth bounds, stencil and depth test and stores both; where colour is written.
+    /// Runs depth bounds, stencil and depth test and stores both. Returns where colour is written.
     fn test_and_store(&mut self, span: &Span<'_>, sample: usize, depth: Real, mask: Mask) -> Mask {
         let bounded = self.depth_bounds(span, sample, depth, mask);
         let mut tests = Tests {
@@ -369,7 +368,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         }
     }
 
-    /// The codes to store, where the draw stores any.
+    /// Returns the depth codes and where they pass, if the draw tests depth.
     fn depth_test(
         &self,
         span: &Span<'_>,
@@ -378,7 +377,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         passes: &mut Mask,
     ) -> Option<Codes> {
         let (state, index, encoding) = (self.draw.depth?, self.pass.depth_stencil?, self.depth?);
-        // Depths of shaders and biases too are held to the viewport's range.
+        // Depths written by shaders and biased depths are clamped to the viewport's range.
         let range = self.draw.viewport.depth;
         let depth = depth.map(|v| self.steps.held_to_range(v, range));
         let codes = self.steps.depth_codes(encoding, depth);
@@ -419,7 +418,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
             let value = match &target.blend {
                 None => color,
                 Some(state) => {
-                    // A destination's missing colours count as 0, its missing alpha as 1.
+                    // Missing colour channels of the destination are 0, a missing alpha is 1.
                     let dst = std::array::from_fn(|c| match c {
                         _ if c < channels => {
                             let stored = load(surface.plane(c, seen), at);

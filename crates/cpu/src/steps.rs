@@ -1,7 +1,7 @@
-//! The steps of a draw that a planted bug may replace.
+//! The steps of a draw, which planted bugs override.
 //!
-//! The rasterizer is generic over [`Steps`]. [`Faithful`] takes every default, so that its calls
-//! vanish; planted bugs, which are another crate, override one step each.
+//! The rasterizer is generic over [`Steps`], so that the calls of [`Faithful`], which keeps every
+//! default, are inlined. Planted bugs, in another crate, override one step each.
 
 pub use crate::lanes::{Codes, LANES, Mask, Real};
 
@@ -17,7 +17,7 @@ use etalon_scene::{
     StencilFace, StencilOperation,
 };
 
-/// The way of a fragment through the stencil test.
+/// The outcome of a fragment's stencil and depth test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Path {
     /// The stencil test fails.
@@ -29,7 +29,7 @@ pub enum Path {
 }
 
 impl Path {
-    /// The face's operation on this way.
+    /// Returns the face's operation for this outcome.
     #[inline(always)]
     pub fn operation(self, face: &StencilFace) -> StencilOperation {
         match self {
@@ -40,7 +40,7 @@ impl Path {
     }
 }
 
-/// What the tests said; a test that is off says yes.
+/// The results of the tests of a span. A disabled test passes.
 #[derive(Clone, Copy, Debug)]
 pub struct Tests {
     /// The covered texels.
@@ -51,7 +51,7 @@ pub struct Tests {
     pub depth: Mask,
 }
 
-/// Where a span is written.
+/// The texels that a span writes.
 #[derive(Clone, Copy, Debug)]
 pub struct Written {
     /// The texels whose colour is written.
@@ -60,15 +60,15 @@ pub struct Written {
     pub depth: Mask,
 }
 
-/// The replaceable steps, each with what the pipeline really does.
+/// The steps that a planted bug may override, with the pipeline's own as defaults.
 pub trait Steps {
-    /// The covered texels of a span that starts at column `x` of row `y`.
+    /// Returns the covered texels of a span that starts at column `x` of row `y`.
     #[inline(always)]
     fn covered(&self, _x: usize, _y: usize, _size: [u32; 2], mask: Mask) -> Mask {
         mask
     }
 
-    /// The texels of a texture under a span.
+    /// Returns the texels of a texture under a span.
     #[inline(always)]
     fn fetch(&self, surface: &Surface, x: usize, y: usize) -> [Real; 4] {
         let at = y * surface.stride + x;
@@ -82,13 +82,13 @@ pub trait Steps {
         })
     }
 
-    /// What a sampler makes of a texture.
+    /// Returns sampled values of a texture.
     #[inline(always)]
     fn sample(&self, surface: &Surface, sampler: Sampler, u: Real, v: Real) -> [Real; 4] {
         sample(surface, sampler, u, v)
     }
 
-    /// Where a shader that may discard keeps its fragments.
+    /// Returns the fragments that a shader does not discard.
     #[inline(always)]
     fn kept(&self, kept: &Kept<Real>) -> Mask {
         let (value, limit) = (kept.value, kept.limit);
@@ -99,39 +99,40 @@ pub trait Steps {
         }
     }
 
-    /// What a counter adds for a span of samples that passed, or of texels whose shader ran.
+    /// Returns the increment of a counter for a span of samples that passed, or of texels whose
+    /// shader ran.
     #[inline(always)]
     fn counted(&self, _kind: CounterKind, mask: Mask) -> u64 {
         mask.iter().map(|set| u64::from(*set)).sum()
     }
 
-    /// Whether a stored value passes the stencil test.
+    /// Returns true if a stored value passes the stencil test.
     #[inline(always)]
     fn stencil_passes(&self, face: &StencilFace, stored: u8) -> bool {
         stencil_passes(face, stored)
     }
 
-    /// The stencil value that a fragment leaves.
+    /// Returns the stencil value after a fragment.
     #[inline(always)]
     fn stencil_write(&self, face: &StencilFace, path: Path, stored: u8) -> u8 {
         stencil_write(face, path.operation(face), stored)
     }
 
-    /// Depths as they are compared and stored.
+    /// Returns the codes of depths, for comparing and storing.
     #[inline(always)]
     fn depth_codes(&self, encoding: ChannelEncoding, depth: Real) -> Codes {
-        // Codes of depths in 0..=1 are ordered as the depths are, floats among them. Adding 0 takes
-        // the sign off a negative zero.
+        // Codes of depths in 0..=1 have the order of the depths, also of floats. Adding 0 removes
+        // the sign of a negative zero.
         Plain::<LANES>.encode(encoding, depth.map(|v| v.clamp(0.0, 1.0) + 0.0))
     }
 
-    /// Whether an incoming depth passes; both are codes.
+    /// Returns true if an incoming depth passes. Both depths are codes.
     #[inline(always)]
     fn depth_passes(&self, function: CompareFunction, incoming: u32, stored: u32) -> bool {
         compare(function, incoming, stored)
     }
 
-    /// Where colour and depth are written.
+    /// Returns the texels whose colour and depth are written.
     #[inline(always)]
     fn written(&self, tests: &Tests) -> Written {
         let all: Mask =
@@ -153,32 +154,32 @@ pub trait Steps {
         blend(&mut Plain::<LANES>, state, encodings, input)
     }
 
-    /// One colour channel as it is stored.
+    /// Returns the stored codes of one colour channel.
     #[inline(always)]
     fn color_codes(&self, encoding: ChannelEncoding, value: Real) -> Codes {
         Plain::<LANES>.encode(encoding, value)
     }
 
-    /// One channel of a clear value, colour or depth.
+    /// Returns the stored code of one channel of a clear value, colour or depth.
     #[inline(always)]
     fn clear_code(&self, encoding: ChannelEncoding, value: f32) -> u32 {
         let [code] = Plain::<1>.encode(encoding, [value]);
         code
     }
 
-    /// A stored colour as it enters a blend.
+    /// Returns the values of one stored colour channel for blending.
     #[inline(always)]
     fn color_value(&self, encoding: ChannelEncoding, codes: Codes) -> Real {
         Plain::<LANES>.decode(encoding, codes)
     }
 
-    /// What a blend takes for the alpha of a format without one.
+    /// Returns the alpha of a format without alpha, for blending.
     #[inline(always)]
     fn missing_alpha(&self, _state: &BlendState) -> f32 {
         1.0
     }
 
-    /// The second source, alpha to one applied.
+    /// Returns the second source after alpha-to-one.
     #[inline(always)]
     fn second_source(&self, multisample: &Multisample, mut second: [Real; 4]) -> [Real; 4] {
         if multisample.alpha_to_one {
@@ -187,7 +188,7 @@ pub trait Steps {
         second
     }
 
-    /// What a logic operation leaves; `obeys` tells whether the attachment takes any.
+    /// Returns the codes after a logic operation; `obeys` is false for attachments that ignore it.
     #[inline(always)]
     fn logic(
         &self,
@@ -204,7 +205,7 @@ pub trait Steps {
         }
     }
 
-    /// The least step of a depth bias on a primitive whose largest depth is this.
+    /// Returns the unit of a constant depth bias for a primitive with this largest depth.
     #[inline(always)]
     fn bias_unit(&self, encoding: ChannelEncoding, largest: f64) -> f64 {
         match encoding {
@@ -216,7 +217,7 @@ pub trait Steps {
         }
     }
 
-    /// `constant * r + slope * m`, held to the clamp (Vulkan, Depth Bias; Direct3D 11.3, 15.10).
+    /// Returns `constant * r + slope * m`, clamped (Vulkan, Depth Bias; Direct3D 11.3, 15.10).
     #[inline(always)]
     fn bias(&self, state: &DepthBias, unit: f64, slope: f64) -> f64 {
         let sum = f64::from(state.constant) * unit + f64::from(state.slope) * slope;
@@ -230,68 +231,70 @@ pub trait Steps {
         }
     }
 
-    /// Whether points and lines are biased as polygons are.
+    /// Returns true if points and lines are biased like polygons.
     #[inline(always)]
     fn biases_lines(&self) -> bool {
         false
     }
 
-    /// Whether points and lines face front.
+    /// Returns true if points and lines are front-facing.
     #[inline(always)]
     fn lines_face_front(&self) -> bool {
         true
     }
 
-    /// Holds a depth to the viewport's range.
+    /// Clamps a depth to the viewport's range.
     #[inline(always)]
     fn held_to_range(&self, depth: f32, [near, far]: [f32; 2]) -> f32 {
         depth.clamp(near.min(far), near.max(far))
     }
 
-    /// Whether the depth bounds let a fragment through.
+    /// Returns true if a fragment passes the depth bounds test.
     #[inline(always)]
     fn in_bounds(&self, [low, high]: [f32; 2], stored: f32, _incoming: f32) -> bool {
         low <= stored && stored <= high
     }
 
-    /// Whether fragments that the depth bounds reject count as failing the depth test.
+    /// Returns true if failing the depth bounds counts as failing the depth test.
     #[inline(always)]
     fn bounds_fail_as_depth(&self) -> bool {
         false
     }
 
-    /// Where samples lie in a texel, in 1/256 of it.
+    /// Returns the sample positions in 1/256 texel.
     #[inline(always)]
     fn sample_positions(&self, standard: Vec<[u16; 2]>) -> Vec<[u16; 2]> {
         standard
     }
 
-    /// Which texels' sample alpha to coverage draws: the first samples, as many as alpha's share.
+    /// Returns the texels whose sample alpha-to-coverage covers: the first samples, in proportion
+    /// to alpha.
     #[inline(always)]
     fn alpha_covers(&self, alpha: Real, sample: usize, samples: usize) -> Mask {
         let count = samples as f32;
         alpha.map(|a| (sample as f32) < (a.clamp(0.0, 1.0) * count).round())
     }
 
-    /// Whether a shader runs once per sample.
+    /// Returns true if a shader runs once per sample.
     #[inline(always)]
     fn runs_per_sample(&self, shader: Shader) -> bool {
         shader.runs_per_sample()
     }
 
-    /// Whose stored value a sample's test or blend sees.
+    /// Returns the sample whose stored value a sample's test or blend reads.
     #[inline(always)]
     fn stored_sample(&self, _aspect: Aspect, sample: usize) -> usize {
         sample
     }
 
-    /// At whose position, of so many samples, a sample's depth is taken.
+    /// Returns the sample at whose position a sample's depth is interpolated.
     #[inline(always)]
     fn depth_sample(&self, sample: usize, _samples: usize) -> usize {
         sample
     }
 
-    /// One channel of a resolved texel: the average of its samples, rounded to the nearest code.
+    /// Returns one channel of a resolved texel: the average of its samples, rounded to the nearest
+    /// code.
     #[inline(always)]
     fn resolve(&self, encoding: ChannelEncoding, codes: &[u32]) -> u32 {
         let share = 1.0 / codes.len() as f32;

@@ -1,30 +1,31 @@
-//! Attachments in memory: one plane of codes per channel and sample, rows padded to whole spans.
+//! Attachments in memory: one plane of codes per channel and sample, with rows padded to whole
+//! spans, so that a span loads and stores contiguous codes.
 
 use crate::lanes::LANES;
 use etalon_frame::{Aspect, ChannelEncoding, TextureFormat};
 use etalon_scene::{Attachment, Contents};
 
-/// One attachment.
+/// An attachment in memory.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Texels in a row.
+    /// The number of texels in a row.
     pub width: usize,
-    /// Rows.
+    /// The number of rows.
     pub height: usize,
-    /// Texels from one row to the next: the width rounded up to whole spans.
+    /// The distance between rows in texels: the width rounded up to whole spans.
     pub stride: usize,
     /// Samples per texel.
     pub samples: usize,
-    /// Colour channels, or the depth alone: channel by channel, in each sample by sample.
+    /// The colour channels, or depth: channel by channel, each sample by sample.
     pub planes: Vec<Vec<u32>>,
-    /// Stencil, sample by sample; empty where the format has none.
+    /// Stencil, sample by sample; empty if the format has none.
     pub stencil: Vec<Vec<u8>>,
-    /// Colour encodings.
+    /// The encodings of the colour channels.
     pub encodings: &'static [ChannelEncoding],
 }
 
 impl Surface {
-    /// The attachment as it is before the first pass. `clear_code` converts a clear value.
+    /// Returns the attachment with its initial contents. `clear_code` converts a clear value.
     pub(crate) fn new(
         attachment: &Attachment,
         clear_code: impl Fn(ChannelEncoding, f32) -> u32,
@@ -74,18 +75,18 @@ impl Surface {
         surface
     }
 
-    /// The plane of one channel and sample.
+    /// Returns the plane of one channel and sample.
     pub fn plane(&self, channel: usize, sample: usize) -> &[u32] {
         &self.planes[channel * self.samples + sample]
     }
 
-    /// The plane of one channel and sample.
+    /// Returns the plane of one channel and sample.
     pub(crate) fn plane_mut(&mut self, channel: usize, sample: usize) -> &mut [u32] {
         &mut self.planes[channel * self.samples + sample]
     }
 
-    /// Becomes what another surface's samples are resolved to. `resolve` makes one code of the codes
-    /// of all samples.
+    /// Resolves another surface into this one. `resolve` returns one code for the codes of all
+    /// samples.
     pub(crate) fn resolve_from(
         &mut self,
         source: &Self,
@@ -94,7 +95,7 @@ impl Surface {
         let mut codes = vec![0; source.samples];
         for (c, encoding) in source.encodings.iter().enumerate() {
             if let ChannelEncoding::Uint(_) = encoding {
-                // Of integers one sample stands for all.
+                // Integers resolve to one sample.
                 self.planes[c].clone_from_slice(source.plane(c, 0));
                 continue;
             }
@@ -107,7 +108,7 @@ impl Surface {
         }
     }
 
-    /// The codes of one aspect, as an [`etalon_frame::Image`] holds them.
+    /// Returns the codes of one aspect in the order of [`etalon_frame::Image`].
     pub(crate) fn codes(&self, aspect: Aspect) -> Vec<u32> {
         let channels = match aspect {
             Aspect::Stencil => 1,
@@ -131,7 +132,7 @@ impl Surface {
     }
 }
 
-/// The encoding in which the rasterizer stores a format's depth.
+/// Returns the encoding in which the rasterizer stores a format's depth.
 pub(crate) fn depth_encoding(format: TextureFormat) -> Option<ChannelEncoding> {
     format.depth_encodings().first().copied()
 }

@@ -1,4 +1,5 @@
-use super::*;
+use crate::CpuBackend;
+use etalon_backend::Backend;
 use etalon_case::{CaseFile, Profile};
 use etalon_frame::Frame;
 
@@ -22,12 +23,12 @@ fn the_first_row_is_at_the_top_and_the_first_column_at_the_left() {
     );
     for y in 0..8 {
         for x in 0..20 {
-            let due = if x < 3 && y < 2 {
+            let expected = if x < 3 && y < 2 {
                 [255, 0, 0, 255]
             } else {
                 [0; 4]
             };
-            assert_eq!(frame.images[0].sample(x, y, 0), due, "({x}, {y})");
+            assert_eq!(frame.images[0].sample(x, y, 0), expected, "({x}, {y})");
         }
     }
 }
@@ -44,13 +45,17 @@ fn a_slanted_triangle_has_depths_between_its_vertices() {
     let image = &frame.images[0];
     let at = |x| f32::from_bits(image.sample(x, 9, 0)[0]);
     for x in 0..16 {
-        let due = 0.25 * (x as f32 + 0.5) / 16.0;
-        assert!((at(x) - due).abs() < 1e-6, "{x}: {} for {due}", at(x));
+        let expected = 0.25 * (x as f32 + 0.5) / 16.0;
+        assert!(
+            (at(x) - expected).abs() < 1e-6,
+            "{x}: {} for {expected}",
+            at(x)
+        );
     }
 }
 
-/// Three layers over the whole picture, nearest first, under a depth test, with one shader; how many
-/// fragments were shaded, and the picture.
+/// Draws three layers over the whole picture with one shader, nearest first, under a depth test.
+/// Returns the number of shaded fragments and the picture.
 fn layers(shader: &str) -> (u64, Vec<u32>) {
     let layer = |z: f32, color: &str| {
         format!(
@@ -106,7 +111,10 @@ fn texture_coordinates_reach_shaders_that_read_them_as_numbers() {
     );
     for x in 0..16 {
         let alpha = f32::from_bits(frame.images[0].sample(x, 2, 0)[3]);
-        let due = (x as f32 + 0.5) / 16.0;
-        assert!((alpha - due).abs() < 1e-6, "{x}: {alpha} for {due}");
+        let expected = (x as f32 + 0.5) / 16.0;
+        assert!(
+            (alpha - expected).abs() < 1e-6,
+            "{x}: {alpha} for {expected}"
+        );
     }
 }

@@ -1,62 +1,56 @@
-//! What a context can do, by its version and extensions.
+//! The capabilities of a context, from its version and extensions.
 
-use crate::context::Context;
-use etalon_frame::Feature;
 use glow::HasContext;
 use naga::back::glsl;
-use std::collections::BTreeSet;
 
-const VIEWPORT_SUBPIXEL_BITS: u32 = 0x825C;
-
-/// What the context can do, as far as it matters here.
+/// The capabilities that this backend uses.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Caps {
     pub(crate) es: bool,
     pub(crate) version: (u32, u32),
     pub(crate) glsl: glsl::Version,
-    /// `glClipControl` is set to WebGPU's conventions; else the shaders adapt.
+    /// `glClipControl` sets WebGPU's conventions; otherwise the shaders adapt.
     pub(crate) clip_control: bool,
     /// Blend functions and write masks may differ between colour targets.
     pub(crate) indexed_blend: bool,
-    /// Factors may name the fragment shader's second source.
+    /// Blend factors may use the fragment shader's second source.
     pub(crate) dual_source: bool,
-    /// 32-bit floats can be blended into.
+    /// 32-bit float attachments can be blended.
     pub(crate) float_blend: bool,
     /// Depths can be clamped instead of clipped.
     pub(crate) depth_clamp: bool,
-    /// Alpha can be set to one after alpha to coverage.
+    /// Alpha can be set to one (`GL_SAMPLE_ALPHA_TO_ONE`).
     pub(crate) alpha_to_one: bool,
-    /// Shaders can ask for the sample that they run for.
+    /// Shaders have the sample index, and run per sample if they use it.
     pub(crate) sample_variables: bool,
-    /// Textures may have several samples.
+    /// Multisampled textures exist.
     pub(crate) multisample_textures: bool,
-    /// `GL_PRIMITIVE_RESTART_FIXED_INDEX` is known.
+    /// `GL_PRIMITIVE_RESTART_FIXED_INDEX` exists.
     pub(crate) fixed_restart: bool,
     /// A shader can fetch the stencil of a depth-stencil texture.
     pub(crate) stencil_texturing: bool,
-    /// Textures may hold stencil alone.
+    /// Stencil-only textures exist.
     pub(crate) stencil_textures: bool,
-    /// Shaders can have the fragment tests before them.
+    /// Shaders can force early fragment tests.
     pub(crate) early_tests: bool,
-    /// Shaders can promise on which side of the fragment's depth theirs lies.
+    /// Shaders can declare conservative depth.
     pub(crate) conservative_depth: bool,
-    /// Where storage buffers may be bound; `None` where fragment shaders have none.
+    /// The offset alignment of storage buffers; `None` if fragment shaders have none.
     pub(crate) storage_alignment: Option<usize>,
-    /// `GL_SAMPLES_PASSED` queries count.
+    /// `GL_SAMPLES_PASSED` queries work.
     pub(crate) samples_passed: bool,
-    /// `GL_FRAGMENT_SHADER_INVOCATIONS` queries count.
+    /// `GL_FRAGMENT_SHADER_INVOCATIONS` queries work.
     pub(crate) fragment_invocations: bool,
-    /// `GL_TIME_ELAPSED` queries count.
+    /// `GL_TIME_ELAPSED` queries work.
     pub(crate) timer: bool,
     pub(crate) max_color_targets: usize,
-    /// Bits below the texel that viewports keep; `None` where only integers can be given.
+    /// Sub-pixel bits of viewports; `None` if viewports are integers.
     pub(crate) viewport_bits: Option<u32>,
     pub(crate) max_viewport: [i32; 2],
 }
 
 impl Caps {
-    /// Asks the current context. `clip_control` is the caller's to set, and of queries it says only
-    /// that they exist.
+    /// Queries the current context. The caller sets `clip_control`, and checks that queries work.
     pub(crate) fn query(gl: &glow::Context, es: bool, version: (u32, u32)) -> Self {
         let known = gl.supported_extensions();
         let has = |name: &str| known.contains(name);
@@ -69,15 +63,15 @@ impl Caps {
             || (es && has("GL_OES_viewport_array"));
         let dual_source = since(ALWAYS, NEVER) || has("GL_EXT_blend_func_extended");
         let integer = |name| {
-            // SAFETY: the context is current, and the limit is asked for only where it is known.
+            // SAFETY: the context is current, and only limits that it has are queried.
             unsafe { gl.get_parameter_i32(name) }
         };
         let targets = integer(glow::MAX_DRAW_BUFFERS).min(integer(glow::MAX_COLOR_ATTACHMENTS));
         let dual_targets =
             dual_source.then(|| integer(glow::MAX_DUAL_SOURCE_DRAW_BUFFERS)) >= Some(1);
         let viewport_bits =
-            viewports.then(|| u32::try_from(integer(VIEWPORT_SUBPIXEL_BITS)).unwrap_or(0));
-        // naga writes bindings from GLSL 4.20 on, and asks for the extension by name.
+            viewports.then(|| u32::try_from(integer(glow::VIEWPORT_SUBPIXEL_BITS)).unwrap_or(0));
+        // naga writes bindings from GLSL 4.20 on, and names the extension.
         let storage = since((4, 2), (3, 1)) && (es || has("GL_ARB_shader_storage_buffer_object"));
         let storage = storage && integer(glow::MAX_FRAGMENT_SHADER_STORAGE_BLOCKS) > 0;
         let storage_alignment = storage.then(|| {
@@ -97,7 +91,7 @@ impl Caps {
             float_blend: since(ALWAYS, NEVER) || has("GL_EXT_float_blend"),
             depth_clamp: since(ALWAYS, NEVER) || has("GL_EXT_depth_clamp"),
             alpha_to_one: since(ALWAYS, NEVER) || has("GL_EXT_multisample_compatibility"),
-            // naga asks for the ES extension by name, which version 3.2 need not list.
+            // naga names the ES extension, which version 3.2 need not list.
             sample_variables: since((4, 0), NEVER) || (es && has("GL_OES_sample_variables")),
             multisample_textures: since(ALWAYS, (3, 1)),
             fixed_restart: since((4, 3), ALWAYS) || has("GL_ARB_ES3_compatibility"),
@@ -106,12 +100,12 @@ impl Caps {
                 || has("GL_ARB_texture_stencil8")
                 || has("GL_OES_texture_stencil8"),
             early_tests: since((4, 2), (3, 1)) || has("GL_ARB_shader_image_load_store"),
-            // naga asks for the extension of ES by name.
+            // naga names the ES extension.
             conservative_depth: since((4, 2), NEVER)
                 || has("GL_ARB_conservative_depth")
                 || (es && has("GL_EXT_conservative_depth")),
             storage_alignment,
-            // ES counts no samples, it tells whether there were any.
+            // ES only has `GL_ANY_SAMPLES_PASSED`.
             samples_passed: !es,
             fragment_invocations: since((4, 6), NEVER)
                 || (!es && has("GL_ARB_pipeline_statistics_query")),
@@ -123,43 +117,7 @@ impl Caps {
     }
 }
 
-/// The features of a context, as far as its version and extensions tell.
-pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
-    let (caps, extra) = (&context.caps, &context.extra);
-    let known = |feature: &Feature| match feature {
-        // Versions from 3 on have these.
-        Feature::CentroidInterpolation
-        | Feature::ConstantAlphaBlendFactor
-        | Feature::FrontAndBackCulling
-        | Feature::MinMaxBlendFactors
-        | Feature::RasterizerDiscard
-        | Feature::ReversedDepthRange
-        | Feature::ScissorOutside
-        | Feature::SeparateStencilMasks
-        | Feature::TriangleFans
-        | Feature::ViewportOutside => true,
-        Feature::AlphaToOne => caps.alpha_to_one,
-        Feature::ConservativeDepth => caps.conservative_depth,
-        Feature::DepthBiasClamp => extra.polygon_offset_clamp.is_some(),
-        Feature::DepthBounds => extra.depth_bounds.is_some(),
-        Feature::DepthClamp => caps.depth_clamp,
-        Feature::DualSourceBlending => caps.dual_source,
-        Feature::ForcedEarlyTests => caps.early_tests,
-        Feature::FragmentInvocations => caps.fragment_invocations,
-        Feature::IndependentBlend => caps.indexed_blend,
-        Feature::LogicOperations => extra.logic_op.is_some(),
-        // Heights of viewports are positive.
-        Feature::MirroredViewport => false,
-        // ES has no `glPolygonMode`.
-        Feature::PolygonModeLine => !caps.es,
-        Feature::PreciseOcclusion => caps.samples_passed,
-        Feature::SampleShading => caps.sample_variables,
-        Feature::StorageCounters => caps.storage_alignment.is_some(),
-    };
-    Feature::ALL.into_iter().filter(known).collect()
-}
-
-/// The shading language of a context; of a future one, the newest that naga knows.
+/// Returns the GLSL version of a context, at most the newest that naga knows.
 fn glsl_version(es: bool, (major, minor): (u32, u32)) -> glsl::Version {
     let number = (major * 100 + minor * 10) as u16;
     if es {

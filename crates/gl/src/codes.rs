@@ -1,17 +1,16 @@
-//! Colour codes in client memory, and codes from the floats that a shader or a driver makes of
-//! them.
+//! Colour codes in client memory.
 
 use etalon_frame::{ChannelEncoding, TextureFormat};
 
-/// How the channels of a texel lie in client memory.
+/// The layout of a texel's channels in client memory.
 enum Layout {
-    /// One integer of so many bytes per channel.
+    /// One integer of this many bytes per channel.
     Each(usize),
-    /// One integer of so many bytes per texel, channels at these bits.
+    /// One integer of this many bytes per texel, with the channels at these bits.
     Packed(usize, &'static [u32]),
 }
 
-/// The layout of the client format that `gl_format` names.
+/// Returns the layout of the client format of `gl_format`.
 fn layout(format: TextureFormat) -> Layout {
     match format {
         TextureFormat::Rgb10a2Unorm => Layout::Packed(4, &[0, 10, 20, 30]),
@@ -25,7 +24,7 @@ fn layout(format: TextureFormat) -> Layout {
     }
 }
 
-/// The size of a texel in client memory in bytes.
+/// Returns the size of a texel in client memory.
 pub(crate) fn texel_bytes(format: TextureFormat) -> usize {
     match layout(format) {
         Layout::Each(size) => size * format.color_channels().len(),
@@ -33,7 +32,7 @@ pub(crate) fn texel_bytes(format: TextureFormat) -> usize {
     }
 }
 
-/// Codes as a client image, texel after texel.
+/// Returns the client image of codes.
 pub(crate) fn pack(format: TextureFormat, codes: &[u32]) -> Vec<u8> {
     let mut bytes = Vec::new();
     match layout(format) {
@@ -52,7 +51,7 @@ pub(crate) fn pack(format: TextureFormat, codes: &[u32]) -> Vec<u8> {
     bytes
 }
 
-/// The codes of a client image.
+/// Returns the codes of a client image.
 pub(crate) fn unpack(format: TextureFormat, bytes: &[u8]) -> Vec<u32> {
     match layout(format) {
         Layout::Each(size) => bytes.chunks_exact(size).map(get).collect(),
@@ -67,7 +66,7 @@ pub(crate) fn unpack(format: TextureFormat, bytes: &[u8]) -> Vec<u32> {
     }
 }
 
-/// GL's client integers have the processor's byte order.
+/// Client integers have native byte order.
 fn put(bytes: &mut Vec<u8>, word: u32, size: usize) {
     match size {
         1 => bytes.push(word as u8),
@@ -85,7 +84,7 @@ fn get(bytes: &[u8]) -> u32 {
     }
 }
 
-/// The width of a code in bits.
+/// Returns the width of a code in bits.
 pub(crate) fn bits(encoding: ChannelEncoding) -> u32 {
     match encoding {
         ChannelEncoding::Unorm(bits)
@@ -96,38 +95,6 @@ pub(crate) fn bits(encoding: ChannelEncoding) -> u32 {
         ChannelEncoding::Float32 => 32,
         ChannelEncoding::Ufloat(mantissa) => u32::from(mantissa) + 5,
     }
-}
-
-/// The code whose value a 32-bit float, given by its bits, holds exactly or as nearly as a float
-/// can: this undoes a conversion and makes none.
-pub(crate) fn of_float(encoding: ChannelEncoding, float: u32) -> u32 {
-    let value = f64::from(f32::from_bits(float));
-    match encoding {
-        ChannelEncoding::Float32 => float,
-        ChannelEncoding::Float16 => short_float(float, 10),
-        ChannelEncoding::Ufloat(mantissa) => short_float(float, u32::from(mantissa)),
-        ChannelEncoding::Unorm(_)
-        | ChannelEncoding::Snorm(_)
-        | ChannelEncoding::Srgb8
-        | ChannelEncoding::Uint(_) => encoding.nearest_code(value),
-    }
-}
-
-/// A float of 5 exponent bits from a 32-bit one that holds the same value.
-fn short_float(float: u32, mantissa: u32) -> u32 {
-    let exponent = (float >> 23 & 0xff) as i32 - 127;
-    let fraction = float & 0x7f_ffff;
-    let shift = 23 - mantissa;
-    let infinity = 31 << mantissa;
-    let magnitude = match exponent {
-        128 if fraction != 0 => infinity | (fraction >> shift).max(1),
-        16.. => infinity,
-        -14..=15 => ((exponent + 15) as u32) << mantissa | fraction >> shift,
-        _ => (0x80_0000 | fraction)
-            .checked_shr(shift + (-14 - exponent) as u32)
-            .unwrap_or(0),
-    };
-    (float >> 31) << (5 + mantissa) | magnitude
 }
 
 #[cfg(test)]
@@ -147,35 +114,5 @@ mod tests {
             assert_eq!(bytes.len(), texel_bytes(format) * 3, "{format}");
             assert_eq!(unpack(format, &bytes), codes, "{format}");
         }
-    }
-
-    #[test]
-    fn codes_come_back_from_floats() {
-        for encoding in [
-            ChannelEncoding::Unorm(16),
-            ChannelEncoding::Unorm(10),
-            ChannelEncoding::Snorm(8),
-            ChannelEncoding::Srgb8,
-            ChannelEncoding::Float16,
-            ChannelEncoding::Ufloat(6),
-            ChannelEncoding::Ufloat(5),
-        ] {
-            for order in encoding.min_order()..=encoding.max_order() {
-                let code = encoding.code_of_order(order);
-                let float = (encoding.value_of_order(order) as f32).to_bits();
-                let back = of_float(encoding, float);
-                // -1 has two codes.
-                let same = encoding.value_of_order(encoding.order_of_code(back));
-                assert_eq!(same, encoding.value_of_order(order), "{encoding} {code}");
-            }
-        }
-        assert_eq!(of_float(ChannelEncoding::Float16, 0x8000_0000), 0x8000);
-        let infinity = f32::INFINITY.to_bits();
-        assert_eq!(of_float(ChannelEncoding::Float16, infinity), 0x7c00);
-        assert_eq!(of_float(ChannelEncoding::Ufloat(6), infinity), 0x7c0);
-        assert_eq!(
-            of_float(ChannelEncoding::Float16, f32::NAN.to_bits()),
-            0x7e00
-        );
     }
 }

@@ -1,37 +1,32 @@
-//! A current context: glow, what glow lacks, what the context can do, and its errors.
+//! The current context with its entry points, capabilities and errors.
 
 use crate::caps::Caps;
-use crate::egl::EglContext;
-use crate::extra::Extra;
-use crate::{Options, Profile, Tuning};
+use crate::debug_output::{self, Log};
+use crate::egl::{EglContext, function_at};
+use crate::entry_points::EntryPoints;
+use crate::options::{Options, Profile, Tuning};
 use etalon_backend::{BackendError, Unavailable};
 use glow::HasContext;
-use std::ffi::{CStr, c_char, c_void};
-use std::sync::{Mutex, PoisonError};
+use std::ffi::{CStr, c_char};
+use std::sync::PoisonError;
 
-/// The most debug messages that are kept between two calls that fetch them.
-const MAX_MESSAGES: usize = 1000;
-/// A lost context may report errors without end.
+/// A lost context may report errors forever.
 const MAX_ERRORS: usize = 16;
 
-const UPPER_LEFT: u32 = 0x8CA2;
-const ZERO_TO_ONE: u32 = 0x935F;
-const QUERY_COUNTER_BITS: u32 = 0x8864;
 const GPU_DISJOINT_EXT: u32 = 0x8FBB;
-const CONTEXT_LOST: u32 = 0x0507;
 
-/// A context with everything that lives as long as it does.
+/// A context with everything of the same lifetime.
 pub(crate) struct Context {
     pub(crate) gl: glow::Context,
     pub(crate) caps: Caps,
     pub(crate) names: Names,
-    pub(crate) extra: Extra,
-    // The order is that of dropping: the driver may call back until the context is gone.
+    pub(crate) entry_points: EntryPoints,
+    // Fields drop in order: the driver may write to the log until the context is destroyed.
     egl: EglContext,
-    log: Box<Mutex<Vec<String>>>,
+    log: Box<Log>,
 }
 
-/// What the driver calls itself.
+/// The driver's own names.
 pub(crate) struct Names {
     pub(crate) renderer: String,
     pub(crate) vendor: String,
@@ -39,7 +34,7 @@ pub(crate) struct Names {
 }
 
 impl Context {
-    /// Wraps a context that has just been made current.
+    /// Wraps a context that was just made current.
     pub(crate) fn new(
         egl: EglContext,
         options: &Options,
@@ -47,18 +42,18 @@ impl Context {
     ) -> Result<Self, Unavailable> {
         let names = Names::query(&egl)?;
         let es = options.profile == Profile::Es;
-        let version = parse_version(&names.version).ok_or_else(|| broken("GL_VERSION"))?;
+        let version = parse_version(&names.version).ok_or_else(|| unusable("GL_VERSION"))?;
         if version < if es { (3, 0) } else { (3, 3) } {
-            return Err(broken("GL_VERSION"));
+            return Err(unusable("GL_VERSION"));
         }
-        // SAFETY: the context is current, has told a version in the documented form, and stays
+        // SAFETY: the context is current, reports a version in the documented form, and stays
         // current on this thread whenever the functions are called.
         let gl = unsafe { glow::Context::from_loader_function_cstr(|name| egl.proc_address(name)) };
         let known = gl.supported_extensions();
-        let extra = Extra::load(&egl, es, version, known);
+        let entry_points = EntryPoints::load(&egl, es, version, known);
         let mut caps = Caps::query(&gl, es, version);
-        caps.clip_control = extra.clip_control.is_some() && tuning.clip_control;
-        if options.debug && extra.debug_callback.is_none() {
+        caps.clip_control = entry_points.clip_control.is_some() && tuning.clip_control;
+        if options.debug && entry_points.debug_callback.is_none() {
             return Err(Unavailable::new(
                 "the driver has no debug output (KHR_debug)",
                 "use a newer driver, or do without validation",
@@ -68,11 +63,11 @@ impl Context {
             gl,
             caps,
             names,
-            extra,
+            entry_points,
             egl,
             log: Box::default(),
         };
-        // Asking for a target that the context does not know would be an error.
+        // A query of an unknown target would be an error.
         let Caps {
             timer,
             samples_passed,
@@ -103,7 +98,7 @@ impl Context {
         })
     }
 
-    /// EGL's name of the driver, and the vendor.
+    /// Returns EGL's name of the driver, if any, and the vendor.
     pub(crate) fn driver_id(&self) -> String {
         match self.egl.driver() {
             Some(driver) => format!("{driver}, {}", self.names.vendor),
@@ -111,28 +106,29 @@ impl Context {
         }
     }
 
-    /// Whether the processor does the drawing, by the names that Mesa, SwiftShader and ANGLE use.
+    /// Returns true for a software rasterizer, by the names that Mesa, SwiftShader and ANGLE use.
     pub(crate) fn is_software(&self) -> bool {
         let renderer = self.names.renderer.to_lowercase();
         let known = ["llvmpipe", "softpipe", "swiftshader", "swrast", "lavapipe"];
         known.iter().any(|name| renderer.contains(name))
-            // Under zink EGL's device says nothing of the Vulkan device behind it.
+            // With zink, EGL's device does not describe the Vulkan device behind it.
             || (self.egl.is_software() && !renderer.starts_with("zink"))
     }
 
-    /// Sets WebGPU's conventions, where the context can.
+    /// Sets WebGPU's conventions, if the context has `glClipControl`.
     pub(crate) fn set_clip_control(&self) {
         if self.caps.clip_control
-            && let Some(clip_control) = self.extra.clip_control
+            && let Some(clip_control) = self.entry_points.clip_control
         {
             // SAFETY: the context is current and has the function.
-            unsafe { clip_control(UPPER_LEFT, ZERO_TO_ONE) };
+            unsafe { clip_control(glow::UPPER_LEFT, glow::ZERO_TO_ONE) };
         }
     }
 
-    /// The result of a finished `GL_TIME_ELAPSED` query in nanoseconds, if it can be trusted.
+    /// Returns the result of a finished `GL_TIME_ELAPSED` query in nanoseconds, unless the timer
+    /// was disjoint.
     pub(crate) fn elapsed(&self, query: glow::Query) -> Option<u64> {
-        let get = self.extra.get_query_result?;
+        let get = self.entry_points.get_query_result?;
         let mut nanoseconds = 0;
         // SAFETY: the context is current, the query has ended and the result has room.
         unsafe {
@@ -142,10 +138,10 @@ impl Context {
         }
     }
 
-    /// The result of a finished query that counts.
+    /// Returns the result of a finished counter query.
     pub(crate) fn query_result(&self, query: glow::Query) -> u64 {
-        // ES without timer queries has 32-bit results only, which are enough for a yes or no.
-        let Some(get) = self.extra.get_query_result else {
+        // ES without timer queries has 32-bit results only, enough for a boolean.
+        let Some(get) = self.entry_points.get_query_result else {
             // SAFETY: the context is current and the query has ended.
             return u64::from(unsafe {
                 self.gl.get_query_parameter_u32(query, glow::QUERY_RESULT)
@@ -157,36 +153,39 @@ impl Context {
         count
     }
 
-    /// Whether queries of a target, which the version or an extension must promise, count at all.
+    /// Returns true if queries of a supported target have counter bits.
     fn counts(&self, target: u32) -> bool {
-        let (Some(get), Some(_)) = (self.extra.get_query, self.extra.get_query_result) else {
+        let (Some(get), Some(_)) = (
+            self.entry_points.get_query,
+            self.entry_points.get_query_result,
+        ) else {
             return false;
         };
         let mut bits = 0;
         // SAFETY: the context is current and the result has room.
-        unsafe { get(target, QUERY_COUNTER_BITS, &mut bits) };
+        unsafe { get(target, glow::QUERY_COUNTER_BITS, &mut bits) };
         bits > 0
     }
 
     fn start_debug_output(&self) {
-        let Some(set) = self.extra.debug_callback else {
+        let Some(set) = self.entry_points.debug_callback else {
             return;
         };
-        let log: *const Mutex<Vec<String>> = &*self.log;
+        let log: *const Log = &*self.log;
         // SAFETY: the context is current and has debug output; the log outlives the context.
         unsafe {
             self.gl.enable(glow::DEBUG_OUTPUT);
             self.gl.enable(glow::DEBUG_OUTPUT_SYNCHRONOUS);
-            set(Some(debug_message), log.cast());
+            set(Some(debug_output::collect), log.cast());
         }
     }
 
-    /// The debug messages since the last call.
+    /// Returns the debug messages since the last call.
     pub(crate) fn messages(&self) -> Vec<String> {
         std::mem::take(&mut *self.log.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Fetches pending errors; the gravest becomes the result.
+    /// Fetches pending errors and returns the most severe.
     pub(crate) fn check(&self, what: &str) -> Result<(), BackendError> {
         let mut result = Ok(());
         for _ in 0..MAX_ERRORS {
@@ -194,7 +193,7 @@ impl Context {
             let code = unsafe { self.gl.get_error() };
             match code {
                 glow::NO_ERROR => break,
-                CONTEXT_LOST => {
+                glow::CONTEXT_LOST => {
                     result = Err(lost(what));
                     break;
                 }
@@ -208,7 +207,7 @@ impl Context {
                 _ => {}
             }
         }
-        if let Some(status) = self.extra.get_reset_status {
+        if let Some(status) = self.entry_points.get_reset_status {
             // SAFETY: the context is current and has the function.
             if unsafe { status() } != glow::NO_ERROR {
                 result = Err(lost(what));
@@ -221,7 +220,7 @@ impl Context {
 impl Drop for Context {
     fn drop(&mut self) {
         if self.egl.make_current().is_ok()
-            && let Some(set) = self.extra.debug_callback
+            && let Some(set) = self.entry_points.debug_callback
         {
             // SAFETY: the context is current and has debug output.
             unsafe { set(None, std::ptr::null()) };
@@ -231,18 +230,15 @@ impl Drop for Context {
 
 impl Names {
     fn query(egl: &EglContext) -> Result<Self, Unavailable> {
-        let address = egl.proc_address(c"glGetString");
-        if address.is_null() {
-            return Err(broken("glGetString"));
-        }
         type GetString = unsafe extern "system" fn(u32) -> *const c_char;
         // SAFETY: every version of GL gives this name this type.
-        let get = unsafe { std::mem::transmute::<*const c_void, GetString>(address) };
+        let get: Option<GetString> = unsafe { function_at(egl.proc_address(c"glGetString")) };
+        let get = get.ok_or_else(|| unusable("glGetString"))?;
         let text = |name, what| {
             // SAFETY: a context is current, and GL's strings are terminated.
             let pointer = unsafe { get(name) };
             if pointer.is_null() {
-                return Err(broken(what));
+                return Err(unusable(what));
             }
             // SAFETY: as above.
             Ok(unsafe { CStr::from_ptr(pointer) }
@@ -256,7 +252,7 @@ impl Names {
         })
     }
 
-    /// The part of `GL_VERSION` that names the driver's version: `Mesa 22.3.6`.
+    /// Returns the part of `GL_VERSION` that names the driver's version: `Mesa 22.3.6`.
     pub(crate) fn driver_version(&self) -> &str {
         let rest = self.version.trim_start_matches("OpenGL ES ");
         let rest = rest.split_once(' ').map_or("", |(_, rest)| rest);
@@ -264,56 +260,7 @@ impl Names {
     }
 }
 
-/// Collects what a correct program never causes; performance hints and chatter are left out.
-extern "system" fn debug_message(
-    _source: u32,
-    kind: u32,
-    id: u32,
-    severity: u32,
-    length: i32,
-    message: *const c_char,
-    user: *const c_void,
-) {
-    let Some(kind) = grave(kind, severity) else {
-        return;
-    };
-    if message.is_null() {
-        return;
-    }
-    let length = usize::try_from(length).unwrap_or(0);
-    // SAFETY: the driver gives a message of this length and the pointer that it was given, which
-    // outlives the context.
-    let (bytes, log) = unsafe {
-        (
-            std::slice::from_raw_parts(message.cast::<u8>(), length),
-            &*user.cast::<Mutex<Vec<String>>>(),
-        )
-    };
-    let mut log = log.lock().unwrap_or_else(PoisonError::into_inner);
-    if log.len() < MAX_MESSAGES {
-        log.push(format!(
-            "{kind} {id}: {}",
-            String::from_utf8_lossy(bytes).trim()
-        ));
-    }
-}
-
-/// What a kind of message is called, if it tells of a mistake: errors and undefined behaviour always,
-/// what is outdated or not portable unless it is a trifle, other words where they are called grave.
-fn grave(kind: u32, severity: u32) -> Option<&'static str> {
-    let high = severity == glow::DEBUG_SEVERITY_HIGH;
-    let medium = high || severity == glow::DEBUG_SEVERITY_MEDIUM;
-    match kind {
-        glow::DEBUG_TYPE_ERROR => Some("error"),
-        glow::DEBUG_TYPE_UNDEFINED_BEHAVIOR => Some("undefined behaviour"),
-        glow::DEBUG_TYPE_DEPRECATED_BEHAVIOR if medium => Some("deprecated"),
-        glow::DEBUG_TYPE_PORTABILITY if medium => Some("portability"),
-        glow::DEBUG_TYPE_OTHER if high => Some("other"),
-        _ => None,
-    }
-}
-
-/// An object that the driver would not make.
+/// Returns the error of an object that the driver refused to create.
 pub(crate) fn refused(what: &str, message: impl Into<String>) -> BackendError {
     BackendError::Resource {
         what: what.to_owned(),
@@ -325,9 +272,9 @@ fn lost(what: &str) -> BackendError {
     BackendError::DeviceLost(format!("{what}: the context was lost"))
 }
 
-fn broken(what: &str) -> Unavailable {
+fn unusable(what: &str) -> Unavailable {
     Unavailable::new(
-        format!("the context tells no usable {what}"),
+        format!("the context reports no usable {what}"),
         "use another driver",
     )
 }
@@ -342,7 +289,7 @@ fn error_name(code: u32) -> String {
     }
 }
 
-/// The first two numbers of `GL_VERSION`.
+/// Returns the first two numbers of `GL_VERSION`.
 fn parse_version(text: &str) -> Option<(u32, u32)> {
     let text = text.trim_start_matches("OpenGL ES ");
     let (major, rest) = text.split_once('.')?;
@@ -353,20 +300,6 @@ fn parse_version(text: &str) -> Option<(u32, u32)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn mistakes_are_told_and_hints_are_not() {
-        let low = glow::DEBUG_SEVERITY_LOW;
-        let medium = glow::DEBUG_SEVERITY_MEDIUM;
-        let high = glow::DEBUG_SEVERITY_HIGH;
-        assert!(grave(glow::DEBUG_TYPE_ERROR, low).is_some());
-        assert!(grave(glow::DEBUG_TYPE_UNDEFINED_BEHAVIOR, low).is_some());
-        assert!(grave(glow::DEBUG_TYPE_PORTABILITY, medium).is_some());
-        assert!(grave(glow::DEBUG_TYPE_PORTABILITY, low).is_none());
-        assert!(grave(glow::DEBUG_TYPE_OTHER, high).is_some());
-        assert!(grave(glow::DEBUG_TYPE_OTHER, medium).is_none());
-        assert!(grave(glow::DEBUG_TYPE_PERFORMANCE, high).is_none());
-    }
 
     #[test]
     fn versions_are_parsed() {

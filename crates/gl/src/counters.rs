@@ -1,41 +1,25 @@
-//! What draws count: queries around them, and memory in which shaders count their runs.
+//! The counters of a scene: queries around draws, and a storage buffer that shaders count in.
 
 use crate::context::{Context, refused};
 use crate::pool::Pool;
+use crate::query::{Query, query_target};
 use etalon_backend::BackendError;
 use etalon_frame::CounterKind;
 use etalon_scene::{Counter, Draw};
 use glow::HasContext;
 
-/// A query around one draw. A query object stays with the target that it was first begun for.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Query {
-    pub(crate) target: u32,
-    pub(crate) object: glow::Query,
-}
-
-/// A scene's counters.
+/// The counters of a scene.
 #[derive(Default)]
 pub(crate) struct Counters {
     kinds: Vec<CounterKind>,
-    /// The queries of all draws, each with its counter.
+    /// The queries of all draws with the index of their counter.
     queries: Vec<(usize, Query)>,
-    /// The distance of two counters of runs in bytes.
+    /// The distance between two counters in the storage buffer, in bytes.
     stride: usize,
 }
 
-/// The query target of a kind; `None` where shaders count themselves.
-pub(crate) fn query_target(kind: CounterKind) -> Option<u32> {
-    match kind {
-        CounterKind::SamplesPassed => Some(glow::SAMPLES_PASSED),
-        CounterKind::AnySamplesPassed => Some(glow::ANY_SAMPLES_PASSED),
-        CounterKind::FragmentInvocations => Some(glow::FRAGMENT_SHADER_INVOCATIONS),
-        CounterKind::ShaderRuns => None,
-    }
-}
-
 impl Counters {
-    /// A scene's counters, without queries yet.
+    /// Returns a scene's counters, without queries yet.
     pub(crate) fn new(context: &Context, counters: &[Counter]) -> Self {
         let alignment = context.caps.storage_alignment.unwrap_or(1);
         Self {
@@ -45,8 +29,7 @@ impl Counters {
         }
     }
 
-    /// The size in bytes of the memory that shaders count in: a place for each counter, of whatever
-    /// kind.
+    /// Returns the size of the storage buffer in bytes: one place per counter, of any kind.
     pub(crate) fn storage_size(&self) -> usize {
         if self.kinds.contains(&CounterKind::ShaderRuns) {
             self.stride * self.kinds.len()
@@ -55,7 +38,7 @@ impl Counters {
         }
     }
 
-    /// The queries that count a draw.
+    /// Returns the queries of a draw.
     pub(crate) fn queries(
         &mut self,
         context: &Context,
@@ -73,15 +56,15 @@ impl Counters {
         Ok(made)
     }
 
-    /// Where the runs of a draw's shader are counted, in bytes.
+    /// Returns the offset of the counter that the draw's shader increments.
     pub(crate) fn runs(&self, draw: &Draw) -> Option<i32> {
         let counts = |i: &usize| self.kinds.get(*i) == Some(&CounterKind::ShaderRuns);
         let index = draw.counters.iter().copied().find(counts)?;
         Some((index * self.stride) as i32)
     }
 
-    /// Sets the memory of runs to 0, after whatever shaders wrote there before.
-    pub(crate) fn start(&self, context: &Context, runs: Option<(glow::Buffer, usize)>) {
+    /// Zeroes the storage buffer, after all writes of earlier shaders.
+    pub(crate) fn reset(&self, context: &Context, runs: Option<(glow::Buffer, usize)>) {
         let Some((buffer, size)) = runs else {
             return;
         };
@@ -94,7 +77,7 @@ impl Counters {
         }
     }
 
-    /// The counts after the draws.
+    /// Returns the counts after the draws.
     pub(crate) fn read(
         &self,
         context: &Context,
@@ -129,7 +112,7 @@ impl Counters {
             gl.memory_barrier(glow::BUFFER_UPDATE_BARRIER_BIT);
             let target = glow::SHADER_STORAGE_BUFFER;
             gl.bind_buffer(target, Some(buffer));
-            // ES has no other way to a buffer's contents.
+            // ES has no other way to read a buffer.
             let mapped = gl.map_buffer_range(target, 0, size as i32, glow::MAP_READ_BIT);
             if mapped.is_null() {
                 return Err(refused("the counts of shader runs", "glMapBufferRange"));
@@ -144,10 +127,10 @@ impl Counters {
         Ok(bytes.chunks_exact(self.stride).map(first).collect())
     }
 
-    /// Gives the queries back to the pool, or frees them where something has failed.
-    pub(crate) fn give_back(self, context: &Context, pool: &mut Pool, sound: bool) {
+    /// Returns the queries to the pool, or deletes them after a failure.
+    pub(crate) fn give_back(self, context: &Context, pool: &mut Pool, reusable: bool) {
         for (_, query) in self.queries {
-            if sound {
+            if reusable {
                 pool.put_query(context, query);
             } else {
                 // SAFETY: the context is current and the object is its own.

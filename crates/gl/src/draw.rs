@@ -1,12 +1,12 @@
-//! Drawing a prepared scene.
+//! The draw calls of a prepared scene.
 
+use crate::attachment::Attachment;
 use crate::context::Context;
-use crate::counters::Query;
 use crate::pool::Target;
-use crate::prepared::Attachment;
 use crate::program::{PARAMS_BINDING, RUNS_BINDING};
+use crate::query::Query;
 use crate::state::{self, DrawState};
-use crate::surface::{Surface, upload};
+use crate::surface::Surface;
 use etalon_frame::TextureFormat;
 use etalon_scene::Vertex;
 use glow::HasContext;
@@ -18,34 +18,24 @@ pub(crate) struct Inputs {
     pub(crate) vertices: Option<(glow::Buffer, usize)>,
     pub(crate) indices: Option<(glow::Buffer, usize)>,
     pub(crate) params: Option<(glow::Buffer, usize)>,
-    /// Where shaders count their runs.
+    /// The storage buffer that shaders count in.
     pub(crate) runs: Option<(glow::Buffer, usize)>,
 }
 
 impl Inputs {
-    /// The buffers that there are.
+    /// Returns all buffers.
     pub(crate) fn into_buffers(self) -> impl Iterator<Item = (glow::Buffer, usize)> {
         let all = [self.vertices, self.indices, self.params, self.runs];
         all.into_iter().flatten()
     }
 }
 
-/// How an attachment gets its first contents at each submit.
-pub(crate) enum Start {
-    /// Uploaded once: no pass draws to it.
-    Uploaded,
-    Upload(Vec<u8>),
-    Color([f32; 4]),
-    Integers([u32; 4]),
-    DepthStencil(f32, u8),
-}
-
 pub(crate) struct Pass {
     pub(crate) target: Target,
-    /// A colour attachment is sRGB.
+    /// True if a colour attachment is sRGB.
     pub(crate) srgb: bool,
     pub(crate) draws: Vec<DrawCall>,
-    /// Attachments with several samples and those that they are averaged to.
+    /// Multisampled attachments and their resolve targets.
     pub(crate) resolves: Vec<(usize, usize)>,
 }
 
@@ -53,56 +43,20 @@ pub(crate) struct DrawCall {
     pub(crate) program: glow::Program,
     pub(crate) state: DrawState,
     pub(crate) textures: Vec<glow::Texture>,
-    /// How they are sampled; `None` where texels are fetched.
+    /// The sampler; `None` if texels are fetched.
     pub(crate) sampler: Option<glow::Sampler>,
-    /// What is counted around the draw.
+    /// The queries around the draw.
     pub(crate) queries: Vec<Query>,
-    /// Where the shader's runs are counted, if it counts them.
+    /// The offset of the counter, if the shader counts.
     pub(crate) runs: Option<i32>,
-    /// Where the parameter block lies, if the shader has one.
+    /// The offset of the parameter block, if the shader has one.
     pub(crate) params: Option<i32>,
     pub(crate) mode: u32,
-    /// Vertices are named by indices.
+    /// True for an indexed draw.
     pub(crate) indexed: bool,
     /// The first vertex or index.
     pub(crate) first: i32,
     pub(crate) count: i32,
-}
-
-/// Gives all attachments their first contents. Masks and scissor are open (`state::reset`).
-pub(crate) fn initialise(context: &Context, attachments: &[Attachment]) {
-    let gl = &context.gl;
-    for attachment in attachments {
-        let surface = &attachment.surface;
-        let format = attachment.format;
-        // SAFETY: the context is current and all objects are its own.
-        unsafe {
-            match &attachment.start {
-                Start::Uploaded => {}
-                Start::Upload(bytes) => upload(context, format, surface, bytes),
-                Start::Color(color) => {
-                    state::set_srgb(context, format == TextureFormat::Rgba8UnormSrgb);
-                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
-                    gl.clear_buffer_f32_slice(glow::COLOR, 0, color);
-                }
-                Start::Integers(color) => {
-                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
-                    gl.clear_buffer_u32_slice(glow::COLOR, 0, color);
-                }
-                Start::DepthStencil(depth, stencil) => {
-                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
-                    let stencil = i32::from(*stencil);
-                    match (format.has_depth(), format.has_stencil()) {
-                        (true, true) => {
-                            gl.clear_buffer_depth_stencil(glow::DEPTH_STENCIL, 0, *depth, stencil);
-                        }
-                        (true, false) => gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[*depth]),
-                        _ => gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[stencil]),
-                    }
-                }
-            }
-        }
-    }
 }
 
 /// Draws all passes.
@@ -121,7 +75,7 @@ pub(crate) fn draw_all(
             glow::ARRAY_BUFFER,
             inputs.vertices.map(|(buffer, _)| buffer),
         );
-        // The vertex array keeps this one.
+        // The vertex array stores this binding.
         let indices = inputs.indices.map(|(buffer, _)| buffer);
         gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, indices);
         let attributes = [
@@ -153,7 +107,7 @@ pub(crate) fn draw_all(
         }
         for (from, to) in &pass.resolves {
             if let (Some(from), Some(to)) = (attachments.get(*from), attachments.get(*to)) {
-                // Copies obey the scissor.
+                // Blits are subject to the scissor test.
                 state::reset(context);
                 state::set_srgb(context, to.format == TextureFormat::Rgba8UnormSrgb);
                 resolve(context, &from.surface, &to.surface);
@@ -202,13 +156,13 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
             gl.end_query(query.target);
         }
         if draw.runs.is_some() {
-            // The next draw may count on.
+            // The next draw may use the same counter.
             gl.memory_barrier(glow::SHADER_STORAGE_BARRIER_BIT);
         }
     }
 }
 
-/// Averages the samples of one colour surface into another of the same size and format.
+/// Resolves a colour surface to another of the same size and format.
 fn resolve(context: &Context, from: &Surface, to: &Surface) {
     let gl = &context.gl;
     let [w, h] = from.size().map(|side| side as i32);

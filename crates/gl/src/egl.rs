@@ -1,11 +1,11 @@
 //! EGL, loaded at run time: displays, devices and contexts without a surface.
 //!
-//! `khronos-egl` loads the entry points. They are called without its wrappers, which panic on error
-//! codes that they do not know.
+//! `khronos-egl` loads the entry points. They are called without its wrappers, which panic on
+//! unknown error codes.
 
 use etalon_backend::Unavailable;
 use khronos_egl::api::{EGL1_0 as _, EGL1_2 as _, EGL1_4 as _};
-use khronos_egl::{Dynamic, EGL1_4};
+use khronos_egl::{self as egl, Dynamic, EGL1_4};
 use libloading::Library;
 use std::collections::HashSet;
 use std::ffi::{CStr, c_char, c_void};
@@ -17,62 +17,51 @@ type Config = *mut c_void;
 type ContextHandle = *mut c_void;
 type Device = *mut c_void;
 
-const VENDOR: i32 = 0x3053;
-const EXTENSIONS: i32 = 0x3055;
-const NONE: i32 = 0x3038;
-const SURFACE_TYPE: i32 = 0x3033;
-const RENDERABLE_TYPE: i32 = 0x3040;
-const OPENGL_BIT: i32 = 0x0008;
-const OPENGL_ES3_BIT: i32 = 0x0040;
-const OPENGL_API: u32 = 0x30A2;
-const OPENGL_ES_API: u32 = 0x30A0;
-const CONTEXT_MAJOR_VERSION: i32 = 0x3098;
-const CONTEXT_MINOR_VERSION: i32 = 0x30FB;
-const CONTEXT_FLAGS_KHR: i32 = 0x30FC;
-const CONTEXT_DEBUG_BIT_KHR: i32 = 1;
-const CONTEXT_PROFILE_MASK: i32 = 0x30FD;
-const CONTEXT_CORE_PROFILE_BIT: i32 = 1;
-const CONTEXT_RESET_STRATEGY: i32 = 0x31BD;
-const CONTEXT_RESET_STRATEGY_EXT: i32 = 0x3138;
-const LOSE_CONTEXT_ON_RESET: i32 = 0x31BF;
-const CONTEXT_DEBUG: i32 = 0x31B0;
-const PLATFORM_SURFACELESS_MESA: u32 = 0x31DD;
-const PLATFORM_DEVICE_EXT: u32 = 0x313F;
-const DEVICE_EXT: i32 = 0x322C;
-const DRM_DEVICE_FILE_EXT: i32 = 0x3233;
-const DRM_RENDER_NODE_FILE_EXT: i32 = 0x3377;
-const RENDERER_EXT: i32 = 0x335F;
-const CONTEXT_LOST: i32 = 0x300E;
+/// Constants of extensions, which `khronos-egl` lacks.
+mod ext {
+    pub(super) const CONTEXT_FLAGS_KHR: i32 = 0x30FC;
+    pub(super) const CONTEXT_OPENGL_DEBUG_BIT_KHR: i32 = 0x0001;
+    pub(super) const CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT: i32 = 0x3138;
+    pub(super) const PLATFORM_SURFACELESS_MESA: u32 = 0x31DD;
+    pub(super) const PLATFORM_DEVICE_EXT: u32 = 0x313F;
+    pub(super) const DEVICE_EXT: i32 = 0x322C;
+    pub(super) const DRM_DEVICE_FILE_EXT: i32 = 0x3233;
+    pub(super) const DRM_RENDER_NODE_FILE_EXT: i32 = 0x3377;
+    pub(super) const RENDERER_EXT: i32 = 0x335F;
+}
 
-/// The system's library, which passes calls on to the drivers' own.
+/// The system's dispatch library.
 const SYSTEM: &str = "libEGL.so.1";
 const INSTALL_EGL: &str = "apt-get install libegl1 libgl1-mesa-dri";
 
-/// Through which EGL platform a driver is reached.
+/// The EGL platform that selects a driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Platform {
-    /// `EGL_MESA_platform_surfaceless`, or the default display where EGL lacks it: the environment
-    /// chooses the driver.
+    /// `EGL_MESA_platform_surfaceless`, or the default display without it. The environment selects
+    /// the driver.
     Surfaceless,
-    /// The device of this position in the order of `EGL_EXT_device_enumeration`.
+    /// The device with this index in the order of `EGL_EXT_device_enumeration`.
     Device(usize),
 }
 
-/// One EGL device.
+/// An EGL device.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EglDevice {
-    /// The device's position: opens with [`Platform::Device`].
+    /// The index for [`Platform::Device`].
     pub index: usize,
-    /// Whether the processor does the drawing (`EGL_MESA_device_software`).
+    /// True for a software rasterizer (`EGL_MESA_device_software`).
     pub software: bool,
-    /// The DRM node (`/dev/dri/renderD128`), the primary node where no render node is told.
+    /// The DRM render node (`/dev/dri/renderD128`), or else the primary node.
     pub drm_node: Option<String>,
-    /// The renderer's name, where EGL tells it before a context exists (`EGL_EXT_device_query_name`).
+    /// The renderer's name (`EGL_EXT_device_query_name`).
     pub renderer: Option<String>,
-    /// The driver's short name in small letters: `radeonsi`, `nvidia`. `None` for a software device, which
-    /// is not opened, and where EGL tells none.
+    /// The driver's short name in lower case: `radeonsi`, `nvidia`. `None` if EGL has no name, and
+    /// for software devices, which are not opened.
     pub driver: Option<String>,
 }
+
+/// The client extensions that define the device queries.
+const DEVICE_QUERY: [&str; 2] = ["EGL_EXT_device_base", "EGL_EXT_device_query"];
 
 type GetProcAddress = unsafe extern "system" fn(*const c_char) -> *const c_void;
 type GetPlatformDisplay = unsafe extern "system" fn(u32, *mut c_void, *const i32) -> Display;
@@ -81,16 +70,16 @@ type QueryDeviceString = unsafe extern "system" fn(Device, i32) -> *const c_char
 type QueryDisplayAttrib = unsafe extern "system" fn(Display, i32, *mut isize) -> u32;
 type GetDisplayDriverName = unsafe extern "system" fn(Display) -> *const c_char;
 
-/// The loaded library. It stays for the life of the process: drivers do not survive unloading.
+/// A loaded EGL library, never unloaded: some drivers do not survive it.
 pub(crate) struct Egl {
     functions: Dynamic<Arc<Library>, EGL1_4>,
-    /// `khronos-egl` has this return a function, which null is not.
+    /// `khronos-egl` declares that this returns a function, which null is not.
     get_proc_address: GetProcAddress,
     extensions: HashSet<String>,
 }
 
-/// The entry points of a library, the system's where none is named; loaded at the first call.
-pub(crate) fn egl(library: Option<&Path>) -> Result<&'static Egl, Unavailable> {
+/// Returns the entry points of a library, by default the system's, loaded at the first call.
+pub(crate) fn library(library: Option<&Path>) -> Result<&'static Egl, Unavailable> {
     type Loaded = (PathBuf, Result<&'static Egl, Unavailable>);
     static LOADED: Mutex<Vec<Loaded>> = Mutex::new(Vec::new());
     let path = library.unwrap_or(Path::new(SYSTEM));
@@ -103,9 +92,9 @@ pub(crate) fn egl(library: Option<&Path>) -> Result<&'static Egl, Unavailable> {
     egl
 }
 
-/// What a context is asked to be.
+/// The API and debug flag of a context.
 #[derive(Clone, Copy)]
-pub(crate) struct Wanted {
+pub(crate) struct ContextRequest {
     pub(crate) es: bool,
     pub(crate) debug: bool,
 }
@@ -139,17 +128,29 @@ impl Egl {
         Ok(egl)
     }
 
-    /// The address of an EGL extension's or a GL entry point. Being told one proves nothing:
-    /// dispatch libraries make stubs for names they have never heard.
+    /// Returns the address of an EGL extension's or a GL entry point. An address is no proof of
+    /// support: dispatch libraries return stubs for unknown names.
     pub(crate) fn proc_address(&self, name: &CStr) -> *const c_void {
         // SAFETY: the name is terminated.
         unsafe { (self.get_proc_address)(name.as_ptr()) }
     }
 
+    /// Returns a function, if EGL has one of the client extensions that define it.
+    ///
+    /// # Safety
+    /// `F` is the type of the function of this name.
+    unsafe fn function<F: Copy>(&self, extensions: &[&str], name: &CStr) -> Option<F> {
+        let supported = extensions.iter().any(|e| self.extensions.contains(*e));
+        let address = supported.then(|| self.proc_address(name))?;
+        // SAFETY: the caller's.
+        unsafe { function_at(address) }
+    }
+
     fn display_extensions(&self, display: Display) -> HashSet<String> {
         // SAFETY: EGL takes any display handle it made, and none for client extensions.
-        let text = unsafe { text(self.functions.eglQueryString(display, EXTENSIONS)) };
-        // Without client extensions the query fails; that error must not be taken for a later one.
+        let text = unsafe { text(self.functions.eglQueryString(display, egl::EXTENSIONS)) };
+        // Without client extensions the query fails. Its error is cleared, so that no later call
+        // reports it.
         if text.is_none() {
             self.error();
         }
@@ -162,18 +163,12 @@ impl Egl {
     }
 
     fn devices(&self) -> Result<Vec<Device>, Unavailable> {
-        let enumerates = ["EGL_EXT_device_base", "EGL_EXT_device_enumeration"]
-            .iter()
-            .any(|e| self.extensions.contains(*e));
-        let address = self.proc_address(c"eglQueryDevicesEXT");
-        if !enumerates || address.is_null() {
-            return Err(Unavailable::new(
-                "EGL lacks EGL_EXT_device_enumeration",
-                INSTALL_EGL,
-            ));
-        }
-        // SAFETY: the extension gives this name this type.
-        let query = unsafe { std::mem::transmute::<*const c_void, QueryDevices>(address) };
+        let extensions = ["EGL_EXT_device_base", "EGL_EXT_device_enumeration"];
+        // SAFETY: the extensions give this name this type.
+        let query: Option<QueryDevices> =
+            unsafe { self.function(&extensions, c"eglQueryDevicesEXT") };
+        let query = query
+            .ok_or_else(|| Unavailable::new("EGL lacks EGL_EXT_device_enumeration", INSTALL_EGL))?;
         let mut devices = [std::ptr::null_mut(); 64];
         let mut count = 0;
         // SAFETY: the array is as long as it is said to be.
@@ -187,15 +182,9 @@ impl Egl {
     }
 
     fn device_string(&self, device: Device, name: i32) -> Option<String> {
-        let known = ["EGL_EXT_device_base", "EGL_EXT_device_query"]
-            .iter()
-            .any(|e| self.extensions.contains(*e));
-        let address = self.proc_address(c"eglQueryDeviceStringEXT");
-        if !known || address.is_null() {
-            return None;
-        }
-        // SAFETY: the extension gives this name this type.
-        let query = unsafe { std::mem::transmute::<*const c_void, QueryDeviceString>(address) };
+        // SAFETY: the extensions give this name this type.
+        let query: QueryDeviceString =
+            unsafe { self.function(&DEVICE_QUERY, c"eglQueryDeviceStringEXT") }?;
         // SAFETY: the handle came from EGL.
         let result = unsafe { text(query(device, name)) };
         if result.is_none() {
@@ -205,7 +194,7 @@ impl Egl {
     }
 
     fn is_software(&self, device: Device) -> bool {
-        words(self.device_string(device, EXTENSIONS)).contains("EGL_MESA_device_software")
+        words(self.device_string(device, egl::EXTENSIONS)).contains("EGL_MESA_device_software")
     }
 
     fn display(&self, platform: Platform) -> Result<Display, Unavailable> {
@@ -215,29 +204,26 @@ impl Egl {
                 let display = unsafe { self.functions.eglGetDisplay(std::ptr::null_mut()) };
                 return self.some_display(display, "there is no default EGL display");
             }
-            Platform::Surfaceless => (PLATFORM_SURFACELESS_MESA, std::ptr::null_mut()),
+            Platform::Surfaceless => (ext::PLATFORM_SURFACELESS_MESA, std::ptr::null_mut()),
             Platform::Device(index) => {
                 let devices = self.devices()?;
                 let device = devices.get(index).copied().ok_or_else(|| {
                     Unavailable::new(
-                        format!("EGL device {index} asked for, {} found", devices.len()),
+                        format!("EGL device {index} requested, {} found", devices.len()),
                         "name one of the devices that EGL enumerates",
                     )
                 })?;
-                (PLATFORM_DEVICE_EXT, device)
+                (ext::PLATFORM_DEVICE_EXT, device)
             }
         };
-        let address = self.proc_address(c"eglGetPlatformDisplayEXT");
-        if !self.extensions.contains("EGL_EXT_platform_base") || address.is_null() {
-            return Err(Unavailable::new(
-                "EGL lacks EGL_EXT_platform_base",
-                INSTALL_EGL,
-            ));
-        }
+        let extension = "EGL_EXT_platform_base";
         // SAFETY: the extension gives this name this type.
-        let get = unsafe { std::mem::transmute::<*const c_void, GetPlatformDisplay>(address) };
+        let get: Option<GetPlatformDisplay> =
+            unsafe { self.function(&[extension], c"eglGetPlatformDisplayEXT") };
+        let get =
+            get.ok_or_else(|| Unavailable::new(format!("EGL lacks {extension}"), INSTALL_EGL))?;
         // SAFETY: the native handle is what the platform asks for: none, or a device.
-        let display = unsafe { get(platform, native, [NONE].as_ptr()) };
+        let display = unsafe { get(platform, native, [egl::NONE].as_ptr()) };
         self.some_display(display, "EGL has no display for this platform")
     }
 
@@ -250,37 +236,36 @@ impl Egl {
     }
 
     fn display_is_software(&self, display: Display) -> bool {
-        let known = ["EGL_EXT_device_base", "EGL_EXT_device_query"]
-            .iter()
-            .any(|e| self.extensions.contains(*e));
-        let address = self.proc_address(c"eglQueryDisplayAttribEXT");
-        if !known || address.is_null() {
+        // SAFETY: the extensions give this name this type.
+        let query: Option<QueryDisplayAttrib> =
+            unsafe { self.function(&DEVICE_QUERY, c"eglQueryDisplayAttribEXT") };
+        let Some(query) = query else {
             return false;
-        }
-        // SAFETY: the extension gives this name this type.
-        let query = unsafe { std::mem::transmute::<*const c_void, QueryDisplayAttrib>(address) };
+        };
         let mut device = 0_isize;
         // SAFETY: the display is initialised and the result has room.
-        if unsafe { query(display, DEVICE_EXT, &mut device) } == 0 || device == 0 {
+        if unsafe { query(display, ext::DEVICE_EXT, &mut device) } == 0 || device == 0 {
             self.error();
             return false;
         }
         self.is_software(device as Device)
     }
 
-    /// The driver's short name of an initialised display, or else its vendor's first word.
+    /// Returns the driver's short name of an initialised display, or else the first word of its
+    /// vendor.
     fn driver_name(&self, display: Display) -> Option<String> {
-        let address = self.proc_address(c"eglGetDisplayDriverName");
         let known = self.display_extensions(display);
-        let name = if known.contains("EGL_MESA_query_driver") && !address.is_null() {
-            // SAFETY: the extension gives this name this type.
-            let get =
-                unsafe { std::mem::transmute::<*const c_void, GetDisplayDriverName>(address) };
+        let address = match known.contains("EGL_MESA_query_driver") {
+            true => self.proc_address(c"eglGetDisplayDriverName"),
+            false => std::ptr::null(),
+        };
+        // SAFETY: the extension gives this name this type.
+        let name = if let Some(get) = unsafe { function_at::<GetDisplayDriverName>(address) } {
             // SAFETY: the display is initialised.
             unsafe { text(get(display)) }
         } else {
             // SAFETY: as above.
-            unsafe { text(self.functions.eglQueryString(display, VENDOR)) }
+            unsafe { text(self.functions.eglQueryString(display, egl::VENDOR)) }
         };
         if name.is_none() {
             self.error();
@@ -289,10 +274,10 @@ impl Egl {
         Some(name)
     }
 
-    /// The driver's short name of a device that nobody has opened yet.
+    /// Returns the driver's short name of a device that is not open.
     fn device_driver(&self, index: usize) -> Option<String> {
         let display = self.display(Platform::Device(index)).ok()?;
-        // SAFETY: the display came from EGL; the version need not be told.
+        // SAFETY: the display came from EGL; the version pointers may be null.
         if unsafe {
             self.functions
                 .eglInitialize(display, std::ptr::null_mut(), std::ptr::null_mut())
@@ -301,15 +286,15 @@ impl Egl {
             self.error();
             return None;
         }
-        // Terminating it would take it from a context that the process may have on the same display.
+        // Terminating the display would invalidate other contexts of the process on it.
         self.driver_name(display)
     }
 
-    /// Opens the display and makes a context of the highest version from `versions`.
+    /// Opens the display and creates a context of the highest available version of `versions`.
     pub(crate) fn context(
         &'static self,
         platform: Platform,
-        wanted: Wanted,
+        request: ContextRequest,
         versions: &[(i32, i32)],
     ) -> Result<EglContext, Unavailable> {
         let display = self.display(platform)?;
@@ -341,7 +326,11 @@ impl Egl {
                 "use a newer driver",
             ));
         }
-        let api = if wanted.es { OPENGL_ES_API } else { OPENGL_API };
+        let api = if request.es {
+            egl::OPENGL_ES_API
+        } else {
+            egl::OPENGL_API
+        };
         // SAFETY: no preconditions.
         if unsafe { self.functions.eglBindAPI(api) } == 0 {
             let reason = format!("eglBindAPI failed: {}", self.error());
@@ -350,32 +339,40 @@ impl Egl {
         let config = if has("EGL_KHR_no_config_context") || has("EGL_MESA_configless_context") {
             std::ptr::null_mut()
         } else {
-            self.choose_config(display, wanted.es)?
+            self.choose_config(display, request.es)?
         };
         let robust = match (at_least_1_5, has("EGL_EXT_create_context_robustness")) {
-            (true, _) if !wanted.es => Some(CONTEXT_RESET_STRATEGY),
-            (_, true) => Some(CONTEXT_RESET_STRATEGY_EXT),
+            (true, _) if !request.es => Some(egl::CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY),
+            (_, true) => Some(ext::CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT),
             _ => None,
         };
         let mut failure = String::new();
         for &(major, minor) in versions {
-            // A driver that cannot tell of resets refuses the first attempt, not the second.
+            // A driver without reset notification refuses the first attempt only.
             let strategies = [robust, None];
             let attempts = &strategies[usize::from(robust.is_none())..];
             for strategy in attempts {
-                let mut list = vec![CONTEXT_MAJOR_VERSION, major, CONTEXT_MINOR_VERSION, minor];
-                if !wanted.es {
-                    list.extend([CONTEXT_PROFILE_MASK, CONTEXT_CORE_PROFILE_BIT]);
+                let mut list = vec![
+                    egl::CONTEXT_MAJOR_VERSION,
+                    major,
+                    egl::CONTEXT_MINOR_VERSION,
+                    minor,
+                ];
+                if !request.es {
+                    list.extend([
+                        egl::CONTEXT_OPENGL_PROFILE_MASK,
+                        egl::CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                    ]);
                 }
-                if wanted.debug && at_least_1_5 {
-                    list.extend([CONTEXT_DEBUG, 1]);
-                } else if wanted.debug {
-                    list.extend([CONTEXT_FLAGS_KHR, CONTEXT_DEBUG_BIT_KHR]);
+                if request.debug && at_least_1_5 {
+                    list.extend([egl::CONTEXT_OPENGL_DEBUG, 1]);
+                } else if request.debug {
+                    list.extend([ext::CONTEXT_FLAGS_KHR, ext::CONTEXT_OPENGL_DEBUG_BIT_KHR]);
                 }
                 if let Some(name) = strategy {
-                    list.extend([*name, LOSE_CONTEXT_ON_RESET]);
+                    list.extend([*name, egl::LOSE_CONTEXT_ON_RESET]);
                 }
-                list.push(NONE);
+                list.push(egl::NONE);
                 // SAFETY: the display is initialised, the config is its own or none, and the list
                 // is terminated.
                 let context = unsafe {
@@ -406,7 +403,7 @@ impl Egl {
             }
         }
         let (major, minor) = versions.last().copied().unwrap_or_default();
-        let what = if wanted.es {
+        let what = if request.es {
             "OpenGL ES"
         } else {
             "OpenGL core"
@@ -418,8 +415,18 @@ impl Egl {
     }
 
     fn choose_config(&self, display: Display, es: bool) -> Result<Config, Unavailable> {
-        let renderable = if es { OPENGL_ES3_BIT } else { OPENGL_BIT };
-        let list = [SURFACE_TYPE, 0, RENDERABLE_TYPE, renderable, NONE];
+        let renderable = if es {
+            egl::OPENGL_ES3_BIT
+        } else {
+            egl::OPENGL_BIT
+        };
+        let list = [
+            egl::SURFACE_TYPE,
+            0,
+            egl::RENDERABLE_TYPE,
+            renderable,
+            egl::NONE,
+        ];
         let (mut config, mut count) = (std::ptr::null_mut(), 0);
         // SAFETY: the display is initialised, the list is terminated and the result has room.
         let done = unsafe {
@@ -436,15 +443,15 @@ impl Egl {
     }
 }
 
-/// Lists the EGL devices, for finding hardware.
+/// Returns the EGL devices.
 ///
 /// # Errors
-/// When there is no EGL, or it cannot enumerate devices.
+/// If there is no EGL, or it cannot enumerate devices.
 pub fn enumerate() -> Result<Vec<EglDevice>, Unavailable> {
-    let egl = egl(None)?;
+    let egl = library(None)?;
     let mut result = Vec::new();
     for (index, device) in egl.devices()?.into_iter().enumerate() {
-        let extensions = words(egl.device_string(device, EXTENSIONS));
+        let extensions = words(egl.device_string(device, egl::EXTENSIONS));
         let query = |extension: &str, name| {
             let known = extensions.contains(extension);
             known.then(|| egl.device_string(device, name)).flatten()
@@ -454,15 +461,18 @@ pub fn enumerate() -> Result<Vec<EglDevice>, Unavailable> {
             index,
             software,
             driver: (!software).then(|| egl.device_driver(index)).flatten(),
-            drm_node: query("EGL_EXT_device_drm_render_node", DRM_RENDER_NODE_FILE_EXT)
-                .or_else(|| query("EGL_EXT_device_drm", DRM_DEVICE_FILE_EXT)),
-            renderer: query("EGL_EXT_device_query_name", RENDERER_EXT),
+            drm_node: query(
+                "EGL_EXT_device_drm_render_node",
+                ext::DRM_RENDER_NODE_FILE_EXT,
+            )
+            .or_else(|| query("EGL_EXT_device_drm", ext::DRM_DEVICE_FILE_EXT)),
+            renderer: query("EGL_EXT_device_query_name", ext::RENDERER_EXT),
         });
     }
     Ok(result)
 }
 
-/// A context, destroyed on drop. The raw handles keep it on the thread that made it.
+/// A context, destroyed on drop. The raw handles keep it on the thread that created it.
 pub(crate) struct EglContext {
     egl: &'static Egl,
     display: Display,
@@ -472,30 +482,31 @@ pub(crate) struct EglContext {
 }
 
 impl EglContext {
-    /// Makes the context current on this thread, if it is not. Fails with whether the context is
-    /// lost and EGL's word.
+    /// Makes the context current on this thread. The error holds true if the context is lost, and
+    /// the name of EGL's error.
     pub(crate) fn make_current(&self) -> Result<(), (bool, String)> {
         let functions = &self.egl.functions;
         let none = std::ptr::null_mut();
         // SAFETY: display and context live; no surface is needed (EGL_KHR_surfaceless_context).
         unsafe {
-            // Asking costs less than a cache that other users of EGL in this process could defeat.
+            // A query costs less than a cache, which other users of EGL in this process could
+            // invalidate.
             if functions.eglGetCurrentContext() == self.context
                 || functions.eglMakeCurrent(self.display, none, none, self.context) != 0
             {
                 return Ok(());
             }
             let error = functions.eglGetError();
-            Err((error == CONTEXT_LOST, error_name(error)))
+            Err((error == egl::CONTEXT_LOST, error_name(error)))
         }
     }
 
-    /// Whether EGL says that the processor does the drawing.
+    /// Returns true if EGL reports a software device.
     pub(crate) fn is_software(&self) -> bool {
         self.software
     }
 
-    /// The driver's short name, as EGL tells it.
+    /// Returns the driver's short name, if EGL has one.
     pub(crate) fn driver(&self) -> Option<&str> {
         self.driver.as_deref()
     }
@@ -521,7 +532,17 @@ impl Drop for EglContext {
     }
 }
 
-/// A driver's string, if there is one.
+/// Returns the function at an address, if it is not null.
+///
+/// # Safety
+/// `F` is the type of the function there.
+pub(crate) unsafe fn function_at<F: Copy>(address: *const c_void) -> Option<F> {
+    const { assert!(size_of::<F>() == size_of::<*const c_void>()) };
+    // SAFETY: function pointers have the size of an address, and the caller promises the type.
+    (!address.is_null()).then(|| unsafe { std::mem::transmute_copy(&address) })
+}
+
+/// Returns a driver's string, if it is not null.
 ///
 /// # Safety
 /// The pointer is null or a terminated string.
@@ -529,7 +550,7 @@ unsafe fn text(pointer: *const c_char) -> Option<String> {
     if pointer.is_null() {
         return None;
     }
-    // SAFETY: not null, and the caller vouches for the rest.
+    // SAFETY: not null, and the caller promises a terminated string.
     let text = unsafe { CStr::from_ptr(pointer) };
     Some(text.to_string_lossy().into_owned())
 }
@@ -541,17 +562,17 @@ fn words(text: Option<String>) -> HashSet<String> {
 
 fn error_name(code: i32) -> String {
     let name = match code {
-        0x3000 => "EGL_SUCCESS",
-        0x3001 => "EGL_NOT_INITIALIZED",
-        0x3002 => "EGL_BAD_ACCESS",
-        0x3003 => "EGL_BAD_ALLOC",
-        0x3004 => "EGL_BAD_ATTRIBUTE",
-        0x3005 => "EGL_BAD_CONFIG",
-        0x3006 => "EGL_BAD_CONTEXT",
-        0x3008 => "EGL_BAD_DISPLAY",
-        0x3009 => "EGL_BAD_MATCH",
-        0x300C => "EGL_BAD_PARAMETER",
-        CONTEXT_LOST => "EGL_CONTEXT_LOST",
+        egl::SUCCESS => "EGL_SUCCESS",
+        egl::NOT_INITIALIZED => "EGL_NOT_INITIALIZED",
+        egl::BAD_ACCESS => "EGL_BAD_ACCESS",
+        egl::BAD_ALLOC => "EGL_BAD_ALLOC",
+        egl::BAD_ATTRIBUTE => "EGL_BAD_ATTRIBUTE",
+        egl::BAD_CONFIG => "EGL_BAD_CONFIG",
+        egl::BAD_CONTEXT => "EGL_BAD_CONTEXT",
+        egl::BAD_DISPLAY => "EGL_BAD_DISPLAY",
+        egl::BAD_MATCH => "EGL_BAD_MATCH",
+        egl::BAD_PARAMETER => "EGL_BAD_PARAMETER",
+        egl::CONTEXT_LOST => "EGL_CONTEXT_LOST",
         _ => return format!("EGL error 0x{code:04X}"),
     };
     name.to_owned()

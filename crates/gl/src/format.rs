@@ -1,21 +1,19 @@
-//! Texel formats in GL's words.
+//! GL's texel formats.
 
-use etalon_frame::{FormatSupport, TextureFormat};
+use etalon_frame::TextureFormat;
 
-pub(crate) const STENCIL_INDEX: u32 = 0x1901;
-
-/// A format in GL's words.
+/// GL's description of a format.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GlFormat {
     pub(crate) internal: u32,
-    /// Format and type of a client image of it, as far as every version takes them.
+    /// Format and type of a client image that every version accepts.
     pub(crate) format: u32,
     pub(crate) kind: u32,
     pub(crate) attachment: u32,
 }
 
-/// GL's words for a format; `None` for `bgra8unorm`: GL's `BGRA` names an order in client memory,
-/// and nothing tells in which order a texture keeps its channels.
+/// Returns GL's description of a format. There is none of `bgra8unorm`: GL's `BGRA` is an order in
+/// client memory, and the order of channels in a texture is unspecified.
 pub(crate) fn gl_format(format: TextureFormat) -> Option<GlFormat> {
     use glow::{
         BYTE, DEPTH_ATTACHMENT, DEPTH_COMPONENT, DEPTH_STENCIL, DEPTH_STENCIL_ATTACHMENT, FLOAT,
@@ -73,7 +71,7 @@ pub(crate) fn gl_format(format: TextureFormat) -> Option<GlFormat> {
         ),
         TextureFormat::Stencil8 => (
             glow::STENCIL_INDEX8,
-            STENCIL_INDEX,
+            glow::STENCIL_INDEX,
             UNSIGNED_BYTE,
             STENCIL_ATTACHMENT,
         ),
@@ -88,57 +86,4 @@ pub(crate) fn gl_format(format: TextureFormat) -> Option<GlFormat> {
 
 fn color(internal: u32, format: u32, kind: u32) -> (u32, u32, u32, u32) {
     (internal, format, kind, glow::COLOR_ATTACHMENT0)
-}
-
-/// How an attachment's codes reach the processor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ReadPlan {
-    /// `glReadPixels` of colours in the format and type that they are uploaded in.
-    Packed,
-    /// `glReadPixels` of four bytes a texel, to which shorter channels are widened.
-    Bytes,
-    /// `glReadPixels` of four floats a texel.
-    Floats,
-    /// `glReadPixels` of four unsigned integers a texel.
-    Integers,
-    /// A shader fetches four floats a texel.
-    Fetched,
-    /// `glReadPixels` of 16-bit codes.
-    Depth16,
-    /// `glReadPixels` of 32-bit integers, whose upper 24 bits are the code.
-    Depth24,
-    /// `glReadPixels` of floats.
-    DepthFloat,
-    /// `glReadPixels` of codes and stencil, packed.
-    Depth24Stencil8,
-    /// `glReadPixels` of floats and stencil, packed.
-    DepthFloatStencil8,
-    /// `glReadPixels` of stencil values.
-    Stencil,
-    /// A shader fetches depth, stencil or both.
-    Shader {
-        /// Depth is fetched.
-        depth: bool,
-        /// How stencil is read.
-        stencil: ShaderStencil,
-    },
-}
-
-/// How stencil is read where depth is read by a shader.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ShaderStencil {
-    /// There is none.
-    None,
-    /// By `glReadPixels`.
-    Copy,
-    /// By a shader as well.
-    Shader,
-}
-
-/// What the driver does with a format.
-#[derive(Clone, Debug)]
-pub(crate) struct Support {
-    pub(crate) limits: FormatSupport,
-    /// For one sample; several are always fetched by a shader.
-    pub(crate) read: ReadPlan,
 }

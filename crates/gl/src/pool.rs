@@ -1,21 +1,22 @@
-//! Surfaces, framebuffers, buffers, queries and samplers, kept from scene to scene.
+//! Surfaces, framebuffers, buffers, queries and samplers that outlive a scene.
 
 use crate::context::{Context, refused};
-use crate::counters::Query;
+use crate::enums::address;
+use crate::query::Query;
 use crate::surface::{Surface, SurfaceKind, framebuffer};
-use crate::words::address;
 use etalon_backend::BackendError;
 use etalon_scene::{FilterMode, Sampler};
 use glow::HasContext;
 use std::collections::HashMap;
 
-/// The most free surfaces, framebuffers, buffers and queries, and bytes of free surfaces, that are kept.
+/// The most unused surfaces, framebuffers, buffers and queries kept, and the most bytes of unused
+/// surfaces.
 const MAX_FREE: usize = 64;
 const MAX_FREE_BYTES: u64 = 64 << 20;
-/// The largest buffer that is kept.
+/// The size of the largest buffer kept.
 const MAX_FREE_BUFFER: usize = 1 << 20;
 
-/// A pass's framebuffer with the surfaces it joins.
+/// A pass's framebuffer and the surfaces it is made of.
 #[derive(Debug)]
 pub(crate) struct Target {
     pub(crate) framebuffer: glow::Framebuffer,
@@ -24,7 +25,7 @@ pub(crate) struct Target {
 
 type TargetKey = (Vec<u64>, Option<u64>);
 
-/// Objects that no scene uses now.
+/// Unused objects.
 #[derive(Default)]
 pub(crate) struct Pool {
     surfaces: HashMap<(SurfaceKind, [u32; 2]), Vec<Surface>>,
@@ -33,12 +34,12 @@ pub(crate) struct Pool {
     targets: HashMap<TargetKey, Vec<glow::Framebuffer>>,
     buffers: Vec<glow::Buffer>,
     queries: Vec<Query>,
-    /// All that were ever asked for, in use or not.
+    /// All samplers, used or not.
     samplers: HashMap<Sampler, glow::Sampler>,
 }
 
 impl Pool {
-    /// A surface of this kind and size with any contents.
+    /// Returns a surface of this kind and size with undefined contents.
     pub(crate) fn surface(
         &mut self,
         context: &Context,
@@ -55,7 +56,7 @@ impl Pool {
         }
     }
 
-    /// Takes a surface back.
+    /// Returns a surface to the pool.
     pub(crate) fn put_surface(&mut self, context: &Context, surface: Surface) {
         self.count += 1;
         self.bytes += surface.bytes();
@@ -66,8 +67,8 @@ impl Pool {
         }
     }
 
-    /// Frees all free surfaces, and the targets with them: whatever a scene needs next is made
-    /// anew, and targets never name what is gone.
+    /// Deletes all unused surfaces, and the targets with them, since targets must not refer to
+    /// deleted surfaces.
     pub(crate) fn delete_surfaces(&mut self, context: &Context) {
         self.delete_targets(context);
         for surface in self.surfaces.drain().flat_map(|(_, list)| list) {
@@ -84,7 +85,8 @@ impl Pool {
         }
     }
 
-    /// A framebuffer of these surfaces; `None` where the driver does not draw to them together.
+    /// Returns a framebuffer of these surfaces; `None` if the driver does not support the
+    /// combination.
     pub(crate) fn target(
         &mut self,
         context: &Context,
@@ -114,7 +116,7 @@ impl Pool {
         Ok(None)
     }
 
-    /// Takes a target back, before its surfaces.
+    /// Returns a target to the pool, before its surfaces.
     pub(crate) fn put_target(&mut self, context: &Context, target: Target) {
         if self.targets.values().map(Vec::len).sum::<usize>() >= MAX_FREE {
             self.delete_targets(context);
@@ -125,7 +127,7 @@ impl Pool {
             .push(target.framebuffer);
     }
 
-    /// A buffer with these contents, for any use.
+    /// Returns a buffer with these contents, for any use.
     pub(crate) fn buffer(
         &mut self,
         context: &Context,
@@ -144,7 +146,7 @@ impl Pool {
         }
     }
 
-    /// A query of a target.
+    /// Returns a query of a target.
     pub(crate) fn query(&mut self, context: &Context, target: u32) -> Result<Query, BackendError> {
         if let Some(at) = self.queries.iter().position(|q| q.target == target) {
             return Ok(self.queries.swap_remove(at));
@@ -154,7 +156,7 @@ impl Pool {
         Ok(Query { target, object })
     }
 
-    /// Takes a query back that is not active.
+    /// Returns an inactive query to the pool.
     pub(crate) fn put_query(&mut self, context: &Context, query: Query) {
         if self.queries.len() < MAX_FREE {
             self.queries.push(query);
@@ -164,7 +166,7 @@ impl Pool {
         }
     }
 
-    /// The sampler object of a sampler.
+    /// Returns the sampler object of a sampler.
     pub(crate) fn sampler(
         &mut self,
         context: &Context,
@@ -194,7 +196,7 @@ impl Pool {
         Ok(object)
     }
 
-    /// Takes a buffer of a size in bytes back.
+    /// Returns a buffer of this size in bytes to the pool.
     pub(crate) fn put_buffer(&mut self, context: &Context, buffer: glow::Buffer, size: usize) {
         if self.buffers.len() < MAX_FREE && size <= MAX_FREE_BUFFER {
             self.buffers.push(buffer);
@@ -206,7 +208,7 @@ impl Pool {
 }
 
 impl Target {
-    /// Frees the framebuffer.
+    /// Deletes the framebuffer.
     pub(crate) fn delete(self, context: &Context) {
         // SAFETY: the context is current and the object is its own.
         unsafe { context.gl.delete_framebuffer(self.framebuffer) };

@@ -1,42 +1,37 @@
-//! A scene with all its objects, ready to be drawn.
+//! A scene prepared for drawing.
 
-use crate::GlBackend;
+use crate::attachment::{self, Attachment, InitialContents};
 use crate::codes;
-use crate::context::refused;
+use crate::context::{Context, refused};
 use crate::counters::Counters;
-use crate::draw::{self, DrawCall, Inputs, Pass, Start};
+use crate::draw::{self, DrawCall, Inputs, Pass};
+use crate::enums::topology;
+use crate::objects::Objects;
 use crate::pool::Pool;
 use crate::read::{Reading, Source};
 use crate::state::{self, DrawState};
 use crate::surface::{Surface, SurfaceKind, upload};
-use crate::words::topology;
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::{Frame, Requirement, TextureFormat};
 use etalon_scene::{Contents, Draw, RESTART, Scene};
 use glow::HasContext;
 use std::time::{Duration, Instant};
 
-/// A scene's objects. On drop they go back to the backend.
-pub(crate) struct GlPrepared<'a> {
-    backend: &'a GlBackend,
+/// A scene's objects. They return to the pool on drop.
+pub(crate) struct PreparedScene<'a> {
+    context: &'a Context,
+    objects: &'a Objects,
     attachments: Vec<Attachment>,
     passes: Vec<Pass>,
     read: Vec<usize>,
     inputs: Inputs,
     counters: Counters,
     submitted: bool,
-    /// Nothing has failed, so that the objects may serve another scene.
-    sound: bool,
+    /// True if nothing has failed, so that other scenes may reuse the objects.
+    reusable: bool,
 }
 
-pub(crate) struct Attachment {
-    name: String,
-    pub(crate) format: TextureFormat,
-    pub(crate) surface: Surface,
-    pub(crate) start: Start,
-}
-
-/// How far the shared buffers are used.
+/// The used parts of the shared buffers.
 #[derive(Default)]
 struct Used {
     /// Vertices.
@@ -47,28 +42,33 @@ struct Used {
     params: i32,
 }
 
-impl<'a> GlPrepared<'a> {
-    pub(crate) fn new(backend: &'a GlBackend, scene: &Scene) -> Result<Self, BackendError> {
+impl<'a> PreparedScene<'a> {
+    pub(crate) fn new(
+        context: &'a Context,
+        objects: &'a Objects,
+        scene: &Scene,
+    ) -> Result<Self, BackendError> {
         let mut prepared = Self {
-            backend,
+            context,
+            objects,
             attachments: Vec::new(),
             passes: Vec::new(),
             read: scene.read.clone(),
             inputs: Inputs::default(),
-            counters: Counters::new(&backend.context, &scene.counters),
+            counters: Counters::new(context, &scene.counters),
             submitted: false,
-            sound: false,
+            reusable: false,
         };
         prepared.fill(scene)?;
-        backend.context.check("preparing a scene")?;
-        prepared.sound = true;
+        context.check("preparing a scene")?;
+        prepared.reusable = true;
         Ok(prepared)
     }
 
     fn fill(&mut self, scene: &Scene) -> Result<(), BackendError> {
-        let context = &self.backend.context;
+        let context = self.context;
         state::reset(context);
-        let mut pool = self.backend.pool.borrow_mut();
+        let mut pool = self.objects.pool.borrow_mut();
         for (index, attachment) in scene.attachments.iter().enumerate() {
             let is_drawn = |p: &etalon_scene::Pass| {
                 p.color.contains(&index)
@@ -92,42 +92,45 @@ impl<'a> GlPrepared<'a> {
         attachment: &etalon_scene::Attachment,
         drawn: bool,
     ) -> Result<(), BackendError> {
-        let context = &self.backend.context;
+        let context = self.context;
         let format = attachment.format;
         let kind = SurfaceKind::Attachment(format, attachment.samples);
         let surface = pool.surface(context, kind, attachment.size)?;
         let texels = attachment.size[0] as usize * attachment.size[1] as usize;
         let complete = surface.is_complete();
-        let start = match &attachment.contents {
-            // Only `rgba32float` is offered where nothing can be drawn to it.
-            Contents::Color(color) if !complete => {
-                Start::Upload(codes::pack(format, &color.map(f32::to_bits).repeat(texels)))
-            }
+        let initial = match &attachment.contents {
+            // Only `rgba32float` is offered without being drawable.
+            Contents::Color(color) if !complete => InitialContents::Upload(codes::pack(
+                format,
+                &color.map(f32::to_bits).repeat(texels),
+            )),
             Contents::Color(color) if format.is_integer() => {
-                Start::Integers(color.map(|value| value as u32))
+                InitialContents::Integers(color.map(|value| value as u32))
             }
-            Contents::Color(color) => Start::Color(*color),
-            Contents::DepthStencil { depth, stencil } => Start::DepthStencil(*depth, *stencil),
+            Contents::Color(color) => InitialContents::Color(*color),
+            Contents::DepthStencil { depth, stencil } => {
+                InitialContents::DepthStencil(*depth, *stencil)
+            }
             Contents::Texels(codes) if codes.len() != texels * format.color_channels().len() => {
                 return Err(BackendError::Internal(format!(
                     "{} codes for {texels} texels of {format}",
                     codes.len()
                 )));
             }
-            Contents::Texels(codes) => Start::Upload(codes::pack(format, codes)),
+            Contents::Texels(codes) => InitialContents::Upload(codes::pack(format, codes)),
         };
-        let start = match start {
-            Start::Upload(bytes) if !drawn => {
+        let initial = match initial {
+            InitialContents::Upload(bytes) if !drawn => {
                 upload(context, format, &surface, &bytes);
-                Start::Uploaded
+                InitialContents::Uploaded
             }
-            start => start,
+            initial => initial,
         };
         self.attachments.push(Attachment {
             name: attachment.name.clone(),
             format,
             surface,
-            start,
+            initial,
         });
         if !complete && (drawn || format != TextureFormat::Rgba32Float) {
             return Err(BackendError::NotSupported(Requirement::Format(format)));
@@ -135,16 +138,16 @@ impl<'a> GlPrepared<'a> {
         Ok(())
     }
 
-    /// All vertices in one buffer, all indices in another, all parameter blocks in a third.
+    /// Fills one buffer with all vertices, one with all indices, one with all parameter blocks.
     fn buffers(&mut self, pool: &mut Pool, scene: &Scene) -> Result<(), BackendError> {
-        let context = &self.backend.context;
+        let context = self.context;
         let mut vertices = Vec::new();
         let mut indices = Vec::new();
         let mut params = Vec::new();
         let mut first = 0;
         for draw in scene.passes.iter().flat_map(|pass| &pass.draws) {
             vertices.extend_from_slice(draw.mesh.bytes());
-            // Not every version adds a base to indices.
+            // Not every version has a base vertex.
             let shifted = |index: &u32| match *index {
                 RESTART => RESTART,
                 index => index + first,
@@ -153,11 +156,11 @@ impl<'a> GlPrepared<'a> {
             first += draw.mesh.vertices.len() as u32;
             if draw.shader.uses_params() {
                 params.extend_from_slice(&draw.params.to_bytes());
-                params.resize(params.len().next_multiple_of(self.backend.params_stride), 0);
+                params.resize(params.len().next_multiple_of(self.objects.params_stride), 0);
             }
         }
         let mut buffer = |bytes: &[u8]| {
-            // Positions within buffers are 32-bit.
+            // Offsets in buffers are 32-bit.
             if bytes.len() > i32::MAX as usize {
                 let message = "the scene has too many vertices or draws";
                 return Err(refused("a buffer", message));
@@ -180,7 +183,7 @@ impl<'a> GlPrepared<'a> {
         pass: &etalon_scene::Pass,
         used: &mut Used,
     ) -> Result<(), BackendError> {
-        let context = &self.backend.context;
+        let context = self.context;
         let attachment = |index: usize| {
             let missing = || BackendError::Internal(format!("there is no attachment {index}"));
             self.attachments.get(index).ok_or_else(missing)
@@ -213,7 +216,7 @@ impl<'a> GlPrepared<'a> {
             .ok_or(BackendError::NotSupported(Requirement::Drawing(format)))?;
         let mut draws = Vec::new();
         for draw in &pass.draws {
-            // On error the target is lost to the pool; it goes with the context.
+            // On error the target is not returned to the pool; it is deleted with the context.
             draws.push(self.draw(pool, draw, pass.depth_stencil_read_only, used)?);
         }
         self.passes.push(Pass {
@@ -232,7 +235,7 @@ impl<'a> GlPrepared<'a> {
         read_only: bool,
         used: &mut Used,
     ) -> Result<DrawCall, BackendError> {
-        let context = &self.backend.context;
+        let context = self.context;
         let vertices = draw.mesh.vertices.len() as i32;
         let indices = draw.mesh.indices.as_ref().map(|list| list.len() as i32);
         let block = draw.shader.uses_params().then_some(used.params);
@@ -248,7 +251,7 @@ impl<'a> GlPrepared<'a> {
             .collect::<Result<_, _>>()?;
         let sampler = draw.sampler.map(|sampler| pool.sampler(context, sampler));
         let call = DrawCall {
-            program: self.backend.programs.borrow_mut().shader(
+            program: self.objects.programs.borrow_mut().shader(
                 context,
                 draw.shader,
                 draw.early_tests,
@@ -267,33 +270,32 @@ impl<'a> GlPrepared<'a> {
         used.vertices += vertices;
         used.indices += indices.unwrap_or(0);
         if block.is_some() {
-            used.params += self.backend.params_stride as i32;
+            used.params += self.objects.params_stride as i32;
         }
         Ok(call)
     }
 
     fn try_submit(&self) -> Result<FrameTime, BackendError> {
-        let backend = self.backend;
-        let context = &backend.context;
+        let (context, objects) = (self.context, self.objects);
         let gl = &context.gl;
         context.make_current()?;
         let start = Instant::now();
         state::reset(context);
-        draw::initialise(context, &self.attachments);
-        self.counters.start(context, self.inputs.runs);
+        attachment::set_initial_contents(context, &self.attachments);
+        self.counters.reset(context, self.inputs.runs);
         // SAFETY: the context is current; a query exists only where timers count.
         let (cpu, wall) = unsafe {
-            if let Some(query) = backend.timer {
+            if let Some(query) = objects.timer {
                 gl.begin_query(glow::TIME_ELAPSED, query);
             }
             draw::draw_all(
                 context,
-                backend.vertex_array,
+                objects.vertex_array,
                 &self.inputs,
                 &self.passes,
                 &self.attachments,
             );
-            if backend.timer.is_some() {
+            if objects.timer.is_some() {
                 gl.end_query(glow::TIME_ELAPSED);
             }
             gl.flush();
@@ -302,7 +304,7 @@ impl<'a> GlPrepared<'a> {
             (cpu, start.elapsed())
         };
         context.check("drawing a scene")?;
-        let gpu = backend.timer.and_then(|query| context.elapsed(query));
+        let gpu = objects.timer.and_then(|query| context.elapsed(query));
         Ok(FrameTime {
             cpu,
             gpu: gpu.map(Duration::from_nanos),
@@ -311,21 +313,21 @@ impl<'a> GlPrepared<'a> {
     }
 
     fn try_read_back(&self) -> Result<Frame, BackendError> {
-        let backend = self.backend;
-        backend.context.make_current()?;
+        let (context, objects) = (self.context, self.objects);
+        context.make_current()?;
         let mut reading = Reading {
-            context: &backend.context,
-            pool: &mut backend.pool.borrow_mut(),
-            programs: &mut backend.programs.borrow_mut(),
-            no_vertices: backend.no_vertices,
+            context,
+            pool: &mut objects.pool.borrow_mut(),
+            programs: &mut objects.programs.borrow_mut(),
+            no_vertices: objects.no_vertices,
         };
         let mut frame = Frame {
-            counters: self.counters.read(&backend.context, self.inputs.runs)?,
+            counters: self.counters.read(context, self.inputs.runs)?,
             ..Frame::default()
         };
         for index in &self.read {
             let attachment = self.attachments.get(*index);
-            let known = attachment.and_then(|a| Some((a, backend.formats.get(&a.format)?)));
+            let known = attachment.and_then(|a| Some((a, objects.formats.get(&a.format)?)));
             let Some((attachment, support)) = known else {
                 let message = format!("attachment {index} cannot be read");
                 return Err(BackendError::Internal(message));
@@ -338,15 +340,15 @@ impl<'a> GlPrepared<'a> {
                 surface: &attachment.surface,
             })?);
         }
-        backend.context.check("reading a frame back")?;
+        context.check("reading a frame back")?;
         Ok(frame)
     }
 }
 
-impl Prepared for GlPrepared<'_> {
+impl Prepared for PreparedScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         let result = self.try_submit();
-        self.sound &= result.is_ok();
+        self.reusable &= result.is_ok();
         self.submitted |= result.is_ok();
         result
     }
@@ -354,44 +356,43 @@ impl Prepared for GlPrepared<'_> {
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         if !self.submitted {
             return Err(BackendError::Internal(
-                "a frame was to be read before it was drawn".to_owned(),
+                "read back before anything was drawn".to_owned(),
             ));
         }
         let result = self.try_read_back();
         if result.is_err() {
-            self.sound = false;
-            // What was made for reading may be what failed.
-            let backend = self.backend;
-            backend.pool.borrow_mut().delete_surfaces(&backend.context);
+            self.reusable = false;
+            // The objects used for reading may be what failed.
+            self.objects.pool.borrow_mut().delete_surfaces(self.context);
         }
         result
     }
 }
 
-impl Drop for GlPrepared<'_> {
+impl Drop for PreparedScene<'_> {
     fn drop(&mut self) {
-        let context = &self.backend.context;
+        let context = self.context;
         if context.make_current().is_err() {
             // All objects are gone with the context.
             return;
         }
-        let mut pool = self.backend.pool.borrow_mut();
+        let mut pool = self.objects.pool.borrow_mut();
         for pass in self.passes.drain(..) {
-            if self.sound {
+            if self.reusable {
                 pool.put_target(context, pass.target);
             } else {
                 pass.target.delete(context);
             }
         }
         for attachment in self.attachments.drain(..) {
-            if self.sound {
+            if self.reusable {
                 pool.put_surface(context, attachment.surface);
             } else {
-                // Its storage may never have come to be.
+                // Its storage may not exist.
                 attachment.surface.delete(context);
             }
         }
-        std::mem::take(&mut self.counters).give_back(context, &mut pool, self.sound);
+        std::mem::take(&mut self.counters).give_back(context, &mut pool, self.reusable);
         for (buffer, size) in std::mem::take(&mut self.inputs).into_buffers() {
             pool.put_buffer(context, buffer, size);
         }

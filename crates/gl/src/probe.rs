@@ -1,28 +1,28 @@
-//! What the driver really makes of each format.
+//! Probing of the formats that a driver supports.
 //!
-//! A driver may take another internal format than the one asked for. A format is offered only where
-//! the framebuffer tells exactly the channels that the format's name promises, and where all codes
-//! survive being uploaded and read.
+//! A driver may use another internal format than the requested one. A format is offered only if the
+//! framebuffer reports exactly the channels of the format's name, and all codes survive an upload
+//! and a read.
 
 use crate::context::Context;
-use crate::format::{ReadPlan, ShaderStencil, Support, gl_format};
+use crate::format::gl_format;
 use crate::read::{self, Reading};
+use crate::support::{ReadPlan, ShaderStencil, Support};
 use crate::surface::{Surface, SurfaceKind, upload};
-use crate::{caps, codes};
+use crate::{codes, features};
 use etalon_frame::{ChannelEncoding, Feature, FormatSupport, ReadPath, TextureFormat};
 use etalon_scene::{EarlyTests, Shader};
 use glow::HasContext;
 use std::collections::{BTreeMap, BTreeSet};
 
-const SIGNED_NORMALIZED: u32 = 0x8F9C;
 const SAMPLE_COUNTS: [u32; 4] = [2, 4, 8, 16];
-/// Enough for every code of a 16-bit channel when four channels share them.
+/// Enough texels for every code of a 16-bit channel spread over four channels.
 const SIZE: [u32; 2] = [128, 128];
 
-/// Where the samples lie, by their number: 1/256 texel from the top left corner.
+/// Sample positions by sample count, in 1/256 texel from the top left corner.
 type Positions = BTreeMap<u32, Vec<[u16; 2]>>;
 
-/// What all formats give.
+/// The results of probing.
 #[derive(Default)]
 pub(crate) struct Probed {
     pub(crate) formats: BTreeMap<TextureFormat, Support>,
@@ -30,7 +30,7 @@ pub(crate) struct Probed {
     pub(crate) features: BTreeSet<Feature>,
 }
 
-/// Tries every format.
+/// Probes every format.
 pub(crate) fn probe(reading: &mut Reading<'_>) -> Probed {
     let mut probed = Probed::default();
     let context = reading.context;
@@ -38,25 +38,24 @@ pub(crate) fn probe(reading: &mut Reading<'_>) -> Probed {
         let Some(mut support) = with_surface(context, format, 1, |surface| {
             examine(reading, format, surface)
         }) else {
-            // A refused format may leave errors behind, which are no news to anybody.
+            // A refused format may leave errors behind.
             context.check("probing formats").ok();
             continue;
         };
         if context.check("probing formats").is_ok() {
-            let more = several_samples(reading, format, &support, &mut probed.positions);
+            let more = sample_counts(reading, format, &support, &mut probed.positions);
             support.limits.samples.extend(more);
             probed.formats.insert(format, support);
         }
     }
-    probed.features = caps::features(context)
+    probed.features = features::features(context)
         .into_iter()
         .filter(|feature| compiles(reading, *feature))
         .collect();
     probed
 }
 
-/// Whether the driver takes what naga writes for a feature of the shading language, and naga writes
-/// anything.
+/// Returns true if naga can write the shaders of a feature and the driver compiles them.
 fn compiles(reading: &mut Reading<'_>, feature: Feature) -> bool {
     let shader = Shader::FlatColorDepth;
     let tried: &[_] = match feature {
@@ -75,7 +74,7 @@ fn compiles(reading: &mut Reading<'_>, feature: Feature) -> bool {
     tried.iter().all(&mut takes)
 }
 
-/// Does something with a surface of a format.
+/// Calls `body` with a surface of a format.
 fn with_surface<T>(
     context: &Context,
     format: TextureFormat,
@@ -108,7 +107,7 @@ fn examine(reading: &mut Reading<'_>, format: TextureFormat, surface: &Surface) 
         })
     };
     if format.is_color() && !surface.is_complete() {
-        // The exact source of values is of use even where nothing can be drawn to it.
+        // Useful as an exact source of values even if it is not drawable.
         let useful = format == TextureFormat::Rgba32Float
             && color_round_trips(reading, surface, format, ReadPlan::Fetched);
         return if useful {
@@ -117,12 +116,12 @@ fn examine(reading: &mut Reading<'_>, format: TextureFormat, surface: &Surface) 
             None
         };
     }
-    if !surface.is_complete() || !holds(context, surface, format) {
+    if !surface.is_complete() || !has_promised_channels(context, surface, format) {
         return None;
     }
     if format.is_color() {
         // Mesa's ES reads negative values of `rgba8snorm` as 0, and a shader sees one value for
-        // both codes of -1, so that nothing reads that format exactly there.
+        // both codes of -1, so nothing reads that format exactly there.
         let plans: &[ReadPlan] = if format.is_integer() {
             &[ReadPlan::Integers]
         } else {
@@ -139,7 +138,7 @@ fn examine(reading: &mut Reading<'_>, format: TextureFormat, surface: &Surface) 
         return done(&[1], blendable, &[], read);
     }
     if format == TextureFormat::Stencil8 {
-        // In ES nothing but a shader reads stencil.
+        // In ES only a shader can read stencil.
         if !context.caps.es {
             return done(&[1], false, &[], ReadPlan::Stencil);
         }
@@ -159,7 +158,7 @@ fn examine(reading: &mut Reading<'_>, format: TextureFormat, surface: &Surface) 
         by_shader(context, format)?
     } else {
         let plan = copy_plan(format, encoding);
-        if read::round_trips(context, surface, format, plan) {
+        if depth_round_trips(context, surface, format, plan) {
             plan
         } else {
             by_shader(context, format)?
@@ -191,11 +190,10 @@ fn copy_plan(format: TextureFormat, encoding: ChannelEncoding) -> ReadPlan {
     }
 }
 
-/// Whether a complete surface holds the channels that its format promises.
-fn holds(context: &Context, surface: &Surface, format: TextureFormat) -> bool {
+/// Returns true if a complete surface has the channels that its format promises.
+fn has_promised_channels(context: &Context, surface: &Surface, format: TextureFormat) -> bool {
     if format.has_depth() {
-        // A driver may store more bits than it was asked for; then the format is not what its
-        // name says, and no rule speaks of it.
+        // A driver may store more bits than requested; the format is then not what its name says.
         return depth_encoding(context, surface)
             .is_some_and(|encoding| format.depth_encodings().contains(&encoding));
     }
@@ -217,26 +215,26 @@ fn holds(context: &Context, surface: &Surface, format: TextureFormat) -> bool {
     ];
     let channels = format.color_channels();
     let same = (0..).zip(sizes).all(|(i, name)| {
-        let due = channels.get(i).map_or(0, |e| codes::bits(*e));
-        u32::try_from(of_color(name)) == Ok(due)
+        let expected = channels.get(i).map_or(0, |e| codes::bits(*e));
+        u32::try_from(of_color(name)) == Ok(expected)
     });
-    let due = match channels.first() {
+    let expected = match channels.first() {
         Some(ChannelEncoding::Unorm(_) | ChannelEncoding::Srgb8) => glow::UNSIGNED_NORMALIZED,
-        Some(ChannelEncoding::Snorm(_)) => SIGNED_NORMALIZED,
+        Some(ChannelEncoding::Snorm(_)) => glow::SIGNED_NORMALIZED,
         Some(ChannelEncoding::Uint(_)) => glow::UNSIGNED_INT,
         _ => glow::FLOAT,
     };
     let kind = of_color(glow::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
     let encoding = of_color(glow::FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING);
-    let due_encoding = if format == TextureFormat::Rgba8UnormSrgb {
+    let expected_encoding = if format == TextureFormat::Rgba8UnormSrgb {
         glow::SRGB
     } else {
         glow::LINEAR
     };
-    same && u32::try_from(kind) == Ok(due) && u32::try_from(encoding) == Ok(due_encoding)
+    same && u32::try_from(kind) == Ok(expected) && u32::try_from(encoding) == Ok(expected_encoding)
 }
 
-/// A property of an attachment of a complete surface.
+/// Returns a property of an attachment of a complete surface.
 fn query(context: &Context, surface: &Surface, attachment: u32, name: u32) -> i32 {
     let gl = &context.gl;
     // SAFETY: the context is current, the framebuffer lives and has the attachment.
@@ -246,7 +244,7 @@ fn query(context: &Context, surface: &Surface, attachment: u32, name: u32) -> i3
     }
 }
 
-/// What the driver says it stores.
+/// Returns the depth encoding that the driver reports.
 fn depth_encoding(context: &Context, surface: &Surface) -> Option<ChannelEncoding> {
     let of_depth = |name| query(context, surface, glow::DEPTH_ATTACHMENT, name);
     let bits = of_depth(glow::FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
@@ -258,8 +256,9 @@ fn depth_encoding(context: &Context, surface: &Surface) -> Option<ChannelEncodin
     }
 }
 
-/// Whether all codes come back unchanged: every code of channels of up to 16 bits, each channel in
-/// an order of its own; a spread of 32-bit floats. NaNs are left out, whose payload nobody keeps.
+/// Returns true if all codes are read back unchanged: every code of channels of up to 16 bits, each
+/// channel in another order, and a spread of 32-bit floats. NaNs are left out, since their payload
+/// may change.
 fn color_round_trips(
     reading: &mut Reading<'_>,
     surface: &Surface,
@@ -270,7 +269,7 @@ fn color_round_trips(
     let mut all = Vec::new();
     for texel in 0..SIZE[0] * SIZE[1] {
         for (c, encoding) in (0..).zip(channels) {
-            // Odd factors reach every code; those of a 16-bit float are shared by four channels.
+            // Odd factors reach every code; four channels share those of a 16-bit float.
             let code = match codes::bits(*encoding) {
                 32 => (texel * 4 + c).wrapping_mul(0x9e37_79b1),
                 bits => (texel * 4 + c).wrapping_mul(2 * c + 1) >> (2 * u32::from(bits < 16)),
@@ -286,8 +285,8 @@ fn color_round_trips(
     clean && read.is_ok_and(|codes| codes == all)
 }
 
-/// The sample counts above one that attachments of a format really get, can be drawn to and read.
-fn several_samples(
+/// Returns the sample counts above 1 for which the driver creates, draws to and reads attachments.
+fn sample_counts(
     reading: &mut Reading<'_>,
     format: TextureFormat,
     support: &Support,
@@ -299,15 +298,15 @@ fn several_samples(
         caps.stencil_texturing && (caps.stencil_textures || format != TextureFormat::Stencil8);
     let drawn = !support.limits.samples.is_empty();
     // A shader sees one value for both codes of -1.
-    let told_apart = format != TextureFormat::Rgba8Snorm;
-    let readable = drawn && told_apart && (!format.has_stencil() || stencil_fetched);
+    let has_distinct_codes = format != TextureFormat::Rgba8Snorm;
+    let readable = drawn && has_distinct_codes && (!format.has_stencil() || stencil_fetched);
     if !caps.multisample_textures || !readable {
         return Vec::new();
     }
     let mut counts = Vec::new();
     for count in SAMPLE_COUNTS {
         let found = with_surface(context, format, count, |surface| {
-            let good = surface.is_complete() && holds(context, surface, format);
+            let good = surface.is_complete() && has_promised_channels(context, surface, format);
             good.then(|| sample_positions(context, surface, count))?
         });
         let clean = context.check("probing samples").is_ok();
@@ -325,8 +324,8 @@ fn several_samples(
     }
 }
 
-/// Whether a shader's fetch gives the codes that a copy of the same format would give. Short
-/// normalized codes and floats are exact in any float; sRGB and 24-bit depth may not be.
+/// Returns true if a shader's fetch returns the same codes as a copy. Short normalized codes and
+/// floats are exact in any float; sRGB and 24-bit depth may not be.
 fn fetch_is_exact(reading: &mut Reading<'_>, format: TextureFormat, support: &Support) -> bool {
     if format == TextureFormat::Rgba8UnormSrgb {
         let context = reading.context;
@@ -346,39 +345,131 @@ fn fetch_is_exact(reading: &mut Reading<'_>, format: TextureFormat, support: &Su
         return with_surface(context, format, 1, |surface| {
             // The surface then holds a spread of codes.
             let plan = support.read;
-            let told = read::round_trips(context, surface, format, plan);
-            let (due, _) = read::copy(context, surface, format, plan);
+            let exact = depth_round_trips(context, surface, format, plan);
+            let (expected, _) = read::copy(context, surface, format, plan);
             let seen = reading.fetched_depth(surface, ChannelEncoding::Unorm(24));
-            Some(told && seen.is_ok_and(|codes| codes == due))
+            Some(exact && seen.is_ok_and(|codes| codes == expected))
         })
         .unwrap_or(false);
     }
     true
 }
 
-/// Where a surface's samples lie; `None` where it has another number of them.
+/// Returns the sample positions of a surface; `None` if it has another sample count.
 fn sample_positions(context: &Context, surface: &Surface, count: u32) -> Option<Vec<[u16; 2]>> {
-    let get = context.extra.get_multisample?;
+    let get = context.entry_points.get_multisample?;
     let gl = &context.gl;
     // SAFETY: the context is current, the surface lives, and the pair has room. The texture is
-    // bound to the target of its own.
+    // bound to its target.
     unsafe {
         gl.bind_texture(glow::TEXTURE_2D_MULTISAMPLE, surface.texture());
         let target = glow::TEXTURE_2D_MULTISAMPLE;
         let stored = gl.get_tex_level_parameter_i32(target, 0, glow::TEXTURE_SAMPLES);
         gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
         let drawn = gl.get_parameter_i32(glow::SAMPLES);
-        // Asking for 2 may give 4.
+        // A request for 2 samples may yield 4.
         if [stored, drawn].map(u32::try_from) != [Ok(count); 2] {
             return None;
         }
         let position = |i| {
             let mut position = [0.0_f32; 2];
             get(glow::SAMPLE_POSITION, i, position.as_mut_ptr());
-            // Rows count upwards in window coordinates, and row 0 is the top one here, so that
-            // nothing is mirrored.
+            // Rows count upwards in window coordinates, and row 0 is the top one here: nothing is
+            // mirrored.
             position.map(|v| (v * 256.0).round() as u16)
         };
         Some((0..count).map(position).collect())
     }
+}
+
+/// Returns the first 32-bit code that is not below a 24-bit one. Truncation and rounding both
+/// return it to the same code.
+fn widened(code: u32) -> u32 {
+    let exact = u64::from(code) * u64::from(u32::MAX);
+    exact.div_ceil(0xff_ffff) as u32
+}
+
+/// Returns true if codes uploaded to a depth texture are read back unchanged, so that reading is an
+/// exact copy: GL describes both ways as conversions, which might round.
+fn depth_round_trips(
+    context: &Context,
+    surface: &Surface,
+    format: TextureFormat,
+    plan: ReadPlan,
+) -> bool {
+    let Some(texture) = surface.texture() else {
+        return false;
+    };
+    let size = surface.size();
+    let last = size[0] * size[1] - 1;
+    let spread = |most: u32| {
+        let code = move |i| (u64::from(i) * u64::from(most) / u64::from(last)) as u32;
+        (0..=last).map(code)
+    };
+    let floats = || (0..=last).map(|i| (i as f32 / last as f32).to_bits());
+    let stencils = || (0..=last).map(|i| i & 0xff);
+    let (kind, bytes, codes): (u32, Vec<u8>, Vec<u32>) = match plan {
+        ReadPlan::Depth16 => (
+            glow::UNSIGNED_SHORT,
+            spread(0xffff)
+                .flat_map(|c| (c as u16).to_ne_bytes())
+                .collect(),
+            spread(0xffff).collect(),
+        ),
+        ReadPlan::Depth24 => (
+            glow::UNSIGNED_INT,
+            spread(0xff_ffff)
+                .flat_map(|c| widened(c).to_ne_bytes())
+                .collect(),
+            spread(0xff_ffff).collect(),
+        ),
+        ReadPlan::DepthFloat => (
+            glow::FLOAT,
+            floats().flat_map(u32::to_ne_bytes).collect(),
+            floats().collect(),
+        ),
+        ReadPlan::Depth24Stencil8 => (
+            glow::UNSIGNED_INT_24_8,
+            spread(0xff_ffff)
+                .zip(stencils())
+                .flat_map(|(c, s)| (c << 8 | s).to_ne_bytes())
+                .collect(),
+            spread(0xff_ffff).collect(),
+        ),
+        ReadPlan::DepthFloatStencil8 => (
+            glow::FLOAT_32_UNSIGNED_INT_24_8_REV,
+            floats()
+                .zip(stencils())
+                .flat_map(|(c, s)| [c, s])
+                .flat_map(u32::to_ne_bytes)
+                .collect(),
+            floats().collect(),
+        ),
+        _ => return false,
+    };
+    let layout = if format.has_stencil() {
+        glow::DEPTH_STENCIL
+    } else {
+        glow::DEPTH_COMPONENT
+    };
+    let gl = &context.gl;
+    crate::state::reset(context);
+    // SAFETY: the context is current, rows are packed tightly, and the bytes cover the texture.
+    unsafe {
+        gl.active_texture(glow::TEXTURE0);
+        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
+        gl.tex_sub_image_2d(
+            glow::TEXTURE_2D,
+            0,
+            0,
+            0,
+            size[0] as i32,
+            size[1] as i32,
+            layout,
+            kind,
+            glow::PixelUnpackData::Slice(Some(&bytes)),
+        );
+    }
+    let (read, stencil) = read::copy(context, surface, format, plan);
+    read == codes && stencil.is_none_or(|s| s.into_iter().eq(stencils()))
 }

@@ -1,4 +1,4 @@
-//! Programs: the suite's shaders through naga, and those that read attachments back.
+//! Programs of the suite's shaders, translated by naga, and of reading attachments back.
 
 use crate::context::{Context, refused};
 use etalon_backend::BackendError;
@@ -10,40 +10,40 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, ResourceBinding, ShaderStage};
 use std::collections::HashMap;
 
-/// The uniform block's binding point.
+/// The binding point of the parameter block.
 pub(crate) const PARAMS_BINDING: u32 = 0;
-/// The binding point of the storage block in which shaders count their runs.
+/// The binding point of the storage buffer that shaders count in.
 pub(crate) const RUNS_BINDING: u8 = 0;
 
-/// What the suite's shaders use beyond WebGPU's core.
+/// The capabilities beyond WebGPU's core that the suite's shaders use.
 const CAPABILITIES: Capabilities = Capabilities::DUAL_SOURCE_BLENDING
     .union(Capabilities::MULTISAMPLED_SHADING)
     .union(Capabilities::EARLY_DEPTH_TEST);
 
-/// Where the suite's shaders have the counter of their runs.
+/// The binding of the counter in the suite's shaders.
 const RUNS: ResourceBinding = ResourceBinding {
     group: 0,
     binding: 3,
 };
 
-/// Programs of one context, made at first need.
+/// The programs of a context, created on first use.
 #[derive(Default)]
 pub(crate) struct Programs {
     shaders: HashMap<(Shader, EarlyTests), glow::Program>,
     readers: HashMap<(Reader, bool), (glow::Program, Option<glow::UniformLocation>)>,
 }
 
-/// What a read-back program fetches.
+/// The type of the values that a read-back program fetches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Reader {
-    /// The bits of the colour or depth that a shader sees.
+    /// The bits of colours or depths as floats.
     Floats,
-    /// The stencil value or the integers of a colour.
+    /// Stencil values or integer colours.
     Integers,
 }
 
 impl Programs {
-    /// The program of one of the suite's shaders.
+    /// Returns the program of one of the suite's shaders.
     pub(crate) fn shader(
         &mut self,
         context: &Context,
@@ -69,7 +69,7 @@ impl Programs {
         unsafe {
             gl.use_program(Some(program));
             for block in &translated.blocks {
-                // A block that the compiler found unused has no index.
+                // A block that the compiler removed has no index.
                 if let Some(index) = gl.get_uniform_block_index(program, block) {
                     gl.uniform_block_binding(program, index, PARAMS_BINDING);
                 }
@@ -83,15 +83,15 @@ impl Programs {
         Ok(program)
     }
 
-    /// A program that draws what it fetches from texture unit 0, texel by texel, and where it takes
-    /// the number of the sample from, if the texture has several.
+    /// Returns a program that fetches texture unit 0 texel by texel, and the location of its sample
+    /// index.
     pub(crate) fn reader(
         &mut self,
         context: &Context,
         reader: Reader,
-        several: bool,
+        multisampled: bool,
     ) -> Result<(glow::Program, Option<glow::UniformLocation>), BackendError> {
-        if let Some(known) = self.readers.get(&(reader, several)) {
+        if let Some(known) = self.readers.get(&(reader, multisampled)) {
             return Ok(*known);
         }
         let header = format!("#version {}\n", context.caps.glsl)
@@ -100,13 +100,13 @@ impl Programs {
             + "void main() {\n\
                vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));\n\
                gl_Position = vec4(corner * 4.0 - 1.0, 0.5, 1.0);\n}\n";
-        let sampler = match (reader, several) {
+        let sampler = match (reader, multisampled) {
             (Reader::Floats, false) => "sampler2D",
             (Reader::Floats, true) => "sampler2DMS",
             (Reader::Integers, false) => "usampler2D",
             (Reader::Integers, true) => "usampler2DMS",
         };
-        // The last argument is a sample's number, or else the level.
+        // The last argument is the sample index, or the level of a single-sample texture.
         let fetched = "texelFetch(source, ivec2(gl_FragCoord.xy), number)";
         let (name, value) = match reader {
             Reader::Floats => ("read floats", format!("floatBitsToUint({fetched})")),
@@ -129,7 +129,7 @@ impl Programs {
             gl.get_uniform_location(program, "number")
         };
         let made = (program, location);
-        self.readers.insert((reader, several), made);
+        self.readers.insert((reader, multisampled), made);
         Ok(made)
     }
 }
@@ -138,9 +138,9 @@ impl Programs {
 struct Translated {
     vertex: String,
     fragment: String,
-    /// Names of uniform blocks.
+    /// The names of uniform blocks.
     blocks: Vec<String>,
-    /// Names of textures with their units: the binding less one.
+    /// The names of textures with their units: the binding less one.
     textures: Vec<(String, u32)>,
 }
 
@@ -159,9 +159,9 @@ impl Translated {
         };
         translated.vertex = translated.stage(context, &module, &info, ShaderStage::Vertex)?;
         let fragment = translated.stage(context, &module, &info, ShaderStage::Fragment)?;
-        // naga takes GLSL's signed number for WGSL's unsigned one, which ES does not convert.
+        // naga uses GLSL's signed sample index where WGSL's is unsigned; ES does not convert.
         translated.fragment = fragment.replace("gl_SampleID", "uint(gl_SampleID)");
-        // Where the version has no such qualifier, naga leaves it out.
+        // naga omits qualifiers that the version lacks.
         if let Some(word) = qualifier(tests)
             && !translated.fragment.contains(word)
         {
@@ -179,13 +179,14 @@ impl Translated {
     ) -> Result<String, String> {
         let options = glsl::Options {
             version: context.caps.glsl,
-            // Points are one texel wide; ES leaves them undefined unless the shader says so.
+            // Points are one texel wide; in ES the size is undefined unless the shader writes it.
             writer_flags: if context.caps.clip_control {
                 glsl::WriterFlags::FORCE_POINT_SIZE
             } else {
                 glsl::WriterFlags::FORCE_POINT_SIZE | glsl::WriterFlags::ADJUST_COORDINATE_SPACE
             },
-            // Other bindings are set by name, which every version can; ES cannot for storage.
+            // Other bindings are set by name, which all versions can; ES cannot for storage
+            // buffers.
             binding_map: glsl::BindingMap::from([(RUNS, RUNS_BINDING)]),
             ..glsl::Options::default()
         };
@@ -226,7 +227,7 @@ impl Translated {
     }
 }
 
-/// GLSL's word for when the fragment tests happen.
+/// Returns GLSL's layout qualifier of an early-test mode.
 fn qualifier(tests: EarlyTests) -> Option<&'static str> {
     match tests {
         EarlyTests::Implicit => None,
@@ -267,7 +268,7 @@ fn link(
                 return Err(fail(format!("{}\n{source}", log.trim())));
             }
             gl.attach_shader(program, shader);
-            // The program keeps it.
+            // The program keeps the shader.
             gl.delete_shader(shader);
         }
         gl.link_program(program);

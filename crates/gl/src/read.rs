@@ -1,19 +1,19 @@
-//! Reading attachments back, as codes.
+//! Reading attachments back as codes.
 
 use crate::codes;
 use crate::context::{Context, refused};
-use crate::format::{ReadPlan, STENCIL_INDEX, ShaderStencil, gl_format};
+use crate::format::gl_format;
 use crate::pool::Pool;
 use crate::program::{Programs, Reader};
 use crate::state;
+use crate::support::{ReadPlan, ShaderStencil};
 use crate::surface::{Storage, Surface, SurfaceKind};
 use etalon_backend::BackendError;
+use etalon_backend::codes::code_of_float;
 use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath, TextureFormat};
 use glow::HasContext;
 
-const DEPTH_STENCIL_TEXTURE_MODE: u32 = 0x90EA;
-
-/// What a read needs besides the surface.
+/// The objects that reading needs besides the surface.
 pub(crate) struct Reading<'a> {
     pub(crate) context: &'a Context,
     pub(crate) pool: &'a mut Pool,
@@ -22,10 +22,10 @@ pub(crate) struct Reading<'a> {
     pub(crate) no_vertices: glow::VertexArray,
 }
 
-/// The codes of depth and of stencil, as far as a format has them.
+/// The codes of depth and of stencil, if the format has them.
 type DepthStencil = (Option<Vec<u32>>, Option<Vec<u32>>);
 
-/// One attachment to be read.
+/// An attachment to read.
 pub(crate) struct Source<'a> {
     pub(crate) name: &'a str,
     pub(crate) format: TextureFormat,
@@ -35,7 +35,7 @@ pub(crate) struct Source<'a> {
 }
 
 impl Reading<'_> {
-    /// The images of all aspects of an attachment, depth before stencil.
+    /// Returns the images of all aspects of an attachment, depth before stencil.
     pub(crate) fn images(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
         let image = |aspect, channels, read, codes| Image {
             attachment: source.name.to_owned(),
@@ -61,14 +61,14 @@ impl Reading<'_> {
             images.push(image(Aspect::Depth, channels, path, codes));
         }
         if let Some(codes) = stencil {
-            // Integers arrive exactly on either path, so that there is nothing to tell.
+            // Both ways of reading integers are exact.
             let channels = vec![ChannelEncoding::Uint(8)];
             images.push(image(Aspect::Stencil, channels, ReadPath::Copy, codes));
         }
         Ok(images)
     }
 
-    /// The codes of a colour surface. Several samples are fetched, whatever the plan for one.
+    /// Returns the codes of a colour surface. Several samples are always fetched.
     pub(crate) fn color(
         &mut self,
         surface: &Surface,
@@ -90,7 +90,7 @@ impl Reading<'_> {
         Ok(narrowed(&wide, channels))
     }
 
-    /// The codes of depths that a shader sees.
+    /// Returns the codes of depths that a shader fetches.
     pub(crate) fn fetched_depth(
         &mut self,
         surface: &Surface,
@@ -107,11 +107,11 @@ impl Reading<'_> {
 
     fn depth_stencil(&mut self, source: &Source<'_>) -> Result<DepthStencil, BackendError> {
         let (surface, format) = (source.surface, source.format);
-        let several = surface.samples() > 1;
+        let multisampled = surface.samples() > 1;
         let (depth, stencil) = match source.plan {
             ReadPlan::Shader { depth, stencil } => (depth, stencil),
-            // A copy would average.
-            _ if several => (format.has_depth(), ShaderStencil::Copy),
+            // A copy would resolve.
+            _ if multisampled => (format.has_depth(), ShaderStencil::Copy),
             plan => {
                 let (first, second) = copy(self.context, surface, format, plan);
                 return Ok(if format.has_depth() {
@@ -134,7 +134,7 @@ impl Reading<'_> {
         let stencil = match stencil {
             _ if !format.has_stencil() => None,
             ShaderStencil::None => None,
-            ShaderStencil::Copy if !several => {
+            ShaderStencil::Copy if !multisampled => {
                 Some(copy(self.context, surface, format, ReadPlan::Stencil).0)
             }
             ShaderStencil::Copy | ShaderStencil::Shader => Some(self.fetched_stencil(surface)?),
@@ -142,14 +142,14 @@ impl Reading<'_> {
         Ok((depth, stencil))
     }
 
-    /// Draws what a shader fetches from the surface and reads that: four words per sample, the
-    /// samples of a texel one after the other.
+    /// Fetches a surface into a scratch surface and reads that: four words per sample, the samples
+    /// of a texel in sequence.
     fn fetch(&mut self, surface: &Surface, reader: Reader) -> Result<Vec<u32>, BackendError> {
         let context = self.context;
         let gl = &context.gl;
         let Storage::Texture(texture, binding) = surface.storage else {
             return Err(BackendError::Internal(
-                "a renderbuffer was to be fetched from".to_owned(),
+                "a renderbuffer cannot be fetched from".to_owned(),
             ));
         };
         let samples = surface.samples();
@@ -164,8 +164,10 @@ impl Reading<'_> {
         let has_stencil = matches!(surface.kind, SurfaceKind::Attachment(f, _) if f.has_stencil());
         let set_mode = |mode: u32| {
             if reader == Reader::Integers && has_stencil && context.caps.stencil_texturing {
-                // SAFETY: the texture is bound and the context knows the parameter.
-                unsafe { gl.tex_parameter_i32(binding, DEPTH_STENCIL_TEXTURE_MODE, mode as i32) }
+                // SAFETY: the texture is bound and the context has the parameter.
+                unsafe {
+                    gl.tex_parameter_i32(binding, glow::DEPTH_STENCIL_TEXTURE_MODE, mode as i32)
+                }
             }
         };
         let texels = size[0] as usize * size[1] as usize;
@@ -182,7 +184,7 @@ impl Reading<'_> {
                 gl.bind_vertex_array(Some(self.no_vertices));
                 gl.active_texture(glow::TEXTURE0);
                 gl.bind_texture(binding, Some(texture));
-                set_mode(STENCIL_INDEX);
+                set_mode(glow::STENCIL_INDEX);
                 gl.draw_arrays(glow::TRIANGLES, 0, 3);
                 set_mode(glow::DEPTH_COMPONENT);
             }
@@ -198,14 +200,12 @@ impl Reading<'_> {
     }
 }
 
-/// Codes from texels of four floats.
+/// Returns the codes of texels of four floats.
 fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
     let texels = wide.chunks_exact(4);
     let narrow = |texel: &[u32]| -> Vec<u32> {
         let values = channels.iter().zip(texel);
-        values
-            .map(|(e, float)| codes::of_float(*e, *float))
-            .collect()
+        values.map(|(e, float)| code_of_float(*e, *float)).collect()
     };
     texels.flat_map(narrow).collect()
 }
@@ -278,13 +278,19 @@ pub(crate) fn copy(
         }
         ReadPlan::Stencil | ReadPlan::Fetched | ReadPlan::Shader { .. } => {
             let mut values = vec![0_u8; texels];
-            read_pixels(gl, size, STENCIL_INDEX, glow::UNSIGNED_BYTE, &mut values);
+            read_pixels(
+                gl,
+                size,
+                glow::STENCIL_INDEX,
+                glow::UNSIGNED_BYTE,
+                &mut values,
+            );
             (values.into_iter().map(u32::from).collect(), None)
         }
     }
 }
 
-/// The code of at most 8 bits that was widened to a byte.
+/// Returns the code of at most 8 bits that was widened to a byte.
 fn shortened(encoding: ChannelEncoding, byte: u8) -> u32 {
     match codes::bits(encoding) {
         bits @ 1..8 => {
@@ -295,7 +301,7 @@ fn shortened(encoding: ChannelEncoding, byte: u8) -> u32 {
     }
 }
 
-/// Reads the bound framebuffer into a slice that has room for exactly this.
+/// Reads the bound framebuffer into a slice of exactly the image's size.
 fn read_pixels<T: bytemuck::Pod>(
     gl: &glow::Context,
     size: [u32; 2],
@@ -310,96 +316,4 @@ fn read_pixels<T: bytemuck::Pod>(
         gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
         gl.read_pixels(0, 0, size[0] as i32, size[1] as i32, format, kind, pixels);
     }
-}
-
-/// The first 32-bit code that is not below a 24-bit one, so that it becomes that again whether a
-/// driver truncates or rounds.
-fn widened(code: u32) -> u32 {
-    let exact = u64::from(code) * u64::from(u32::MAX);
-    exact.div_ceil(0xff_ffff) as u32
-}
-
-/// Whether codes that are uploaded to a depth texture come back unchanged, so that reading is an
-/// exact copy: GL describes both ways as conversions, which might round.
-pub(crate) fn round_trips(
-    context: &Context,
-    surface: &Surface,
-    format: TextureFormat,
-    plan: ReadPlan,
-) -> bool {
-    let Some(texture) = surface.texture() else {
-        return false;
-    };
-    let size = surface.size();
-    let last = size[0] * size[1] - 1;
-    let spread = |most: u32| {
-        let code = move |i| (u64::from(i) * u64::from(most) / u64::from(last)) as u32;
-        (0..=last).map(code)
-    };
-    let floats = || (0..=last).map(|i| (i as f32 / last as f32).to_bits());
-    let stencils = || (0..=last).map(|i| i & 0xff);
-    let (kind, bytes, codes): (u32, Vec<u8>, Vec<u32>) = match plan {
-        ReadPlan::Depth16 => (
-            glow::UNSIGNED_SHORT,
-            spread(0xffff)
-                .flat_map(|c| (c as u16).to_ne_bytes())
-                .collect(),
-            spread(0xffff).collect(),
-        ),
-        ReadPlan::Depth24 => (
-            glow::UNSIGNED_INT,
-            spread(0xff_ffff)
-                .flat_map(|c| widened(c).to_ne_bytes())
-                .collect(),
-            spread(0xff_ffff).collect(),
-        ),
-        ReadPlan::DepthFloat => (
-            glow::FLOAT,
-            floats().flat_map(u32::to_ne_bytes).collect(),
-            floats().collect(),
-        ),
-        ReadPlan::Depth24Stencil8 => (
-            glow::UNSIGNED_INT_24_8,
-            spread(0xff_ffff)
-                .zip(stencils())
-                .flat_map(|(c, s)| (c << 8 | s).to_ne_bytes())
-                .collect(),
-            spread(0xff_ffff).collect(),
-        ),
-        ReadPlan::DepthFloatStencil8 => (
-            glow::FLOAT_32_UNSIGNED_INT_24_8_REV,
-            floats()
-                .zip(stencils())
-                .flat_map(|(c, s)| [c, s])
-                .flat_map(u32::to_ne_bytes)
-                .collect(),
-            floats().collect(),
-        ),
-        _ => return false,
-    };
-    let layout = if format.has_stencil() {
-        glow::DEPTH_STENCIL
-    } else {
-        glow::DEPTH_COMPONENT
-    };
-    let gl = &context.gl;
-    state::reset(context);
-    // SAFETY: the context is current, rows are packed tightly, and the bytes cover the texture.
-    unsafe {
-        gl.active_texture(glow::TEXTURE0);
-        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
-        gl.tex_sub_image_2d(
-            glow::TEXTURE_2D,
-            0,
-            0,
-            0,
-            size[0] as i32,
-            size[1] as i32,
-            layout,
-            kind,
-            glow::PixelUnpackData::Slice(Some(&bytes)),
-        );
-    }
-    let (read, stencil) = copy(context, surface, format, plan);
-    read == codes && stencil.is_none_or(|s| s.into_iter().eq(stencils()))
 }

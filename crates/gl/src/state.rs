@@ -1,7 +1,7 @@
-//! Pipeline state in GL's words. All of it is set for every draw; there is no cache to go stale.
+//! Pipeline state. All of it is set for every draw, so that no cache can be stale.
 
 use crate::context::Context;
-use crate::words::{compare, equations, logic_operation, mask, operation};
+use crate::enums::{compare, equations, logic_operation, mask, operation};
 use etalon_backend::BackendError;
 use etalon_frame::{Feature, Requirement};
 use etalon_scene::{
@@ -11,9 +11,8 @@ use etalon_scene::{
 use glow::HasContext;
 
 const DEPTH_BOUNDS_TEST: u32 = 0x8890;
-const CLAMP_READ_COLOR: u32 = 0x891C;
 
-/// A draw's state, ready to be set.
+/// The state of a draw, ready to be set.
 #[derive(Clone, Debug)]
 pub(crate) struct DrawState {
     cull: Option<u32>,
@@ -36,19 +35,19 @@ pub(crate) struct DrawState {
 }
 
 impl DrawState {
-    /// Takes a draw's state, or says that the context cannot have it.
+    /// Returns a draw's state, or an error if the context does not support it.
     pub(crate) fn new(
         context: &Context,
         draw: &Draw,
         read_only: bool,
     ) -> Result<Self, BackendError> {
         if !viewport_is_exact(context, &draw.viewport) {
-            // Of what a scene can ask for, this comes nearest to a viewport beyond GL's means.
+            // The requirement that is nearest to a viewport that GL cannot represent.
             let requirement = Requirement::Feature(Feature::ViewportOutside);
             return Err(BackendError::NotSupported(requirement));
         }
         let differ = draw.targets.windows(2).any(|pair| pair[0] != pair[1]);
-        // Without clip control shaders mirror y, which turns every winding over.
+        // Without clip control the shaders mirror y, which inverts every winding.
         let ccw = (draw.front_face == FrontFace::Ccw) == context.caps.clip_control;
         Ok(Self {
             cull: match draw.cull {
@@ -82,7 +81,7 @@ impl DrawState {
         })
     }
 
-    /// Sets the state. What the context lacks is off: the limits deny it.
+    /// Sets the state. State that the context lacks is off, as the limits deny it.
     pub(crate) fn apply(&self, context: &Context) {
         self.apply_rasterization(context);
         self.apply_tests(context);
@@ -96,7 +95,7 @@ impl DrawState {
         set(gl, glow::RASTERIZER_DISCARD, self.rasterizer_discard);
         set(gl, glow::SCISSOR_TEST, self.scissor.is_some());
         set(gl, glow::POLYGON_OFFSET_FILL, self.depth_bias.is_some());
-        // SAFETY: the context is current; entry points are of version 3 or were asked for, and
+        // SAFETY: the context is current; entry points are of version 3 or supported, and
         // polygon modes are set in core profiles only.
         unsafe {
             if let Some(face) = self.cull {
@@ -110,7 +109,7 @@ impl DrawState {
                 set(gl, glow::POLYGON_OFFSET_POINT, self.depth_bias.is_some());
             }
             let [x, y, w, h] = self.viewport.rect;
-            match context.extra.viewport_indexed {
+            match context.entry_points.viewport_indexed {
                 Some(viewport) => viewport(0, x, y, w, h),
                 None => gl.viewport(x as i32, y as i32, w as i32, h as i32),
             }
@@ -130,7 +129,7 @@ impl DrawState {
             }) = self.depth_bias
             {
                 let constant = constant as f32;
-                match context.extra.polygon_offset_clamp {
+                match context.entry_points.polygon_offset_clamp {
                     Some(offset) if clamp != 0.0 => offset(slope, constant, clamp),
                     _ => gl.polygon_offset(slope, constant),
                 }
@@ -143,7 +142,7 @@ impl DrawState {
 
     fn apply_tests(&self, context: &Context) {
         let gl = &context.gl;
-        if let Some(bounds) = context.extra.depth_bounds {
+        if let Some(bounds) = context.entry_points.depth_bounds {
             set(gl, DEPTH_BOUNDS_TEST, self.depth_bounds.is_some());
             if let Some([low, high]) = self.depth_bounds {
                 // SAFETY: the context is current and has the function.
@@ -180,7 +179,7 @@ impl DrawState {
         if context.caps.alpha_to_one {
             set(gl, glow::SAMPLE_ALPHA_TO_ONE, alpha_to_one);
         }
-        if let Some(set_mask) = context.extra.sample_mask {
+        if let Some(set_mask) = context.entry_points.sample_mask {
             set(gl, glow::SAMPLE_MASK, mask != u32::MAX);
             // SAFETY: the context is current and has the function.
             unsafe { set_mask(0, mask) };
@@ -189,13 +188,13 @@ impl DrawState {
 
     fn apply_targets(&self, context: &Context) {
         let gl = &context.gl;
-        if let Some(set_logic) = context.extra.logic_op {
+        if let Some(set_logic) = context.entry_points.logic_op {
             set(gl, glow::COLOR_LOGIC_OP, self.logic.is_some());
             // SAFETY: the context is current and has the function.
             unsafe { set_logic(self.logic.unwrap_or(glow::COPY)) };
         }
-        // SAFETY: the context is current; the entry points are of version 3, and targets that
-        // differ were asked for.
+        // SAFETY: the context is current; the entry points are of version 3, and targets
+        // differ only if the context supports it.
         unsafe {
             let [r, g, b, a] = self.blend_constant;
             gl.blend_color(r, g, b, a);
@@ -209,13 +208,13 @@ impl DrawState {
                         gl.blend_equation_separate(color.0, alpha.0);
                         gl.blend_func_separate(color.1, color.2, alpha.1, alpha.2);
                     }
-                    // Mesa refuses several targets as long as the second source is named, even
-                    // where nothing is blended.
+                    // With a second source as a factor, Mesa refuses several targets even if
+                    // blending is disabled.
                     None => gl.blend_func(glow::ONE, glow::ZERO),
                 }
                 return;
             }
-            // The same holds for buffers beyond the targets, which the loop does not reach.
+            // The same holds for draw buffers beyond the targets, which the loop does not reach.
             gl.blend_func(glow::ONE, glow::ZERO);
             for (i, target) in (0..).zip(&self.targets) {
                 let [r, g, b, a] = mask(target);
@@ -237,7 +236,7 @@ impl DrawState {
     }
 }
 
-/// Switches a capability that the context knows.
+/// Enables or disables a capability that the context has.
 pub(crate) fn set(gl: &glow::Context, capability: u32, on: bool) {
     // SAFETY: the context is current.
     unsafe {
@@ -249,8 +248,8 @@ pub(crate) fn set(gl: &glow::Context, capability: u32, on: bool) {
     }
 }
 
-/// Whether GL takes a viewport as it is: it may round what lies between its sub-pixel positions
-/// (OpenGL 4.6, 13.8.1) and cut what is larger than its limit.
+/// Returns true if GL represents a viewport exactly. It may round between its sub-pixel positions
+/// (OpenGL 4.6, 13.8.1) and clamp to its limit.
 fn viewport_is_exact(context: &Context, viewport: &Viewport) -> bool {
     let steps = 2_f32.powi(context.caps.viewport_bits.unwrap_or(0).min(16) as i32);
     let [_, _, w, h] = viewport.rect;
@@ -259,25 +258,25 @@ fn viewport_is_exact(context: &Context, viewport: &Viewport) -> bool {
     fits && viewport.rect.iter().all(|v| (v * steps).fract() == 0.0)
 }
 
-/// GL's scissor takes signed numbers.
+/// Returns the scissor in signed integers, as GL takes it.
 fn scissor(rect: [u32; 4]) -> [i32; 4] {
     let [x, y, w, h] = rect.map(|v| i32::try_from(v).unwrap_or(i32::MAX));
     [x, y, w.min(i32::MAX - x), h.min(i32::MAX - y)]
 }
 
-/// Lets the largest index end a strip.
+/// Enables primitive restart at the largest index.
 pub(crate) fn set_restart(context: &Context) {
     let gl = &context.gl;
     if context.caps.fixed_restart {
         set(gl, glow::PRIMITIVE_RESTART_FIXED_INDEX, true);
-    } else if let Some(index) = context.extra.primitive_restart_index {
+    } else if let Some(index) = context.entry_points.primitive_restart_index {
         set(gl, glow::PRIMITIVE_RESTART, true);
         // SAFETY: the context is current and has the function.
         unsafe { index(RESTART) };
     }
 }
 
-/// Takes colours as linear where an attachment holds sRGB. ES always does.
+/// Enables sRGB conversion of attachments. ES always has it enabled.
 pub(crate) fn set_srgb(context: &Context, on: bool) {
     if !context.caps.es {
         set(&context.gl, glow::FRAMEBUFFER_SRGB, on);
@@ -303,11 +302,11 @@ fn stencil_face(gl: &glow::Context, face: u32, state: StencilFace) {
     }
 }
 
-/// State that no scene changes, and an end to all that one did: clears and uploads after this do
-/// what they say.
+/// Sets the state that no scene changes, and resets what scenes change, so that it does not affect
+/// clears and uploads.
 pub(crate) fn reset(context: &Context) {
     let gl = &context.gl;
-    // SAFETY: the context is current; what only one profile knows is set in that one.
+    // SAFETY: the context is current; state of one profile is set in that profile only.
     unsafe {
         for capability in [
             glow::SCISSOR_TEST,
@@ -328,8 +327,14 @@ pub(crate) fn reset(context: &Context) {
             (caps.depth_clamp, glow::DEPTH_CLAMP),
             (caps.alpha_to_one, glow::SAMPLE_ALPHA_TO_ONE),
             (caps.fixed_restart, glow::PRIMITIVE_RESTART_FIXED_INDEX),
-            (context.extra.sample_mask.is_some(), glow::SAMPLE_MASK),
-            (context.extra.depth_bounds.is_some(), DEPTH_BOUNDS_TEST),
+            (
+                context.entry_points.sample_mask.is_some(),
+                glow::SAMPLE_MASK,
+            ),
+            (
+                context.entry_points.depth_bounds.is_some(),
+                DEPTH_BOUNDS_TEST,
+            ),
         ] {
             if known {
                 gl.disable(capability);
@@ -350,9 +355,9 @@ pub(crate) fn reset(context: &Context) {
             gl.polygon_mode(glow::FRONT_AND_BACK, glow::FILL);
         }
         gl.line_width(1.0);
-        if let Some(clamp_color) = context.extra.clamp_color {
-            // Else negative values of signed normalized formats would be read as 0.
-            clamp_color(CLAMP_READ_COLOR, 0);
+        if let Some(clamp_color) = context.entry_points.clamp_color {
+            // Otherwise negative values of signed normalized formats are read as 0.
+            clamp_color(glow::CLAMP_READ_COLOR, 0);
         }
         gl.color_mask(true, true, true, true);
         gl.depth_mask(true);

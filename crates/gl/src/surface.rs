@@ -1,4 +1,4 @@
-//! Attachments: textures and renderbuffers with framebuffers of their own.
+//! Textures and renderbuffers, each with a framebuffer.
 
 use crate::codes;
 use crate::context::{Context, refused};
@@ -8,12 +8,12 @@ use etalon_frame::{Requirement, TextureFormat};
 use glow::HasContext;
 use std::cell::Cell;
 
-/// What a surface is for.
+/// The use of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum SurfaceKind {
-    /// A scene's attachment with so many samples per texel.
+    /// A scene's attachment with this many samples per texel.
     Attachment(TextureFormat, u32),
-    /// What read-back shaders write to: four 32-bit unsigned integers a texel.
+    /// The target of read-back shaders: four 32-bit unsigned integers per texel.
     Fetched,
 }
 
@@ -39,7 +39,7 @@ impl SurfaceKind {
         }
     }
 
-    /// Bytes per texel, roughly.
+    /// Returns the approximate size of a texel.
     fn bytes(self) -> u64 {
         match self {
             Self::Attachment(format, samples) if format.is_color() => {
@@ -51,16 +51,16 @@ impl SurfaceKind {
     }
 }
 
-/// The memory of a surface.
+/// The storage of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Storage {
     /// A texture and its target.
     Texture(glow::Texture, u32),
-    /// A renderbuffer, where textures of the format do not exist.
+    /// A renderbuffer, if textures of the format do not exist.
     Renderbuffer(glow::Renderbuffer),
 }
 
-/// A texture or renderbuffer with a framebuffer of its own. Contents are never relied upon.
+/// A texture or renderbuffer with a framebuffer. Contents of a new one are undefined.
 #[derive(Debug)]
 pub(crate) struct Surface {
     pub(crate) storage: Storage,
@@ -69,7 +69,7 @@ pub(crate) struct Surface {
     pub(crate) attachment: u32,
     pub(crate) kind: SurfaceKind,
     pub(crate) size: [u32; 2],
-    /// Never given twice.
+    /// A unique number.
     pub(crate) id: u64,
 }
 
@@ -78,7 +78,7 @@ thread_local! {
 }
 
 impl Surface {
-    /// Makes a surface. What fails half-way is freed with the context.
+    /// Creates a surface. After an error its parts are deleted with the context.
     pub(crate) fn new(
         context: &Context,
         kind: SurfaceKind,
@@ -87,7 +87,7 @@ impl Surface {
         let format = kind.gl()?;
         let samples = kind.samples();
         let stencil_only = matches!(kind, SurfaceKind::Attachment(TextureFormat::Stencil8, _));
-        // A shader reads stencil in ES and where there are several samples, hence from a texture.
+        // A shader reads stencil in ES and if multisampled, which takes a texture.
         let fetched = (context.caps.es || samples > 1) && context.caps.stencil_textures;
         let storage = if stencil_only && !fetched {
             renderbuffer(context, format, size)?
@@ -109,12 +109,12 @@ impl Surface {
         })
     }
 
-    /// Whether the surface alone makes a complete framebuffer.
+    /// Returns true if the surface alone is a complete framebuffer.
     pub(crate) fn is_complete(&self) -> bool {
         self.status == glow::FRAMEBUFFER_COMPLETE
     }
 
-    /// The texture; `None` for a renderbuffer.
+    /// Returns the texture; `None` for a renderbuffer.
     pub(crate) fn texture(&self) -> Option<glow::Texture> {
         match self.storage {
             Storage::Texture(texture, _) => Some(texture),
@@ -134,7 +134,7 @@ impl Surface {
         u64::from(self.size[0]) * u64::from(self.size[1]) * self.kind.bytes()
     }
 
-    /// Frees the surface.
+    /// Deletes the surface.
     pub(crate) fn delete(self, context: &Context) {
         let gl = &context.gl;
         // SAFETY: the context is current and the objects are its own.
@@ -179,7 +179,7 @@ fn texture(
         gl.active_texture(glow::TEXTURE0);
         gl.bind_texture(target, Some(texture));
         let set = |name, value: u32| gl.tex_parameter_i32(target, name, value as i32);
-        // Fetches demand a complete texture, whatever they leave unused.
+        // Fetches require a complete texture, even if they do not use its filter.
         set(glow::TEXTURE_MAX_LEVEL, 0);
         set(glow::TEXTURE_MIN_FILTER, glow::NEAREST);
         set(glow::TEXTURE_MAG_FILTER, glow::NEAREST);
@@ -210,13 +210,13 @@ fn multisample_texture(
     let target = glow::TEXTURE_2D_MULTISAMPLE;
     let (samples, width, height) = (samples as i32, width as i32, height as i32);
     let internal = format.internal;
-    // SAFETY: the context is current. ES has the one entry point since 3.1, core profiles have the
-    // other; several samples are offered from these on.
+    // SAFETY: the context is current. Multisampling is offered from ES 3.1 and OpenGL 3.3 on,
+    // which have these entry points.
     unsafe {
         let texture = gl.create_texture().map_err(|e| refused("a texture", e))?;
         gl.active_texture(glow::TEXTURE0);
         gl.bind_texture(target, Some(texture));
-        // Sample locations are the same for every texel and format.
+        // The same sample positions for every texel and format.
         if context.caps.es {
             gl.tex_storage_2d_multisample(target, samples, internal, width, height, true);
         } else {
@@ -227,7 +227,7 @@ fn multisample_texture(
     }
 }
 
-/// Replaces a single-sample colour texture's contents. The bytes cover it.
+/// Replaces the contents of a single-sample colour texture. `bytes` covers it.
 pub(crate) fn upload(context: &Context, format: TextureFormat, surface: &Surface, bytes: &[u8]) {
     let gl = &context.gl;
     let Some(words) = gl_format(format) else {
@@ -253,7 +253,7 @@ pub(crate) fn upload(context: &Context, format: TextureFormat, surface: &Surface
     }
 }
 
-/// Makes a framebuffer, leaves it bound, and tells its status.
+/// Creates a framebuffer, leaves it bound, and returns its status.
 pub(crate) fn framebuffer(
     context: &Context,
     attachments: &[(Storage, u32)],

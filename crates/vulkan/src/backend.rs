@@ -1,79 +1,57 @@
-//! The crate's face: which adapters there are, and an open one.
+//! Adapter enumeration and the open adapter.
 
-use crate::descriptors::Samplers;
 use crate::device::{Device, identify};
 use crate::error::unavailable;
-use crate::format::{self, Native};
+use crate::gpu::Gpu;
 use crate::instance::Instance;
-use crate::limits;
-use crate::memory::Pool;
-use crate::pipeline::Pipelines;
 use crate::prepared::PreparedScene;
-use crate::samples::SampleReaders;
-use crate::slot::Slots;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
-use etalon_frame::{Limits, TextureFormat};
+use etalon_frame::Limits;
 use etalon_scene::Scene;
-use std::cell::RefCell;
-use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// How to open an adapter.
+/// Options for [`open`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// The device's place in the order of `vkEnumeratePhysicalDevices`, which is also the order of
+    /// The device's index in `vkEnumeratePhysicalDevices`, which is also the order of
     /// [`enumerate`].
     pub device: usize,
-    /// Whether the Khronos validation layer watches our calls, synchronization included; what it
-    /// says comes out of [`Backend::messages`].
+    /// Enables the Khronos validation layer, synchronization validation included. Its messages are
+    /// returned by [`Backend::messages`].
     pub validate: bool,
 }
 
 /// An open Vulkan device. It belongs to one thread.
 pub struct VulkanBackend {
     info: AdapterInfo,
-    limits: Limits,
-    pub(crate) natives: BTreeMap<TextureFormat, Native>,
-    pub(crate) pools: RefCell<Pools>,
-    /// Last, so that it outlives what was made of it.
-    pub(crate) device: Device,
+    gpu: Gpu,
 }
 
-/// Everything that is kept from scene to scene.
-#[derive(Default)]
-pub(crate) struct Pools {
-    pub(crate) slots: Slots,
-    pub(crate) memory: Pool,
-    pub(crate) pipelines: Pipelines,
-    pub(crate) readers: SampleReaders,
-    pub(crate) samplers: Samplers,
-}
-
-/// All physical devices that the installed drivers offer, in the order of [`Options::device`]. The
-/// name is `vulkan:<driver>`; two devices of one driver have the same.
+/// Returns all physical devices of the installed drivers, in the order of [`Options::device`]. An
+/// adapter's name is `vulkan:<driver>`; two devices of one driver share a name.
 ///
-/// A device may be listed that [`open`] then refuses, for want of Vulkan 1.3.
+/// The list includes devices without Vulkan 1.3, which [`open`] refuses.
 ///
 /// # Errors
-/// When there is no Vulkan loader, no driver, or none that lists a device.
+/// If there is no Vulkan loader, no driver, or no device.
 pub fn enumerate() -> Result<Vec<AdapterInfo>, Unavailable> {
     let instance = Instance::new(false)?;
     let devices = instance.physical_devices()?.into_iter();
     Ok(devices.map(|d| identify(&instance, d).info).collect())
 }
 
-/// Opens a device under a name, which becomes [`AdapterInfo::name`].
+/// Opens a device. `name` becomes [`AdapterInfo::name`].
 ///
 /// # Errors
-/// When there is no such device, it speaks no Vulkan 1.3, its driver fails, or validation was asked
-/// for and is not installed.
+/// If there is no such device, it lacks Vulkan 1.3, its driver fails, or the validation layer is
+/// requested and not installed.
 pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable> {
     let instance = Rc::new(Instance::new(options.validate)?);
     let devices = instance.physical_devices()?;
     let Some(physical) = devices.get(options.device).copied() else {
         return Err(Unavailable::new(
             format!(
-                "there is no Vulkan device {}, but {} devices",
+                "there is no Vulkan device {}; {} found",
                 options.device,
                 devices.len()
             ),
@@ -82,20 +60,13 @@ pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable>
     };
     let identity = identify(&instance, physical);
     let device = Device::new(instance, physical, &identity)?;
-    let natives = format::natives(&device);
-    let backend = VulkanBackend {
+    Ok(VulkanBackend {
         info: AdapterInfo {
             name: name.to_owned(),
             ..identity.info
         },
-        limits: limits::limits(&device, &natives),
-        natives,
-        pools: RefCell::default(),
-        device,
-    };
-    let created = backend.pools.borrow_mut().pipelines.create(&backend.device);
-    created.map_err(|error| unavailable(&error))?;
-    Ok(backend)
+        gpu: Gpu::new(device).map_err(|error| unavailable(&error))?,
+    })
 }
 
 impl Backend for VulkanBackend {
@@ -104,28 +75,15 @@ impl Backend for VulkanBackend {
     }
 
     fn limits(&self) -> &Limits {
-        &self.limits
+        &self.gpu.limits
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
-        Ok(Box::new(PreparedScene::new(self, scene)?))
+        Ok(Box::new(PreparedScene::new(&self.gpu, scene)?))
     }
 
     fn messages(&self) -> Vec<String> {
-        self.device.instance.take_messages()
-    }
-}
-
-impl Drop for VulkanBackend {
-    fn drop(&mut self) {
-        let pools = self.pools.get_mut();
-        // Prepared scenes borrow the backend, so all of them are gone, and each has waited for the
-        // device to be done with it.
-        pools.slots.destroy(&self.device);
-        pools.memory.destroy(&self.device);
-        pools.pipelines.destroy(&self.device);
-        pools.readers.destroy(&self.device);
-        pools.samplers.destroy(&self.device);
+        self.gpu.device.instance.take_messages()
     }
 }
 
@@ -135,9 +93,9 @@ mod tests {
     use ash::vk;
     use etalon_case::{Library, Profile};
 
-    /// The layer listens: without this, its silence elsewhere would prove nothing.
+    /// The layer reports errors: without this, its silence elsewhere would prove nothing.
     #[test]
-    fn a_planted_mistake_is_told() {
+    fn a_planted_error_is_reported() {
         let options = Options {
             device: 0,
             validate: true,
@@ -148,18 +106,18 @@ mod tests {
         // refuses it.
         let buffer = unsafe {
             let info = vk::BufferCreateInfo::default().size(16);
-            backend.device.raw.create_buffer(&info, None)
+            backend.gpu.device.raw.create_buffer(&info, None)
         };
         let messages = backend.messages();
         assert!(messages.iter().any(|m| m.contains("usage")), "{messages:?}");
         assert_eq!(backend.messages(), Vec::<String>::new());
         if let Ok(buffer) = buffer {
             // SAFETY: just made, and used by nothing.
-            unsafe { backend.device.raw.destroy_buffer(buffer, None) };
+            unsafe { backend.gpu.device.raw.destroy_buffer(buffer, None) };
         }
     }
 
-    /// The validation layer names every object that outlives its device.
+    /// The validation layer reports every object that outlives its device.
     #[test]
     fn a_closed_backend_leaves_nothing_behind() {
         let options = Options {
@@ -176,7 +134,7 @@ mod tests {
                 prepared.read_back().expect("a working driver");
             }
         }
-        let instance = backend.device.instance.clone();
+        let instance = backend.gpu.device.instance.clone();
         drop(backend);
         assert_eq!(instance.take_messages(), Vec::<String>::new());
     }

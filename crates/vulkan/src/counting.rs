@@ -1,9 +1,9 @@
-//! Counters: queries around draws, and words that shaders count in.
+//! Counters: queries around draws, and storage words that shaders increment.
 
+use crate::buffer::Buffer;
 use crate::device::Device;
-use crate::inputs::Placer;
-use crate::memory::Buffer;
-use crate::plan::internal;
+use crate::error::internal;
+use crate::inputs::OffsetAllocator;
 use crate::slot::{Needs, Slot};
 use ash::vk;
 use etalon_backend::BackendError;
@@ -11,15 +11,15 @@ use etalon_frame::CounterKind;
 use etalon_scene::{Draw, Scene};
 use std::mem::size_of;
 
-/// What a scene counts, and where.
+/// The counters of a scene and the storage of their counts.
 #[derive(Default)]
 pub(crate) struct Counting {
     kinds: Vec<CounterKind>,
-    /// Where each counter of shader runs has its word.
+    /// The offset of each `ShaderRuns` counter's word.
     words: Vec<Option<u64>>,
-    /// Bytes of the buffer that holds all words; 0 where there are none.
+    /// The size of the buffer that holds all words; 0 if there are none.
     pub(crate) bytes: u64,
-    /// The counters that the slot's queries count for, one after the other.
+    /// The counter of each query in the slot's pools.
     occlusion: Vec<usize>,
     statistics: Vec<usize>,
 }
@@ -33,26 +33,26 @@ pub(crate) struct Query {
 }
 
 impl Counting {
-    /// The scene's counters, the shaders' words at places of their own.
+    /// Assigns an offset to each counter that a shader increments.
     pub(crate) fn new(device: &Device, scene: &Scene) -> Self {
         let alignment = device.limits.min_storage_buffer_offset_alignment;
-        let mut placer = Placer::default();
+        let mut offsets = OffsetAllocator::default();
         let kinds: Vec<_> = scene.counters.iter().map(|c| c.kind).collect();
         let word = |kind: &CounterKind| {
             let counts = *kind == CounterKind::ShaderRuns;
-            counts.then(|| placer.place(size_of::<u32>() as u64, alignment.max(4)))
+            counts.then(|| offsets.allocate(size_of::<u32>() as u64, alignment.max(4)))
         };
         let words = kinds.iter().map(word).collect();
         Self {
             kinds,
             words,
-            bytes: placer.place(0, 1),
+            bytes: offsets.allocate(0, 1),
             occlusion: Vec::new(),
             statistics: Vec::new(),
         }
     }
 
-    /// Adds to a slot's needs the queries of all draws: one for each query counter that one names.
+    /// Adds one query for each draw and query counter to the needs of a slot.
     pub(crate) fn add_needs(&self, scene: &Scene, needs: &mut Needs) {
         let draws = scene.passes.iter().flat_map(|p| &p.draws);
         for kind in draws.flat_map(|d| &d.counters).map(|c| self.kinds.get(*c)) {
@@ -64,7 +64,7 @@ impl Counting {
         }
     }
 
-    /// The next queries of a slot that has room for all, for a draw.
+    /// Returns the queries of a draw, the next ones of a slot that has room for all.
     pub(crate) fn queries(&mut self, slot: &Slot, draw: &Draw) -> Result<Vec<Query>, BackendError> {
         let mut queries = Vec::new();
         for counter in &draw.counters {
@@ -100,18 +100,18 @@ impl Counting {
         Ok(queries)
     }
 
-    /// Where the shader of a draw counts its runs: the counter, and its word's place.
+    /// Returns the counter that the draw's shader increments and the offset of its word.
     pub(crate) fn word(&self, draw: &Draw) -> Result<Option<(usize, u64)>, BackendError> {
         let place = |counter: &usize| Some((*counter, self.words.get(*counter).copied()??));
         let word = draw.counters.iter().find_map(place);
         if word.is_some() != draw.shader.counts_runs() {
-            return Err(internal("a draw has not the counter its shader counts in"));
+            return Err(internal("a draw lacks the counter of its shader"));
         }
         Ok(word)
     }
 
-    /// Records that everything starts from 0.
-    pub(crate) fn start(
+    /// Records the reset of all queries and words.
+    pub(crate) fn reset(
         &self,
         device: &Device,
         commands: vk::CommandBuffer,
@@ -149,7 +149,7 @@ impl Counting {
         Ok(())
     }
 
-    /// Records that the processor will read what shaders counted.
+    /// Records the barrier that makes the words visible to the host.
     pub(crate) fn end(&self, device: &Device, commands: vk::CommandBuffer) {
         if self.bytes > 0 {
             barrier(
@@ -164,7 +164,7 @@ impl Counting {
         }
     }
 
-    /// The counts, in the order of the scene's counters, of finished work.
+    /// Returns the counts of finished work, in the order of the scene's counters.
     pub(crate) fn read(
         &self,
         device: &Device,
@@ -179,7 +179,7 @@ impl Counting {
         for (counter, result) in passed.chain(invoked) {
             let total = &mut totals[*counter];
             *total = match self.kinds[*counter] {
-                // Anything but 0 says that some passed (Vulkan, Occlusion Queries).
+                // Any value but 0 means that some passed (Vulkan, Occlusion Queries).
                 CounterKind::AnySamplesPassed => *total | u64::from(result != 0),
                 _ => total.wrapping_add(result),
             };

@@ -1,75 +1,48 @@
-//! Descriptor sets: the parameters, textures, sampler and counter of a draw.
+//! Descriptor sets of draws: parameters, textures, sampler and counter.
 
+use crate::buffer::Buffer;
 use crate::counting::Counting;
 use crate::device::Device;
-use crate::error::Check;
+use crate::error::internal;
+use crate::image::Image;
 use crate::inputs::PARAMS_BYTES;
-use crate::memory::{Buffer, Image};
 use crate::pipeline::{Bindings, Pipelines, RUNS_BINDING, SAMPLER_BINDING};
-use crate::plan::internal;
+use crate::samplers::Samplers;
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_scene::{AddressMode, Draw, FilterMode, Sampler};
+use etalon_scene::{Draw, Sampler};
 use std::collections::HashMap;
 use std::mem::size_of;
 
-/// The samplers made so far; there are few ways to sample, so none needs to go early.
-#[derive(Debug, Default)]
-pub(crate) struct Samplers {
-    samplers: HashMap<Sampler, vk::Sampler>,
-}
-
-/// What a draw names. Draws that name the same share a set: the parameters' place is dynamic.
+/// The resources of a draw. Draws with equal resources share a set, since the parameters' offset is
+/// dynamic.
 #[derive(PartialEq, Eq, Hash)]
-struct Named {
+struct Resources {
     textures: Vec<usize>,
     sampler: Option<Sampler>,
     counter: Option<usize>,
 }
 
-/// What the sets of a scene are made of, and those made so far.
+/// The resources of a scene and the descriptor sets made so far.
 pub(crate) struct Descriptors<'a> {
     pub(crate) input: &'a Buffer,
-    /// The words that shaders count in, where any do.
+    /// The buffer that shaders count in, if any shader counts.
     pub(crate) counts: Option<&'a Buffer>,
     pub(crate) images: &'a [Image],
-    sets: HashMap<Named, vk::DescriptorSet>,
+    sets: HashMap<Resources, vk::DescriptorSet>,
 }
 
-impl Samplers {
-    /// The sampler that samples so, made at its first use.
-    fn get(&mut self, device: &Device, sampler: Sampler) -> Result<vk::Sampler, BackendError> {
-        if let Some(raw) = self.samplers.get(&sampler) {
-            return Ok(*raw);
-        }
-        let filter = match sampler.filter {
-            FilterMode::Nearest => vk::Filter::NEAREST,
-            FilterMode::Linear => vk::Filter::LINEAR,
-        };
-        let [across, down] = sampler.address.map(|mode| match mode {
-            AddressMode::ClampToEdge => vk::SamplerAddressMode::CLAMP_TO_EDGE,
-            AddressMode::Repeat => vk::SamplerAddressMode::REPEAT,
-            AddressMode::MirrorRepeat => vk::SamplerAddressMode::MIRRORED_REPEAT,
-        });
-        let info = vk::SamplerCreateInfo::default()
-            .mag_filter(filter)
-            .min_filter(filter)
-            .address_mode_u(across)
-            .address_mode_v(down);
-        // SAFETY: the device lives.
-        let raw = unsafe { device.raw.create_sampler(&info, None) }.check("a sampler")?;
-        self.samplers.insert(sampler, raw);
-        Ok(raw)
-    }
-
-    /// Destroys everything; called once, before the device goes.
-    pub(crate) fn destroy(&mut self, device: &Device) {
-        for (_, raw) in self.samplers.drain() {
-            // SAFETY: nothing uses it any more.
-            unsafe { device.raw.destroy_sampler(raw, None) };
-        }
-    }
+/// Returns a write of one binding of a set, without its resource.
+pub(crate) fn write(
+    set: vk::DescriptorSet,
+    binding: u32,
+    kind: vk::DescriptorType,
+) -> vk::WriteDescriptorSet<'static> {
+    vk::WriteDescriptorSet::default()
+        .dst_set(set)
+        .dst_binding(binding)
+        .descriptor_type(kind)
 }
 
 impl<'a> Descriptors<'a> {
@@ -82,7 +55,7 @@ impl<'a> Descriptors<'a> {
         }
     }
 
-    /// The set of a draw.
+    /// Returns the descriptor set of a draw.
     pub(crate) fn get(
         &mut self,
         device: &Device,
@@ -94,14 +67,14 @@ impl<'a> Descriptors<'a> {
         let word = counting.word(draw)?;
         let bindings = Bindings::of(draw.shader);
         if draw.textures.len() != bindings.textures || draw.sampler.is_some() != bindings.sampler {
-            return Err(internal("a draw has not the textures its shader reads"));
+            return Err(internal("a draw lacks the textures that its shader reads"));
         }
-        let named = Named {
+        let resources = Resources {
             textures: draw.textures.clone(),
             sampler: draw.sampler,
             counter: word.map(|(counter, _)| counter),
         };
-        if let Some(set) = self.sets.get(&named) {
+        if let Some(set) = self.sets.get(&resources) {
             return Ok(*set);
         }
         let layout = pipelines.layout(device, bindings)?;
@@ -111,7 +84,7 @@ impl<'a> Descriptors<'a> {
             None => None,
         };
         self.write(device, set, draw, sampler, word.map(|(_, offset)| offset))?;
-        self.sets.insert(named, set);
+        self.sets.insert(resources, set);
         Ok(set)
     }
 
@@ -123,12 +96,7 @@ impl<'a> Descriptors<'a> {
         sampler: Option<vk::Sampler>,
         word: Option<u64>,
     ) -> Result<(), BackendError> {
-        let write = |binding, kind| {
-            vk::WriteDescriptorSet::default()
-                .dst_set(set)
-                .dst_binding(binding)
-                .descriptor_type(kind)
-        };
+        let write = |binding, kind| write(set, binding, kind);
         let params = [vk::DescriptorBufferInfo {
             buffer: self.input.raw,
             offset: 0,

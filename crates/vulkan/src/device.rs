@@ -1,4 +1,4 @@
-//! Physical devices: who they are, and the logical device made of one.
+//! Physical devices and the logical device.
 
 use crate::error::{Check, describe};
 use crate::instance::Instance;
@@ -7,7 +7,7 @@ use etalon_backend::{AdapterInfo, BackendError, Unavailable};
 use std::ffi::CStr;
 use std::rc::Rc;
 
-/// What is known of a physical device before it is opened.
+/// The properties of a physical device, known before it is opened.
 pub(crate) struct Identity {
     pub(crate) properties: vk::PhysicalDeviceProperties,
     pub(crate) info: AdapterInfo,
@@ -22,23 +22,22 @@ pub(crate) struct Device {
     pub(crate) queue_family: u32,
     pub(crate) limits: vk::PhysicalDeviceLimits,
     pub(crate) memory: vk::PhysicalDeviceMemoryProperties,
-    /// Whether the queue runs compute shaders.
+    /// True if the queue supports compute shaders.
     pub(crate) compute: bool,
-    /// The optional features that the suite has a use for, as far as the device has them; all are
-    /// enabled.
+    /// The enabled optional features: those that the suite uses and the device has.
     pub(crate) features: vk::PhysicalDeviceFeatures,
-    /// Valid bits of a timestamp; 0 where there are none.
+    /// Valid bits of a timestamp; 0 if timestamps are not supported.
     pub(crate) timestamp_bits: u32,
 }
 
-/// Who a physical device is; its name is that of its driver.
+/// Returns the identity of a physical device, named after its driver.
 pub(crate) fn identify(instance: &Instance, physical: vk::PhysicalDevice) -> Identity {
     // SAFETY: `physical` is of this instance.
     let properties = unsafe { instance.raw().get_physical_device_properties(physical) };
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     if properties.api_version >= vk::API_VERSION_1_2 {
         let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
-        // SAFETY: a device of Vulkan 1.2 knows the chained structure.
+        // SAFETY: the chained structure is part of Vulkan 1.2.
         unsafe {
             instance
                 .raw()
@@ -110,8 +109,8 @@ fn short_name(id: vk::DriverId, vendor: u32) -> String {
     }
 }
 
-/// Those of a device's features that the suite asks for.
-fn wanted(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures {
+/// Returns the features of a device that the suite uses.
+fn used_features(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures {
     vk::PhysicalDeviceFeatures {
         alpha_to_one: has.alpha_to_one,
         depth_bias_clamp: has.depth_bias_clamp,
@@ -139,7 +138,7 @@ impl Device {
         if properties.api_version < vk::API_VERSION_1_3 {
             return Err(Unavailable::new(
                 format!(
-                    "{} speaks Vulkan {}, and 1.3 is needed",
+                    "{} supports Vulkan {}, but 1.3 is required",
                     identity.info.device, identity.info.api_version
                 ),
                 "update the driver, or use an OpenGL adapter of the same device",
@@ -154,7 +153,7 @@ impl Device {
             numbered.find(|(_, f)| f.queue_flags.contains(*flags))
         }) else {
             return Err(Unavailable::new(
-                format!("{} cannot draw", identity.info.device),
+                format!("{} has no graphics queue", identity.info.device),
                 "choose another device",
             ));
         };
@@ -167,7 +166,7 @@ impl Device {
         let queues = [vk::DeviceQueueCreateInfo::default()
             .queue_family_index(index)
             .queue_priorities(&priorities)];
-        let enabled = wanted(&features);
+        let enabled = used_features(&features);
         // Both are mandatory in Vulkan 1.3.
         let mut enabled13 = vk::PhysicalDeviceVulkan13Features::default()
             .dynamic_rendering(true)
@@ -187,7 +186,7 @@ impl Device {
                 "check that this user may open the device (/dev/dri, /dev/nvidia*)",
             )
         })?;
-        // SAFETY: one queue of this family was asked for.
+        // SAFETY: the device was created with one queue of this family.
         let queue = unsafe { raw.get_device_queue(index, 0) };
         Ok(Self {
             physical,
@@ -207,15 +206,16 @@ impl Device {
         })
     }
 
-    /// The types among `allowed` that have all of the flags, those of the first flags first.
+    /// Returns the memory types among `allowed` that have the requested flags, in order of
+    /// preference.
     pub(crate) fn memory_types(
         &self,
         allowed: u32,
-        wanted: &[vk::MemoryPropertyFlags],
+        preferences: &[vk::MemoryPropertyFlags],
     ) -> Vec<u32> {
         let types = &self.memory.memory_types_as_slice();
         let mut found = Vec::new();
-        for flags in wanted {
+        for flags in preferences {
             for (index, kind) in (0_u32..).zip(types.iter()) {
                 let fits = allowed & (1 << index) != 0 && kind.property_flags.contains(*flags);
                 if fits && !found.contains(&index) {
@@ -226,15 +226,15 @@ impl Device {
         found
     }
 
-    /// Allocates from the first of the memory types that has room.
+    /// Allocates from the first suitable memory type with free memory.
     pub(crate) fn allocate(
         &self,
         needs: vk::MemoryRequirements,
-        wanted: &[vk::MemoryPropertyFlags],
+        preferences: &[vk::MemoryPropertyFlags],
         what: &str,
     ) -> Result<vk::DeviceMemory, BackendError> {
         let mut result = Err(vk::Result::ERROR_OUT_OF_DEVICE_MEMORY);
-        for index in self.memory_types(needs.memory_type_bits, wanted) {
+        for index in self.memory_types(needs.memory_type_bits, preferences) {
             let info = vk::MemoryAllocateInfo::default()
                 .allocation_size(needs.size)
                 .memory_type_index(index);

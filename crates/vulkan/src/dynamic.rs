@@ -1,7 +1,8 @@
-//! The state that is set anew for each draw: everything that Vulkan 1.3 lets change without another
-//! pipeline.
+//! Dynamic state, set for each draw: everything that Vulkan 1.3 allows, so that draws share
+//! pipelines.
 
 use crate::device::Device;
+use crate::error::internal;
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
@@ -10,7 +11,7 @@ use etalon_scene::{
     StencilFace, StencilOperation, StencilState, Viewport,
 };
 
-/// What every pipeline leaves open. The topology stays within the class of the pipeline's own.
+/// The dynamic states of every pipeline. The topology stays in the class of the pipeline's own.
 pub(crate) const STATES: [vk::DynamicState; 20] = [
     vk::DynamicState::VIEWPORT,
     vk::DynamicState::SCISSOR,
@@ -34,7 +35,7 @@ pub(crate) const STATES: [vk::DynamicState; 20] = [
     vk::DynamicState::BLEND_CONSTANTS,
 ];
 
-/// One draw's part of it.
+/// The dynamic state of one draw.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Dynamic {
     viewport: vk::Viewport,
@@ -52,15 +53,15 @@ pub(crate) struct Dynamic {
 }
 
 impl Dynamic {
-    /// The state of a draw into attachments of a size, its indices restarting primitives or not.
+    /// Returns the state of a draw into attachments of this size. `restart` enables primitive
+    /// restart.
     ///
     /// # Errors
-    /// When depth bounds lie outside 0..=1, which Vulkan cannot express (vkCmdSetDepthBounds).
+    /// If depth bounds lie outside 0..=1, which Vulkan cannot express (vkCmdSetDepthBounds).
     pub(crate) fn new(draw: &Draw, size: [u32; 2], restart: bool) -> Result<Self, BackendError> {
         let bounds = draw.depth_bounds.iter().flatten();
         if bounds.into_iter().any(|b| !(0.0..=1.0).contains(b)) {
-            let message = "depth bounds lie outside 0 to 1".to_owned();
-            return Err(BackendError::Internal(message));
+            return Err(internal("depth bounds lie outside 0 to 1"));
         }
         Ok(Self {
             viewport: viewport(&draw.viewport),
@@ -110,8 +111,8 @@ impl Dynamic {
             api.cmd_set_blend_constants(commands, &self.blend_constant);
             api.cmd_set_stencil_test_enable(commands, self.stencil.is_some());
             let stencil = self.stencil.unwrap_or(StencilState {
-                front: IDLE_FACE,
-                back: IDLE_FACE,
+                front: NO_OP_FACE,
+                back: NO_OP_FACE,
             });
             for (face, side) in [
                 (vk::StencilFaceFlags::FRONT, &stencil.front),
@@ -133,8 +134,8 @@ impl Dynamic {
     }
 }
 
-/// A face of a stencil test that is off.
-const IDLE_FACE: StencilFace = StencilFace {
+/// A face that changes nothing, for a disabled stencil test.
+const NO_OP_FACE: StencilFace = StencilFace {
     compare: CompareFunction::Always,
     fail_op: StencilOperation::Keep,
     depth_fail_op: StencilOperation::Keep,
@@ -144,9 +145,9 @@ const IDLE_FACE: StencilFace = StencilFace {
     reference: 0,
 };
 
-/// The negative height turns clip space's y axis up: y = 1 lies at the rectangle's top, which is
-/// nearer to the origin (Vulkan, Controlling the Viewport). A mirrored one thereby becomes an
-/// ordinary one of Vulkan's.
+/// The negative height turns clip space's y axis up: y = 1 is at the top of the rectangle, nearer
+/// to the origin (Vulkan, Controlling the Viewport). A mirrored viewport becomes one of positive
+/// height.
 fn viewport(viewport: &Viewport) -> vk::Viewport {
     let [x, y, width, height] = viewport.rect;
     vk::Viewport {
@@ -159,7 +160,7 @@ fn viewport(viewport: &Viewport) -> vk::Viewport {
     }
 }
 
-/// Offset and extent must add up to no more than the largest `i32`; attachments end long before.
+/// Offset and extent must add up to no more than the largest `i32`, which no attachment reaches.
 fn scissor([x, y, width, height]: [u32; 4]) -> vk::Rect2D {
     let most = i32::MAX.unsigned_abs();
     let (x, y) = (x.min(most), y.min(most));
@@ -180,7 +181,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_viewport_is_turned_about_its_own_middle() {
+    fn a_viewport_is_flipped_about_its_centre() {
         let turned = viewport(&Viewport {
             rect: [2.0, 3.0, 4.0, 6.0],
             depth: [0.75, 0.25],
@@ -196,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scissor_keeps_within_what_vulkan_can_add() {
+    fn a_scissor_is_clamped_to_what_vulkan_can_represent() {
         let rect = scissor([3_000_000_000, 1, 5, u32::MAX]);
         assert_eq!(rect.offset.x, i32::MAX);
         assert_eq!(rect.extent.width, 0);

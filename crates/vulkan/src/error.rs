@@ -1,11 +1,11 @@
-//! From Vulkan's result codes to the seam's errors.
+//! Vulkan result codes as backend errors.
 
 use ash::vk;
 use etalon_backend::{BackendError, Unavailable};
 
-/// Names what was being done when a Vulkan call failed.
+/// Adds the failed operation to a Vulkan error.
 pub(crate) trait Check<T> {
-    /// `DEVICE_LOST` becomes [`BackendError::DeviceLost`], all else [`BackendError::Resource`].
+    /// Maps `DEVICE_LOST` to [`BackendError::DeviceLost`], all else to [`BackendError::Resource`].
     fn check(self, what: &str) -> Result<T, BackendError>;
 }
 
@@ -21,12 +21,18 @@ impl<T> Check<T> for Result<T, vk::Result> {
     }
 }
 
-/// A code's name and meaning, as in `ERROR_OUT_OF_HOST_MEMORY: A host memory allocation has failed`.
+/// Returns an error that the backend's own logic rules out.
+pub(crate) fn internal(message: impl Into<String>) -> BackendError {
+    BackendError::Internal(message.into())
+}
+
+/// Returns a code's name and meaning: `ERROR_OUT_OF_HOST_MEMORY: A host memory allocation has
+/// failed`.
 pub(crate) fn describe(code: vk::Result) -> String {
     format!("{code:?}: {code}")
 }
 
-/// A driver that fails while it is being opened cannot be used.
+/// Returns the error of an adapter whose driver failed while it was opened.
 pub(crate) fn unavailable(error: &BackendError) -> Unavailable {
     Unavailable::new(
         error.to_string(),

@@ -1,23 +1,34 @@
-//! Which Vulkan format stands for which of ours, and how its texels lie in a buffer.
+//! Vulkan formats and the layout of their texels in buffers.
 
 use crate::device::Device;
 use ash::vk;
-use etalon_frame::{Aspect, ChannelEncoding, TextureFormat};
+use etalon_backend::BackendError;
+use etalon_backend::codes::{self, TexelLayout};
+use etalon_frame::{Aspect, ChannelEncoding, Requirement, TextureFormat};
 use std::collections::BTreeMap;
 
-/// A format as this device has it.
+/// The Vulkan format that this device uses for a texture format.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Native {
     pub(crate) raw: vk::Format,
-    /// Whether it can be drawn to.
+    /// True if the format can be an attachment.
     pub(crate) attachment: bool,
-    /// Whether it can be blended into.
+    /// True if attachments of the format can be blended.
     pub(crate) blendable: bool,
 }
 
-/// The candidates for each format, the best first. They hold the same channels of the same widths,
-/// whatever their order in memory: codes are packed and unpacked by [`layout`]. WebGPU leaves the
-/// depth of `depth24plus` open, and whether `stencil8` has a depth aspect beside it.
+/// Returns the Vulkan format that the device uses for a texture format.
+pub(crate) fn native(
+    natives: &BTreeMap<TextureFormat, Native>,
+    format: TextureFormat,
+) -> Result<Native, BackendError> {
+    let native = natives.get(&format).copied();
+    native.ok_or(BackendError::NotSupported(Requirement::Format(format)))
+}
+
+/// Returns the candidates for a format, best first. They have the same channels of the same widths
+/// in any order: [`layout`] says where. WebGPU leaves the depth of `depth24plus` open, and whether
+/// `stencil8` has a depth aspect.
 fn candidates(format: TextureFormat) -> &'static [vk::Format] {
     match format {
         TextureFormat::R8Unorm => &[vk::Format::R8_UNORM],
@@ -63,10 +74,10 @@ fn candidates(format: TextureFormat) -> &'static [vk::Format] {
     }
 }
 
-/// The formats that the device supports, as [`etalon_frame::Limits::formats`] promises them: colours
-/// can be copied and fetched from, and sampled linearly unless they hold integers or 32-bit floats
-/// (Vulkan requires as much of each first candidate), depth and stencil copied and drawn to. A
-/// candidate that can also be drawn to goes before one that cannot.
+/// Returns the formats that the device supports, as [`etalon_frame::Limits::formats`] promises
+/// them. Colours can be copied and fetched, and sampled linearly unless they hold integers or
+/// 32-bit floats (Vulkan requires as much of each first candidate). Depth and stencil can be copied
+/// and attached. A candidate that can be attached is preferred.
 pub(crate) fn natives(device: &Device) -> BTreeMap<TextureFormat, Native> {
     let transfer = vk::FormatFeatureFlags::TRANSFER_SRC | vk::FormatFeatureFlags::TRANSFER_DST;
     let mut natives = BTreeMap::new();
@@ -107,9 +118,9 @@ pub(crate) fn natives(device: &Device) -> BTreeMap<TextureFormat, Native> {
     natives
 }
 
-/// Where the channels of a colour format lie in a texel's little-endian bytes: the first bit and the
-/// width of each, red to alpha (Vulkan, Packed Formats; Byte mappings).
-pub(crate) fn layout(raw: vk::Format) -> &'static [(u32, u32)] {
+/// Returns the first bit and the width of each channel of a colour format, red to alpha, in a
+/// texel's little-endian bytes (Vulkan, Packed Formats; Byte mappings).
+pub(crate) fn layout(raw: vk::Format) -> &'static TexelLayout {
     match raw {
         vk::Format::R8_UNORM => &[(0, 8)],
         vk::Format::R8G8_UNORM => &[(0, 8), (8, 8)],
@@ -136,7 +147,7 @@ pub(crate) fn layout(raw: vk::Format) -> &'static [(u32, u32)] {
     }
 }
 
-/// The format through which a shader sees the stored codes of another that it would see converted.
+/// Returns the format of a view through which shaders read sRGB codes without conversion.
 pub(crate) fn unconverted(raw: vk::Format) -> Option<vk::Format> {
     match raw {
         vk::Format::R8G8B8A8_SRGB => Some(vk::Format::R8G8B8A8_UNORM),
@@ -145,7 +156,7 @@ pub(crate) fn unconverted(raw: vk::Format) -> Option<vk::Format> {
     }
 }
 
-/// All aspects of a Vulkan format, also those that ours does not name.
+/// Returns all aspects of a Vulkan format, also those that the texture format lacks.
 pub(crate) fn aspect_mask(raw: vk::Format) -> vk::ImageAspectFlags {
     let (depth, stencil) = (vk::ImageAspectFlags::DEPTH, vk::ImageAspectFlags::STENCIL);
     match raw {
@@ -156,7 +167,7 @@ pub(crate) fn aspect_mask(raw: vk::Format) -> vk::ImageAspectFlags {
     }
 }
 
-/// Vulkan's flag of an aspect.
+/// Returns the Vulkan flag of an aspect.
 pub(crate) fn aspect_flag(aspect: Aspect) -> vk::ImageAspectFlags {
     match aspect {
         Aspect::Color => vk::ImageAspectFlags::COLOR,
@@ -165,7 +176,7 @@ pub(crate) fn aspect_flag(aspect: Aspect) -> vk::ImageAspectFlags {
     }
 }
 
-/// The encodings of an aspect's channels.
+/// Returns the encodings of an aspect's channels.
 pub(crate) fn channels(
     format: TextureFormat,
     raw: vk::Format,
@@ -178,7 +189,7 @@ pub(crate) fn channels(
     }
 }
 
-/// The encoding of a Vulkan format's depth.
+/// Returns the encoding of a Vulkan format's depth.
 pub(crate) fn depth_encoding(raw: vk::Format) -> ChannelEncoding {
     match raw {
         vk::Format::D16_UNORM => ChannelEncoding::Unorm(16),
@@ -189,23 +200,20 @@ pub(crate) fn depth_encoding(raw: vk::Format) -> ChannelEncoding {
     }
 }
 
-/// Bytes that one texel's aspect takes in a buffer (Vulkan, Copying Data Between Buffers and
+/// Returns the size of a texel's aspect in a buffer (Vulkan, Copying Data Between Buffers and
 /// Images).
 pub(crate) fn texel_bytes(raw: vk::Format, aspect: Aspect) -> usize {
     match (aspect, depth_encoding(raw)) {
-        (Aspect::Color, _) => {
-            let bits: u32 = layout(raw).iter().map(|(_, width)| width).sum();
-            bits.div_ceil(8) as usize
-        }
+        (Aspect::Color, _) => codes::texel_bytes(layout(raw)),
         (Aspect::Depth, ChannelEncoding::Unorm(16)) => 2,
         (Aspect::Depth, _) => 4,
         (Aspect::Stencil, _) => 1,
     }
 }
 
-/// Where the channels of an aspect lie in the bytes of a copied texel. The upper bits of a copied
-/// 24-bit depth are undefined.
-fn copied_layout(raw: vk::Format, aspect: Aspect) -> &'static [(u32, u32)] {
+/// Returns the bits of an aspect's channels in a copied texel. The upper bits of a copied 24-bit
+/// depth are undefined.
+fn copied_layout(raw: vk::Format, aspect: Aspect) -> &'static TexelLayout {
     match (aspect, depth_encoding(raw)) {
         (Aspect::Color, _) => layout(raw),
         (Aspect::Depth, ChannelEncoding::Unorm(16)) => &[(0, 16)],
@@ -215,35 +223,25 @@ fn copied_layout(raw: vk::Format, aspect: Aspect) -> &'static [(u32, u32)] {
     }
 }
 
-/// The codes of copied texels, channel by channel.
+/// Returns the codes of copied texels, channel by channel.
 pub(crate) fn decode(bytes: &[u8], raw: vk::Format, aspect: Aspect) -> Vec<u32> {
     let layout = copied_layout(raw, aspect);
     let texels = bytes.chunks_exact(texel_bytes(raw, aspect).max(1));
     let mut codes = Vec::with_capacity(texels.len() * layout.len());
     for texel in texels {
-        let mut whole = [0; 16];
-        whole[..texel.len()].copy_from_slice(texel);
-        let bits = u128::from_le_bytes(whole);
-        codes.extend(layout.iter().map(|(shift, width)| {
-            let mask = u128::from(u32::MAX >> (32 - width));
-            (bits >> shift & mask) as u32
-        }));
+        codes::unpack(layout, texel, &mut codes);
     }
     codes
 }
 
-/// Codes of a colour format as its texels lie in a buffer.
+/// Returns the bytes of colour codes as texels of a buffer.
 pub(crate) fn encode(codes: &[u32], raw: vk::Format) -> Vec<u8> {
-    let (layout, bytes) = (layout(raw), texel_bytes(raw, Aspect::Color));
-    let mut out = Vec::with_capacity(codes.len() / layout.len().max(1) * bytes);
+    let layout = layout(raw);
+    let mut bytes = Vec::new();
     for texel in codes.chunks_exact(layout.len().max(1)) {
-        let channels = layout.iter().zip(texel);
-        let bits = channels.fold(0_u128, |bits, ((shift, _), code)| {
-            bits | u128::from(*code) << shift
-        });
-        out.extend_from_slice(&bits.to_le_bytes()[..bytes]);
+        codes::pack(layout, texel, &mut bytes);
     }
-    out
+    bytes
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
-//! What the processor gives the device: vertices, indices, parameters, texels.
+//! The inputs of a scene: vertices, indices, parameters, texels. All are in one buffer, so that a
+//! scene takes one allocation.
 
+use crate::buffer::Buffer;
 use crate::device::Device;
 use crate::format::{self, Native};
-use crate::memory::Buffer;
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
 use etalon_scene::{Contents, Draw, Params, PrimitiveTopology, RESTART, Scene, Vertex};
@@ -12,40 +13,43 @@ use std::mem::size_of;
 /// Bytes of the parameter block.
 pub(crate) const PARAMS_BYTES: u64 = size_of::<Params>() as u64;
 
-/// Places things in a buffer one behind the other.
+/// Assigns consecutive offsets in a buffer.
 #[derive(Default)]
-pub(crate) struct Placer {
+pub(crate) struct OffsetAllocator {
     end: u64,
 }
 
-impl Placer {
-    /// The offset of so many bytes, a multiple of the alignment.
-    pub(crate) fn place(&mut self, bytes: u64, alignment: u64) -> u64 {
+impl OffsetAllocator {
+    /// Returns the offset of a range of this size and alignment.
+    pub(crate) fn allocate(&mut self, bytes: u64, alignment: u64) -> u64 {
         let offset = self.end.next_multiple_of(alignment.max(1));
         self.end = offset + bytes;
         offset
     }
 }
 
-/// Where one draw's inputs lie, and how many of them there are.
+/// The offsets and counts of one draw's inputs.
 pub(crate) struct DrawInputs {
     pub(crate) vertices: u64,
     pub(crate) params: u64,
-    /// How many vertices, or indices where there are any, are drawn.
+    /// The number of vertices, or of indices in an indexed draw.
     pub(crate) count: usize,
-    /// The indices, where the mesh has any.
+    /// The offset of the indices, and the indices, in an indexed draw.
     indices: Option<(u64, Vec<u32>)>,
 }
 
 impl DrawInputs {
-    fn place(placer: &mut Placer, uniform: u64, draw: &Draw) -> Self {
-        let params = placer.place(PARAMS_BYTES, uniform);
+    fn place(offsets: &mut OffsetAllocator, uniform: u64, draw: &Draw) -> Self {
+        let params = offsets.allocate(PARAMS_BYTES, uniform);
         let mesh = &draw.mesh;
-        let vertices = placer.place(mesh.bytes().len() as u64, size_of::<Vertex>() as u64);
+        let vertices = offsets.allocate(mesh.bytes().len() as u64, size_of::<Vertex>() as u64);
         let indices = mesh.indices.as_ref().map(|all| {
             let indices = device_indices(draw.topology, all);
             let bytes = indices.len() * size_of::<u32>();
-            (placer.place(bytes as u64, size_of::<u32>() as u64), indices)
+            (
+                offsets.allocate(bytes as u64, size_of::<u32>() as u64),
+                indices,
+            )
         });
         Self {
             vertices,
@@ -58,21 +62,21 @@ impl DrawInputs {
         }
     }
 
-    /// Where the indices lie.
+    /// The offset of the indices in an indexed draw.
     pub(crate) fn index_offset(&self) -> Option<u64> {
         self.indices.as_ref().map(|(offset, _)| *offset)
     }
 
-    /// Whether an index ends a strip or fan.
+    /// True if an index restarts the primitive.
     pub(crate) fn restarts(&self) -> bool {
         let indices = self.indices.as_ref().map(|(_, indices)| indices);
         indices.is_some_and(|i| i.contains(&RESTART))
     }
 }
 
-/// The indices as the device may have them: lists cannot be restarted without an extension (Vulkan,
-/// primitiveTopologyListRestart), so the restarts of a list go, and with them what they leave
-/// incomplete.
+/// Returns the indices to upload. Vulkan restarts lists only with an extension
+/// (primitiveTopologyListRestart), so restart indices of lists and the incomplete primitives before
+/// them are removed.
 fn device_indices(topology: PrimitiveTopology, indices: &[u32]) -> Vec<u32> {
     let per_primitive = match topology {
         PrimitiveTopology::PointList => 1,
@@ -88,27 +92,27 @@ fn device_indices(topology: PrimitiveTopology, indices: &[u32]) -> Vec<u32> {
         .collect()
 }
 
-/// Where a scene's inputs lie in its buffer.
+/// The inputs of a scene with their offsets.
 pub(crate) struct Inputs {
-    /// What each draw of each pass takes.
+    /// The inputs of each draw of each pass.
     pub(crate) draws: Vec<Vec<DrawInputs>>,
-    /// Texels of each attachment that is uploaded.
+    /// The offset and bytes of each attachment's texels, if it is uploaded.
     texels: Vec<Option<(u64, Vec<u8>)>>,
     pub(crate) bytes: u64,
 }
 
 impl Inputs {
-    /// Finds a place for everything.
+    /// Assigns offsets to all inputs.
     pub(crate) fn place(
         device: &Device,
         natives: &BTreeMap<TextureFormat, Native>,
         scene: &Scene,
     ) -> Self {
-        let mut placer = Placer::default();
+        let mut offsets = OffsetAllocator::default();
         let uniform = device.limits.min_uniform_buffer_offset_alignment;
         let mut draws = Vec::with_capacity(scene.passes.len());
         for pass in &scene.passes {
-            let place = |draw: &Draw| DrawInputs::place(&mut placer, uniform, draw);
+            let place = |draw: &Draw| DrawInputs::place(&mut offsets, uniform, draw);
             draws.push(pass.draws.iter().map(place).collect());
         }
         let mut texels = Vec::with_capacity(scene.attachments.len());
@@ -120,17 +124,17 @@ impl Inputs {
                 continue;
             };
             let bytes = format::encode(codes, native.raw);
-            // A multiple of every texel's size.
-            texels.push(Some((placer.place(bytes.len() as u64, 16), bytes)));
+            // A multiple of every texel size.
+            texels.push(Some((offsets.allocate(bytes.len() as u64, 16), bytes)));
         }
         Self {
             draws,
             texels,
-            bytes: placer.end.max(PARAMS_BYTES),
+            bytes: offsets.end.max(PARAMS_BYTES),
         }
     }
 
-    /// Writes everything to its place in a buffer of at least `bytes`.
+    /// Writes all inputs to a buffer of at least `bytes`.
     pub(crate) fn write(&self, buffer: &mut Buffer, scene: &Scene) -> Result<(), BackendError> {
         for (pass, places) in scene.passes.iter().zip(&self.draws) {
             for (draw, place) in pass.draws.iter().zip(places) {
@@ -148,7 +152,7 @@ impl Inputs {
         Ok(())
     }
 
-    /// Where an attachment's texels lie; 0 where it has none.
+    /// Returns the offset of an attachment's texels; 0 if it is not uploaded.
     pub(crate) fn texels(&self, attachment: usize) -> u64 {
         let texels = self.texels.get(attachment).and_then(Option::as_ref);
         texels.map_or(0, |(offset, _)| *offset)
@@ -160,7 +164,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn restarts_of_a_list_take_incomplete_primitives_along() {
+    fn restarts_of_a_list_remove_incomplete_primitives() {
         let indices = [0, 1, 2, 3, RESTART, 4, 5, 6, RESTART, 7];
         let list = |topology| device_indices(topology, &indices);
         assert_eq!(list(PrimitiveTopology::TriangleList), [0, 1, 2, 4, 5, 6]);

@@ -1,4 +1,4 @@
-//! The loader, the instance, and what the validation layer says.
+//! The loader, the instance and the messages of the validation layer.
 
 use crate::error::describe;
 use ash::{ext, vk};
@@ -12,7 +12,7 @@ const MAX_MESSAGES: usize = 1000;
 const NO_DRIVER: &str =
     "apt-get install mesa-vulkan-drivers libvulkan1, or install the GPU's own driver";
 
-/// A Vulkan instance, with a messenger where validation was asked for.
+/// A Vulkan instance, with a debug messenger if validation is enabled.
 pub(crate) struct Instance {
     raw: ash::Instance,
     messenger: Option<Messenger>,
@@ -27,10 +27,10 @@ struct Messenger {
 
 type Messages = Mutex<Vec<String>>;
 
-/// The loader stays loaded as long as the process lives: drivers do not all survive `dlclose`.
+/// Returns the loader, which is never unloaded: some drivers do not survive `dlclose`.
 fn entry() -> Result<&'static ash::Entry, Unavailable> {
     static ENTRY: OnceLock<Result<ash::Entry, String>> = OnceLock::new();
-    // SAFETY: loading the system's Vulkan loader runs no code of ours, and it is never unloaded.
+    // SAFETY: the system's Vulkan loader is safe to load, and it is never unloaded.
     let loaded = ENTRY.get_or_init(|| unsafe { ash::Entry::load() }.map_err(|e| e.to_string()));
     loaded.as_ref().map_err(|message| {
         Unavailable::new(format!("libvulkan.so.1 not found ({message})"), NO_DRIVER)
@@ -47,7 +47,7 @@ impl Instance {
             .unwrap_or(vk::API_VERSION_1_0);
         if version < vk::API_VERSION_1_1 {
             return Err(Unavailable::new(
-                "the Vulkan loader speaks only Vulkan 1.0",
+                "the Vulkan loader supports only Vulkan 1.0",
                 "apt-get install libvulkan1 of a current distribution",
             ));
         }
@@ -81,7 +81,7 @@ impl Instance {
         // SAFETY: every pointer in `info` outlives the call.
         let raw = unsafe { entry.create_instance(&info, None) }.map_err(|code| {
             if let Some(messages) = messages {
-                // SAFETY: made by `Box::into_raw` above and given to nobody.
+                // SAFETY: from `Box::into_raw` above, and not shared yet.
                 drop(unsafe { Box::from_raw(messages) });
             }
             let reason = format!("no Vulkan instance: {}", describe(code));
@@ -113,7 +113,7 @@ impl Instance {
         Ok(devices)
     }
 
-    /// The messages since the last call, oldest first.
+    /// Returns the messages since the last call, oldest first.
     pub(crate) fn take_messages(&self) -> Vec<String> {
         let Some(messenger) = &self.messenger else {
             return Vec::new();
@@ -128,7 +128,7 @@ impl Instance {
 impl Drop for Instance {
     fn drop(&mut self) {
         if let Some(messenger) = &self.messenger {
-            // SAFETY: ours, and destroyed once.
+            // SAFETY: the messenger is valid and destroyed once.
             unsafe {
                 messenger
                     .functions
@@ -138,13 +138,13 @@ impl Drop for Instance {
         // SAFETY: devices hold the instance in an `Rc`, so none is left.
         unsafe { self.raw.destroy_instance(None) };
         if let Some(messenger) = self.messenger.take() {
-            // SAFETY: made by `Box::into_raw`; the messenger that knew the pointer is gone.
+            // SAFETY: from `Box::into_raw`; the messenger that used the pointer is destroyed.
             drop(unsafe { Box::from_raw(messenger.messages) });
         }
     }
 }
 
-/// Whether the validation layer can check synchronization, where there is a layer at all.
+/// Returns true if the validation layer has synchronization validation.
 fn validation_extensions(entry: &ash::Entry) -> Result<bool, Unavailable> {
     // SAFETY: no requirements beyond a loaded entry.
     let layers = unsafe { entry.enumerate_instance_layer_properties() }.unwrap_or_default();
@@ -172,7 +172,7 @@ fn messenger(
     messages: *mut Messages,
 ) -> Result<Messenger, Unavailable> {
     let functions = ext::debug_utils::Instance::new(entry, instance);
-    // General messages are the loader's chatter about drivers, and hints about speed are no mistakes.
+    // General messages are about drivers and the loader; performance warnings are not errors.
     let info = vk::DebugUtilsMessengerCreateInfoEXT::default()
         .message_severity(
             vk::DebugUtilsMessageSeverityFlagsEXT::WARNING
@@ -190,7 +190,7 @@ fn messenger(
             messages,
         }),
         Err(code) => {
-            // SAFETY: made by `Box::into_raw`; no messenger knows the pointer.
+            // SAFETY: from `Box::into_raw`; no messenger uses the pointer.
             drop(unsafe { Box::from_raw(messages) });
             Err(Unavailable::new(
                 format!("no validation messages: {}", describe(code)),
@@ -200,10 +200,11 @@ fn messenger(
     }
 }
 
-/// Messages that speak of what is legal and meant: a depth-only pass has no use for a shader's colour.
-fn is_meant(id: &CStr) -> bool {
+/// True for a warning about something legal and intended: a depth-only pass does not use the
+/// shader's colour.
+fn is_intended(id: &CStr) -> bool {
     let id = id.to_bytes();
-    // The second is what the layer has called it since 1.4.
+    // The second is the name since layer version 1.4.
     [
         &b"Undefined-Value-ShaderOutputNotConsumed"[..],
         b"WARNING-Shader-OutputNotConsumed",
@@ -218,12 +219,12 @@ unsafe extern "system" fn on_message(
     data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
     user: *mut c_void,
 ) -> vk::Bool32 {
-    // SAFETY: the layer passes valid data or null, and `user` is the pointer that it was given.
+    // SAFETY: the layer passes valid data or null, and `user` is the pointer of the messenger.
     let (data, messages) = unsafe { (data.as_ref(), user.cast::<Messages>().as_ref()) };
     if let (Some(data), Some(messages)) = (data, messages) {
         // SAFETY: the layer's strings are null or zero-terminated, and live during the call.
         let (id, text) = unsafe { (data.message_id_name_as_c_str(), data.message_as_c_str()) };
-        if !id.is_some_and(is_meant) {
+        if !id.is_some_and(is_intended) {
             let mut messages = messages.lock().unwrap_or_else(PoisonError::into_inner);
             if messages.len() < MAX_MESSAGES {
                 messages.push(text.unwrap_or_default().to_string_lossy().into_owned());

@@ -1,31 +1,35 @@
 //! The Vulkan backend, through ash.
 //!
-//! It wants Vulkan 1.3 of a device (dynamic rendering, synchronization2) and loads `libvulkan.so.1`
-//! at run time; nothing is linked. The conventions of `etalon-backend` need no tricks here: depth
-//! is 0..=1 already, and viewports of negative height turn clip space's y axis up. Face winding is
-//! judged in framebuffer coordinates (Vulkan, Basic Polygon Rasterization: the signed area), so that
-//! `ccw` means what it means in WebGPU.
+//! It requires Vulkan 1.3 (dynamic rendering, synchronization2) and loads `libvulkan.so.1` at run
+//! time; nothing is linked. Vulkan's depth range is that of `etalon-backend`'s conventions;
+//! viewports of negative height turn clip space's y axis up. Face winding follows from the signed
+//! area in framebuffer coordinates (Vulkan, Basic Polygon Rasterization), so `ccw` means the same
+//! as in WebGPU.
 //!
-//! What outlives a scene (shaders, pipelines, images, buffers, command pools) is kept in bounded
-//! pools, for a suite draws many thousands of small scenes.
+//! Shaders, pipelines, images, buffers and command pools outlive a scene in bounded pools, since a
+//! suite draws many thousands of small scenes.
 
 mod backend;
+mod buffer;
 mod counting;
 mod descriptors;
 mod device;
 mod dynamic;
 mod error;
 mod format;
+mod gpu;
+mod image;
 mod inputs;
 mod instance;
 mod limits;
-mod memory;
 mod pipeline;
 mod plan;
+mod pool;
 mod prepared;
 mod queries;
 mod read;
 mod record;
+mod samplers;
 mod samples;
 mod shader;
 mod slot;

@@ -1,4 +1,4 @@
-//! What the device can do, in the suite's words.
+//! The limits and features of a device.
 
 use crate::device::Device;
 use crate::format::{self, Native};
@@ -9,10 +9,10 @@ use etalon_frame::{
 };
 use std::collections::BTreeMap;
 
-/// The sample counts that a case may ask for beyond 1.
+/// The sample counts above 1 that a case may use.
 const COUNTS: [u32; 4] = [2, 4, 8, 16];
 
-/// The device's limits, for the formats that it has.
+/// Returns the limits of a device with these formats.
 pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>) -> Limits {
     let raw = &device.limits;
     let max_size = raw
@@ -32,7 +32,7 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
             samples: sample_counts(device, *format, *native),
             blendable: native.attachment && native.blendable,
             depth,
-            // Codes come back as they are stored, also from the shader that reads samples.
+            // The shader that reads samples returns stored codes too.
             read: ReadPath::Copy,
         };
         formats.insert(*format, support);
@@ -59,7 +59,7 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
     }
 }
 
-/// Whether the device has a feature; what Vulkan 1.3 has without asking is always there.
+/// True if the device has a feature. Mandatory features of Vulkan 1.3 are always present.
 fn has(device: &Device, feature: Feature) -> bool {
     let features = &device.features;
     let flag = match feature {
@@ -95,8 +95,8 @@ fn has(device: &Device, feature: Feature) -> bool {
     flag != vk::FALSE
 }
 
-/// Sample counts that can be drawn, cleared and read back sample by sample. Without the standard
-/// sample locations nothing could be asserted of more than one.
+/// Returns the sample counts of a format that can be drawn, cleared and read back sample by sample.
+/// Without standard sample locations nothing could be asserted of more than one sample.
 fn sample_counts(device: &Device, format: TextureFormat, native: Native) -> Vec<u32> {
     if !native.attachment {
         return Vec::new();
@@ -132,8 +132,9 @@ fn sample_counts(device: &Device, format: TextureFormat, native: Native) -> Vec<
     let mut flags = properties.sample_counts;
     for aspect in format.aspects() {
         flags &= match aspect {
-            // The limits name what every format has; one may have more (Vulkan, Supported Sample
-            // Counts), and that of integers is often 1 where this one has several.
+            // The limits name what every format supports; one format may support more (Vulkan,
+            // Supported Sample Counts), and the limit for integers is often 1 where this format has
+            // several.
             Aspect::Color if format.is_integer() => flags,
             Aspect::Color => {
                 raw.framebuffer_color_sample_counts & raw.sampled_image_color_sample_counts
@@ -150,7 +151,7 @@ fn sample_counts(device: &Device, format: TextureFormat, native: Native) -> Vec<
     counts
 }
 
-/// How an attachment of this format is drawn to.
+/// Returns the usage of an attachment of this format.
 pub(crate) fn attachment_usage(format: TextureFormat) -> vk::ImageUsageFlags {
     if format.is_color() {
         vk::ImageUsageFlags::COLOR_ATTACHMENT
@@ -164,7 +165,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn positions_are_as_many_as_samples_and_differ() {
+    fn every_sample_has_a_position_of_its_own() {
         for count in [1, 2, 4, 8, 16] {
             let mut positions = standard_sample_positions(count);
             positions.sort_unstable();

@@ -1,8 +1,8 @@
-//! Pipelines, kept by everything static about them.
+//! Graphics pipelines and their layouts, cached by their static state.
 
 use crate::device::Device;
 use crate::dynamic;
-use crate::error::Check;
+use crate::error::{Check, internal};
 use crate::shader::{Module, Modules};
 use crate::state;
 use ash::vk;
@@ -15,11 +15,11 @@ use std::collections::HashMap;
 use std::mem::{offset_of, size_of};
 use std::rc::Rc;
 
-/// The most pipelines kept; a full cache drops those that no prepared scene holds. Lavapipe keeps
+/// The most pipelines kept. A full cache drops those that no prepared scene holds: Lavapipe keeps
 /// about a megabyte of machine code for each.
 const KEPT_PIPELINES: usize = 256;
 
-/// What the attachments of a pass are to a pipeline.
+/// The formats and sample count of a pass's attachments.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Targets {
     pub(crate) color: Vec<vk::Format>,
@@ -30,7 +30,7 @@ pub(crate) struct Targets {
     pub(crate) samples: u32,
 }
 
-/// Everything static about a pipeline; the rest is [`dynamic::STATES`].
+/// The static state of a pipeline; the rest is [`dynamic::STATES`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Key {
     targets: Targets,
@@ -55,12 +55,12 @@ fn class(topology: PrimitiveTopology) -> PrimitiveTopology {
     }
 }
 
-/// Where shaders count their runs.
+/// The binding of the counter of shader runs.
 pub(crate) const RUNS_BINDING: u32 = 3;
-/// How shaders sample their texture.
+/// The binding of the sampler.
 pub(crate) const SAMPLER_BINDING: u32 = 4;
 
-/// What a shader has bound beside its parameters.
+/// The bindings of a shader besides its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Bindings {
     pub(crate) textures: usize,
@@ -85,14 +85,15 @@ pub(crate) struct Layout {
     pub(crate) pipeline: vk::PipelineLayout,
 }
 
-/// A pipeline with its layout; scenes hold it through an [`Rc`] so that the cache sees who is alive.
+/// A pipeline with its layout. Scenes hold it in an [`Rc`], so that the cache knows which are in
+/// use.
 #[derive(Debug)]
 pub(crate) struct Pipeline {
     pub(crate) raw: vk::Pipeline,
     pub(crate) layout: vk::PipelineLayout,
 }
 
-/// All pipelines and what they are made of.
+/// All pipelines with their modules and layouts.
 #[derive(Debug, Default)]
 pub(crate) struct Pipelines {
     modules: Modules,
@@ -102,7 +103,7 @@ pub(crate) struct Pipelines {
 }
 
 impl Pipelines {
-    /// Makes the driver's own cache.
+    /// Creates the driver's pipeline cache.
     pub(crate) fn create(&mut self, device: &Device) -> Result<(), BackendError> {
         let info = vk::PipelineCacheCreateInfo::default();
         // SAFETY: the device lives.
@@ -111,7 +112,7 @@ impl Pipelines {
         Ok(())
     }
 
-    /// The layouts for shaders with such bindings.
+    /// Returns the layouts for shaders with these bindings.
     pub(crate) fn layout(
         &mut self,
         device: &Device,
@@ -146,7 +147,7 @@ impl Pipelines {
         Ok(layout)
     }
 
-    /// The pipeline of a draw, made at its first use.
+    /// Returns the pipeline of a draw, created on first use.
     pub(crate) fn get(
         &mut self,
         device: &Device,
@@ -192,7 +193,7 @@ impl Pipelines {
         });
     }
 
-    /// Destroys everything; called once, when no prepared scene is left.
+    /// Destroys everything, when no prepared scene is left.
     pub(crate) fn destroy(&mut self, device: &Device) {
         self.drop_unused(device);
         self.modules.destroy(device);
@@ -207,7 +208,7 @@ impl Pipelines {
     }
 }
 
-/// A set layout and a pipeline layout with that one set.
+/// Creates a set layout and a pipeline layout with that one set.
 pub(crate) fn create_layout(
     device: &Device,
     bindings: &[vk::DescriptorSetLayoutBinding<'_>],
@@ -293,8 +294,8 @@ fn create(
         .dynamic_state(&dynamic)
         .layout(layout)
         .push_next(&mut rendering);
-    // SAFETY: all parts of `info` live, the formats are those the device can draw to, and the limits
-    // were asked for every feature used.
+    // SAFETY: all parts of `info` live, the device can draw to the formats, and has every feature
+    // used.
     let made = unsafe {
         device
             .raw
@@ -304,10 +305,11 @@ fn create(
     let made = made.check(&format!("a pipeline of shader {}", key.shader.name()))?;
     made.first()
         .copied()
-        .ok_or_else(|| BackendError::Internal("no pipeline came back".to_owned()))
+        .ok_or_else(|| internal("no pipeline came back"))
 }
 
-/// The attributes that a shader reads: others would be declared in vain.
+/// Returns the attributes at these locations, those that a shader reads: validation warns of
+/// others.
 fn attributes(locations: &[u32]) -> Result<Vec<vk::VertexInputAttributeDescription>, BackendError> {
     type Vertex = etalon_scene::Vertex;
     let attribute = |location: &u32| {
@@ -319,8 +321,9 @@ fn attributes(locations: &[u32]) -> Result<Vec<vk::VertexInputAttributeDescripti
             1 => (vk::Format::R32G32B32A32_SFLOAT, offset_of!(Vertex, color)),
             2 => (vk::Format::R32G32_SFLOAT, offset_of!(Vertex, uv)),
             other => {
-                let message = format!("no vertex attribute has location {other}");
-                return Err(BackendError::Internal(message));
+                return Err(internal(format!(
+                    "no vertex attribute has location {other}"
+                )));
             }
         };
         Ok(vk::VertexInputAttributeDescription {

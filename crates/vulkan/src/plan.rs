@@ -1,11 +1,13 @@
-//! What to record for a scene, in handles of the device.
+//! The commands of a scene in terms of device handles, ready to be recorded at each submit.
 
-use crate::backend::VulkanBackend;
 use crate::counting::{Counting, Query};
 use crate::dynamic::Dynamic;
+use crate::error::internal;
+use crate::format;
+use crate::gpu::Gpu;
+use crate::image::{Image, ImageKey};
 use crate::inputs::DrawInputs;
 use crate::limits::attachment_usage;
-use crate::memory::{Image, ImageKey};
 use crate::pipeline::{Pipeline, Targets};
 use crate::read::ReadPlan;
 use ash::vk;
@@ -14,7 +16,7 @@ use etalon_frame::Requirement;
 use etalon_scene::{Attachment, Contents, Draw, Pass, Scene};
 use std::rc::Rc;
 
-/// The whole scene.
+/// The plan of a scene.
 #[derive(Default)]
 pub(crate) struct Plan {
     pub(crate) attachments: Vec<AttachmentPlan>,
@@ -23,20 +25,20 @@ pub(crate) struct Plan {
     pub(crate) counting: Counting,
 }
 
-/// One attachment's beginning and its place during the passes.
+/// The initial contents of an attachment and its role in the passes.
 pub(crate) struct AttachmentPlan {
     pub(crate) image: vk::Image,
     pub(crate) aspects: vk::ImageAspectFlags,
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
-    pub(crate) start: Start,
-    /// Where it lies before the first pass and after the last.
+    pub(crate) initial: InitialContents,
+    /// The role before the first pass and after the last.
     pub(crate) role: Role,
     pub(crate) read: bool,
 }
 
-/// What an attachment starts from.
-pub(crate) enum Start {
+/// The initial contents of an attachment.
+pub(crate) enum InitialContents {
     Color(vk::ClearColorValue),
     DepthStencil {
         depth: f32,
@@ -46,33 +48,33 @@ pub(crate) enum Start {
     Upload(u64),
 }
 
-/// What a pass does with an attachment, or all passes do.
+/// The use of an attachment in a pass, or in all passes together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// Drawn to, or averaged to. Some passes may fetch what others draw.
+    /// A colour or resolve attachment. Other passes may fetch from it.
     Color,
     DepthStencil,
-    /// Tested against without a right to write.
-    Tested,
+    /// A read-only depth-stencil attachment.
+    DepthStencilReadOnly,
     Fetched,
-    /// Nothing; it may be read back all the same.
+    /// Not used by any pass. It may still be read back.
     Idle,
 }
 
-/// One pass.
+/// The plan of a pass.
 pub(crate) struct PassPlan {
     pub(crate) size: [u32; 2],
-    /// The attachments that the pass has to do with, each once, and what it does with them.
+    /// The attachments that the pass uses, each once, with their roles.
     pub(crate) roles: Vec<(usize, Role)>,
     pub(crate) color: Vec<ColorPlan>,
     pub(crate) depth_stencil: Option<DepthStencilPlan>,
     pub(crate) draws: Vec<DrawPlan>,
 }
 
-/// One colour attachment of a pass.
+/// A colour attachment of a pass.
 pub(crate) struct ColorPlan {
     pub(crate) view: vk::ImageView,
-    /// Where its samples are joined to one at the end, and how.
+    /// The view and mode of the resolve, if the pass resolves it.
     pub(crate) resolve: Option<(vk::ImageView, vk::ResolveModeFlags)>,
 }
 
@@ -84,34 +86,30 @@ pub(crate) struct DepthStencilPlan {
     pub(crate) read_only: bool,
 }
 
-/// One draw.
+/// The plan of a draw.
 pub(crate) struct DrawPlan {
     pub(crate) pipeline: Rc<Pipeline>,
     pub(crate) set: vk::DescriptorSet,
     pub(crate) params: u32,
     pub(crate) vertices: u64,
-    /// Where the indices lie, if there are any.
+    /// The offset of the indices in an indexed draw.
     pub(crate) indices: Option<u64>,
-    /// Vertices, or indices where there are any.
+    /// The number of vertices, or of indices in an indexed draw.
     pub(crate) count: u32,
     pub(crate) dynamic: Dynamic,
-    /// What is counted about it.
+    /// The queries around the draw.
     pub(crate) queries: Vec<Query>,
 }
 
-pub(crate) fn internal(message: &str) -> BackendError {
-    BackendError::Internal(message.to_owned())
-}
-
 impl Role {
-    /// What all passes together do with an attachment: what is drawn at all counts as drawn.
+    /// Returns the role of an attachment in all passes together. One pass that draws to it decides.
     pub(crate) fn of(scene: &Scene, index: usize) -> Self {
         let of = |pass| roles(pass).into_iter().find(|(i, _)| *i == index);
         let mut all = Self::Idle;
         for (_, role) in scene.passes.iter().filter_map(of) {
             match role {
                 Self::Color => return Self::Color,
-                Self::DepthStencil | Self::Tested => return Self::DepthStencil,
+                Self::DepthStencil | Self::DepthStencilReadOnly => return Self::DepthStencil,
                 Self::Fetched | Self::Idle => all = role,
             }
         }
@@ -119,12 +117,12 @@ impl Role {
     }
 }
 
-/// What a pass does with its attachments, each named once.
+/// Returns the attachments of a pass, each once, with their roles.
 fn roles(pass: &Pass) -> Vec<(usize, Role)> {
     let drawn = pass.color.iter().chain(pass.resolve.iter().flatten());
     let mut roles: Vec<_> = drawn.map(|index| (*index, Role::Color)).collect();
     let tested = if pass.depth_stencil_read_only {
-        Role::Tested
+        Role::DepthStencilReadOnly
     } else {
         Role::DepthStencil
     };
@@ -137,14 +135,15 @@ fn roles(pass: &Pass) -> Vec<(usize, Role)> {
     roles
 }
 
-/// Whether a shader reads an attachment.
+/// Returns true if a shader reads the attachment.
 pub(crate) fn is_fetched(scene: &Scene, index: usize) -> bool {
     let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
     draws.any(|d| d.textures.contains(&index))
 }
 
-impl Start {
-    /// What an attachment starts from, its texels lying at an offset of the input buffer.
+impl InitialContents {
+    /// Returns the initial contents of an attachment, whose texels are at this offset of the input
+    /// buffer.
     pub(crate) fn of(attachment: &Attachment, texels: u64) -> Self {
         match &attachment.contents {
             Contents::Color(color) if attachment.format.is_integer() => {
@@ -163,7 +162,7 @@ impl Start {
 }
 
 impl PassPlan {
-    /// The pass without its draws.
+    /// Returns the plan of a pass, without its draws.
     pub(crate) fn new(scene: &Scene, pass: &Pass, images: &[Image]) -> Result<Self, BackendError> {
         let image = |index: usize| {
             images
@@ -184,7 +183,7 @@ impl PassPlan {
                         .attachments
                         .get(index)
                         .is_some_and(|a| a.format.is_integer());
-                    // Of integers one sample is taken (VkRenderingAttachmentInfo).
+                    // Integers resolve to one sample (VkRenderingAttachmentInfo).
                     let mode = if integer {
                         vk::ResolveModeFlags::SAMPLE_ZERO
                     } else {
@@ -234,24 +233,24 @@ impl DrawPlan {
     }
 }
 
-/// The image that an attachment needs, which shaders fetch from or not, and which is read back or
-/// not.
+/// Returns the format and usage of an attachment's image, which shaders may fetch from and which
+/// may be read back.
 pub(crate) fn image_key(
-    backend: &VulkanBackend,
+    gpu: &Gpu,
     attachment: &Attachment,
     role: Role,
     (fetched, read): (bool, bool),
 ) -> Result<ImageKey, BackendError> {
     let format = attachment.format;
-    let Some(native) = backend.natives.get(&format) else {
-        return Err(BackendError::NotSupported(Requirement::Format(format)));
-    };
+    let native = format::native(&gpu.natives, format)?;
     let mut usage = vk::ImageUsageFlags::TRANSFER_DST;
     match role {
-        Role::Color | Role::DepthStencil | Role::Tested if !native.attachment => {
+        Role::Color | Role::DepthStencil | Role::DepthStencilReadOnly if !native.attachment => {
             return Err(BackendError::NotSupported(Requirement::Drawing(format)));
         }
-        Role::Color | Role::DepthStencil | Role::Tested => usage |= attachment_usage(format),
+        Role::Color | Role::DepthStencil | Role::DepthStencilReadOnly => {
+            usage |= attachment_usage(format)
+        }
         Role::Fetched | Role::Idle => {}
     }
     if fetched {
@@ -260,7 +259,7 @@ pub(crate) fn image_key(
     match (read, attachment.samples) {
         (false, _) => {}
         (true, 1) => usage |= vk::ImageUsageFlags::TRANSFER_SRC,
-        // Multisampled images also need a use that views can have.
+        // Views of multisampled images need a usage that views can have.
         (true, _) => usage |= vk::ImageUsageFlags::SAMPLED | attachment_usage(format),
     }
     Ok(ImageKey {
@@ -271,23 +270,15 @@ pub(crate) fn image_key(
     })
 }
 
-/// What a pass's attachments are to its pipelines.
-pub(crate) fn targets(
-    backend: &VulkanBackend,
-    scene: &Scene,
-    pass: &Pass,
-) -> Result<Targets, BackendError> {
+/// Returns the formats and sample count of a pass's attachments.
+pub(crate) fn targets(gpu: &Gpu, scene: &Scene, pass: &Pass) -> Result<Targets, BackendError> {
     let attachment = |index: &usize| {
         let attachment = scene
             .attachments
             .get(*index)
             .ok_or_else(|| internal("a pass names no attachment"))?;
         let format = attachment.format;
-        let native = backend
-            .natives
-            .get(&format)
-            .ok_or(BackendError::NotSupported(Requirement::Format(format)))?;
-        Ok((format, native.raw))
+        Ok((format, format::native(&gpu.natives, format)?.raw))
     };
     let mut targets = Targets {
         color: Vec::with_capacity(pass.color.len()),

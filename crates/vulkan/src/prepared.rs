@@ -1,72 +1,74 @@
-//! A scene turned into objects of the device.
+//! A scene prepared for drawing.
 
-use crate::backend::VulkanBackend;
+use crate::buffer::{Buffer, BufferUse};
 use crate::counting::Counting;
 use crate::descriptors::Descriptors;
+use crate::error::internal;
+use crate::gpu::Gpu;
+use crate::image::Image;
 use crate::inputs::Inputs;
-use crate::memory::{Buffer, BufferUse, Image};
 use crate::plan::{
-    AttachmentPlan, DrawPlan, PassPlan, Plan, Role, Start, image_key, internal, is_fetched, targets,
+    AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role, image_key, is_fetched, targets,
 };
 use crate::read::ReadPlan;
 use crate::record;
 use crate::slot::{Needs, Slot};
-use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
+use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::Frame;
 use etalon_scene::{Contents, Scene};
 use std::time::Instant;
 
-/// A scene with everything that drawing it takes.
+/// A scene with all objects that drawing it needs.
 pub(crate) struct PreparedScene<'a> {
-    backend: &'a VulkanBackend,
-    /// Taken by `drop` alone.
+    gpu: &'a Gpu,
+    /// Always present until `drop` takes it.
     slot: Option<Slot>,
     input: Option<Buffer>,
     output: Option<Buffer>,
-    /// What shaders count in, where any do.
+    /// The buffer that shaders count in, if any shader counts.
     counts: Option<Buffer>,
     images: Vec<Image>,
     plan: Plan,
-    drawn: Drawn,
+    progress: Progress,
 }
 
-/// Where a scene stands.
+/// The state of the attachments and the output buffer.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Drawn {
-    /// Not yet, or a failure came between.
-    No,
-    /// The attachments are as the passes left them.
-    Passes,
-    /// The attachments have been read, and lie as reading needs them.
+enum Progress {
+    /// Not drawn since the start or the last failure.
+    NotDrawn,
+    /// Drawn.
+    Drawn,
+    /// Drawn and copied to the output buffer.
     Read,
 }
 
 impl<'a> PreparedScene<'a> {
-    pub(crate) fn new(backend: &'a VulkanBackend, scene: &Scene) -> Result<Self, BackendError> {
-        if let Some(missing) = backend.limits().missing(&scene.requirements()) {
+    pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> Result<Self, BackendError> {
+        if let Some(missing) = gpu.limits.missing(&scene.requirements()) {
             return Err(BackendError::NotSupported(missing));
         }
-        // Filled bit by bit, so that `drop` gives everything back wherever it ends.
+        // Filled step by step, so that `drop` returns everything wherever a step fails.
         let mut prepared = Self {
-            backend,
+            gpu,
             slot: None,
             input: None,
             output: None,
             counts: None,
             images: Vec::new(),
             plan: Plan::default(),
-            drawn: Drawn::No,
+            progress: Progress::NotDrawn,
         };
         prepared.fill(scene)?;
         Ok(prepared)
     }
 
     fn fill(&mut self, scene: &Scene) -> Result<(), BackendError> {
-        let device = &self.backend.device;
-        let mut pools = self.backend.pools.borrow_mut();
+        let device = &self.gpu.device;
+        let mut pools = self.gpu.pools.borrow_mut();
         let pools = &mut *pools;
 
-        let inputs = Inputs::place(device, &self.backend.natives, scene);
+        let inputs = Inputs::place(device, &self.gpu.natives, scene);
         let memory = &mut pools.memory;
         let input = memory.buffer(device, BufferUse::Input, inputs.bytes)?;
         let input = self.input.insert(input);
@@ -81,14 +83,14 @@ impl<'a> PreparedScene<'a> {
             }
             let role = Role::of(scene, index);
             let (fetched, read) = (is_fetched(scene, index), scene.read.contains(&index));
-            let key = image_key(self.backend, attachment, role, (fetched, read))?;
+            let key = image_key(self.gpu, attachment, role, (fetched, read))?;
             let image = pools.memory.image(device, key)?;
             self.plan.attachments.push(AttachmentPlan {
                 image: image.raw,
                 aspects: image.aspects(),
                 size: attachment.size,
                 samples: attachment.samples,
-                start: Start::of(attachment, inputs.texels(index)),
+                initial: InitialContents::of(attachment, inputs.texels(index)),
                 role,
                 read,
             });
@@ -123,11 +125,11 @@ impl<'a> PreparedScene<'a> {
 
         let mut sets = Descriptors::new(input, self.counts.as_ref(), &self.images);
         for (pass, places) in scene.passes.iter().zip(&inputs.draws) {
-            let targets = targets(self.backend, scene, pass)?;
+            let targets = targets(self.gpu, scene, pass)?;
             let mut planned = PassPlan::new(scene, pass, &self.images)?;
             for (draw, place) in pass.draws.iter().zip(places) {
                 if draw.targets.len() != pass.color.len() {
-                    return Err(internal("a draw has not one target per colour attachment"));
+                    return Err(internal("a draw lacks a target for each colour attachment"));
                 }
                 let pipelines = &mut pools.pipelines;
                 let made = (&mut *pipelines, &mut pools.samplers);
@@ -140,7 +142,7 @@ impl<'a> PreparedScene<'a> {
             self.plan.passes.push(planned);
         }
 
-        let (reads, bytes) = ReadPlan::all(self.backend, scene)?;
+        let (reads, bytes) = ReadPlan::all(self.gpu, scene)?;
         let output = pools.memory.buffer(device, BufferUse::Output, bytes)?;
         let output = self.output.insert(output);
         self.plan.reads = reads;
@@ -157,44 +159,44 @@ impl<'a> PreparedScene<'a> {
 
 impl Prepared for PreparedScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
-        let device = &self.backend.device;
+        let device = &self.gpu.device;
         let (Some(slot), Some(input)) = (&mut self.slot, &self.input) else {
             return Err(internal("the scene is not prepared"));
         };
-        self.drawn = Drawn::No;
+        self.progress = Progress::NotDrawn;
         let start = Instant::now();
         let commands = slot.begin(device)?;
         slot.reset_timestamps(device);
         let counting = &self.plan.counting;
-        counting.start(device, commands, slot, self.counts.as_ref())?;
-        record::start(device, commands, &self.plan, input.raw);
+        counting.reset(device, commands, slot, self.counts.as_ref())?;
+        record::initial_contents(device, commands, &self.plan, input.raw);
         slot.timestamp(device, 0);
         record::passes(device, commands, &self.plan, input.raw);
         slot.timestamp(device, 1);
         counting.end(device, commands);
         let (cpu, wall) = slot.submit(device, start)?;
-        self.drawn = Drawn::Passes;
+        self.progress = Progress::Drawn;
         let gpu = slot.gpu_time(device)?;
         Ok(FrameTime { cpu, gpu, wall })
     }
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
-        let device = &self.backend.device;
+        let device = &self.gpu.device;
         let (Some(slot), Some(output)) = (&mut self.slot, &self.output) else {
             return Err(internal("the scene is not prepared"));
         };
-        match self.drawn {
-            Drawn::No => return Err(internal("read back before anything was drawn")),
-            Drawn::Passes => {
+        match self.progress {
+            Progress::NotDrawn => return Err(internal("read back before anything was drawn")),
+            Progress::Drawn => {
                 let start = Instant::now();
                 let commands = slot.begin(device)?;
                 record::reads(device, commands, &self.plan, output.raw);
-                self.drawn = Drawn::No;
+                self.progress = Progress::NotDrawn;
                 slot.submit(device, start)?;
-                self.drawn = Drawn::Read;
+                self.progress = Progress::Read;
             }
-            // The codes still lie in the output buffer.
-            Drawn::Read => {}
+            // The codes are still in the output buffer.
+            Progress::Read => {}
         }
         let mut frame = Frame {
             images: Vec::with_capacity(self.plan.reads.len()),
@@ -212,9 +214,9 @@ impl Prepared for PreparedScene<'_> {
 
 impl Drop for PreparedScene<'_> {
     fn drop(&mut self) {
-        let device = &self.backend.device;
-        let mut pools = self.backend.pools.borrow_mut();
-        // The slot first: it waits for the device where that is still due.
+        let device = &self.gpu.device;
+        let mut pools = self.gpu.pools.borrow_mut();
+        // The slot first, since it waits for the device if work is in flight.
         if let Some(slot) = self.slot.take() {
             pools.slots.give_back(device, slot);
         }

@@ -1,4 +1,4 @@
-//! Pools of queries, kept by slots and made anew only where a scene needs more of them.
+//! Query pools, recreated only if a scene needs more queries.
 
 use crate::device::Device;
 use crate::error::Check;
@@ -8,13 +8,13 @@ use etalon_backend::BackendError;
 /// Queries of one type.
 #[derive(Debug, Default)]
 pub(crate) struct Queries {
-    /// Null as long as none was needed.
+    /// Null until queries are needed.
     pub(crate) raw: vk::QueryPool,
     room: u32,
 }
 
 impl Queries {
-    /// Makes room for so many queries. The device is done with those that were there.
+    /// Makes room for this many queries, once the device is done with the present ones.
     pub(crate) fn make_room(
         &mut self,
         device: &Device,
@@ -34,14 +34,14 @@ impl Queries {
             let statistic = vk::QueryPipelineStatisticFlags::FRAGMENT_SHADER_INVOCATIONS;
             info = info.pipeline_statistics(statistic);
         }
-        // SAFETY: the limits were asked for every type of query but occlusion, which always is.
+        // SAFETY: the device has the feature of every query type.
         let made = unsafe { device.raw.create_query_pool(&info, None) };
         self.raw = made.check("a query pool")?;
         self.room = room;
         Ok(())
     }
 
-    /// Records that the first so many queries have no results yet.
+    /// Records the reset of the first `count` queries.
     pub(crate) fn reset(&self, device: &Device, commands: vk::CommandBuffer, count: u32) {
         if count > 0 && self.raw != vk::QueryPool::null() {
             // SAFETY: recording, outside of a render pass; the caller made room for them.
@@ -53,7 +53,7 @@ impl Queries {
         }
     }
 
-    /// The results of the first so many queries, all of which finished work began and ended.
+    /// Returns the results of the first `count` queries, which finished work has ended.
     pub(crate) fn results(&self, device: &Device, count: usize) -> Result<Vec<u64>, BackendError> {
         let mut results = vec![0_u64; count];
         if count > 0 {

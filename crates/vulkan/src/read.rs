@@ -1,27 +1,31 @@
-//! From the output buffer to the frame's images.
+//! Reading attachments back: from the output buffer to the frame's images.
 
-use crate::backend::VulkanBackend;
+use crate::buffer::Buffer;
+use crate::descriptors;
 use crate::device::Device;
+use crate::error::internal;
 use crate::format;
-use crate::inputs::Placer;
-use crate::memory::{Buffer, Image};
-use crate::samples::{self, SampleReader, SampleReaders, Seen};
+use crate::gpu::Gpu;
+use crate::image::Image;
+use crate::inputs::OffsetAllocator;
+use crate::samples::{self, SampleReader, SampleReaders, SampleType};
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_frame::{Aspect, ChannelEncoding, ReadPath, Requirement};
+use etalon_backend::codes::code_of_fetched;
+use etalon_frame::{Aspect, ChannelEncoding, ReadPath};
 use etalon_scene::Scene;
 
-/// One aspect of one attachment on its way back.
+/// The read-back of one aspect of an attachment.
 pub(crate) struct ReadPlan {
     pub(crate) attachment: usize,
     pub(crate) aspect: Aspect,
-    /// Where its bytes lie in the output buffer.
+    /// The offset of its bytes in the output buffer.
     pub(crate) offset: u64,
-    /// For multisampled attachments, the shader that reads them, and its descriptors.
+    /// The shader that reads a multisampled attachment, and its descriptors.
     pub(crate) reader: Option<(SampleReader, vk::DescriptorSet)>,
     name: String,
-    seen: Seen,
+    sample_type: SampleType,
     size: [u32; 2],
     samples: u32,
     raw: vk::Format,
@@ -30,26 +34,19 @@ pub(crate) struct ReadPlan {
 }
 
 impl ReadPlan {
-    /// Everything that a scene reads, and the size of the buffer that takes it.
-    pub(crate) fn all(
-        backend: &VulkanBackend,
-        scene: &Scene,
-    ) -> Result<(Vec<Self>, u64), BackendError> {
-        let limits = &backend.device.limits;
-        // Offsets of depth and stencil copies are multiples of 4, of others of the texel's size.
+    /// Returns all reads of a scene and the size of the output buffer.
+    pub(crate) fn all(gpu: &Gpu, scene: &Scene) -> Result<(Vec<Self>, u64), BackendError> {
+        let limits = &gpu.device.limits;
+        // Offsets of depth and stencil copies are multiples of 4, others of the texel size.
         let alignment = limits.min_storage_buffer_offset_alignment.max(16);
-        let mut placer = Placer::default();
+        let mut offsets = OffsetAllocator::default();
         let mut reads = Vec::new();
         for index in &scene.read {
             let Some(attachment) = scene.attachments.get(*index) else {
-                let message = "a read names no attachment".to_owned();
-                return Err(BackendError::Internal(message));
+                return Err(internal("a read names no attachment"));
             };
             let format = attachment.format;
-            let native = backend
-                .natives
-                .get(&format)
-                .ok_or(BackendError::NotSupported(Requirement::Format(format)))?;
+            let native = format::native(&gpu.natives, format)?;
             for aspect in format.aspects() {
                 let channels = format::channels(format, native.raw, *aspect);
                 let texels = u64::from(attachment.size[0]) * u64::from(attachment.size[1]);
@@ -62,10 +59,10 @@ impl ReadPlan {
                 reads.push(Self {
                     attachment: *index,
                     aspect: *aspect,
-                    offset: placer.place(bytes, alignment),
+                    offset: offsets.allocate(bytes, alignment),
                     reader: None,
                     name: attachment.name.clone(),
-                    seen: Seen::of(format, *aspect),
+                    sample_type: SampleType::of(format, *aspect),
                     size: attachment.size,
                     samples: attachment.samples,
                     raw: native.raw,
@@ -74,11 +71,11 @@ impl ReadPlan {
                 });
             }
         }
-        let bytes = placer.place(0, 1);
+        let bytes = offsets.allocate(0, 1);
         Ok((reads, bytes))
     }
 
-    /// Gives the read of a multisampled image its shader.
+    /// Sets the shader of a multisampled read.
     pub(crate) fn connect(
         &mut self,
         device: &Device,
@@ -96,7 +93,7 @@ impl ReadPlan {
                 message: "maxStorageBufferRange is smaller".to_owned(),
             });
         }
-        let reader = readers.get(device, self.seen)?;
+        let reader = readers.get(device, self.sample_type)?;
         let set = slot.descriptor_set(device, reader.layout.set)?;
         let images = [vk::DescriptorImageInfo {
             sampler: vk::Sampler::null(),
@@ -108,12 +105,7 @@ impl ReadPlan {
             offset: self.offset,
             range: self.bytes,
         }];
-        let write = |binding, kind| {
-            vk::WriteDescriptorSet::default()
-                .dst_set(set)
-                .dst_binding(binding)
-                .descriptor_type(kind)
-        };
+        let write = |binding, kind| descriptors::write(set, binding, kind);
         let writes = [
             write(0, vk::DescriptorType::SAMPLED_IMAGE).image_info(&images),
             write(1, vk::DescriptorType::STORAGE_BUFFER).buffer_info(&buffers),
@@ -124,10 +116,10 @@ impl ReadPlan {
         Ok(())
     }
 
-    /// The image, after the device wrote the output buffer.
+    /// Returns the image, after the device wrote the output buffer.
     pub(crate) fn image(&self, output: &Buffer) -> Result<etalon_frame::Image, BackendError> {
-        let length = usize::try_from(self.bytes)
-            .map_err(|_| BackendError::Internal("an image too large to read".to_owned()))?;
+        let length =
+            usize::try_from(self.bytes).map_err(|_| internal("an image too large to read"))?;
         let bytes = output.read(self.offset, length)?;
         let codes = if self.reader.is_some() {
             self.codes_of_samples(&bytes)
@@ -145,15 +137,16 @@ impl ReadPlan {
         })
     }
 
-    /// The codes of what the shader stored, the channels that the format lacks left out.
+    /// Returns the codes of the samples that the shader stored, without the channels that the
+    /// format lacks.
     fn codes_of_samples(&self, bytes: &[u8]) -> Vec<u32> {
         let sample = samples::words(self.aspect) * size_of::<u32>();
         let mut codes = Vec::with_capacity(bytes.len() / sample * self.channels.len());
         for stored in bytes.chunks_exact(sample) {
             let words = stored.chunks_exact(4);
             for (encoding, word) in self.channels.iter().zip(words) {
-                let seen = u32::from_le_bytes([word[0], word[1], word[2], word[3]]);
-                codes.push(samples::code(*encoding, seen));
+                let bits = u32::from_le_bytes([word[0], word[1], word[2], word[3]]);
+                codes.push(code_of_fetched(*encoding, bits));
             }
         }
         codes

@@ -1,46 +1,48 @@
-//! Commands: how attachments start, the passes, and the copies that are read back.
+//! Recording of commands: initial contents, passes, and copies for reading back.
 
 use crate::device::Device;
-use crate::memory::range;
+use crate::image::range;
 use crate::pipeline::Pipeline;
-use crate::plan::{AttachmentPlan, DepthStencilPlan, DrawPlan, PassPlan, Plan, Role, Start};
+use crate::plan::{
+    AttachmentPlan, DepthStencilPlan, DrawPlan, InitialContents, PassPlan, Plan, Role,
+};
 use crate::samples::TILE;
 use ash::vk;
 
-/// A place in the pipeline and what happens to memory there.
+/// The layout of an image with the stages and accesses that use it.
 #[derive(Clone, Copy)]
-struct Place {
+struct ImageState {
     layout: vk::ImageLayout,
     stages: vk::PipelineStageFlags2,
     access: vk::AccessFlags2,
 }
 
-const TRANSFER_DST: Place = Place {
+const TRANSFER_DST: ImageState = ImageState {
     layout: vk::ImageLayout::TRANSFER_DST_OPTIMAL,
     stages: vk::PipelineStageFlags2::ALL_TRANSFER,
     access: vk::AccessFlags2::TRANSFER_WRITE,
 };
 
-const TRANSFER_SRC: Place = Place {
+const TRANSFER_SRC: ImageState = ImageState {
     layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
     stages: vk::PipelineStageFlags2::ALL_TRANSFER,
     access: vk::AccessFlags2::TRANSFER_READ,
 };
 
-const COMPUTE: Place = Place {
+const COMPUTE: ImageState = ImageState {
     layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
     stages: vk::PipelineStageFlags2::COMPUTE_SHADER,
     access: vk::AccessFlags2::SHADER_SAMPLED_READ,
 };
 
-/// Depth and stencil in a pass that promises to write neither.
-const TESTED_ONLY: Place = Place {
+/// Depth and stencil attachments of a read-only pass.
+const DEPTH_STENCIL_READ_ONLY: ImageState = ImageState {
     layout: vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
-    stages: TESTED.stages,
+    stages: DEPTH_STENCIL.stages,
     access: vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_READ,
 };
 
-const TESTED: Place = Place {
+const DEPTH_STENCIL: ImageState = ImageState {
     layout: vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
     stages: vk::PipelineStageFlags2::from_raw(
         vk::PipelineStageFlags2::EARLY_FRAGMENT_TESTS.as_raw()
@@ -52,14 +54,14 @@ const TESTED: Place = Place {
     ),
 };
 
-/// Whatever happened before; contents need not survive.
-const ANYTHING: Place = Place {
+/// Any earlier use; the contents are discarded.
+const UNDEFINED: ImageState = ImageState {
     layout: vk::ImageLayout::UNDEFINED,
     stages: vk::PipelineStageFlags2::ALL_COMMANDS,
     access: vk::AccessFlags2::MEMORY_WRITE,
 };
 
-const DRAWN: Place = Place {
+const COLOR: ImageState = ImageState {
     layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
     stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
     access: vk::AccessFlags2::from_raw(
@@ -68,7 +70,7 @@ const DRAWN: Place = Place {
     ),
 };
 
-const FETCHED: Place = Place {
+const FETCHED: ImageState = ImageState {
     layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
     stages: vk::PipelineStageFlags2::from_raw(
         vk::PipelineStageFlags2::VERTEX_SHADER.as_raw()
@@ -78,12 +80,12 @@ const FETCHED: Place = Place {
 };
 
 impl Role {
-    /// Where an attachment lies that has this role.
-    fn place(self) -> Place {
+    /// Returns the state of an attachment in this role.
+    fn state(self) -> ImageState {
         match self {
-            Self::Color => DRAWN,
-            Self::DepthStencil => TESTED,
-            Self::Tested => TESTED_ONLY,
+            Self::Color => COLOR,
+            Self::DepthStencil => DEPTH_STENCIL,
+            Self::DepthStencilReadOnly => DEPTH_STENCIL_READ_ONLY,
             Self::Fetched => FETCHED,
             Self::Idle => TRANSFER_DST,
         }
@@ -91,13 +93,13 @@ impl Role {
 }
 
 impl AttachmentPlan {
-    /// Where the attachment lies before the first pass and after the last.
-    fn home(&self) -> Place {
-        self.role.place()
+    /// Returns the state before the first pass and after the last.
+    fn initial_state(&self) -> ImageState {
+        self.role.state()
     }
 
-    /// Where the attachment lies while it is read back.
-    fn reading(&self) -> Place {
+    /// Returns the state for reading back.
+    fn read_state(&self) -> ImageState {
         if self.samples > 1 {
             COMPUTE
         } else {
@@ -105,7 +107,7 @@ impl AttachmentPlan {
         }
     }
 
-    fn barrier(&self, from: Place, to: Place) -> vk::ImageMemoryBarrier2<'static> {
+    fn barrier(&self, from: ImageState, to: ImageState) -> vk::ImageMemoryBarrier2<'static> {
         vk::ImageMemoryBarrier2::default()
             .src_stage_mask(from.stages)
             .src_access_mask(from.access)
@@ -120,19 +122,25 @@ impl AttachmentPlan {
     }
 }
 
-/// Gives every attachment its first contents and brings it to its place for the passes.
-pub(crate) fn start(device: &Device, commands: vk::CommandBuffer, plan: &Plan, input: vk::Buffer) {
+/// Records the initial contents of all attachments and the transition to their states for the
+/// passes.
+pub(crate) fn initial_contents(
+    device: &Device,
+    commands: vk::CommandBuffer,
+    plan: &Plan,
+    input: vk::Buffer,
+) {
     let into: Vec<_> = plan
         .attachments
         .iter()
-        .map(|a| a.barrier(ANYTHING, TRANSFER_DST))
+        .map(|a| a.barrier(UNDEFINED, TRANSFER_DST))
         .collect();
     barriers(device, commands, &into);
     let layout = TRANSFER_DST.layout;
     for attachment in &plan.attachments {
         let ranges = [range(attachment.aspects)];
-        match &attachment.start {
-            Start::Color(color) => {
+        match &attachment.initial {
+            InitialContents::Color(color) => {
                 // SAFETY: recording; the image is in this layout.
                 unsafe {
                     device.raw.cmd_clear_color_image(
@@ -144,7 +152,7 @@ pub(crate) fn start(device: &Device, commands: vk::CommandBuffer, plan: &Plan, i
                     );
                 }
             }
-            Start::DepthStencil { depth, stencil } => {
+            InitialContents::DepthStencil { depth, stencil } => {
                 let value = vk::ClearDepthStencilValue {
                     depth: *depth,
                     stencil: u32::from(*stencil),
@@ -160,7 +168,7 @@ pub(crate) fn start(device: &Device, commands: vk::CommandBuffer, plan: &Plan, i
                     );
                 }
             }
-            Start::Upload(offset) => {
+            InitialContents::Upload(offset) => {
                 let regions = [region(attachment, attachment.aspects, *offset)];
                 // SAFETY: as above; the input buffer holds all texels from the offset on.
                 unsafe {
@@ -175,16 +183,16 @@ pub(crate) fn start(device: &Device, commands: vk::CommandBuffer, plan: &Plan, i
             }
         }
     }
-    let home: Vec<_> = plan
+    let initial: Vec<_> = plan
         .attachments
         .iter()
         .filter(|a| a.role != Role::Idle)
-        .map(|a| a.barrier(TRANSFER_DST, a.home()))
+        .map(|a| a.barrier(TRANSFER_DST, a.initial_state()))
         .collect();
-    barriers(device, commands, &home);
+    barriers(device, commands, &initial);
 }
 
-/// Records all passes. Each finds its attachments where it needs them; at the end all are at home.
+/// Records all passes. Attachments change state between passes and end in their first state.
 pub(crate) fn passes(device: &Device, commands: vk::CommandBuffer, plan: &Plan, input: vk::Buffer) {
     let mut roles: Vec<Role> = plan.attachments.iter().map(|a| a.role).collect();
     for (index, pass) in plan.passes.iter().enumerate() {
@@ -200,34 +208,34 @@ pub(crate) fn passes(device: &Device, commands: vk::CommandBuffer, plan: &Plan, 
         );
         self::pass(device, commands, pass, input);
     }
-    let home = plan.attachments.iter().map(|a| a.role).enumerate();
-    change_roles(device, commands, plan, &mut roles, home);
+    let first = plan.attachments.iter().map(|a| a.role).enumerate();
+    change_roles(device, commands, plan, &mut roles, first);
 }
 
-/// Brings attachments to the places of these roles. What has its role already needs no more than
+/// Records the transitions to these roles. Attachments that keep their role need only
 /// [`between_passes`].
 fn change_roles(
     device: &Device,
     commands: vk::CommandBuffer,
     plan: &Plan,
     roles: &mut [Role],
-    wanted: impl Iterator<Item = (usize, Role)>,
+    new_roles: impl Iterator<Item = (usize, Role)>,
 ) {
     let mut moved = Vec::new();
-    for (index, role) in wanted {
+    for (index, role) in new_roles {
         let (Some(attachment), Some(now)) = (plan.attachments.get(index), roles.get_mut(index))
         else {
             continue;
         };
         if *now != role {
-            moved.push(attachment.barrier(now.place(), role.place()));
+            moved.push(attachment.barrier(now.state(), role.state()));
             *now = role;
         }
     }
     barriers(device, commands, &moved);
 }
 
-/// Makes what a pass wrote visible to the next.
+/// Makes the writes of a pass visible to the next.
 fn between_passes(device: &Device, commands: vk::CommandBuffer) {
     let stages = vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT
         | vk::PipelineStageFlags2::EARLY_FRAGMENT_TESTS
@@ -269,10 +277,10 @@ fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk
     }
     let tested = pass.depth_stencil.as_ref().map(|d| {
         if d.read_only {
-            // Storing would count as writing.
-            attachment(d.view, TESTED_ONLY.layout).store_op(vk::AttachmentStoreOp::NONE)
+            // A store operation would count as a write.
+            attachment(d.view, DEPTH_STENCIL_READ_ONLY.layout).store_op(vk::AttachmentStoreOp::NONE)
         } else {
-            attachment(d.view, TESTED.layout)
+            attachment(d.view, DEPTH_STENCIL.layout)
         }
     });
     let has =
@@ -344,13 +352,13 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
     }
 }
 
-/// Records everything that is read back, into the output buffer.
+/// Records the copies of everything that is read back to the output buffer.
 pub(crate) fn reads(device: &Device, commands: vk::CommandBuffer, plan: &Plan, output: vk::Buffer) {
     let into: Vec<_> = plan
         .attachments
         .iter()
         .filter(|a| a.read)
-        .map(|a| a.barrier(a.home(), a.reading()))
+        .map(|a| a.barrier(a.initial_state(), a.read_state()))
         .collect();
     barriers(device, commands, &into);
     for read in &plan.reads {
@@ -411,7 +419,7 @@ fn barriers(
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
 }
 
-/// The whole of one aspect, tightly packed at an offset of a buffer.
+/// Returns the copy of a whole aspect, tightly packed at an offset of a buffer.
 fn region(
     attachment: &AttachmentPlan,
     aspect: vk::ImageAspectFlags,

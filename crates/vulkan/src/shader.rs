@@ -1,4 +1,4 @@
-//! WGSL to SPIR-V through naga, and the modules made of it.
+//! Shader modules, translated from WGSL by naga.
 
 use crate::device::Device;
 use crate::error::Check;
@@ -9,7 +9,7 @@ use naga::back::spv;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::collections::HashMap;
 
-/// SPIR-V with what a pipeline must know of it.
+/// SPIR-V with the facts that a pipeline needs.
 #[derive(Debug)]
 pub(crate) struct Translated {
     pub(crate) words: Vec<u32>,
@@ -17,15 +17,14 @@ pub(crate) struct Translated {
     pub(crate) attributes: Vec<u32>,
 }
 
-/// A shader module that holds all entry points of its file.
+/// A shader module with all entry points of its file.
 #[derive(Clone, Debug)]
 pub(crate) struct Module {
     pub(crate) raw: vk::ShaderModule,
     pub(crate) attributes: Vec<u32>,
 }
 
-/// One module per shader of the suite and time of its tests; the set is closed, so nothing needs to
-/// go early.
+/// One module per shader and early-test mode. The set is closed, so all are kept.
 #[derive(Debug, Default)]
 pub(crate) struct Modules {
     modules: HashMap<(Shader, EarlyTests), Module>,
@@ -45,8 +44,8 @@ pub(crate) fn translate(name: &str, source: &str) -> Result<Translated, BackendE
     let info = Validator::new(ValidationFlags::all(), capabilities)
         .validate(&module)
         .map_err(|e| fail(e.emit_to_string(source)))?;
-    // The viewport turns y up, not the shader, and a written depth stays as it is. The size of
-    // points, which WGSL leaves at 1, must be written for points and is ignored for all else.
+    // The viewport turns y up, so the shader does not, and a written depth stays as it is. WGSL has
+    // no point size: SPIR-V must write it for points, and other topologies ignore it.
     let options = spv::Options {
         lang_version: (1, 3),
         flags: spv::WriterFlags::FORCE_POINT_SIZE,
@@ -65,7 +64,7 @@ pub(crate) fn translate(name: &str, source: &str) -> Result<Translated, BackendE
     Ok(Translated { words, attributes })
 }
 
-/// Makes a module of SPIR-V.
+/// Creates a module from SPIR-V.
 pub(crate) fn create_module(
     device: &Device,
     name: &str,
@@ -77,7 +76,7 @@ pub(crate) fn create_module(
 }
 
 impl Modules {
-    /// The module of a shader, made at its first use.
+    /// Returns the module of a shader, created on first use.
     pub(crate) fn get(
         &mut self,
         device: &Device,
@@ -96,7 +95,7 @@ impl Modules {
         Ok(module)
     }
 
-    /// Destroys everything; called once, before the device goes.
+    /// Destroys everything, before the device is destroyed.
     pub(crate) fn destroy(&mut self, device: &Device) {
         for (_, module) in self.modules.drain() {
             // SAFETY: modules are needed only while pipelines are created.
@@ -133,8 +132,8 @@ mod tests {
     /// SPIR-V, Execution Mode: EarlyFragmentTests, DepthReplacing, DepthGreater, DepthLess,
     /// DepthUnchanged.
     #[test]
-    fn the_time_of_tests_reaches_the_driver() {
-        let due = |tests| match tests {
+    fn early_test_modes_become_execution_modes() {
+        let expected = |tests| match tests {
             EarlyTests::Implicit => None,
             EarlyTests::Forced => Some(9),
             EarlyTests::GreaterEqual => Some(14),
@@ -151,7 +150,7 @@ mod tests {
                 let mut modes = execution_modes(&translated.words);
                 modes.retain(|m| matches!(m, 9 | 12 | 14 | 15 | 16));
                 let replaces = shader.writes_depth().then_some(12);
-                let all: Vec<u32> = due(*tests).into_iter().chain(replaces).collect();
+                let all: Vec<u32> = expected(*tests).into_iter().chain(replaces).collect();
                 assert_eq!(modes, all, "{} {}", shader.name(), tests.name());
             }
         }

@@ -1,36 +1,36 @@
-//! What one scene in flight needs: commands, a fence, queries, descriptors. Slots are reused.
+//! Reusable slots: the commands, fence, queries and descriptors of one scene in flight.
 
 use crate::device::Device;
-use crate::error::Check;
+use crate::error::{Check, internal};
 use crate::queries::Queries;
 use ash::vk;
 use etalon_backend::BackendError;
 use std::time::{Duration, Instant};
 
-/// The most slots kept for later.
+/// The most unused slots kept.
 const KEPT_SLOTS: usize = 16;
 const FEWEST_SETS: u32 = 8;
 
-/// One scene's commands and bookkeeping on the device.
+/// The commands, queries and descriptors of one scene.
 #[derive(Debug, Default)]
 pub(crate) struct Slot {
     pool: vk::CommandPool,
     commands: vk::CommandBuffer,
     fence: vk::Fence,
-    /// None where the queue has no timestamps.
+    /// Empty if the queue has no timestamps.
     timestamps: Queries,
     pub(crate) occlusion: Queries,
     pub(crate) statistics: Queries,
     descriptors: vk::DescriptorPool,
-    /// How many sets the descriptor pool has room for.
+    /// The capacity of the descriptor pool in sets.
     sets: u32,
-    /// How many images each set may hold on average.
+    /// The images per set, on average, that the descriptor pool has room for.
     images: u32,
-    /// Whether the device may still be at work on the commands.
+    /// True if the device may still be executing the commands.
     pub(crate) in_flight: bool,
 }
 
-/// What a scene needs of its slot.
+/// The capacity that a scene needs.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Needs {
     /// Descriptor sets.
@@ -39,18 +39,18 @@ pub(crate) struct Needs {
     pub(crate) images: u32,
     /// Occlusion queries.
     pub(crate) occlusion: u32,
-    /// Queries of pipeline statistics.
+    /// Pipeline statistics queries.
     pub(crate) statistics: u32,
 }
 
-/// Slots that no scene uses at present.
+/// Unused slots.
 #[derive(Debug, Default)]
 pub(crate) struct Slots {
     free: Vec<Slot>,
 }
 
 impl Slots {
-    /// A slot with room for what a scene needs.
+    /// Returns a slot with this capacity.
     pub(crate) fn take(&mut self, device: &Device, needs: Needs) -> Result<Slot, BackendError> {
         let mut slot = self.free.pop().unwrap_or_default();
         let ready = slot.create(device, needs);
@@ -61,7 +61,7 @@ impl Slots {
         Ok(slot)
     }
 
-    /// Takes a slot back. One that the device has not left is waited for, and then not trusted.
+    /// Returns a slot to the pool. A slot in flight is waited for and destroyed.
     pub(crate) fn give_back(&mut self, device: &Device, slot: Slot) {
         if slot.in_flight {
             // SAFETY: waiting needs nothing; on a lost device it fails, and nothing runs there.
@@ -74,14 +74,14 @@ impl Slots {
         }
     }
 
-    /// Destroys everything; called once, before the device goes.
+    /// Destroys everything, before the device is destroyed.
     pub(crate) fn destroy(&mut self, device: &Device) {
         self.free.drain(..).for_each(|s| s.destroy(device));
     }
 }
 
 impl Slot {
-    /// Makes what is missing, and gives all descriptor sets back.
+    /// Creates what is missing and frees all descriptor sets.
     fn create(&mut self, device: &Device, needs: Needs) -> Result<(), BackendError> {
         let (sets, images) = (needs.sets.max(1), needs.images.max(1));
         let api = &device.raw;
@@ -143,7 +143,7 @@ impl Slot {
         Ok(())
     }
 
-    /// A descriptor set of a layout; it lives as long as the scene holds the slot.
+    /// Allocates a descriptor set, valid while the scene holds the slot.
     pub(crate) fn descriptor_set(
         &self,
         device: &Device,
@@ -158,10 +158,10 @@ impl Slot {
         let sets = sets.check("a descriptor set")?;
         sets.first()
             .copied()
-            .ok_or_else(|| BackendError::Internal("no descriptor set came back".to_owned()))
+            .ok_or_else(|| internal("no descriptor set came back"))
     }
 
-    /// Starts recording.
+    /// Begins recording.
     pub(crate) fn begin(&self, device: &Device) -> Result<vk::CommandBuffer, BackendError> {
         let info = vk::CommandBufferBeginInfo::default()
             .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
@@ -179,12 +179,12 @@ impl Slot {
         Ok(self.commands)
     }
 
-    /// Records that the timestamps are not taken yet.
+    /// Records the reset of the timestamps.
     pub(crate) fn reset_timestamps(&self, device: &Device) {
         self.timestamps.reset(device, self.commands, 2);
     }
 
-    /// Records a timestamp, 0 before and 1 after what is timed.
+    /// Records a timestamp: 0 before and 1 after the timed commands.
     pub(crate) fn timestamp(&self, device: &Device, index: u32) {
         if self.timestamps.raw != vk::QueryPool::null() {
             let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
@@ -197,8 +197,8 @@ impl Slot {
         }
     }
 
-    /// Ends recording, submits, and waits. Returns the time from `start` to the submission's return
-    /// and to the device's being done.
+    /// Ends recording, submits and waits. Returns the time from `start` until the submission
+    /// returned and until the device was done.
     pub(crate) fn submit(
         &mut self,
         device: &Device,
@@ -214,7 +214,7 @@ impl Slot {
             api.end_command_buffer(self.commands)
                 .check("command memory")?;
             api.reset_fences(&fences).check("a fence")?;
-            // Set first: after an error the device may or may not have begun.
+            // Set first: after an error the device may have begun.
             self.in_flight = true;
             api.queue_submit2(device.queue, &info, self.fence)
                 .check("submitted work")?;
@@ -227,7 +227,7 @@ impl Slot {
         Ok((submitted, done))
     }
 
-    /// The time between the two timestamps of finished work.
+    /// Returns the time between the two timestamps of finished work.
     pub(crate) fn gpu_time(&self, device: &Device) -> Result<Option<Duration>, BackendError> {
         if self.timestamps.raw == vk::QueryPool::null() {
             return Ok(None);

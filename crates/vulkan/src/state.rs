@@ -1,4 +1,4 @@
-//! From our state to Vulkan's.
+//! Vulkan's values of pipeline state.
 
 use ash::vk;
 use etalon_scene::{
@@ -123,12 +123,12 @@ pub(crate) fn topology(topology: PrimitiveTopology) -> vk::PrimitiveTopology {
     }
 }
 
-/// Our write mask has red in bit 0, as Vulkan's.
+/// Bit 0 is red in both.
 pub(crate) fn write_mask(mask: u8) -> vk::ColorComponentFlags {
     vk::ColorComponentFlags::from_raw(u32::from(mask & 0xf))
 }
 
-/// The sample count flag of a power of two up to 64 is the number itself.
+/// The flag of a sample count up to 64 is the count itself.
 pub(crate) fn samples(count: u32) -> vk::SampleCountFlags {
     vk::SampleCountFlags::from_raw(count)
 }

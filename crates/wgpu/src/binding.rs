@@ -1,132 +1,35 @@
-//! What shaders are given: layouts, and the bind groups of a scene's draws.
+//! The bind groups of a scene's draws.
 
+use crate::attachment::DeviceAttachment;
 use crate::counting::Counting;
-use crate::format;
 use crate::gpu::{BufferLease, Gpu};
-use crate::kept::Kept;
-use crate::slot::Slot;
+use crate::layout::{Bindings, PARAMS_BYTES, RUNS_BYTES};
+use crate::state;
 use etalon_backend::BackendError;
-use etalon_scene::{Draw, Sampler, Scene, Shader};
+use etalon_scene::{Draw, Sampler, Scene};
 use std::collections::HashMap;
 use wgpu::BufferUsages;
 
-/// The size of [`etalon_scene::Params`].
-const PARAMS_BYTES: u64 = 32;
-/// The size of a counter of runs.
-pub(crate) const RUNS_BYTES: u64 = 4;
-
-/// A bind group layout and the pipeline layout made of it.
-#[derive(Clone)]
-pub(crate) struct Layout {
-    pub(crate) bindings: wgpu::BindGroupLayout,
-    pub(crate) pipeline: wgpu::PipelineLayout,
-}
-
-/// What a draw's shader is given, at the bindings that the suite's shaders agree on.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct Bindings {
-    /// The parameter block, at binding 0.
-    params: bool,
-    /// So many textures, from binding 1.
-    textures: usize,
-    /// A counter of runs, at binding 3.
-    runs: bool,
-    /// A sampler, at binding 4.
-    sampler: bool,
-}
-
-impl Bindings {
-    pub(crate) fn of(shader: Shader) -> Self {
-        Self {
-            params: shader.uses_params(),
-            textures: shader.textures(),
-            runs: shader.counts_runs(),
-            sampler: shader.samples_texture(),
-        }
-    }
-
-    fn entries(self) -> Vec<wgpu::BindGroupLayoutEntry> {
-        let mut all = Vec::new();
-        if self.params {
-            let uniform = wgpu::BufferBindingType::Uniform;
-            all.push(entry(0, buffer(uniform, true, PARAMS_BYTES)));
-        }
-        let sample_type = wgpu::TextureSampleType::Float {
-            filterable: self.sampler,
-        };
-        all.extend((1..).take(self.textures).map(|binding| {
-            let texture = texture(sample_type, false);
-            entry(binding, texture)
-        }));
-        if self.runs {
-            let storage = wgpu::BufferBindingType::Storage { read_only: false };
-            all.push(entry(3, buffer(storage, false, RUNS_BYTES)));
-        }
-        if self.sampler {
-            let filtering = wgpu::SamplerBindingType::Filtering;
-            all.push(entry(4, wgpu::BindingType::Sampler(filtering)));
-        }
-        all
-    }
-}
-
-/// Layouts for draws, and for reading attachments.
-pub(crate) struct Layouts {
-    draws: Kept<Bindings, Layout>,
-    /// Nothing.
-    pub(crate) none: Layout,
-    /// One texture.
-    pub(crate) texture: Layout,
-    /// One texture of several samples of floats.
-    pub(crate) samples: Layout,
-    /// One texture of several samples of integers.
-    pub(crate) integers: Layout,
-}
-
-impl Layouts {
-    pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let float = wgpu::TextureSampleType::Float { filterable: false };
-        let integer = wgpu::TextureSampleType::Uint;
-        Self {
-            draws: Kept::default(),
-            none: layout(device, &[]),
-            texture: layout(device, &[entry(1, texture(float, false))]),
-            samples: layout(device, &[entry(1, texture(float, true))]),
-            integers: layout(device, &[entry(1, texture(integer, true))]),
-        }
-    }
-
-    /// The layout of a draw.
-    pub(crate) fn draw(
-        &self,
-        device: &wgpu::Device,
-        bindings: Bindings,
-    ) -> Result<Layout, BackendError> {
-        self.draws
-            .get(bindings, |key| Ok(layout(device, &key.entries())))
-    }
-}
-
-/// A bind group and the offset of its parameters, where it has some.
+/// A bind group and the dynamic offset of its parameters, if it has any.
 pub(crate) struct Bound {
     pub(crate) group: wgpu::BindGroup,
     pub(crate) offset: Option<u32>,
 }
 
-/// The bind groups of a scene, each made once.
+/// The bind groups of a scene, each created once.
 pub(crate) struct Groups<'a, 's> {
     gpu: &'a Gpu,
-    slots: &'s [Slot<'a>],
+    attachments: &'s [DeviceAttachment<'a>],
     counting: &'s Counting<'a>,
     /// The parameter blocks of all draws.
     buffer: Option<BufferLease<'a>>,
-    /// What is to go there.
+    /// The contents of `buffer`.
     params: Vec<u8>,
     stride: usize,
     made: HashMap<Key, wgpu::BindGroup>,
 }
 
-/// What a bind group is made from.
+/// The resources of a bind group.
 #[derive(PartialEq, Eq, Hash)]
 struct Key {
     bindings: Bindings,
@@ -139,7 +42,7 @@ impl<'a, 's> Groups<'a, 's> {
     pub(crate) fn new(
         gpu: &'a Gpu,
         scene: &Scene,
-        slots: &'s [Slot<'a>],
+        attachments: &'s [DeviceAttachment<'a>],
         counting: &'s Counting<'a>,
     ) -> Self {
         let draws = scene.passes.iter().flat_map(|pass| &pass.draws);
@@ -149,7 +52,7 @@ impl<'a, 's> Groups<'a, 's> {
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         Self {
             gpu,
-            slots,
+            attachments,
             counting,
             buffer: (blocks > 0).then(|| gpu.buffer(usage, blocks as u64 * stride)),
             params: Vec::new(),
@@ -158,7 +61,8 @@ impl<'a, 's> Groups<'a, 's> {
         }
     }
 
-    /// What a draw's shader is given; `runs` is the counter of its runs.
+    /// Returns the bind group of a draw; `None` if its shader has no bindings. `runs` is the
+    /// counter of its shader runs.
     pub(crate) fn bind(
         &mut self,
         draw: &Draw,
@@ -197,7 +101,7 @@ impl<'a, 's> Groups<'a, 's> {
             give(0, part(buffer, 0, PARAMS_BYTES));
         }
         for (binding, texture) in (1..).zip(&key.textures) {
-            let view = self.slots[*texture].target.fetch();
+            let view = self.attachments[*texture].target.fetch();
             give(binding, wgpu::BindingResource::TextureView(view));
         }
         if let Some((buffer, offset)) = key.runs.and_then(|counter| self.counting.runs(counter)) {
@@ -207,7 +111,7 @@ impl<'a, 's> Groups<'a, 's> {
         let sampler = match key.sampler {
             None => None,
             Some(sampler) => Some(pipelines.samplers.get(sampler, |sampler| {
-                Ok(device.create_sampler(&format::sampler(*sampler)))
+                Ok(device.create_sampler(&state::sampler(*sampler)))
             })?),
         };
         if let Some(sampler) = &sampler {
@@ -224,7 +128,7 @@ impl<'a, 's> Groups<'a, 's> {
         })))
     }
 
-    /// Sends the parameters and hands over their buffer, which must live as long as the groups.
+    /// Uploads the parameters and returns their buffer, which must outlive the groups.
     pub(crate) fn finish(self) -> Option<BufferLease<'a>> {
         if let Some(buffer) = &self.buffer {
             self.gpu.queue.write_buffer(buffer, 0, &self.params);
@@ -239,43 +143,4 @@ fn part(buffer: &wgpu::Buffer, offset: u64, bytes: u64) -> wgpu::BindingResource
         offset,
         size: wgpu::BufferSize::new(bytes),
     })
-}
-
-fn entry(binding: u32, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
-    wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty,
-        count: None,
-    }
-}
-
-fn buffer(ty: wgpu::BufferBindingType, dynamic: bool, bytes: u64) -> wgpu::BindingType {
-    wgpu::BindingType::Buffer {
-        ty,
-        has_dynamic_offset: dynamic,
-        min_binding_size: wgpu::BufferSize::new(bytes),
-    }
-}
-
-fn texture(sample_type: wgpu::TextureSampleType, multisampled: bool) -> wgpu::BindingType {
-    wgpu::BindingType::Texture {
-        sample_type,
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled,
-    }
-}
-
-fn layout(device: &wgpu::Device, entries: &[wgpu::BindGroupLayoutEntry]) -> Layout {
-    let bindings = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: None,
-        entries,
-    });
-    let groups = [Some(&bindings)];
-    let pipeline = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: if entries.is_empty() { &[] } else { &groups },
-        immediate_size: 0,
-    });
-    Layout { bindings, pipeline }
 }

@@ -1,15 +1,15 @@
-//! What a scene counts: queries around draws, and the counters that shaders add to.
+//! The counters of a scene: queries around draws, and a storage buffer that shaders count in.
 //!
 //! WebGPU's occlusion queries tell whether any sample passed, not how many (GPUQueryType), so
 //! `PreciseOcclusion` is denied.
 
-use crate::binding::RUNS_BYTES;
 use crate::gpu::{BufferLease, Gpu};
+use crate::layout::RUNS_BYTES;
 use etalon_frame::CounterKind;
 use etalon_scene::{Draw, Scene};
 use wgpu::BufferUsages;
 
-/// The size of a query's result.
+/// The size of a query result.
 const RESULT_BYTES: u64 = wgpu::QUERY_SIZE as u64;
 
 /// The counters of a scene.
@@ -17,36 +17,36 @@ pub(crate) struct Counting<'a> {
     kinds: Vec<CounterKind>,
     occlusion: Option<Queries>,
     statistics: Option<Queries>,
-    /// The results of both, one after the other.
+    /// The results of the occlusion queries, then of the statistics queries.
     results: Option<BufferLease<'a>>,
-    /// A count of runs at each counter's place, whatever its kind.
+    /// The storage buffer that shaders count in: one place per counter, of any kind.
     runs: Option<BufferLease<'a>>,
-    /// The distance between those.
+    /// The distance between two places.
     stride: u64,
 }
 
-/// A query for every draw that adds to a counter of one kind.
+/// The queries of one type, one per draw and counter.
 struct Queries {
     set: wgpu::QuerySet,
-    /// The counter of each.
+    /// The counter of each query.
     counters: Vec<usize>,
-    /// Where the results start in their buffer.
+    /// The offset of the first result in the results buffer.
     offset: u64,
 }
 
-/// What one draw adds to.
+/// The queries and the counter of a draw.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Counted {
-    /// Its occlusion query.
+    /// The occlusion query.
     occlusion: Option<u32>,
-    /// Its pipeline statistics query.
+    /// The pipeline statistics query.
     statistics: Option<u32>,
-    /// The counter of its shader's runs.
+    /// The counter that the shader increments.
     pub(crate) runs: Option<usize>,
 }
 
 impl Queries {
-    /// Queries for these counters; `None` where there are none to make.
+    /// Returns queries for these counters; `None` if there are no counters.
     fn new(gpu: &Gpu, ty: wgpu::QueryType, counters: Vec<usize>, offset: u64) -> Option<Self> {
         let descriptor = wgpu::QuerySetDescriptor {
             label: None,
@@ -71,7 +71,7 @@ impl Queries {
 }
 
 impl<'a> Counting<'a> {
-    /// The counters of a scene, and what each of its draws adds to, over all passes.
+    /// Returns the counters of a scene and the queries of each draw of all passes.
     pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> (Self, Vec<Counted>) {
         let (mut occlusion, mut statistics) = (Vec::new(), Vec::new());
         let mut add = |draw: &Draw| {
@@ -116,25 +116,25 @@ impl<'a> Counting<'a> {
         (counting, counted)
     }
 
-    /// Where a shader adds to a counter of runs.
+    /// Returns the buffer and offset of a counter that a shader increments.
     pub(crate) fn runs(&self, counter: usize) -> Option<(&wgpu::Buffer, u64)> {
         let buffer = self.runs.as_ref()?;
         Some((buffer, counter as u64 * self.stride))
     }
 
-    /// The occlusion queries for a pass.
+    /// Returns the occlusion queries for a pass.
     pub(crate) fn occlusion(&self) -> Option<&wgpu::QuerySet> {
         self.occlusion.as_ref().map(|queries| &queries.set)
     }
 
-    /// Records that shaders count from 0.
+    /// Records the reset of the storage buffer.
     pub(crate) fn start(&self, encoder: &mut wgpu::CommandEncoder) {
         if let Some(runs) = &self.runs {
             encoder.clear_buffer(runs, 0, None);
         }
     }
 
-    /// Records the beginning of a draw's queries.
+    /// Records the start of a draw's queries.
     pub(crate) fn begin(&self, pass: &mut wgpu::RenderPass<'_>, counted: Counted) {
         if let Some(query) = counted.occlusion {
             pass.begin_occlusion_query(query);
@@ -154,7 +154,7 @@ impl<'a> Counting<'a> {
         }
     }
 
-    /// Records that results go where they can be copied from.
+    /// Records the resolve of all queries.
     pub(crate) fn finish(&self, encoder: &mut wgpu::CommandEncoder) {
         if let Some(results) = &self.results {
             for queries in self.occlusion.iter().chain(&self.statistics) {
@@ -163,12 +163,12 @@ impl<'a> Counting<'a> {
         }
     }
 
-    /// Bytes of all counts, as [`Counting::copy`] lays them out.
+    /// Returns the size of all counts in the layout of [`Counting::copy`].
     pub(crate) fn bytes(&self) -> u64 {
         self.runs_start() + self.runs_bytes()
     }
 
-    /// The results of queries come first.
+    /// Query results come first.
     fn runs_start(&self) -> u64 {
         let both = self.occlusion.iter().chain(&self.statistics);
         both.map(Queries::end).max().unwrap_or(0)
@@ -179,7 +179,7 @@ impl<'a> Counting<'a> {
         self.runs.as_ref().map_or(0, |_| all)
     }
 
-    /// Records the copy of all counts into a buffer.
+    /// Records the copy of all counts to a buffer.
     pub(crate) fn copy(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -195,7 +195,7 @@ impl<'a> Counting<'a> {
         }
     }
 
-    /// The counters, in the scene's order, out of the bytes that were copied.
+    /// Returns the counts, in the order of the scene's counters, from the copied bytes.
     pub(crate) fn counts(&self, bytes: &[u8]) -> Vec<u64> {
         let start = self.runs_start();
         let total = |(counter, kind): (usize, &CounterKind)| match kind {
@@ -207,14 +207,14 @@ impl<'a> Counting<'a> {
             CounterKind::ShaderRuns if self.runs.is_some() => {
                 number(bytes, start + counter as u64 * self.stride, RUNS_BYTES)
             }
-            // No draw adds to it, or it is denied.
+            // No draw increments it, or it is denied.
             CounterKind::ShaderRuns | CounterKind::SamplesPassed => 0,
         };
         self.kinds.iter().enumerate().map(total).collect()
     }
 }
 
-/// The sum of the results that belong to a counter.
+/// Returns the sum of a counter's results.
 fn sum(bytes: &[u8], queries: Option<&Queries>, counter: usize) -> u64 {
     let Some(queries) = queries else { return 0 };
     let results = (0..).zip(&queries.counters);
@@ -224,7 +224,7 @@ fn sum(bytes: &[u8], queries: Option<&Queries>, counter: usize) -> u64 {
         .fold(0, u64::saturating_add)
 }
 
-/// A little-endian number of so many bytes.
+/// Returns the little-endian number of this many bytes.
 fn number(bytes: &[u8], at: u64, size: u64) -> u64 {
     let bytes = bytes[at as usize..(at + size) as usize].iter().rev();
     bytes.fold(0, |value, byte| value << 8 | u64::from(*byte))

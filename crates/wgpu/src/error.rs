@@ -1,14 +1,14 @@
-//! What wgpu raises, turned into this suite's errors.
+//! The errors and panics of wgpu as backend errors.
 
 use etalon_backend::BackendError;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Errors that a device raised and nobody has taken yet.
+/// The errors that a device raised and that were not taken yet.
 ///
-/// A handler for uncaught errors serves better than error scopes: it costs nothing per call, and
-/// nothing escapes it between scopes, where wgpu would panic.
+/// A handler of uncaptured errors is better than error scopes: it costs nothing per call, and no
+/// error escapes it between scopes, where wgpu would panic.
 #[derive(Clone, Default)]
 pub(crate) struct Errors {
     raised: Arc<Mutex<Vec<wgpu::Error>>>,
@@ -16,14 +16,14 @@ pub(crate) struct Errors {
 }
 
 impl Errors {
-    /// Listens to a device from now on.
+    /// Registers handlers on a device.
     pub(crate) fn of(device: &wgpu::Device) -> Self {
         let errors = Self::default();
         let raised = Arc::clone(&errors.raised);
         device.on_uncaptured_error(Arc::new(move |error| locked(&raised).push(error)));
         let lost = Arc::clone(&errors.lost);
         device.set_device_lost_callback(move |reason, message| {
-            // The other reason is our own dropping of the device.
+            // The other reason is that this program dropped the device.
             if matches!(reason, wgpu::DeviceLostReason::Unknown) {
                 *locked(&lost) = Some(message);
             }
@@ -31,7 +31,7 @@ impl Errors {
         errors
     }
 
-    /// The first error raised since the last call, `what` being what was done meanwhile.
+    /// Returns the first error since the last call. `what` describes the operation since then.
     pub(crate) fn check(&self, what: &str) -> Result<(), BackendError> {
         match self.first()? {
             None => Ok(()),
@@ -39,7 +39,7 @@ impl Errors {
         }
     }
 
-    /// As [`Errors::check`] after translating a shader, where all that is raised is about it.
+    /// As [`Errors::check`] after creating a shader module: any error is the shader's.
     pub(crate) fn check_shader(&self, shader: &str) -> Result<(), BackendError> {
         match self.first()? {
             None => Ok(()),
@@ -48,8 +48,8 @@ impl Errors {
         }
     }
 
-    /// As [`Errors::check`] after making a pipeline: what is not about its state is about its
-    /// shader, which only now meets the driver's compiler.
+    /// As [`Errors::check`] after creating a pipeline: an internal error is the shader's, which the
+    /// driver compiles now.
     pub(crate) fn check_pipeline(&self, shader: &str) -> Result<(), BackendError> {
         match self.first()? {
             None => Ok(()),
@@ -58,7 +58,7 @@ impl Errors {
         }
     }
 
-    /// The first error, which the others follow from; a lost device comes before all.
+    /// Takes the first error, which caused the others. A lost device comes before all.
     fn first(&self) -> Result<Option<wgpu::Error>, BackendError> {
         if let Some(message) = &*locked(&self.lost) {
             return Err(BackendError::DeviceLost(message.clone()));
@@ -69,13 +69,13 @@ impl Errors {
         Ok(first)
     }
 
-    /// Forgets what was raised and not taken.
+    /// Discards all errors.
     pub(crate) fn forget(&self) {
         locked(&self.raised).clear();
     }
 
-    /// Runs `action`; everything raised in it, and every panic of wgpu, is its error. wgpu panics
-    /// where a driver refuses what cannot fail in WebGPU, such as waiting.
+    /// Runs `action` and returns its first error. Panics are errors too: wgpu panics if a driver
+    /// refuses what cannot fail in WebGPU, such as waiting.
     pub(crate) fn guard<T>(
         &self,
         what: &str,
@@ -83,8 +83,8 @@ impl Errors {
     ) -> Result<T, BackendError> {
         let result = catch_unwind(AssertUnwindSafe(action))
             .unwrap_or_else(|panic| Err(BackendError::Internal(message_of(&*panic))));
-        // What wgpu raised comes first: the rest follows from it. A shader's error has taken what
-        // was raised with it already.
+        // Raised errors come first: the result follows from them. A shader's error has taken those
+        // raised with it.
         self.check(what)?;
         result
     }
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_error_tells_and_the_rest_is_forgotten() {
+    fn the_first_error_is_returned_and_the_rest_discarded() {
         let errors = Errors::default();
         raise(
             &errors,
@@ -155,11 +155,11 @@ mod tests {
             },
         );
         raise(&errors, internal());
-        let due = BackendError::Resource {
+        let expected = BackendError::Resource {
             what: "drawing".to_owned(),
             message: "full".to_owned(),
         };
-        assert_eq!(errors.check("drawing"), Err(due));
+        assert_eq!(errors.check("drawing"), Err(expected));
         assert_eq!(errors.check("drawing"), Ok(()));
         raise(&errors, internal());
         let shader = errors.check_pipeline("flat_color");

@@ -1,29 +1,29 @@
-//! Pipelines that bring an attachment into a texture that can be copied.
+//! Pipelines that render an attachment into a texture that can be copied.
 
-use crate::binding::Layouts;
 use crate::error::Errors;
-use crate::format;
+use crate::layout::Layouts;
+use crate::state;
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
 
-/// The shaders.
+/// The WGSL of all fetches.
 pub(crate) const WGSL: &str = include_str!("fetch.wgsl");
 
-/// What is brought where.
+/// The source and target of a fetch.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum FetchKey {
-    /// Depth, as a float's bits, into `r32uint`.
+    /// Depth, as the bits of a float, into `r32uint`.
     Depth,
-    /// One sample of colour or depth, as floats' bits, into `rgba32uint`.
+    /// One sample of colour or depth, as the bits of floats, into `rgba32uint`.
     Sample,
-    /// One sample of stencil into `rgba32uint`'s red.
+    /// One sample of stencil into the red channel of `rgba32uint`.
     StencilSample,
-    /// One bit of the stencil value, as 0 or 1, into one channel of `rgba8unorm`: bits 0 to 3 and
-    /// 4 to 7 into red to alpha.
+    /// One bit of stencil, as 0 or 1, into one channel of `rgba8unorm`: bits 0 to 3, or 4 to 7,
+    /// into red to alpha.
     StencilBit {
         /// The attachment's format.
         format: TextureFormat,
-        /// The bit.
+        /// The index of the bit.
         bit: u8,
     },
 }
@@ -87,7 +87,7 @@ pub(crate) fn pipeline(
     Ok(pipeline)
 }
 
-/// Passes where a bit is set and changes nothing.
+/// Returns a stencil test that passes if a bit is set and writes nothing.
 fn stencil_bit(format: TextureFormat, bit: u8) -> Result<wgpu::DepthStencilState, BackendError> {
     let face = wgpu::StencilFaceState {
         compare: wgpu::CompareFunction::Equal,
@@ -101,6 +101,6 @@ fn stencil_bit(format: TextureFormat, bit: u8) -> Result<wgpu::DepthStencilState
             read_mask: 1 << bit,
             write_mask: 0,
         },
-        ..format::depth_stencil(format, None, None, bias)?
+        ..state::depth_stencil(format, None, None, bias)?
     })
 }

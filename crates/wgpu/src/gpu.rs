@@ -1,23 +1,24 @@
-//! A device and everything that is kept on it from scene to scene.
+//! An open device and everything that outlives a scene on it.
 
-use crate::binding::Layout;
+use crate::clock::Clock;
 use crate::error::Errors;
 use crate::format;
+use crate::layout::Layout;
 use crate::limits::{Abilities, fetched};
 use crate::pipeline::Pipelines;
 use crate::pool::{Lease, Pool};
+use crate::target::Target;
 use etalon_backend::BackendError;
 use etalon_frame::{Limits, TextureFormat};
-use std::cell::OnceCell;
 use std::rc::Rc;
 use wgpu::{BufferUsages, TextureUsages};
 
-/// The most bytes of idle textures, and of idle buffers.
+/// The most bytes of unused textures, and of unused buffers.
 const IDLE_BYTES: u64 = 64 << 20;
-/// Above this size buffers are not rounded up to a power of two.
+/// From this size on, buffers are rounded up to a multiple of it instead of a power of two.
 const LARGE: u64 = 1 << 20;
 
-/// An open device.
+/// An open device with its limits, pools and caches.
 pub(crate) struct Gpu {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
@@ -46,83 +47,6 @@ pub(crate) struct BufferKey {
 pub(crate) type TextureLease<'a> = Lease<'a, TextureKey, Rc<Target>>;
 pub(crate) type BufferLease<'a> = Lease<'a, BufferKey, wgpu::Buffer>;
 
-/// A texture with its views.
-pub(crate) struct Target {
-    pub(crate) texture: wgpu::Texture,
-    /// All aspects, to draw to.
-    pub(crate) view: wgpu::TextureView,
-    /// What a shader fetches of colour or depth.
-    fetch: OnceCell<wgpu::TextureView>,
-    /// What a shader fetches of stencil.
-    stencil: OnceCell<wgpu::TextureView>,
-}
-
-impl Target {
-    /// Colour, or depth, to fetch from.
-    pub(crate) fn fetch(&self) -> &wgpu::TextureView {
-        self.fetch.get_or_init(|| {
-            let depth = self.texture.format().has_depth_aspect();
-            self.seen(if depth {
-                wgpu::TextureAspect::DepthOnly
-            } else {
-                wgpu::TextureAspect::All
-            })
-        })
-    }
-
-    /// Stencil, to fetch from.
-    pub(crate) fn stencil(&self) -> &wgpu::TextureView {
-        let aspect = wgpu::TextureAspect::StencilOnly;
-        self.stencil.get_or_init(|| self.seen(aspect))
-    }
-
-    fn seen(&self, aspect: wgpu::TextureAspect) -> wgpu::TextureView {
-        // The samples of an sRGB texture are fetched to learn its codes.
-        let format = self.texture.format();
-        let cast = self.texture.sample_count() > 1 && format.is_srgb();
-        self.texture.create_view(&wgpu::TextureViewDescriptor {
-            aspect,
-            format: cast.then(|| format.remove_srgb_suffix()),
-            ..wgpu::TextureViewDescriptor::default()
-        })
-    }
-}
-
-/// Two timestamps around a submit.
-pub(crate) struct Clock {
-    pub(crate) queries: wgpu::QuerySet,
-    pub(crate) resolved: wgpu::Buffer,
-    pub(crate) mapped: wgpu::Buffer,
-    /// Nanoseconds per tick.
-    pub(crate) period: f32,
-}
-
-impl Clock {
-    /// Two timestamps of eight bytes.
-    pub(crate) const BYTES: u64 = 16;
-
-    fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
-        let buffer = |usage| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: None,
-                size: Self::BYTES,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
-        Self {
-            queries: device.create_query_set(&wgpu::QuerySetDescriptor {
-                label: None,
-                ty: wgpu::QueryType::Timestamp,
-                count: 2,
-            }),
-            resolved: buffer(BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC),
-            mapped: buffer(BufferUsages::MAP_READ | BufferUsages::COPY_DST),
-            period: queue.get_timestamp_period(),
-        }
-    }
-}
-
 impl Gpu {
     pub(crate) fn new(
         device: wgpu::Device,
@@ -149,7 +73,7 @@ impl Gpu {
         })
     }
 
-    /// Runs `action` with all of wgpu's errors as its own, and forgets what was kept after one.
+    /// Runs `action` and returns its first error. After an error all pools and caches are cleared.
     pub(crate) fn guard<T>(
         &self,
         what: &str,
@@ -159,7 +83,7 @@ impl Gpu {
         if result.is_err() {
             self.forget();
             if let Some(clock) = &self.clock {
-                // It may be mapped; that it may not be is no error of the next scene's.
+                // It may be mapped; the error if it is not is discarded.
                 clock.mapped.unmap();
                 self.errors.forget();
             }
@@ -167,14 +91,14 @@ impl Gpu {
         result
     }
 
-    /// Forgets what was kept from scene to scene.
+    /// Clears all pools and caches.
     pub(crate) fn forget(&self) {
         self.textures.clear();
         self.buffers.clear();
         self.pipelines.clear();
     }
 
-    /// A texture for an attachment; its contents are unknown.
+    /// Returns a texture for an attachment, with undefined contents.
     pub(crate) fn attachment(
         &self,
         format: TextureFormat,
@@ -191,20 +115,19 @@ impl Gpu {
         Ok(self.texture(known, size, samples, usage))
     }
 
-    /// Whether attachments of the format can be drawn to.
+    /// Returns true if attachments of the format can be drawn to.
     pub(crate) fn draws(&self, format: TextureFormat) -> bool {
         let support = self.limits.formats.get(&format);
         support.is_some_and(|support| !support.samples.is_empty())
     }
 
-    /// A texture that a shader writes to on its way to a buffer; its contents are unknown.
+    /// Returns a texture that a fetch renders to, with undefined contents.
     pub(crate) fn scratch(&self, format: wgpu::TextureFormat, size: [u32; 2]) -> TextureLease<'_> {
         let usage = fetched(TextureFormat::Rgba8Unorm) | TextureUsages::RENDER_ATTACHMENT;
         self.texture(format, size, 1, usage)
     }
 
-    /// A format has the same usages wherever it is used with so many samples, so they are no part
-    /// of the key.
+    /// The usages follow from format and sample count, so they are not part of the key.
     fn texture(
         &self,
         format: wgpu::TextureFormat,
@@ -213,7 +136,7 @@ impl Gpu {
         usage: TextureUsages,
     ) -> TextureLease<'_> {
         let texels = u64::from(size[0]) * u64::from(size[1]) * u64::from(samples);
-        // An estimate: what a device allocates in addition is its secret.
+        // An estimate, without the device's padding.
         let bytes = texels * u64::from(format.block_copy_size(None).unwrap_or(8));
         let key = TextureKey {
             format,
@@ -236,17 +159,11 @@ impl Gpu {
                     &[]
                 },
             });
-            let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-            Rc::new(Target {
-                texture,
-                view,
-                fetch: OnceCell::new(),
-                stencil: OnceCell::new(),
-            })
+            Rc::new(Target::new(texture))
         })
     }
 
-    /// Views bound to a shader that fetches from them, the first at binding 1.
+    /// Returns a bind group of texture views, the first at binding 1.
     pub(crate) fn bound(&self, layout: &Layout, views: &[&wgpu::TextureView]) -> wgpu::BindGroup {
         let entries: Vec<_> = (1..)
             .zip(views)
@@ -262,7 +179,7 @@ impl Gpu {
         })
     }
 
-    /// A buffer of at least this size; its contents are unknown.
+    /// Returns a buffer of at least this size, with undefined contents.
     pub(crate) fn buffer(&self, usage: BufferUsages, size: u64) -> BufferLease<'_> {
         let size = if size < LARGE {
             size.max(256).next_power_of_two()
@@ -279,14 +196,14 @@ impl Gpu {
         })
     }
 
-    /// A buffer that holds `data`, whose length is a multiple of four.
+    /// Returns a buffer with these contents, whose length is a multiple of four.
     pub(crate) fn filled(&self, usage: BufferUsages, data: &[u8]) -> BufferLease<'_> {
         let buffer = self.buffer(usage | BufferUsages::COPY_DST, data.len() as u64);
         self.queue.write_buffer(&buffer, 0, data);
         buffer
     }
 
-    /// Returns when the device is done with a submission.
+    /// Waits until the device has finished a submission.
     pub(crate) fn wait(&self, index: wgpu::SubmissionIndex) -> Result<(), BackendError> {
         let poll = wgpu::PollType::Wait {
             submission_index: Some(index),

@@ -1,21 +1,25 @@
-//! What an adapter can do.
+//! The limits and features of an adapter.
 
 use crate::format;
-use etalon_frame::{Api, ChannelEncoding, Feature, FormatSupport, Limits, ReadPath, TextureFormat};
+use etalon_frame::{
+    Api, ChannelEncoding, Feature, FormatSupport, Limits, ReadPath, TextureFormat,
+    standard_sample_positions,
+};
 use std::collections::{BTreeMap, BTreeSet};
 use wgpu::{DownlevelFlags, Features, TextureFormatFeatureFlags, TextureUsages};
 
-/// WebGPU does not tell; 4 is the least that any API under it allows.
+/// WebGPU does not report it; 4 is the least that any API under it allows.
 const SUB_PIXEL_BITS: u8 = 4;
-/// WebGPU's only sample count above one (GPUTextureDescriptor, sampleCount).
+/// WebGPU's only sample count above 1 (GPUTextureDescriptor, sampleCount).
 pub(crate) const SAMPLES: u32 = 4;
-/// The most bytes of a texel, as WebGPU counts the colour attachments of a pass (maxColorAttachmentBytesPerSample).
+/// The largest size of a texel in the sum over a pass's colour attachments
+/// (maxColorAttachmentBytesPerSample).
 const MOST_TEXEL_BYTES: u32 = 16;
-/// The largest coordinate of a viewport that a scene can name, its far edge included.
+/// The largest viewport coordinate in a scene, including the far edge.
 const VIEWPORT_REACH: u32 = 8192;
 
-/// The optional features of a device that this backend makes use of.
-pub(crate) fn wanted_features() -> Features {
+/// Returns the optional device features that this backend uses.
+pub(crate) fn used_features() -> Features {
     Features::TIMESTAMP_QUERY
         | Features::DEPTH32FLOAT_STENCIL8
         | Features::FLOAT32_BLENDABLE
@@ -28,12 +32,12 @@ pub(crate) fn wanted_features() -> Features {
         | Features::SHADER_EARLY_DEPTH_TEST
 }
 
-/// What matters here of an adapter and is not said by its limits.
+/// Abilities of an adapter that [`Limits`] do not contain.
 #[derive(Clone, Copy)]
 pub(crate) struct Abilities {
     /// Depth and stencil can be copied to buffers.
     pub(crate) copies: bool,
-    /// A texture can be seen in another format of its kind, sRGB as its codes.
+    /// Textures can have views of other formats, such as sRGB without conversion.
     pub(crate) casts: bool,
 }
 
@@ -47,7 +51,7 @@ impl Abilities {
     }
 }
 
-/// What a single-sample texture of this format must serve for, besides being drawn to.
+/// Returns the usages that a single-sample texture of this format needs besides rendering.
 pub(crate) fn fetched(format: TextureFormat) -> TextureUsages {
     let fetched = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC;
     if format.is_color() {
@@ -57,7 +61,7 @@ pub(crate) fn fetched(format: TextureFormat) -> TextureUsages {
     }
 }
 
-/// How the depth aspect, or colour, of a format is read back. WebGPU never copies the depth of
+/// Returns the read path of a format's depth, or colour. WebGPU never copies the depth of
 /// `depth24plus` (26.1.2).
 pub(crate) fn read_path(format: TextureFormat, abilities: Abilities) -> ReadPath {
     match format {
@@ -73,13 +77,12 @@ pub(crate) fn read_path(format: TextureFormat, abilities: Abilities) -> ReadPath
     }
 }
 
-/// Whether the codes of several samples, which only a shader can read, are as good as those that
-/// [`read_path`] promises.
+/// Returns true if the codes of multisampled attachments, which only a shader can read, are as
+/// exact as [`read_path`] promises.
 ///
-/// A float arrives as it is. Of a normalized integer the API allows an error of one part in 10^5
-/// (Vulkan, Fundamentals; OpenGL 4.6, 2.3.5): up to 10 bits that leaves no doubt which code it was,
-/// with 16 it may. Two codes of a signed one stand for -1. An sRGB code is only exact where the
-/// texture can be seen as if it were linear.
+/// Floats are exact. For normalized integers the API allows an error of one part in 10^5 (Vulkan,
+/// Fundamentals; OpenGL 4.6, 2.3.5): that determines the code up to 10 bits, but not at 16. Two
+/// codes of a signed integer mean -1. An sRGB code is exact only in a view without conversion.
 fn samples_are_exact(format: TextureFormat, abilities: Abilities) -> bool {
     let exact = |encoding: &ChannelEncoding| match encoding {
         ChannelEncoding::Snorm(_) => false,
@@ -92,8 +95,8 @@ fn samples_are_exact(format: TextureFormat, abilities: Abilities) -> bool {
             && (!format.has_depth() || format.depth_encodings() == [ChannelEncoding::Float32])
 }
 
-/// What wgpu lets a device with these features do with a format: the adapter's word where the
-/// feature or a downlevel adapter calls for it, else WebGPU's table (as its validation does).
+/// Returns the uses of a format that wgpu allows a device with these features: the adapter's own if
+/// the feature or a downlevel adapter calls for it, else WebGPU's table (as its validation does).
 fn format_features(
     adapter: &wgpu::Adapter,
     features: Features,
@@ -126,8 +129,8 @@ fn support(
         && (format != TextureFormat::Rg11b10Ufloat
             || features.contains(Features::RG11B10UFLOAT_RENDERABLE)
             || features.contains(Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES));
-    let due = fetched(format);
-    if !found.allowed_usages.contains(due) || !format.is_color() && !drawable {
+    let needed = fetched(format);
+    if !found.allowed_usages.contains(needed) || !format.is_color() && !drawable {
         return None;
     }
     // WebGPU does not resolve integers (26.1.1).
@@ -152,19 +155,18 @@ fn support(
             && found.flags.contains(TextureFormatFeatureFlags::BLENDABLE)
             && (format != TextureFormat::Rgba32Float
                 || features.contains(Features::FLOAT32_BLENDABLE)),
-        // Which of them it is stays the driver's secret.
+        // The adapter does not report which one it uses.
         depth: format.depth_encodings().to_vec(),
         read: read_path(format, abilities),
     })
 }
 
-/// What wgpu takes beyond WebGPU's least. It has no word for the rest, or refuses it: reversed
-/// depth ranges and viewports that turn the picture over, scissors beyond the attachments, factors
-/// of `min` and `max`, counts of samples.
+/// Returns the features that wgpu offers beyond WebGPU's minimum. It lacks or refuses the rest:
+/// reversed depth ranges, mirrored viewports, scissors beyond the attachments, factors of `min` and
+/// `max`, counts of samples.
 ///
-/// Where it takes shaders that say when the fragment tests happen, what it translates them to says it
-/// too: the feature comes with the versions of GLSL that have the word. What does not compile after
-/// all, [`crate::probe`] takes back.
+/// Shaders with early-test attributes keep them in translation, since the wgpu feature requires the
+/// GLSL versions that have them. [`crate::probe`] removes what does not compile.
 fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTreeSet<Feature> {
     let max_size = of.max_texture_dimension_2d;
     let flag = |flag| flags.contains(flag);
@@ -209,7 +211,7 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
             flag(DownlevelFlags::FRAGMENT_WRITABLE_STORAGE)
                 && of.max_storage_buffers_per_shader_stage > 0,
         ),
-        // WebGPU bounds a viewport by twice the largest texture (setViewport).
+        // WebGPU limits a viewport to twice the largest texture (setViewport).
         (Feature::ViewportOutside, 2 * max_size > VIEWPORT_REACH),
     ];
     all.into_iter()
@@ -217,8 +219,8 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
         .collect()
 }
 
-/// The adapter's limits, of a device with these features. Whether several samples really work is
-/// for [`crate::probe`] to find out.
+/// Returns the limits of an adapter's device with these features. [`crate::probe`] checks that
+/// multisampling works.
 pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abilities) -> Limits {
     let of = adapter.limits();
     let flags = adapter.get_downlevel_capabilities().flags;
@@ -236,15 +238,12 @@ pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abi
             .min(of.max_color_attachment_bytes_per_sample / MOST_TEXEL_BYTES),
         formats,
         features: offered(flags, features, &of),
-        // WebGPU gives them (Rasterization): no adapter may have others.
-        sample_positions: BTreeMap::from([
-            (1, vec![[128, 128]]),
-            (SAMPLES, vec![[96, 32], [224, 96], [32, 160], [160, 224]]),
-        ]),
+        // WebGPU requires the standard ones of all adapters (Rasterization).
+        sample_positions: BTreeMap::from([1, SAMPLES].map(|n| (n, standard_sample_positions(n)))),
     }
 }
 
-/// Takes back that there is more than one sample.
+/// Removes multisampling from the limits.
 pub(crate) fn deny_samples(limits: &mut Limits) {
     for support in limits.formats.values_mut() {
         support.samples.retain(|count| *count == 1);

@@ -1,11 +1,11 @@
-//! The messages of validation layers and debug output, which wgpu hands to the `log` crate.
+//! Messages of validation layers and debug output, which wgpu passes to the `log` crate.
 
 use crate::error::locked;
 use log::{Level, LevelFilter, Log, Metadata, Record};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The most messages kept; a broken driver may send one per call.
+/// The most messages kept: a broken driver may send one per call.
 const MOST: usize = 1000;
 
 struct Collector {
@@ -29,7 +29,7 @@ impl Log for Collector {
         }
         let text = record.args().to_string();
         if record.level() <= Level::Warn {
-            if !is_grave(&text) {
+            if !is_mistake(&text) {
                 return;
             }
             let mut messages = locked(&self.messages);
@@ -44,20 +44,20 @@ impl Log for Collector {
     fn flush(&self) {}
 }
 
-/// Whether a record of wgpu's tells of a mistake. It begins with the kind of the message, in Vulkan as
-/// flags and in OpenGL behind the source: `VALIDATION [id (number)]`, `GLES: [API/Error]`. Its other records
-/// are the objects of the message before, chatter of loader and driver, hints about speed, and wgpu's own
-/// thoughts about the machine.
-fn is_grave(text: &str) -> bool {
-    // A depth-only pass has no use for a shader's colour.
-    let meant = ["ShaderOutputNotConsumed", "Shader-OutputNotConsumed"];
-    // What layers before 1.3.240 get wrong: wgpu tags shaders with WGSL as their source, of which they have
-    // not heard, and no pipeline of wgpu's leaves the line width to be set.
-    let wrong = [
+/// Returns true if a log record reports a mistake. Such a record begins with the message type, in
+/// Vulkan as flags, in OpenGL behind the source: `VALIDATION [id (number)]`, `GLES: [API/Error]`.
+/// Other records are the objects of the message before, messages of loader and driver, performance
+/// hints, and wgpu's own.
+fn is_mistake(text: &str) -> bool {
+    // A depth-only pass does not use the shader's colour.
+    let intended = ["ShaderOutputNotConsumed", "Shader-OutputNotConsumed"];
+    // False positives of layers before 1.3.240: they do not know WGSL as a shader's source
+    // language, which wgpu declares, and no pipeline of wgpu has a dynamic line width.
+    let false_positives = [
         "Invalid source language operand",
         "VK_DYNAMIC_STATE_LINE_WIDTH state not set",
     ];
-    if wrong.iter().any(|w| text.contains(w)) {
+    if false_positives.iter().any(|w| text.contains(w)) {
         return false;
     }
     let mistakes = [
@@ -72,26 +72,25 @@ fn is_grave(text: &str) -> bool {
             let kind = rest.split_inclusive(']').next().unwrap_or_default();
             mistakes.iter().any(|m| kind.ends_with(m))
         }
-        None => head.starts_with("VALIDATION") && !meant.iter().any(|m| head.contains(m)),
+        None => head.starts_with("VALIDATION") && !intended.iter().any(|m| head.contains(m)),
     }
 }
 
-/// Collects warnings and errors from now on, unless the program has a logger of its own: then they
-/// go there.
+/// Collects warnings and errors from now on, unless the program has its own logger.
 pub(crate) fn collect() {
     if log::set_logger(&COLLECTOR).is_ok() {
         log::set_max_level(LevelFilter::Warn);
     }
 }
 
-/// Everything collected since the last call.
+/// Returns the messages since the last call.
 pub(crate) fn take() -> Vec<String> {
     std::mem::take(&mut *locked(&COLLECTOR.messages))
 }
 
-/// Whether `create`, which makes an instance, asked for a validation layer in vain. wgpu tells it
-/// in a debug message only; the level is raised for this one instance because the layer sends all
-/// its verbose messages to an instance that was created with it raised.
+/// Returns true if `create`, which creates an instance, requested a validation layer that is
+/// missing. wgpu logs that at debug level only. The level is raised for this one instance because a
+/// layer sends verbose messages to any instance created at that level.
 pub(crate) fn misses_layer(create: impl FnOnce()) -> bool {
     let level = log::max_level();
     COLLECTOR.no_layer.store(false, Ordering::Relaxed);
@@ -106,14 +105,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn mistakes_are_kept_and_chatter_is_not() {
+    fn mistakes_are_kept_and_other_records_are_not() {
         for text in [
             "VALIDATION [VUID-VkBufferCreateInfo-size-00912 (0x7de4ae4d)]\n\tno size",
             "VALIDATION | PERFORMANCE [x (0x1)]\n\tboth",
             "GLES: [API/Error] ID 1 : GL_INVALID_ENUM",
             "GLES: [ShaderCompiler/Undefined Behavior] ID 2 : read before it was written",
         ] {
-            assert!(is_grave(text), "{text}");
+            assert!(is_mistake(text), "{text}");
         }
         for text in [
             "",
@@ -127,7 +126,7 @@ mod tests {
              valid: Invalid source language operand: 10",
             "EGL has no surface",
         ] {
-            assert!(!is_grave(text), "{text}");
+            assert!(!is_mistake(text), "{text}");
         }
     }
 }

@@ -1,36 +1,37 @@
-//! Shaders and pipelines, kept by their state.
+//! Shader modules and pipelines, cached by their state.
 
-use crate::binding::{Bindings, Layouts};
+use crate::cache::Cache;
 use crate::error::Errors;
 use crate::fetch::{self, FetchKey};
-use crate::format::{self, Shape};
-use crate::kept::Kept;
+use crate::format;
+use crate::layout::{Bindings, Layouts};
+use crate::state::{self, Shape};
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
 use etalon_scene::{
     ColorTarget, DepthBias, DepthState, Draw, EarlyTests, Multisample, Sampler, Shader,
-    StencilState,
+    StencilState, Vertex,
 };
 use std::borrow::Cow;
 
-/// The size of [`etalon_scene::Vertex`].
-pub(crate) const VERTEX_BYTES: u64 = 40;
+/// The size of a vertex.
+pub(crate) const VERTEX_BYTES: u64 = size_of::<Vertex>() as u64;
 
-/// Pipelines and what they are made of.
+/// Pipelines with their shaders, layouts and samplers.
 pub(crate) struct Pipelines {
     pub(crate) layouts: Layouts,
-    pub(crate) samplers: Kept<Sampler, wgpu::Sampler>,
-    shaders: Kept<(Shader, EarlyTests), wgpu::ShaderModule>,
-    draws: Kept<DrawKey, wgpu::RenderPipeline>,
-    fetch: Kept<(), wgpu::ShaderModule>,
-    fetches: Kept<FetchKey, wgpu::RenderPipeline>,
+    pub(crate) samplers: Cache<Sampler, wgpu::Sampler>,
+    shaders: Cache<(Shader, EarlyTests), wgpu::ShaderModule>,
+    draws: Cache<DrawKey, wgpu::RenderPipeline>,
+    fetch: Cache<(), wgpu::ShaderModule>,
+    fetches: Cache<FetchKey, wgpu::RenderPipeline>,
 }
 
-/// All state of a draw that is not set while drawing.
+/// The state of a draw that is part of the pipeline.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub(crate) struct DrawKey {
     shader: Shader,
-    /// What the draw gives, which may be more than its shader asks for.
+    /// The bindings of the draw, of which the shader may use fewer.
     bindings: Bindings,
     early_tests: EarlyTests,
     shape: Shape,
@@ -43,7 +44,7 @@ pub(crate) struct DrawKey {
     multisample: Multisample,
 }
 
-/// A depth bias by the bits of its floats.
+/// A depth bias with floats as bits, for hashing.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Bias {
     constant: i32,
@@ -69,8 +70,8 @@ impl DrawKey {
         samples: u32,
     ) -> Self {
         let (mut shader, mut early_tests) = (draw.shader, draw.early_tests);
-        // WebGPU refuses a shader that writes depth where there is none (10.3.6). There the depth
-        // is lost, with what the shader promises of it, and another shader gives the same colours.
+        // WebGPU refuses a shader that writes depth without a depth attachment (10.3.6). The depth
+        // would be discarded, so another shader gives the same colours.
         if !depth_stencil.is_some_and(TextureFormat::has_depth) {
             shader = match shader {
                 Shader::FlatColorDepth => Shader::UniformColor,
@@ -78,7 +79,7 @@ impl DrawKey {
                 Shader::FragCoordDepth => Shader::FlatColor,
                 Shader::ExpensiveDepth => Shader::ExpensiveColor,
                 Shader::LinearDepth | Shader::LogarithmicDepth => Shader::FlatColor,
-                // It runs more often than the other, which a counter would tell.
+                // Runs per sample, which a counter would reveal.
                 Shader::SampleDepth if draw.counters.is_empty() => Shader::UniformColor,
                 other => other,
             };
@@ -121,11 +122,11 @@ impl Pipelines {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
         Self {
             layouts: Layouts::new(device),
-            samplers: Kept::default(),
-            shaders: Kept::default(),
-            draws: Kept::default(),
-            fetch: Kept::default(),
-            fetches: Kept::default(),
+            samplers: Cache::default(),
+            shaders: Cache::default(),
+            draws: Cache::default(),
+            fetch: Cache::default(),
+            fetches: Cache::default(),
         }
     }
 
@@ -137,7 +138,7 @@ impl Pipelines {
         self.fetches.clear();
     }
 
-    /// The pipeline of a draw.
+    /// Returns the pipeline of a draw.
     pub(crate) fn draw(
         &self,
         device: &wgpu::Device,
@@ -159,10 +160,10 @@ impl Pipelines {
             };
             let targets: Result<Vec<_>, _> =
                 key.targets.iter().map(|(f, t)| target(*f, *t)).collect();
-            let bias = format::bias(key.bias.get(), key.shape.topology);
+            let bias = state::bias(key.bias.get(), key.shape.topology);
             let depth_stencil = key
                 .depth_stencil
-                .map(|f| format::depth_stencil(f, key.depth, key.stencil, bias));
+                .map(|f| state::depth_stencil(f, key.depth, key.stencil, bias));
             let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(shader.name()),
                 layout: Some(&layout.pipeline),
@@ -172,7 +173,7 @@ impl Pipelines {
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
                     buffers: &[Some(vertices)],
                 },
-                primitive: format::primitive(key.shape),
+                primitive: state::primitive(key.shape),
                 depth_stencil: depth_stencil.transpose()?,
                 multisample: wgpu::MultisampleState {
                     count: key.samples,
@@ -193,7 +194,7 @@ impl Pipelines {
         })
     }
 
-    /// A pipeline that reads depth or stencil.
+    /// Returns the pipeline of a fetch.
     pub(crate) fn fetch(
         &self,
         device: &wgpu::Device,
@@ -209,8 +210,7 @@ impl Pipelines {
     }
 }
 
-/// The vertex attributes that a shader takes: position, and colour and texture coordinates where it
-/// wants them. A validation layer warns of those that it does not.
+/// Returns the vertex attributes that a shader reads. A validation layer warns of others.
 fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
     const ALL: [wgpu::VertexAttribute; 3] =
         wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x2];
@@ -254,8 +254,8 @@ fn target(
 ) -> Result<Option<wgpu::ColorTargetState>, BackendError> {
     Ok(Some(wgpu::ColorTargetState {
         format: format::known(format)?,
-        blend: target.blend.map(format::blend),
-        // Both count from bit 0, red, to bit 3, alpha.
+        blend: target.blend.map(state::blend),
+        // Bit 0 is red in both.
         write_mask: wgpu::ColorWrites::from_bits_truncate(target.write_mask.into()),
     }))
 }
@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn shaders_are_given_the_attributes_that_they_take() {
+    fn attributes_are_those_that_the_shader_reads() {
         for shader in Shader::ALL {
             let given = attributes(*shader).iter();
             let given: Vec<_> = given.map(|a| a.shader_location).collect();

@@ -1,11 +1,11 @@
-//! GPU objects that outlive the scene they were made for.
+//! Pools of GPU objects that outlive a scene.
 
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::hash::Hash;
 use std::ops::Deref;
 
-/// Idle objects by what makes them interchangeable, up to a total weight.
+/// Unused objects by interchangeability, up to a total weight.
 pub(crate) struct Pool<K, T> {
     idle: RefCell<HashMap<K, Vec<T>>>,
     weight: Cell<u64>,
@@ -13,7 +13,7 @@ pub(crate) struct Pool<K, T> {
     generation: Cell<u64>,
 }
 
-/// An object in use; it goes back to its pool when dropped.
+/// An object in use. It returns to its pool on drop.
 pub(crate) struct Lease<'a, K: Clone + Eq + Hash, T: Clone> {
     pool: &'a Pool<K, T>,
     key: K,
@@ -23,7 +23,7 @@ pub(crate) struct Lease<'a, K: Clone + Eq + Hash, T: Clone> {
 }
 
 impl<K: Clone + Eq + Hash, T: Clone> Pool<K, T> {
-    /// A pool whose idle objects weigh so much at most.
+    /// Returns a pool whose unused objects weigh at most this much.
     pub(crate) fn new(most: u64) -> Self {
         Self {
             idle: RefCell::default(),
@@ -33,7 +33,7 @@ impl<K: Clone + Eq + Hash, T: Clone> Pool<K, T> {
         }
     }
 
-    /// An idle object or a new one.
+    /// Returns an unused object or a new one.
     pub(crate) fn take(&self, key: K, weight: u64, make: impl FnOnce() -> T) -> Lease<'_, K, T> {
         let idle = self.idle.borrow_mut().get_mut(&key).and_then(Vec::pop);
         if idle.is_some() {
@@ -48,7 +48,8 @@ impl<K: Clone + Eq + Hash, T: Clone> Pool<K, T> {
         }
     }
 
-    /// Forgets everything, what is in use included: after an error nobody knows what state it is in.
+    /// Removes all objects, and those in use once they return: their state after an error is
+    /// unknown.
     pub(crate) fn clear(&self) {
         self.idle.borrow_mut().clear();
         self.weight.set(0);
@@ -81,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn objects_come_back_within_the_bound_and_not_after_an_error() {
+    fn objects_are_reused_within_the_bound_and_not_after_an_error() {
         let pool = Pool::new(2);
         let made = Cell::new(0);
         let take = || {

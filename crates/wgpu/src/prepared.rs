@@ -1,44 +1,45 @@
-//! A scene, ready to be drawn.
+//! A scene prepared for drawing.
 
+use crate::attachment::DeviceAttachment;
 use crate::binding::{Bound, Groups};
+use crate::clock::Clock;
 use crate::counting::{Counted, Counting};
-use crate::format;
-use crate::gpu::{BufferLease, Clock, Gpu};
+use crate::gpu::{BufferLease, Gpu};
 use crate::pipeline::{DrawKey, VERTEX_BYTES};
 use crate::read::{self, Source};
-use crate::slot::Slot;
+use crate::state;
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::Frame;
 use etalon_scene::{Draw, Pass, PrimitiveTopology, RESTART, Scene, Viewport};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use wgpu::BufferUsages;
 
 /// The size of an index.
-const INDEX_BYTES: u64 = 4;
+const INDEX_BYTES: u64 = size_of::<u32>() as u64;
 
-/// Everything that drawing a scene takes.
-pub(crate) struct Ready<'a> {
+/// A scene with all objects that drawing it needs.
+pub(crate) struct PreparedScene<'a> {
     gpu: &'a Gpu,
-    slots: Vec<Slot<'a>>,
-    passes: Vec<ReadyPass>,
+    attachments: Vec<DeviceAttachment<'a>>,
+    passes: Vec<PreparedPass>,
     read: Vec<usize>,
     vertices: Option<BufferLease<'a>>,
     indices: Option<BufferLease<'a>>,
     counting: Counting<'a>,
-    /// What bind groups refer to; kept for them.
+    /// Kept alive for the bind groups.
     _params: Option<BufferLease<'a>>,
     submitted: bool,
 }
 
-struct ReadyPass {
+struct PreparedPass {
     color: Vec<usize>,
     resolve: Vec<Option<usize>>,
     depth_stencil: Option<usize>,
     read_only: bool,
-    draws: Vec<ReadyDraw>,
+    draws: Vec<PreparedDraw>,
 }
 
-struct ReadyDraw {
+struct PreparedDraw {
     pipeline: wgpu::RenderPipeline,
     bound: Option<Bound>,
     counted: Counted,
@@ -48,18 +49,18 @@ struct ReadyDraw {
     stencil_reference: Option<u32>,
     first_vertex: u64,
     vertices: u32,
-    /// The first index and how many.
+    /// The first index and the number of indices.
     indices: Option<(u64, u32)>,
 }
 
-/// What goes into the buffers of a scene.
+/// The contents of a scene's vertex and index buffers.
 #[derive(Default)]
-struct Data {
+struct Geometry {
     vertices: Vec<u8>,
     indices: Vec<u32>,
 }
 
-impl<'a> Ready<'a> {
+impl<'a> PreparedScene<'a> {
     pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> Result<Self, BackendError> {
         if let Some(missing) = gpu.limits.missing(&scene.requirements()) {
             return Err(BackendError::NotSupported(missing));
@@ -68,19 +69,19 @@ impl<'a> Ready<'a> {
     }
 
     fn build(gpu: &'a Gpu, scene: &Scene) -> Result<Self, BackendError> {
-        let slots = (0..scene.attachments.len())
-            .map(|index| Slot::new(gpu, scene, index))
+        let attachments = (0..scene.attachments.len())
+            .map(|index| DeviceAttachment::new(gpu, scene, index))
             .collect::<Result<Vec<_>, _>>()?;
         gpu.errors.check("making attachments")?;
         let (counting, counted) = Counting::new(gpu, scene);
         gpu.errors.check("making counters")?;
         let mut counted = counted.into_iter();
-        let mut groups = Groups::new(gpu, scene, &slots, &counting);
-        let mut data = Data::default();
+        let mut groups = Groups::new(gpu, scene, &attachments, &counting);
+        let mut geometry = Geometry::default();
         let mut passes = Vec::new();
         for pass in &scene.passes {
             let draws = pass.draws.iter().zip(counted.by_ref());
-            passes.push(ReadyPass {
+            passes.push(PreparedPass {
                 color: pass.color.clone(),
                 resolve: pass.resolve.clone(),
                 depth_stencil: pass.depth_stencil,
@@ -88,20 +89,20 @@ impl<'a> Ready<'a> {
                 draws: draws
                     .map(|(draw, counted)| {
                         let bound = groups.bind(draw, counted.runs)?;
-                        ReadyDraw::new(gpu, scene, pass, draw, (bound, counted), &mut data)
+                        PreparedDraw::new(gpu, scene, pass, draw, (bound, counted), &mut geometry)
                     })
                     .collect::<Result<_, _>>()?,
             });
         }
         let filled = |usage, data: &[u8]| (!data.is_empty()).then(|| gpu.filled(usage, data));
         let params = groups.finish();
-        let indices = bytemuck::cast_slice(&data.indices);
+        let indices = bytemuck::cast_slice(&geometry.indices);
         Ok(Self {
             gpu,
-            slots,
+            attachments,
             passes,
             read: scene.read.clone(),
-            vertices: filled(BufferUsages::VERTEX, &data.vertices),
+            vertices: filled(BufferUsages::VERTEX, &geometry.vertices),
             indices: filled(BufferUsages::INDEX, indices),
             _params: params,
             counting,
@@ -113,8 +114,8 @@ impl<'a> Ready<'a> {
     fn record(&self) -> wgpu::CommandBuffer {
         let device = &self.gpu.device;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        for slot in &self.slots {
-            slot.initialise(&mut encoder, !self.submitted);
+        for attachment in &self.attachments {
+            attachment.initialise(&mut encoder, !self.submitted);
         }
         self.counting.start(&mut encoder);
         for (index, pass) in self.passes.iter().enumerate() {
@@ -128,22 +129,22 @@ impl<'a> Ready<'a> {
         encoder.finish()
     }
 
-    fn record_pass(&self, encoder: &mut wgpu::CommandEncoder, index: usize, pass: &ReadyPass) {
+    fn record_pass(&self, encoder: &mut wgpu::CommandEncoder, index: usize, pass: &PreparedPass) {
         let colors: Vec<_> = pass
             .color
             .iter()
             .zip(&pass.resolve)
             .map(|(color, resolve)| {
-                let resolve = resolve.map(|r| &self.slots[r].target.view);
-                Some(self.slots[*color].as_color(Some(index), resolve))
+                let resolve = resolve.map(|r| &self.attachments[r].target.view);
+                Some(self.attachments[*color].as_color(Some(index), resolve))
             })
             .collect();
         let depth_stencil = pass.depth_stencil.map(|i| {
-            let slot = &self.slots[i];
+            let attachment = &self.attachments[i];
             if pass.read_only {
-                slot.as_read_only()
+                attachment.as_read_only()
             } else {
-                slot.as_depth_stencil(Some(index))
+                attachment.as_depth_stencil(Some(index))
             }
         });
         let last = index + 1 == self.passes.len();
@@ -166,7 +167,7 @@ impl<'a> Ready<'a> {
         }
     }
 
-    fn record_draw(&self, encoder: &mut wgpu::RenderPass<'_>, draw: &ReadyDraw) {
+    fn record_draw(&self, encoder: &mut wgpu::RenderPass<'_>, draw: &PreparedDraw) {
         encoder.set_pipeline(&draw.pipeline);
         if let Some(bound) = &draw.bound {
             encoder.set_bind_group(0, &bound.group, bound.offset.as_slice());
@@ -191,13 +192,13 @@ impl<'a> Ready<'a> {
                 encoder.set_index_buffer(slice, wgpu::IndexFormat::Uint32);
                 encoder.draw_indexed(0..count, 0, 0..1);
             }
-            // All that was indexed was cut off.
+            // All indices were restarts or incomplete primitives.
             (Some(_), None) => {}
             (None, _) => encoder.draw(0..draw.vertices, 0..1),
         }
     }
 
-    /// Timestamps stand around passes, so there are none without a pass.
+    /// Returns the clock, if there is a pass to write timestamps.
     fn clock(&self) -> Option<&'a Clock> {
         self.gpu.clock.as_ref().filter(|_| !self.passes.is_empty())
     }
@@ -217,12 +218,12 @@ impl<'a> Ready<'a> {
         self.gpu.wait(index)?;
         let wall = begin.elapsed();
         self.submitted = true;
-        let gpu = clock.and_then(elapsed);
+        let gpu = clock.and_then(Clock::elapsed);
         Ok(FrameTime { cpu, gpu, wall })
     }
 }
 
-impl Prepared for Ready<'_> {
+impl Prepared for PreparedScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         let gpu = self.gpu;
         gpu.guard("drawing a scene", || self.draw())
@@ -230,17 +231,17 @@ impl Prepared for Ready<'_> {
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         if !self.submitted {
-            let message = "read back before the first submit".to_owned();
+            let message = "read back before anything was drawn".to_owned();
             return Err(BackendError::Internal(message));
         }
         let source = |index: &usize| {
-            let slot = &self.slots[*index];
+            let attachment = &self.attachments[*index];
             Source {
-                name: &slot.name,
-                format: slot.format,
-                size: slot.size,
-                samples: slot.samples,
-                target: &slot.target,
+                name: &attachment.name,
+                format: attachment.format,
+                size: attachment.size,
+                samples: attachment.samples,
+                target: &attachment.target,
             }
         };
         let sources: Vec<_> = self.read.iter().map(source).collect();
@@ -250,24 +251,24 @@ impl Prepared for Ready<'_> {
     }
 }
 
-impl ReadyDraw {
+impl PreparedDraw {
     fn new(
         gpu: &Gpu,
         scene: &Scene,
         pass: &Pass,
         draw: &Draw,
         (bound, counted): (Option<Bound>, Counted),
-        data: &mut Data,
+        geometry: &mut Geometry,
     ) -> Result<Self, BackendError> {
         let formats = pass.color.iter().map(|i| scene.attachments[*i].format);
         let depth_stencil = pass.depth_stencil.map(|i| scene.attachments[i].format);
         let key = DrawKey::of(draw, formats, depth_stencil, scene.pass_samples(pass));
-        let first_vertex = data.vertices.len() as u64 / VERTEX_BYTES;
-        data.vertices.extend_from_slice(draw.mesh.bytes());
+        let first_vertex = geometry.vertices.len() as u64 / VERTEX_BYTES;
+        geometry.vertices.extend_from_slice(draw.mesh.bytes());
         let indices = draw.mesh.indices.as_ref().map(|indices| {
-            let first = data.indices.len();
-            data.indices.extend(drawn(indices, draw.topology));
-            (first as u64, (data.indices.len() - first) as u32)
+            let first = geometry.indices.len();
+            geometry.indices.extend(drawn(indices, draw.topology));
+            (first as u64, (geometry.indices.len() - first) as u32)
         });
         let [width, height] = scene.pass_size(pass);
         Ok(Self {
@@ -276,7 +277,7 @@ impl ReadyDraw {
             counted,
             viewport: draw.viewport,
             scissor: draw.scissor.unwrap_or([0, 0, width, height]),
-            blend_constant: format::color(draw.blend_constant),
+            blend_constant: state::color(draw.blend_constant),
             stencil_reference: reference(draw),
             first_vertex,
             vertices: draw.mesh.vertices.len() as u32,
@@ -285,8 +286,8 @@ impl ReadyDraw {
     }
 }
 
-/// The indices to draw. WebGPU ends only strips; of a list, what is ended before a primitive is
-/// whole is left out here.
+/// Returns the indices to draw. WebGPU restarts only strips, so restart indices of lists and the
+/// incomplete primitives before them are removed.
 fn drawn(indices: &[u32], topology: PrimitiveTopology) -> Vec<u32> {
     let size = match topology {
         PrimitiveTopology::LineStrip | PrimitiveTopology::TriangleStrip => return indices.to_vec(),
@@ -300,23 +301,7 @@ fn drawn(indices: &[u32], topology: PrimitiveTopology) -> Vec<u32> {
         .collect()
 }
 
-/// WebGPU has one reference for both faces; `SeparateStencilMasks` is denied, so they agree.
+/// WebGPU has one reference for both faces; `SeparateStencilMasks` is denied, so they are equal.
 fn reference(draw: &Draw) -> Option<u32> {
     draw.stencil.map(|s| s.front.reference.into())
-}
-
-/// The time between the two timestamps, which are mapped by now; then they are unmapped.
-fn elapsed(clock: &Clock) -> Option<Duration> {
-    let ticks = {
-        let bytes = clock.mapped.slice(..).get_mapped_range().ok()?;
-        let tick = |at: usize| {
-            let bytes = bytes.get(at..at + 8)?.try_into().ok()?;
-            Some(u64::from_le_bytes(bytes))
-        };
-        // A clock that goes backwards tells nothing.
-        tick(8)?.checked_sub(tick(0)?)
-    };
-    clock.mapped.unmap();
-    let nanoseconds = ticks? as f64 * f64::from(clock.period);
-    Some(Duration::from_nanos(nanoseconds as u64))
 }

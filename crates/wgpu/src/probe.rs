@@ -1,16 +1,15 @@
-//! Whether an adapter has what wgpu says of it.
+//! Probing of what wgpu advertises.
 //!
-//! wgpu's OpenGL advertises four samples on drivers that have one, and then draws to one; and where
-//! there are four, wgpu 30 makes a texture that a shader can read with the target of a single-sample
-//! one, which OpenGL refuses. So a scene is drawn whose samples must differ, and each of them is
-//! read.
+//! wgpu's OpenGL advertises four samples on drivers that have one, and then draws to one. With
+//! four, wgpu 30 creates textures for shaders with the single-sample target, which OpenGL refuses.
+//! So a scene is drawn whose samples must differ, and each is read back.
 //!
-//! And it advertises shaders that it cannot translate, or that the driver's compiler does not take, so
-//! one of each kind is compiled.
+//! It also advertises shaders that it cannot translate, or that the driver cannot compile, so one
+//! of each kind is compiled.
 
 use crate::gpu::Gpu;
 use crate::limits::SAMPLES;
-use crate::prepared::Ready;
+use crate::prepared::PreparedScene;
 use etalon_backend::{BackendError, Prepared};
 use etalon_frame::{CounterKind, Feature, Frame, TextureFormat};
 use etalon_scene::{
@@ -21,16 +20,16 @@ use etalon_scene::{
 
 /// Width and height of the attachments.
 const SIDE: u32 = 4;
-/// The column that is half covered.
+/// The half-covered column.
 const EDGE: u32 = 2;
 const COLOR: TextureFormat = TextureFormat::Rgba8Unorm;
 const DEPTH_STENCIL: TextureFormat = TextureFormat::Depth24PlusStencil8;
 
-/// Whether an edge through a column of texels takes some of their samples, in colour, depth and
-/// stencil alike, all left of it and none right of it.
+/// Returns true if an edge through a column of texels covers some of its samples, in colour, depth
+/// and stencil alike, all to its left and none to its right.
 ///
 /// # Errors
-/// Only when the device is lost: what fails otherwise does not work.
+/// If the device is lost. After any other error multisampling does not work.
 pub(crate) fn samples_work(gpu: &Gpu) -> Result<bool, BackendError> {
     let offered = [COLOR, DEPTH_STENCIL].iter().all(|format| {
         let support = gpu.limits.formats.get(format);
@@ -39,9 +38,9 @@ pub(crate) fn samples_work(gpu: &Gpu) -> Result<bool, BackendError> {
     if !offered {
         return Ok(false);
     }
-    let drawn = Ready::new(gpu, &scene(SAMPLES)).and_then(|mut ready| {
-        ready.submit()?;
-        ready.read_back()
+    let drawn = PreparedScene::new(gpu, &scene(SAMPLES)).and_then(|mut prepared| {
+        prepared.submit()?;
+        prepared.read_back()
     });
     match drawn {
         Ok(frame) => Ok(has_samples(&frame)),
@@ -50,13 +49,13 @@ pub(crate) fn samples_work(gpu: &Gpu) -> Result<bool, BackendError> {
     }
 }
 
-/// Takes back the features whose shaders do not compile, and tells whether there were any. A shader
-/// that promises something of its depth may want an extension more than wgpu asks for; and wgpu offers
-/// storage in GLSL 330, into which it then does not translate it.
+/// Removes the features whose shaders do not compile. Returns true if any was removed. Conservative
+/// depth may need an extension that wgpu does not request, and wgpu offers storage buffers in GLSL
+/// 330, to which it does not translate them.
 ///
 /// # Errors
-/// Only when the device is lost.
-pub(crate) fn deny_what_does_not_compile(gpu: &mut Gpu) -> Result<bool, BackendError> {
+/// If the device is lost.
+pub(crate) fn deny_uncompilable_features(gpu: &mut Gpu) -> Result<bool, BackendError> {
     let mut denied = false;
     let shaders = [
         (
@@ -87,7 +86,7 @@ pub(crate) fn deny_what_does_not_compile(gpu: &mut Gpu) -> Result<bool, BackendE
                 kind: CounterKind::ShaderRuns,
             }];
         }
-        let compiled = match Ready::new(gpu, &scene) {
+        let compiled = match PreparedScene::new(gpu, &scene) {
             Ok(_) => true,
             Err(error @ BackendError::DeviceLost(_)) => return Err(error),
             Err(_) => false,
@@ -154,7 +153,7 @@ fn scene(samples: u32) -> Scene {
     }
 }
 
-/// Everything left of the middle of the edge column, white, with depth 0 and stencil 1.
+/// Draws a white rectangle left of the middle of the edge column, with depth 0 and stencil 1.
 fn draw() -> Draw {
     let edge = (EDGE as f32 + 0.5) / SIDE as f32 * 2.0 - 1.0;
     let corners = [[-1.0, -1.0], [edge, -1.0], [-1.0, 1.0], [edge, 1.0]];

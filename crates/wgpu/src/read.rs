@@ -1,15 +1,17 @@
-//! From attachments to a frame.
+//! Reading attachments back as a frame.
 
 use crate::counting::Counting;
 use crate::fetch::FetchKey;
-use crate::gpu::{Gpu, Target, TextureLease, extent};
+use crate::gpu::{Gpu, TextureLease, extent};
 use crate::limits::{Abilities, read_path};
+use crate::target::Target;
 use crate::texel;
 use etalon_backend::BackendError;
+use etalon_backend::codes::code_of_fetched;
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, ReadPath, TextureFormat};
 use wgpu::BufferUsages;
 
-/// Bytes of an `rgba32uint` texel.
+/// The size of an `rgba32uint` texel.
 const SAMPLE_BYTES: usize = 16;
 
 /// An attachment to read.
@@ -21,46 +23,46 @@ pub(crate) struct Source<'a> {
     pub(crate) target: &'a Target,
 }
 
-/// One aspect of an attachment on its way.
-struct Piece<'a> {
+/// The read-back of one aspect of an attachment.
+struct ReadPlan<'a> {
     source: &'a Source<'a>,
     aspect: Aspect,
-    how: How,
-    /// How it counts as read. Several samples are offered only where a shader finds the codes that a
-    /// copy would, or where one sample is read by a shader too; a stencil value is exact either way.
+    method: ReadMethod,
+    /// The path that the image declares. Multisampling is offered only if a shader returns the
+    /// codes of a copy, or a shader reads single samples too; stencil is exact on both paths.
     read: ReadPath,
     channels: Vec<ChannelEncoding>,
-    /// Where it starts in the buffer, and how far apart its rows lie there.
+    /// The offset in the buffer and the distance between rows.
     offset: u64,
     pitch: u32,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum How {
+enum ReadMethod {
     /// Copied from the attachment.
     Copy,
-    /// Fetched by a shader, which stores a float's bits.
+    /// Fetched by a shader as the bits of floats.
     FetchDepth,
-    /// Fetched by a shader, sample by sample, an image of four values each.
+    /// Fetched by a shader sample by sample, an image of four values each.
     FetchSamples,
-    /// Found out by stencil tests bit by bit, four bits to an image. A stencil aspect can be
-    /// fetched by a shader only where OpenGL has the texture mode for it, since 4.3 and ES 3.1.
+    /// Read by stencil tests bit by bit, four bits to an image. OpenGL has the texture mode for
+    /// fetching stencil only since 4.3 and ES 3.1.
     StencilBits,
 }
 
-/// All aspects of all sources in order, and what was counted.
+/// Returns all aspects of all sources in order, and the counts.
 pub(crate) fn frame(
     gpu: &Gpu,
     sources: &[Source<'_>],
     counting: &Counting<'_>,
 ) -> Result<Frame, BackendError> {
     let mut size = 0;
-    let mut pieces = Vec::new();
+    let mut plans = Vec::new();
     for source in sources {
         for aspect in source.format.aspects() {
-            let piece = Piece::new(source, *aspect, gpu.abilities, size);
-            size += piece.bytes();
-            pieces.push(piece);
+            let plan = ReadPlan::new(source, *aspect, gpu.abilities, size);
+            size += plan.bytes();
+            plans.push(plan);
         }
     }
     let usage = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
@@ -68,8 +70,8 @@ pub(crate) fn frame(
     let descriptor = wgpu::CommandEncoderDescriptor::default();
     let mut encoder = gpu.device.create_command_encoder(&descriptor);
     let mut scratch = Vec::new();
-    for piece in &pieces {
-        piece.record(gpu, &mut encoder, &buffer, &mut scratch)?;
+    for plan in &plans {
+        plan.record(gpu, &mut encoder, &buffer, &mut scratch)?;
     }
     counting.copy(&mut encoder, &buffer, size);
     let index = gpu.queue.submit([encoder.finish()]);
@@ -81,7 +83,7 @@ pub(crate) fn frame(
             .get_mapped_range()
             .map_err(|error| BackendError::Internal(format!("mapping a buffer: {error}")))?;
         Frame {
-            images: pieces.iter().map(|piece| piece.image(&bytes)).collect(),
+            images: plans.iter().map(|plan| plan.image(&bytes)).collect(),
             counters: counting.counts(&bytes[size as usize..]),
         }
     };
@@ -89,7 +91,7 @@ pub(crate) fn frame(
     Ok(frame)
 }
 
-impl<'a> Piece<'a> {
+impl<'a> ReadPlan<'a> {
     fn new(source: &'a Source<'a>, aspect: Aspect, abilities: Abilities, offset: u64) -> Self {
         let format = source.format;
         let path = read_path(format, abilities);
@@ -101,16 +103,16 @@ impl<'a> Piece<'a> {
             }
             (Aspect::Depth, _) => vec![ChannelEncoding::Float32],
         };
-        let how = match aspect {
-            _ if source.samples > 1 => How::FetchSamples,
-            Aspect::Depth if path == ReadPath::Shader => How::FetchDepth,
-            Aspect::Stencil if !abilities.copies => How::StencilBits,
-            Aspect::Color | Aspect::Depth | Aspect::Stencil => How::Copy,
+        let method = match aspect {
+            _ if source.samples > 1 => ReadMethod::FetchSamples,
+            Aspect::Depth if path == ReadPath::Shader => ReadMethod::FetchDepth,
+            Aspect::Stencil if !abilities.copies => ReadMethod::StencilBits,
+            Aspect::Color | Aspect::Depth | Aspect::Stencil => ReadMethod::Copy,
         };
-        let piece = Self {
+        let plan = Self {
             source,
             aspect,
-            how,
+            method,
             read: if aspect == Aspect::Depth {
                 path
             } else {
@@ -120,21 +122,21 @@ impl<'a> Piece<'a> {
             offset,
             pitch: 0,
         };
-        let row = source.size[0] * piece.texel_bytes() as u32;
+        let row = source.size[0] * plan.texel_bytes() as u32;
         Self {
             pitch: row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT),
-            ..piece
+            ..plan
         }
     }
 
-    /// Bytes of a texel in the buffer.
+    /// Returns the size of a texel in the buffer.
     fn texel_bytes(&self) -> usize {
-        match (self.how, self.aspect) {
-            (How::FetchSamples, _) => SAMPLE_BYTES,
-            (How::FetchDepth | How::StencilBits, _) => 4,
-            (How::Copy, Aspect::Color) => texel::bytes(self.source.format),
-            (How::Copy, Aspect::Stencil) => 1,
-            (How::Copy, Aspect::Depth) => match self.channels.as_slice() {
+        match (self.method, self.aspect) {
+            (ReadMethod::FetchSamples, _) => SAMPLE_BYTES,
+            (ReadMethod::FetchDepth | ReadMethod::StencilBits, _) => 4,
+            (ReadMethod::Copy, Aspect::Color) => texel::bytes(self.source.format),
+            (ReadMethod::Copy, Aspect::Stencil) => 1,
+            (ReadMethod::Copy, Aspect::Depth) => match self.channels.as_slice() {
                 [ChannelEncoding::Unorm(16)] => 2,
                 _ => 4,
             },
@@ -146,15 +148,15 @@ impl<'a> Piece<'a> {
     }
 
     fn bytes(&self) -> u64 {
-        match self.how {
-            How::Copy | How::FetchDepth => self.image_bytes(),
-            How::FetchSamples => u64::from(self.source.samples) * self.image_bytes(),
-            How::StencilBits => 2 * self.image_bytes(),
+        match self.method {
+            ReadMethod::Copy | ReadMethod::FetchDepth => self.image_bytes(),
+            ReadMethod::FetchSamples => u64::from(self.source.samples) * self.image_bytes(),
+            ReadMethod::StencilBits => 2 * self.image_bytes(),
         }
     }
 
-    /// Records the way into the buffer. Textures on the way are kept in `scratch` until the work
-    /// is done.
+    /// Records the copy to the buffer. `scratch` keeps the textures between alive until the work is
+    /// done.
     fn record<'g>(
         &self,
         gpu: &'g Gpu,
@@ -163,8 +165,8 @@ impl<'a> Piece<'a> {
         scratch: &mut Vec<TextureLease<'g>>,
     ) -> Result<(), BackendError> {
         let size = self.source.size;
-        match self.how {
-            How::Copy => {
+        match self.method {
+            ReadMethod::Copy => {
                 let aspect = match self.aspect {
                     Aspect::Color => wgpu::TextureAspect::All,
                     Aspect::Depth => wgpu::TextureAspect::DepthOnly,
@@ -172,14 +174,14 @@ impl<'a> Piece<'a> {
                 };
                 self.copy(encoder, &self.source.target.texture, aspect, buffer, 0);
             }
-            How::FetchDepth => {
+            ReadMethod::FetchDepth => {
                 let layout = &gpu.pipelines.layouts.texture;
                 let bindings = gpu.bound(layout, &[self.source.target.fetch()]);
                 let format = wgpu::TextureFormat::R32Uint;
                 let fetched = (FetchKey::Depth, &bindings, format, 0);
                 scratch.push(self.fetch(gpu, encoder, buffer, fetched)?);
             }
-            How::FetchSamples => {
+            ReadMethod::FetchSamples => {
                 let (layouts, target) = (&gpu.pipelines.layouts, self.source.target);
                 let (key, layout, view) = if self.aspect == Aspect::Stencil {
                     (FetchKey::StencilSample, &layouts.integers, target.stencil())
@@ -193,7 +195,7 @@ impl<'a> Piece<'a> {
                     scratch.push(self.fetch(gpu, encoder, buffer, fetched)?);
                 }
             }
-            How::StencilBits => {
+            ReadMethod::StencilBits => {
                 for half in [0_u8, 1] {
                     let target = gpu.scratch(wgpu::TextureFormat::Rgba8Unorm, size);
                     self.record_bits(gpu, encoder, &target, half)?;
@@ -207,8 +209,7 @@ impl<'a> Piece<'a> {
         Ok(())
     }
 
-    /// Records a shader's fetch of one sample on its way to the buffer, and returns the texture
-    /// between.
+    /// Records the fetch of one sample and its copy to the buffer. Returns the texture between.
     fn fetch<'g>(
         &self,
         gpu: &'g Gpu,
@@ -219,7 +220,7 @@ impl<'a> Piece<'a> {
         let target = gpu.scratch(format, self.source.size);
         let pipeline = gpu.pipelines.fetch(&gpu.device, &gpu.errors, key)?;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            color_attachments: &[Some(blank(&target))],
+            color_attachments: &[Some(cleared(&target))],
             ..wgpu::RenderPassDescriptor::default()
         });
         pass.set_pipeline(&pipeline);
@@ -241,11 +242,11 @@ impl<'a> Piece<'a> {
     ) -> Result<(), BackendError> {
         let format = self.source.format;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            color_attachments: &[Some(blank(target))],
+            color_attachments: &[Some(cleared(target))],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.source.target.view,
-                depth_ops: format.has_depth().then_some(kept()),
-                stencil_ops: Some(kept()),
+                depth_ops: format.has_depth().then_some(unchanged()),
+                stencil_ops: Some(unchanged()),
             }),
             ..wgpu::RenderPassDescriptor::default()
         });
@@ -282,12 +283,12 @@ impl<'a> Piece<'a> {
         encoder.copy_texture_to_buffer(from, to, extent(self.source.size));
     }
 
-    /// The image out of the mapped buffer.
+    /// Returns the image from the mapped buffer.
     fn image(&self, bytes: &[u8]) -> Image {
-        let codes = match self.how {
-            How::Copy | How::FetchDepth => self.copied(bytes),
-            How::FetchSamples => self.samples(bytes),
-            How::StencilBits => {
+        let codes = match self.method {
+            ReadMethod::Copy | ReadMethod::FetchDepth => self.copied(bytes),
+            ReadMethod::FetchSamples => self.samples(bytes),
+            ReadMethod::StencilBits => {
                 let (low, high) = (self.texels(bytes, 0), self.texels(bytes, 1));
                 low.zip(high)
                     .map(|(low, high)| {
@@ -308,7 +309,7 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// The texels of the image that is so many images behind the first, row by row.
+    /// Returns the texels of the n-th image of this read, row by row.
     fn texels<'b>(&self, bytes: &'b [u8], image: u64) -> impl Iterator<Item = &'b [u8]> + use<'b> {
         let texel = self.texel_bytes();
         let row = self.source.size[0] as usize * texel;
@@ -339,22 +340,23 @@ impl<'a> Piece<'a> {
         let mut codes = Vec::with_capacity(texels * images.len() * self.channels.len());
         for _ in 0..texels {
             for texel in images.iter_mut().filter_map(Iterator::next) {
-                let seen = texel
-                    .chunks(4)
-                    .zip(&self.channels)
-                    .map(|(bytes, encoding)| {
-                        let bytes = bytes.iter().rev();
-                        let seen = bytes.fold(0, |value, byte| value << 8 | u32::from(*byte));
-                        texel::code(*encoding, seen)
-                    });
-                codes.extend(seen);
+                let codes_of_texel =
+                    texel
+                        .chunks(4)
+                        .zip(&self.channels)
+                        .map(|(bytes, encoding)| {
+                            let bytes = bytes.iter().rev();
+                            let bits = bytes.fold(0, |value, byte| value << 8 | u32::from(*byte));
+                            code_of_fetched(*encoding, bits)
+                        });
+                codes.extend(codes_of_texel);
             }
         }
         codes
     }
 }
 
-fn blank(target: &Target) -> wgpu::RenderPassColorAttachment<'_> {
+fn cleared(target: &Target) -> wgpu::RenderPassColorAttachment<'_> {
     wgpu::RenderPassColorAttachment {
         view: &target.view,
         depth_slice: None,
@@ -366,7 +368,7 @@ fn blank(target: &Target) -> wgpu::RenderPassColorAttachment<'_> {
     }
 }
 
-fn kept<T>() -> wgpu::Operations<T> {
+fn unchanged<T>() -> wgpu::Operations<T> {
     wgpu::Operations {
         load: wgpu::LoadOp::Load,
         store: wgpu::StoreOp::Store,

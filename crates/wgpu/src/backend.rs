@@ -1,9 +1,9 @@
-//! Finding adapters and opening one.
+//! Enumeration of adapters and the open adapter.
 
 use crate::gpu::Gpu;
-use crate::limits::{Abilities, deny_samples, limits, wanted_features};
+use crate::limits::{Abilities, deny_samples, limits, used_features};
 use crate::messages;
-use crate::prepared::Ready;
+use crate::prepared::PreparedScene;
 use crate::probe;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
 use etalon_frame::Limits;
@@ -16,20 +16,19 @@ use wgpu::{Backends, InstanceFlags};
 pub enum Via {
     /// Vulkan.
     Vulkan,
-    /// OpenGL, or OpenGL ES where there is no OpenGL, through EGL.
+    /// OpenGL, or else OpenGL ES, through EGL.
     Gl,
 }
 
-/// How to open an adapter.
+/// Options for [`open`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Options {
     /// The API under wgpu.
     pub via: Via,
-    /// Which of [`enumerate`]'s adapters.
+    /// The adapter's index in [`enumerate`].
     pub device: usize,
-    /// Whether to turn the Vulkan validation layer or OpenGL's debug output on.
-    /// [`Backend::messages`] returns what they say, unless the program has set a logger of its own:
-    /// then that gets it.
+    /// Enables the Vulkan validation layer or OpenGL's debug output. Their messages are returned by
+    /// [`Backend::messages`], unless the program has set its own logger, which receives them.
     pub validate: bool,
 }
 
@@ -40,21 +39,20 @@ pub struct WgpuBackend {
     gpu: Gpu,
 }
 
-/// The adapters that wgpu finds over one API in this process's environment.
+/// Returns the adapters that wgpu finds over an API in this process's environment.
 ///
 /// # Errors
-/// When there is none.
+/// If there is none.
 pub fn enumerate(via: Via) -> Result<Vec<AdapterInfo>, Unavailable> {
     let adapters = adapters(via, InstanceFlags::empty())?;
     let infos = adapters.iter().map(|a| info(via, a));
     Ok(infos.collect())
 }
 
-/// Opens an adapter under a name of the caller's choice.
+/// Opens an adapter. `name` becomes [`AdapterInfo::name`].
 ///
 /// # Errors
-/// When there is no such adapter, or it gives no device, or validation is asked for and cannot be
-/// had.
+/// If there is no such adapter, it gives no device, or validation is requested and not available.
 pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
     let mut flags = InstanceFlags::empty();
     if options.validate {
@@ -100,7 +98,7 @@ impl Backend for WgpuBackend {
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
-        Ok(Box::new(Ready::new(&self.gpu, scene)?))
+        Ok(Box::new(PreparedScene::new(&self.gpu, scene)?))
     }
 
     fn messages(&self) -> Vec<String> {
@@ -112,8 +110,8 @@ impl Backend for WgpuBackend {
     }
 }
 
-/// Without `DEBUG` wgpu turns the layer on and listens to nothing: it brings the messenger in Vulkan, and
-/// OpenGL's debug context.
+/// `VALIDATION` enables the layer. `DEBUG` adds the messenger in Vulkan and the debug context in
+/// OpenGL, without which no message arrives.
 const WATCHED: InstanceFlags = InstanceFlags::VALIDATION.union(InstanceFlags::DEBUG);
 
 fn instance(via: Via, flags: InstanceFlags) -> wgpu::Instance {
@@ -125,7 +123,7 @@ fn instance(via: Via, flags: InstanceFlags) -> wgpu::Instance {
 }
 
 fn adapters(via: Via, flags: InstanceFlags) -> Result<Vec<wgpu::Adapter>, Unavailable> {
-    // wgpu panics where an EGL context cannot be made current.
+    // wgpu panics if an EGL context cannot be made current.
     let find = || {
         let instance = instance(via, flags);
         pollster::block_on(instance.enumerate_adapters(backends(via)))
@@ -141,13 +139,13 @@ fn adapters(via: Via, flags: InstanceFlags) -> Result<Vec<wgpu::Adapter>, Unavai
 }
 
 fn device(adapter: &wgpu::Adapter) -> Result<Gpu, String> {
-    let features = adapter.features() & wanted_features();
+    let features = adapter.features() & used_features();
     let descriptor = wgpu::DeviceDescriptor {
         label: None,
         required_features: features,
         required_limits: adapter.limits(),
         experimental_features: wgpu::ExperimentalFeatures::disabled(),
-        // Scenes are small and many processes run at once.
+        // Scenes are small, and many processes run at once.
         memory_hints: wgpu::MemoryHints::MemoryUsage,
         trace: wgpu::Trace::Off,
     };
@@ -162,9 +160,9 @@ fn device(adapter: &wgpu::Adapter) -> Result<Gpu, String> {
     if !has_samples {
         deny_samples(&mut gpu.limits);
     }
-    let denied = probe::deny_what_does_not_compile(&mut gpu).map_err(|error| error.to_string())?;
+    let denied = probe::deny_uncompilable_features(&mut gpu).map_err(|error| error.to_string())?;
     if denied || !has_samples {
-        // What a driver said of what nobody will ask for is no scene's matter.
+        // Messages about denied features are not the scenes'.
         gpu.forget();
         drop(messages::take());
     }
@@ -195,7 +193,8 @@ fn remedy(via: Via) -> &'static str {
     }
 }
 
-/// The driver's version where it tells wgpu none in words: Vulkan's number, as `etalon-vulkan` writes it.
+/// Returns Vulkan's number of the driver version, as `etalon-vulkan` writes it, for drivers without
+/// a version string.
 fn version_number(adapter: &wgpu::Adapter) -> Option<String> {
     // SAFETY: the properties are only read.
     let native = unsafe { adapter.as_hal::<wgpu::hal::api::Vulkan>() }?;
@@ -234,14 +233,14 @@ fn info(via: Via, adapter: &wgpu::Adapter) -> AdapterInfo {
     }
 }
 
-/// The driver's name in adapter names, from the device's and the driver's words: the well-known
-/// name, or the first word.
+/// Returns the driver's name in adapter names: a well-known name in the device's and driver's
+/// strings, or else their first word.
 fn driver(via: Via, words: &str) -> String {
     let known = ["zink", "angle", "softpipe", "swiftshader", "lavapipe"];
     if let Some(name) = known.into_iter().find(|name| words.contains(name)) {
         return name.to_owned();
     }
-    // Mesa's Vulkan driver calls itself by the rasterizer it has in common with the OpenGL one.
+    // Mesa's Vulkan driver reports the rasterizer that it shares with the OpenGL one.
     if words.contains("llvmpipe") {
         return match via {
             Via::Vulkan => "lavapipe".to_owned(),
@@ -270,9 +269,9 @@ mod tests {
         backend
     }
 
-    /// The layer listens: without this, its silence elsewhere would prove nothing.
+    /// The layer reports errors: without this, its silence elsewhere would prove nothing.
     #[test]
-    fn a_mistake_planted_below_wgpu_is_told_by_the_layer() {
+    fn an_error_planted_below_wgpu_is_reported_by_the_layer() {
         let backend = watched(Via::Vulkan);
         // SAFETY: the layer stops at the size, which is zero; what the driver makes of it is leaked.
         let made = unsafe {
@@ -292,7 +291,7 @@ mod tests {
 
     /// As above, of OpenGL's debug output.
     #[test]
-    fn a_mistake_planted_below_wgpu_is_told_by_opengl() {
+    fn an_error_planted_below_wgpu_is_reported_by_opengl() {
         let backend = watched(Via::Gl);
         // SAFETY: the context is current while it is locked, and GL gives this name this type.
         unsafe {
@@ -311,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn drivers_get_the_names_users_know() {
+    fn drivers_have_their_well_known_names() {
         let llvmpipe = "llvmpipe (llvm 15.0.6, 256 bits) llvmpipe";
         assert_eq!(driver(Via::Vulkan, llvmpipe), "lavapipe");
         assert_eq!(driver(Via::Gl, llvmpipe), "llvmpipe");

@@ -1,53 +1,55 @@
-//! Attachments on the device: what they start from and how passes take them.
+//! The attachments of a scene and their initial contents.
 
-use crate::format;
 use crate::gpu::{BufferLease, Gpu, TextureLease, extent};
+use crate::state;
 use crate::texel;
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
 use etalon_scene::{Contents, Scene};
 use wgpu::BufferUsages;
 
-/// An attachment.
-pub(crate) struct Slot<'a> {
+/// An attachment of a scene on the device.
+pub(crate) struct DeviceAttachment<'a> {
     pub(crate) name: String,
     pub(crate) format: TextureFormat,
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
     pub(crate) target: TextureLease<'a>,
-    start: Start<'a>,
-    /// The pass that clears it: the first that has to do with it, where that one draws to it.
+    initial: InitialContents<'a>,
+    /// The pass that clears it: the first that uses it, if that one draws to it.
     cleared_by: Option<usize>,
-    /// Whether some pass writes to it.
+    /// True if a pass writes to it.
     changes: bool,
 }
 
-/// What an attachment starts from.
-enum Start<'a> {
+/// The initial contents of an attachment.
+enum InitialContents<'a> {
     Color(wgpu::Color),
     DepthStencil(f32, u32),
-    /// Rows that lie so many bytes apart in a buffer.
+    /// A buffer of rows, and the distance between them.
     Upload(BufferLease<'a>, u32),
 }
 
-impl<'a> Slot<'a> {
+impl<'a> DeviceAttachment<'a> {
     pub(crate) fn new(gpu: &'a Gpu, scene: &Scene, index: usize) -> Result<Self, BackendError> {
         let attachment = &scene.attachments[index];
         let (format, size) = (attachment.format, attachment.size);
         let upload = |codes: &[u32]| {
             let (bytes, pitch) = rows(format, size[0], codes);
-            Start::Upload(gpu.filled(BufferUsages::COPY_SRC, &bytes), pitch)
+            InitialContents::Upload(gpu.filled(BufferUsages::COPY_SRC, &bytes), pitch)
         };
-        let start = match &attachment.contents {
-            Contents::Color(color) if gpu.draws(format) => Start::Color(format::color(*color)),
-            // The API cannot clear it, so it gets the nearest codes.
+        let initial = match &attachment.contents {
+            Contents::Color(color) if gpu.draws(format) => {
+                InitialContents::Color(state::color(*color))
+            }
+            // The API cannot clear it, so the nearest codes are uploaded.
             Contents::Color(color) => {
                 let channels = format.color_channels().iter().zip(color);
                 let texel: Vec<_> = channels.map(|(e, v)| e.nearest_code((*v).into())).collect();
                 upload(&texel.repeat(size[0] as usize * size[1] as usize))
             }
             Contents::DepthStencil { depth, stencil } => {
-                Start::DepthStencil(*depth, (*stencil).into())
+                InitialContents::DepthStencil(*depth, (*stencil).into())
             }
             Contents::Texels(codes) => upload(codes),
         };
@@ -68,35 +70,35 @@ impl<'a> Slot<'a> {
             size,
             samples: attachment.samples,
             target: gpu.attachment(format, size, attachment.samples)?,
-            start,
+            initial,
             cleared_by: first.filter(|pass| drawn.clone().nth(*pass).is_some_and(|d| d.0)),
             changes: drawn.clone().any(|(draws, resolves, _)| draws || resolves),
         })
     }
 
-    /// Records what gives the attachment its contents where no pass's own clear does. What nothing
-    /// changes needs an upload only the `first` time.
+    /// Records the initial contents, unless a pass clears the attachment. An attachment that no
+    /// pass changes is uploaded only the `first` time.
     pub(crate) fn initialise(&self, encoder: &mut wgpu::CommandEncoder, first: bool) {
-        match &self.start {
-            Start::Upload(buffer, pitch) => {
+        match &self.initial {
+            InitialContents::Upload(buffer, pitch) => {
                 if self.changes || first {
                     self.upload(encoder, buffer, *pitch);
                 }
             }
-            Start::Color(_) if self.cleared_by.is_none() => {
+            InitialContents::Color(_) if self.cleared_by.is_none() => {
                 let attachment = [Some(self.as_color(None, None))];
                 encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                     color_attachments: &attachment,
                     ..wgpu::RenderPassDescriptor::default()
                 });
             }
-            Start::DepthStencil(..) if self.cleared_by.is_none() => {
+            InitialContents::DepthStencil(..) if self.cleared_by.is_none() => {
                 encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                     depth_stencil_attachment: Some(self.as_depth_stencil(None)),
                     ..wgpu::RenderPassDescriptor::default()
                 });
             }
-            Start::Color(_) | Start::DepthStencil(..) => {}
+            InitialContents::Color(_) | InitialContents::DepthStencil(..) => {}
         }
     }
 
@@ -113,14 +115,14 @@ impl<'a> Slot<'a> {
         encoder.copy_buffer_to_texture(source, target, extent(self.size));
     }
 
-    /// The attachment in a pass of the scene, or in the pass that only clears it.
+    /// Returns the attachment for a pass of the scene, or for a pass that only clears it.
     pub(crate) fn as_color<'s>(
         &'s self,
         pass: Option<usize>,
         resolve: Option<&'s wgpu::TextureView>,
     ) -> wgpu::RenderPassColorAttachment<'s> {
-        let load = match self.start {
-            Start::Color(color) if self.cleared_by == pass => wgpu::LoadOp::Clear(color),
+        let load = match self.initial {
+            InitialContents::Color(color) if self.cleared_by == pass => wgpu::LoadOp::Clear(color),
             _ => wgpu::LoadOp::Load,
         };
         wgpu::RenderPassColorAttachment {
@@ -134,13 +136,13 @@ impl<'a> Slot<'a> {
         }
     }
 
-    /// The attachment in a pass of the scene, or in the pass that only clears it.
+    /// Returns the attachment for a pass of the scene, or for a pass that only clears it.
     pub(crate) fn as_depth_stencil(
         &self,
         pass: Option<usize>,
     ) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-        let (depth, stencil) = match self.start {
-            Start::DepthStencil(depth, stencil) if self.cleared_by == pass => {
+        let (depth, stencil) = match self.initial {
+            InitialContents::DepthStencil(depth, stencil) if self.cleared_by == pass => {
                 (wgpu::LoadOp::Clear(depth), wgpu::LoadOp::Clear(stencil))
             }
             _ => (wgpu::LoadOp::Load, wgpu::LoadOp::Load),
@@ -158,7 +160,7 @@ impl<'a> Slot<'a> {
         }
     }
 
-    /// The attachment in a pass that promises not to write to it.
+    /// Returns the attachment for a read-only pass.
     pub(crate) fn as_read_only(&self) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         wgpu::RenderPassDepthStencilAttachment {
             view: &self.target.view,
@@ -168,7 +170,7 @@ impl<'a> Slot<'a> {
     }
 }
 
-/// Codes as bytes, each row at a multiple of the pitch, which comes with them.
+/// Returns the bytes of codes with padded rows, and the distance between rows.
 fn rows(format: TextureFormat, width: u32, codes: &[u32]) -> (Vec<u8>, u32) {
     let row = width * texel::bytes(format) as u32;
     let pitch = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);

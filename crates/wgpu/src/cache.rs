@@ -1,24 +1,24 @@
-//! Objects that are made once.
+//! A cache of objects by key.
 
 use etalon_backend::BackendError;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::hash::Hash;
 
-/// The most objects kept; past it all go, which costs little when it happens that seldom.
+/// The most objects objects. A full cache is cleared, which is rare enough to be cheap.
 const MOST: usize = 1024;
 
-/// Objects by what they are made from.
-pub(crate) struct Kept<K, T>(RefCell<HashMap<K, T>>);
+/// Objects by what they are created from.
+pub(crate) struct Cache<K, T>(RefCell<HashMap<K, T>>);
 
-impl<K, T> Default for Kept<K, T> {
+impl<K, T> Default for Cache<K, T> {
     fn default() -> Self {
         Self(RefCell::default())
     }
 }
 
-impl<K: Eq + Hash, T: Clone> Kept<K, T> {
-    /// The object, made now where it is not yet.
+impl<K: Eq + Hash, T: Clone> Cache<K, T> {
+    /// Returns the object of a key, created on first use.
     pub(crate) fn get(
         &self,
         key: K,
@@ -28,15 +28,15 @@ impl<K: Eq + Hash, T: Clone> Kept<K, T> {
             return Ok(found.clone());
         }
         let made = make(&key)?;
-        let mut kept = self.0.borrow_mut();
-        if kept.len() >= MOST {
-            kept.clear();
+        let mut objects = self.0.borrow_mut();
+        if objects.len() >= MOST {
+            objects.clear();
         }
-        kept.insert(key, made.clone());
+        objects.insert(key, made.clone());
         Ok(made)
     }
 
-    /// Forgets all.
+    /// Removes all objects.
     pub(crate) fn clear(&self) {
         self.0.borrow_mut().clear();
     }

@@ -1,24 +1,24 @@
 //! Entry points that glow lacks.
 
-use crate::egl::EglContext;
+use crate::egl::{EglContext, function_at};
 use std::collections::HashSet;
 use std::ffi::{c_char, c_void};
 
 type DebugCallback =
     unsafe extern "system" fn(u32, u32, u32, u32, i32, *const c_char, *const c_void);
 
-macro_rules! extra {
+macro_rules! entry_points {
     ($($field:ident: fn($($arg:ty),*) $(-> $ret:ty)?;)*) => {
-        /// Entry points that glow lacks, or chooses by address alone; `None` where neither the
-        /// version nor an extension promises them.
+        /// Entry points that glow lacks, or whose presence it takes for support; `None` if neither
+        /// the version nor an extension defines them.
         #[derive(Default)]
-        pub(crate) struct Extra {
+        pub(crate) struct EntryPoints {
             $(pub(crate) $field: Option<unsafe extern "system" fn($($arg),*) $(-> $ret)?>,)*
         }
     };
 }
 
-extra! {
+entry_points! {
     clip_control: fn(u32, u32);
     get_query: fn(u32, u32, *mut i32);
     get_query_result: fn(u32, u32, *mut u64);
@@ -34,8 +34,8 @@ extra! {
     primitive_restart_index: fn(u32);
 }
 
-impl Extra {
-    /// Loads what the version and the extensions promise.
+impl EntryPoints {
+    /// Loads the entry points that the version and the extensions define.
     pub(crate) fn load(
         egl: &EglContext,
         es: bool,
@@ -43,12 +43,12 @@ impl Extra {
         known: &HashSet<String>,
     ) -> Self {
         let has = |name: &str| known.contains(name);
-        let mut extra = Self::default();
+        let mut loaded = Self::default();
         macro_rules! load {
             ($field:ident, $name:literal) => {
                 // SAFETY: the specification gives this name the field's type, and the version or
                 // extension that promises it has been seen.
-                extra.$field = unsafe { entry_point(egl.proc_address($name)) };
+                loaded.$field = unsafe { function_at(egl.proc_address($name)) };
             };
         }
         if es {
@@ -106,16 +106,6 @@ impl Extra {
         if !es && has("GL_EXT_depth_bounds_test") {
             load!(depth_bounds, c"glDepthBoundsEXT");
         }
-        extra
+        loaded
     }
-}
-
-/// The function at an address, if it is one.
-///
-/// # Safety
-/// `F` is the type of the function there.
-unsafe fn entry_point<F: Copy>(address: *const c_void) -> Option<F> {
-    const { assert!(size_of::<F>() == size_of::<*const c_void>()) };
-    // SAFETY: function pointers have the size of an address, and the caller vouches for the type.
-    (!address.is_null()).then(|| unsafe { std::mem::transmute_copy(&address) })
 }

@@ -1,4 +1,4 @@
-//! The model's enumerations in GL's words.
+//! GL's values of the model's enumerations.
 
 use etalon_scene::{
     AddressMode, BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget,

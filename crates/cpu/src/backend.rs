@@ -1,0 +1,79 @@
+//! The rasterizer as an adapter with its limits.
+
+use crate::linear::SUB_PIXEL_BITS;
+use crate::prepared::PreparedScene;
+use crate::raster::SAMPLES;
+use crate::steps::Faithful;
+use crate::surface::depth_encoding;
+use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
+use etalon_frame::{
+    Api, Feature, FormatSupport, Limits, ReadPath, TextureFormat, standard_sample_positions,
+};
+use etalon_scene::Scene;
+
+/// The rasterizer.
+#[derive(Debug)]
+pub struct CpuBackend {
+    info: AdapterInfo,
+    limits: Limits,
+}
+
+impl CpuBackend {
+    /// Returns the rasterizer with an adapter name.
+    pub fn new(name: &str) -> Self {
+        let formats = TextureFormat::ALL
+            .into_iter()
+            .map(|format| {
+                let support = FormatSupport {
+                    samples: SAMPLES.to_vec(),
+                    blendable: format.is_color() && !format.is_integer(),
+                    depth: depth_encoding(format).into_iter().collect(),
+                    read: ReadPath::Copy,
+                };
+                (format, support)
+            })
+            .collect();
+        Self {
+            info: AdapterInfo {
+                name: name.to_owned(),
+                backend: "cpu".to_owned(),
+                device: "etalon rasterizer".to_owned(),
+                driver: "etalon".to_owned(),
+                driver_version: env!("CARGO_PKG_VERSION").to_owned(),
+                driver_id: concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"))
+                    .to_owned(),
+                api_version: "the reference pipeline in 32-bit floats".to_owned(),
+                software: true,
+            },
+            limits: Limits {
+                api: Api::Vulkan,
+                sub_pixel_bits: SUB_PIXEL_BITS,
+                max_size: 4096,
+                max_color_attachments: 8,
+                formats,
+                features: Feature::ALL.into_iter().collect(),
+                sample_positions: SAMPLES
+                    .into_iter()
+                    .map(|n| (n, standard_sample_positions(n)))
+                    .collect(),
+            },
+        }
+    }
+}
+
+impl Backend for CpuBackend {
+    fn adapter(&self) -> &AdapterInfo {
+        &self.info
+    }
+
+    fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
+        if let Some(missing) = self.limits.missing(&scene.requirements()) {
+            return Err(BackendError::NotSupported(missing));
+        }
+        Ok(Box::new(PreparedScene::new(scene.clone(), Faithful)))
+    }
+}

@@ -1,0 +1,60 @@
+//! The attachments of a scene and their initial contents.
+
+use crate::context::Context;
+use crate::state;
+use crate::surface::{Surface, upload};
+use etalon_frame::TextureFormat;
+use glow::HasContext;
+
+pub(crate) struct Attachment {
+    pub(crate) name: String,
+    pub(crate) format: TextureFormat,
+    pub(crate) surface: Surface,
+    pub(crate) initial: InitialContents,
+}
+
+/// The initial contents of an attachment at each submit.
+pub(crate) enum InitialContents {
+    /// Uploaded once, since no pass draws to it.
+    Uploaded,
+    Upload(Vec<u8>),
+    Color([f32; 4]),
+    Integers([u32; 4]),
+    DepthStencil(f32, u8),
+}
+
+/// Sets the initial contents of all attachments. Masks and scissor are open (`state::reset`).
+pub(crate) fn set_initial_contents(context: &Context, attachments: &[Attachment]) {
+    let gl = &context.gl;
+    for attachment in attachments {
+        let surface = &attachment.surface;
+        let format = attachment.format;
+        // SAFETY: the context is current and all objects are its own.
+        unsafe {
+            match &attachment.initial {
+                InitialContents::Uploaded => {}
+                InitialContents::Upload(bytes) => upload(context, format, surface, bytes),
+                InitialContents::Color(color) => {
+                    state::set_srgb(context, format == TextureFormat::Rgba8UnormSrgb);
+                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+                    gl.clear_buffer_f32_slice(glow::COLOR, 0, color);
+                }
+                InitialContents::Integers(color) => {
+                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+                    gl.clear_buffer_u32_slice(glow::COLOR, 0, color);
+                }
+                InitialContents::DepthStencil(depth, stencil) => {
+                    gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+                    let stencil = i32::from(*stencil);
+                    match (format.has_depth(), format.has_stencil()) {
+                        (true, true) => {
+                            gl.clear_buffer_depth_stencil(glow::DEPTH_STENCIL, 0, *depth, stencil);
+                        }
+                        (true, false) => gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[*depth]),
+                        _ => gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[stencil]),
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! The features of a context.
+
+use crate::context::Context;
+use etalon_frame::Feature;
+use std::collections::BTreeSet;
+
+/// Returns the features that a context's version and extensions define.
+pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
+    let (caps, entry_points) = (&context.caps, &context.entry_points);
+    let known = |feature: &Feature| match feature {
+        // Part of version 3.
+        Feature::CentroidInterpolation
+        | Feature::ConstantAlphaBlendFactor
+        | Feature::FrontAndBackCulling
+        | Feature::MinMaxBlendFactors
+        | Feature::RasterizerDiscard
+        | Feature::ReversedDepthRange
+        | Feature::ScissorOutside
+        | Feature::SeparateStencilMasks
+        | Feature::TriangleFans
+        | Feature::ViewportOutside => true,
+        Feature::AlphaToOne => caps.alpha_to_one,
+        Feature::ConservativeDepth => caps.conservative_depth,
+        Feature::DepthBiasClamp => entry_points.polygon_offset_clamp.is_some(),
+        Feature::DepthBounds => entry_points.depth_bounds.is_some(),
+        Feature::DepthClamp => caps.depth_clamp,
+        Feature::DualSourceBlending => caps.dual_source,
+        Feature::ForcedEarlyTests => caps.early_tests,
+        Feature::FragmentInvocations => caps.fragment_invocations,
+        Feature::IndependentBlend => caps.indexed_blend,
+        Feature::LogicOperations => entry_points.logic_op.is_some(),
+        // Viewport heights are positive.
+        Feature::MirroredViewport => false,
+        // ES has no `glPolygonMode`.
+        Feature::PolygonModeLine => !caps.es,
+        Feature::PreciseOcclusion => caps.samples_passed,
+        Feature::SampleShading => caps.sample_variables,
+        Feature::StorageCounters => caps.storage_alignment.is_some(),
+    };
+    Feature::ALL.into_iter().filter(known).collect()
+}

@@ -1,0 +1,73 @@
+//! The objects of a context that outlive a scene. They are apart from the backend, so that a
+//! prepared scene needs no more than it uses.
+
+use crate::context::Context;
+use crate::pool::Pool;
+use crate::probe::{self, Probed};
+use crate::program::Programs;
+use crate::read::Reading;
+use crate::support::Support;
+use etalon_backend::Unavailable;
+use etalon_frame::TextureFormat;
+use etalon_scene::Params;
+use glow::HasContext;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+/// The objects that outlive a scene, and the supported formats.
+pub(crate) struct Objects {
+    pub(crate) formats: BTreeMap<TextureFormat, Support>,
+    pub(crate) pool: RefCell<Pool>,
+    pub(crate) programs: RefCell<Programs>,
+    /// The distance between parameter blocks in bytes.
+    pub(crate) params_stride: usize,
+    pub(crate) vertex_array: glow::VertexArray,
+    pub(crate) no_vertices: glow::VertexArray,
+    pub(crate) timer: Option<glow::Query>,
+}
+
+impl Objects {
+    /// Creates the objects and probes the formats with them.
+    pub(crate) fn new(context: &Context) -> Result<(Self, Probed), Unavailable> {
+        let gl = &context.gl;
+        let refused = |message: String| Unavailable::new(message, "use another driver");
+        // SAFETY: the context is current and has the limit since version 3.
+        let (alignment, vertex_array, no_vertices, timer) = unsafe {
+            let no_vertices = gl.create_vertex_array().map_err(refused)?;
+            let vertex_array = gl.create_vertex_array().map_err(refused)?;
+            gl.bind_vertex_array(Some(vertex_array));
+            for attribute in 0..3 {
+                gl.enable_vertex_attrib_array(attribute);
+            }
+            let timer = if context.caps.timer {
+                Some(gl.create_query().map_err(refused)?)
+            } else {
+                None
+            };
+            (
+                gl.get_parameter_i32(glow::UNIFORM_BUFFER_OFFSET_ALIGNMENT),
+                vertex_array,
+                no_vertices,
+                timer,
+            )
+        };
+        let alignment = usize::try_from(alignment).unwrap_or(0).max(1);
+        let (mut pool, mut programs) = (Pool::default(), Programs::default());
+        let probed = probe::probe(&mut Reading {
+            context,
+            pool: &mut pool,
+            programs: &mut programs,
+            no_vertices,
+        });
+        let objects = Self {
+            formats: probed.formats.clone(),
+            pool: RefCell::new(pool),
+            programs: RefCell::new(programs),
+            params_stride: size_of::<Params>().next_multiple_of(alignment),
+            vertex_array,
+            no_vertices,
+            timer,
+        };
+        Ok((objects, probed))
+    }
+}

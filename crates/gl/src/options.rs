@@ -1,0 +1,33 @@
+//! The options of an adapter: the API, and the way to its driver.
+
+use crate::egl::Platform;
+use std::path::PathBuf;
+
+/// The OpenGL variant of a context.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Profile {
+    /// The highest available version of OpenGL 3.3 to 4.6, core profile.
+    Core,
+    /// The highest available version of OpenGL ES 3.0 to 3.2.
+    Es,
+}
+
+/// Options for [`crate::open`].
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Options {
+    /// The variant of OpenGL.
+    pub profile: Profile,
+    /// The platform that selects the driver.
+    pub platform: Platform,
+    /// The EGL library, a path or a name for the system's loader; `libEGL.so.1` by default.
+    pub library: Option<PathBuf>,
+    /// Enables debug output. Its messages are returned by [`etalon_backend::Backend::messages`].
+    pub debug: bool,
+}
+
+/// Capabilities that tests can disable.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tuning {
+    /// Use `glClipControl` if available.
+    pub(crate) clip_control: bool,
+}

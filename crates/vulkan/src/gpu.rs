@@ -1,0 +1,61 @@
+//! An open device and everything that outlives a scene on it. It is apart from the backend, so that
+//! a prepared scene needs no more than it uses.
+
+use crate::device::Device;
+use crate::format::{self, Native};
+use crate::limits;
+use crate::pipeline::Pipelines;
+use crate::pool::Pool;
+use crate::samplers::Samplers;
+use crate::samples::SampleReaders;
+use crate::slot::Slots;
+use etalon_backend::BackendError;
+use etalon_frame::{Limits, TextureFormat};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+/// An open device with its limits and pools.
+pub(crate) struct Gpu {
+    pub(crate) limits: Limits,
+    pub(crate) natives: BTreeMap<TextureFormat, Native>,
+    pub(crate) pools: RefCell<Pools>,
+    /// Dropped last: everything else was created from it.
+    pub(crate) device: Device,
+}
+
+/// The objects that outlive a scene.
+#[derive(Default)]
+pub(crate) struct Pools {
+    pub(crate) slots: Slots,
+    pub(crate) memory: Pool,
+    pub(crate) pipelines: Pipelines,
+    pub(crate) readers: SampleReaders,
+    pub(crate) samplers: Samplers,
+}
+
+impl Gpu {
+    pub(crate) fn new(device: Device) -> Result<Self, BackendError> {
+        let natives = format::natives(&device);
+        let gpu = Self {
+            limits: limits::limits(&device, &natives),
+            natives,
+            pools: RefCell::default(),
+            device,
+        };
+        gpu.pools.borrow_mut().pipelines.create(&gpu.device)?;
+        Ok(gpu)
+    }
+}
+
+impl Drop for Gpu {
+    fn drop(&mut self) {
+        let pools = self.pools.get_mut();
+        // Prepared scenes borrow the device, so all of them are gone, and each waited for the
+        // device to finish.
+        pools.slots.destroy(&self.device);
+        pools.memory.destroy(&self.device);
+        pools.pipelines.destroy(&self.device);
+        pools.readers.destroy(&self.device);
+        pools.samplers.destroy(&self.device);
+    }
+}

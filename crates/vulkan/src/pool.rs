@@ -1,0 +1,89 @@
+//! The bounded pool from which scenes take buffers and images.
+
+use crate::buffer::{Buffer, BufferUse};
+use crate::device::Device;
+use crate::image::{Image, ImageKey};
+use etalon_backend::BackendError;
+
+/// The most objects and bytes that a pool keeps.
+const KEPT_OBJECTS: usize = 64;
+const KEPT_BYTES: u64 = 256 << 20;
+/// Unused objects, oldest first.
+#[derive(Debug, Default)]
+pub(crate) struct Pool {
+    buffers: Vec<Buffer>,
+    images: Vec<Image>,
+}
+
+impl Pool {
+    /// Returns a buffer of at least this size.
+    pub(crate) fn buffer(
+        &mut self,
+        device: &Device,
+        usage: BufferUse,
+        size: u64,
+    ) -> Result<Buffer, BackendError> {
+        let fits = |b: &Buffer| b.usage == usage && b.size >= size;
+        match self.buffers.iter().rposition(fits) {
+            Some(index) => Ok(self.buffers.remove(index)),
+            None => Buffer::new(device, usage, size),
+        }
+    }
+
+    /// Returns an image with undefined contents.
+    pub(crate) fn image(&mut self, device: &Device, key: ImageKey) -> Result<Image, BackendError> {
+        match self.images.iter().rposition(|i| i.key == key) {
+            Some(index) => Ok(self.images.remove(index)),
+            None => Image::new(device, key),
+        }
+    }
+
+    /// Returns objects to the pool once the device is done with them.
+    pub(crate) fn give_back(
+        &mut self,
+        device: &Device,
+        buffers: impl IntoIterator<Item = Buffer>,
+        images: impl IntoIterator<Item = Image>,
+    ) {
+        self.buffers.extend(buffers);
+        self.images.extend(images);
+        let excess = excess(self.buffers.iter().map(|b| b.size));
+        self.buffers.drain(..excess).for_each(|b| b.destroy(device));
+        let excess = self::excess(self.images.iter().map(|i| i.bytes));
+        self.images.drain(..excess).for_each(|i| i.destroy(device));
+    }
+
+    /// Destroys everything, before the device is destroyed.
+    pub(crate) fn destroy(&mut self, device: &Device) {
+        self.buffers.drain(..).for_each(|b| b.destroy(device));
+        self.images.drain(..).for_each(|i| i.destroy(device));
+    }
+}
+
+/// Returns the number of oldest objects to destroy to keep the rest within the bounds.
+fn excess(sizes: impl DoubleEndedIterator<Item = u64> + ExactSizeIterator) -> usize {
+    let count = sizes.len();
+    let mut bytes = 0_u64;
+    let kept = sizes
+        .rev()
+        .take(KEPT_OBJECTS)
+        .take_while(|size| {
+            bytes = bytes.saturating_add(*size);
+            bytes <= KEPT_BYTES
+        })
+        .count();
+    count - kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pools_keep_the_newest_within_their_bounds() {
+        assert_eq!(excess([1_u64; 10].into_iter()), 0);
+        assert_eq!(excess([1_u64; KEPT_OBJECTS + 3].into_iter()), 3);
+        assert_eq!(excess([KEPT_BYTES, 1, 1].into_iter()), 1);
+        assert_eq!(excess([KEPT_BYTES + 1].into_iter()), 1);
+    }
+}
