@@ -1,8 +1,8 @@
 //! Bugs of depth bias, depth clamp, the viewport's depth range, depth bounds and read-only depth.
 
 use super::hooks::{bias, bias_unit, biases_lines, bounds_fail_as_depth, held_to_range, in_bounds};
+use super::list::{CONFUSION, List, Row, SMALL};
 use super::plant::{Plant, draws, in_bits, scene};
-use super::{CONFUSION, List, Row, SMALL};
 use etalon_cpu::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
 use etalon_scene::{DepthBias, Draw, Pass, PolygonMode, StencilOperation};

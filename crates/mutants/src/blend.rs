@@ -1,10 +1,11 @@
 //! Bugs of blending.
 
-mod precision;
+pub(super) mod precision;
 
 use super::hooks::{blending, faithful_blend};
+use super::list::{CONFUSION, List};
 use super::plant::{Plant, alpha_blend, color_blend, draws};
-use super::{CONFUSION, List, tables};
+use super::tables;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::BlendInput;
 use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState};
@@ -18,7 +19,6 @@ pub(super) fn add(list: &mut List) {
     equations(list);
     saturate(list);
     switches(list);
-    precision::add(list);
 }
 
 fn neighbours(list: &mut List) {

@@ -1,8 +1,8 @@
 //! Bugs of clear values.
 
 use super::hooks::{clear_code, code};
+use super::list::{CONFUSION, List, SMALL};
 use super::plant::{Plant, in_bits, nudge, scene};
-use super::{CONFUSION, List, SMALL};
 use etalon_frame::ChannelEncoding;
 use etalon_scene::Contents;
 

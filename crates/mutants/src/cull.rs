@@ -1,7 +1,7 @@
 //! Bugs of facing and culling.
 
+use super::list::{CONFUSION, List};
 use super::plant::{Plant, draws};
-use super::{CONFUSION, List};
 use etalon_scene::{CullMode, Draw, FrontFace, Primitive, PrimitiveTopology, Shader};
 
 const MODES: [CullMode; 4] = [

@@ -1,8 +1,9 @@
 //! Bugs of the depth test and of stored depths.
 
 use super::hooks::{code, depth_code, depth_passes, written};
+use super::list::{CONFUSION, List, SMALL};
 use super::plant::{draws, in_bits};
-use super::{CONFUSION, List, SMALL, tables};
+use super::tables;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::compare;
 use etalon_scene::{CompareFunction, DepthState, Shader};

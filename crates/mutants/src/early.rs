@@ -1,8 +1,8 @@
 //! Bugs of early fragment tests, discards and counters.
 
 use super::hooks::kept;
+use super::list::{CONFUSION, List, Row, SMALL};
 use super::plant::{Plant, draws, from_draw};
-use super::{CONFUSION, List, Row, SMALL};
 use etalon_frame::{CounterKind, Frame};
 use etalon_scene::{Draw, EarlyTests, Scene};
 

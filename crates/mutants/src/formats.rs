@@ -5,8 +5,8 @@ mod orders;
 use super::hooks::{
     blending, clear_code, code, color_code, color_value, faithful_blend, missing_alpha,
 };
+use super::list::{CONFUSION, List, Row, SMALL};
 use super::plant::{Plant, nudge};
-use super::{CONFUSION, List, SMALL};
 use etalon_frame::ChannelEncoding::{self, Float16, Float32, Snorm, Srgb8, Ufloat, Unorm};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain};
 use etalon_scene::{BlendFactor, BlendState};
@@ -452,7 +452,7 @@ fn floats(list: &mut List) {
             store(encoding, move |v| code(encoding, v) & !1),
         );
     }
-    let blends: [super::Row<fn(&mut Input)>; 5] = [
+    let blends: [Row<fn(&mut Input)>; 5] = [
         (
             "float-constant-clamped",
             "On float formats, the constant is clamped to 0 to 1.",

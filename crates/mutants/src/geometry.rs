@@ -1,8 +1,8 @@
 //! Bugs of what is covered, of uploads and fetches, and of draws as a whole.
 
 use super::hooks::{covered, fetch};
+use super::list::{CONFUSION, List, Row, SMALL};
 use super::plant::{Plant, draws, in_bits, scene};
-use super::{CONFUSION, List, Row, SMALL};
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::{Contents, FrontFace};
 

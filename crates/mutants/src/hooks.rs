@@ -1,6 +1,5 @@
 //! Steps of the arithmetic with one of them replaced.
 
-use super::plant::Plant;
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{Codes, Faithful, LANES, Mask, Path, Real, Steps, Tests, Written};
 use etalon_frame::{Aspect, ChannelEncoding};
@@ -10,7 +9,8 @@ use etalon_scene::{
     BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Shader, StencilFace,
 };
 
-/// Declares the replaceable steps: each a field of [`Hooks`] and a function that plants a bug there.
+/// Declares the replaceable steps: each is a field of [`Hooks`] and a function that replaces it. The
+/// function returns anything made from hooks, so that this file does not depend on `plant`.
 macro_rules! hooks {
     ($($(#[$doc:meta])* $name:ident($($argument:ty),*) -> $result:ty;)+) => {
         /// Replacements of single steps, one texel at a time: planted bugs need not be fast.
@@ -20,13 +20,13 @@ macro_rules! hooks {
         }
 
         $($(#[$doc])*
-        pub(super) fn $name(
+        pub(super) fn $name<P: From<Hooks>>(
             bug: impl Fn($($argument),*) -> $result + Send + Sync + 'static,
-        ) -> Plant {
-            Plant::Steps(Box::new(Hooks {
+        ) -> P {
+            P::from(Hooks {
                 $name: Some(Box::new(bug)),
                 ..Hooks::default()
-            }))
+            })
         })+
     };
 }

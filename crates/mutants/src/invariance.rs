@@ -1,7 +1,7 @@
 //! Bugs that leave every frame legal by itself and make it differ from another one.
 
+use super::list::{List, SMALL};
 use super::plant::{Plant, nudge};
-use super::{List, SMALL};
 use etalon_frame::{Aspect, Frame};
 use etalon_scene::{Contents, Draw, Scene};
 use std::sync::atomic::{AtomicUsize, Ordering};

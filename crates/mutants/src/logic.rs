@@ -1,8 +1,9 @@
 //! Bugs of logic operations.
 
 use super::hooks::{code, logic};
+use super::list::{CONFUSION, List, Row};
 use super::plant::{Plant, draws};
-use super::{CONFUSION, List, Row, tables};
+use super::tables;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::logic_operation;
 use etalon_scene::LogicOperation;

@@ -1,7 +1,7 @@
 //! Bugs of the colour write mask.
 
+use super::list::{CONFUSION, List};
 use super::plant::{Plant, draws};
-use super::{CONFUSION, List};
 
 fn masks(bug: impl Fn(u8) -> u8 + Send + Sync + 'static) -> Plant {
     draws(move |draw| {

@@ -4,8 +4,8 @@ use super::hooks::{
     alpha_covers, code, depth_sample, resolve, runs_per_sample, sample_positions, second_source,
     stored_sample,
 };
+use super::list::{CONFUSION, List, Row, SMALL};
 use super::plant::{Plant, nudge, scene};
-use super::{CONFUSION, List, Row, SMALL};
 use etalon_frame::{Aspect, ChannelEncoding, standard_sample_positions};
 use etalon_pipeline::{Arithmetic, Plain};
 use etalon_scene::Draw;

@@ -32,6 +32,12 @@ impl fmt::Debug for Plant {
     }
 }
 
+impl From<Hooks> for Plant {
+    fn from(hooks: Hooks) -> Self {
+        Self::Steps(Box::new(hooks))
+    }
+}
+
 /// Changes the scene.
 pub(super) fn scene(bug: impl Fn(&mut Scene) + Send + Sync + 'static) -> Plant {
     Plant::Scene(Box::new(bug))

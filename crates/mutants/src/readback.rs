@@ -1,7 +1,7 @@
 //! Bugs of what comes back.
 
+use super::list::{CONFUSION, List, Row, SMALL};
 use super::plant::{Plant, images, moved, nudge};
-use super::{CONFUSION, List, Row, SMALL};
 use etalon_frame::{Aspect, ChannelEncoding, Image};
 
 const ASPECTS: [(Aspect, &str); 3] = [

@@ -1,7 +1,7 @@
 //! Bugs of scissor rectangles and viewports.
 
+use super::list::{CONFUSION, List, Row, SMALL};
 use super::plant::{Plant, draws, scene};
-use super::{CONFUSION, List, Row, SMALL};
 use etalon_scene::{
     CompareFunction, Contents, DepthState, Draw, Pass, Scene, StencilFace, StencilOperation,
 };

@@ -1,8 +1,9 @@
 //! Bugs of the stencil test and its updates.
 
 use super::hooks::{stencil_passes, stencil_write, written};
-use super::plant::{draws, faces, scene};
-use super::{CONFUSION, List, tables};
+use super::list::{CONFUSION, List};
+use super::plant::{Plant, draws, faces, scene};
+use super::tables;
 use etalon_cpu::steps::Path;
 use etalon_frame::TextureFormat;
 use etalon_pipeline::{compare, stencil_operation, stencil_passes as passes};
@@ -94,7 +95,7 @@ pub(super) fn add(list: &mut List) {
     switches(list);
 }
 
-fn stencils(bug: impl Fn(&mut StencilState) + Send + Sync + 'static) -> super::Plant {
+fn stencils(bug: impl Fn(&mut StencilState) + Send + Sync + 'static) -> Plant {
     draws(move |draw| {
         if let Some(stencil) = &mut draw.stencil {
             bug(stencil);

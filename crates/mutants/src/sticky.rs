@@ -1,7 +1,7 @@
 //! State that sticks: from the case before, and from the draw before.
 
-use super::plant::{from_case, from_draw};
-use super::{List, Plant};
+use super::list::List;
+use super::plant::{Plant, from_case, from_draw};
 use etalon_scene::{DepthBias, Draw};
 
 type Leftover = fn(&Draw, &mut Draw);

@@ -1,8 +1,9 @@
 //! Bugs of several attachments in one pass, and of the second source.
 
 use super::hooks::{blending, faithful_blend};
+use super::list::{CONFUSION, List, Row};
 use super::plant::{Plant, alpha_blend, color_blend, draws, scene};
-use super::{CONFUSION, List, Row, tables};
+use super::tables;
 use etalon_pipeline::BlendInput;
 use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget};
 

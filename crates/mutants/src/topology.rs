@@ -1,8 +1,8 @@
 //! Bugs of topologies, polygon modes and rasterizer discard.
 
 use super::hooks::lines_face_front;
+use super::list::{CONFUSION, List, Row};
 use super::plant::draws;
-use super::{CONFUSION, List, Row};
 use etalon_scene::{CullMode, Draw, PolygonMode, PrimitiveTopology, RESTART};
 
 pub(super) fn add(list: &mut List) {

@@ -2,8 +2,8 @@
 
 use super::component;
 use crate::hooks::{blending, code, color_code, faithful_blend};
+use crate::list::{CONFUSION, List, SMALL};
 use crate::plant::{Plant, draws, in_bits};
-use crate::{CONFUSION, List, SMALL};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::BlendInput;
 use etalon_scene::{BlendFactor, BlendOperation};
@@ -13,7 +13,7 @@ const PRECISION: &str = "Vulkan: Blending: precision no lower than that used to 
 const ROUNDED: &str = "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized \
                        Fixed-Point: one of the two closest values, the nearest only recommended";
 
-pub(super) fn add(list: &mut List) {
+pub(crate) fn add(list: &mut List) {
     constants(list);
     precision(list);
     stores(list);

@@ -1,7 +1,7 @@
 //! The order of channels in each format: in uploads, in clears, and in what comes back.
 
+use crate::list::{CONFUSION, List};
 use crate::plant::{Plant, images_of, scene};
-use crate::{CONFUSION, List};
 use etalon_frame::TextureFormat::{self, *};
 use etalon_scene::{Contents, Draw, Scene};
 
