@@ -7,7 +7,7 @@
 use super::cell::{Cell, Cut, Point, SLACK};
 use super::order::{self, Members, Relation};
 use super::quadrature;
-use super::surface::Ready;
+use super::surface::PreparedSurface;
 use smallvec::SmallVec;
 
 /// Pieces that a texel may have before it is halved.
@@ -44,14 +44,14 @@ impl Integral {
 }
 
 /// The surfaces that may be seen in a part of the picture.
-pub(super) struct Scene<'a> {
-    pub(super) surfaces: &'a [Ready<'a>],
+pub(super) struct Layers<'a> {
+    pub(super) surfaces: &'a [PreparedSurface<'a>],
     pub(super) background: [f64; 3],
     /// Those that may be seen there, the nearer first as far as that is known.
     pub(super) touching: &'a [usize],
 }
 
-impl Scene<'_> {
+impl Layers<'_> {
     /// The integral of the picture over a cell.
     ///
     /// A cell with too many pieces is halved and each half tried anew. What has too many even as a
@@ -64,7 +64,7 @@ impl Scene<'_> {
     fn halved(&self, low: Point, high: Point, halvings: u32) -> Integral {
         let cell = Cell::rectangle(low, high);
         let mut pieces = Pieces {
-            scene: self,
+            layers: self,
             left: (PIECES >> halvings).max(16),
             depth: 0,
             integral: Integral::default(),
@@ -134,7 +134,7 @@ impl Scene<'_> {
 
 /// The pieces of a cell; every function gives `None` once there are too many.
 struct Pieces<'a> {
-    scene: &'a Scene<'a>,
+    layers: &'a Layers<'a>,
     left: usize,
     depth: usize,
     integral: Integral,
@@ -152,10 +152,10 @@ impl Pieces<'_> {
 
     /// Adds a cell that `members` cover, and of which the surfaces from `next` on may cover a part.
     fn cover(&mut self, cell: Cell, next: usize, members: &mut Members) -> Option<()> {
-        let (known, scene) = (members.len(), self.scene);
+        let (known, layers) = (members.len(), self.layers);
         let mut rest = cell;
-        for (i, &candidate) in scene.touching.iter().enumerate().skip(next) {
-            let surface = &scene.surfaces[candidate];
+        for (i, &candidate) in layers.touching.iter().enumerate().skip(next) {
+            let surface = &layers.surfaces[candidate];
             if surface.misses(&rest) || self.hidden(candidate, members, &rest) {
                 continue;
             }
@@ -184,7 +184,7 @@ impl Pieces<'_> {
 
     /// Whether a surface lies behind an opaque one in all of a cell.
     fn hidden(&self, candidate: usize, members: &[usize], cell: &Cell) -> bool {
-        let surfaces = self.scene.surfaces;
+        let surfaces = self.layers.surfaces;
         members.iter().any(|&member| {
             surfaces[member].opaque
                 && order::relation(surfaces, member, candidate, cell.corners()) == Relation::Front
@@ -193,8 +193,8 @@ impl Pieces<'_> {
 
     /// Adds a cell that all of `members` and no other surface covers.
     fn arrange(&mut self, cell: &Cell, members: &[usize]) -> Option<()> {
-        let surfaces = self.scene.surfaces;
-        match self.scene.visible(cell, members) {
+        let surfaces = self.layers.surfaces;
+        match self.layers.visible(cell, members) {
             Ok(visible) => self.paint(cell, &visible),
             Err([a, b]) => {
                 let slack = order::slack(surfaces, a, b);
@@ -211,11 +211,11 @@ impl Pieces<'_> {
 
     /// Adds a cell in which these surfaces are seen, in this order.
     fn paint(&mut self, cell: &Cell, visible: &[usize]) -> Option<()> {
-        let scene = self.scene;
-        let seen = |p| order::compose(scene.surfaces, visible, scene.background, p);
-        let all = || visible.iter().map(|&i| &scene.surfaces[i]);
+        let layers = self.layers;
+        let seen = |p| order::compose(layers.surfaces, visible, layers.background, p);
+        let all = || visible.iter().map(|&i| &layers.surfaces[i]);
         let textures = all().filter(|s| s.is_textured()).count();
-        let fades = all().any(Ready::fades);
+        let fades = all().any(PreparedSurface::fades);
         if let Some((one, other)) = all().find_map(|s| s.kink(cell)) {
             return self.deeper(|pieces| {
                 pieces.paint(&one, visible)?;
@@ -263,7 +263,11 @@ impl Pieces<'_> {
 }
 
 /// The surfaces by their depth at a point, the nearest first.
-pub(super) fn nearest_first(surfaces: &[Ready<'_>], touching: &[usize], p: Point) -> Vec<usize> {
+pub(super) fn nearest_first(
+    surfaces: &[PreparedSurface<'_>],
+    touching: &[usize],
+    p: Point,
+) -> Vec<usize> {
     let mut depths: SmallVec<[(f64, usize); 16]> = touching
         .iter()
         .map(|&i| (surfaces[i].depth.at(p), i))

@@ -1,7 +1,7 @@
 //! Which surface lies in front of which.
 
 use super::cell::Point;
-use super::surface::Ready;
+use super::surface::PreparedSurface;
 use smallvec::SmallVec;
 
 /// Surfaces by their position in the scene.
@@ -19,17 +19,22 @@ pub(super) enum Relation {
 }
 
 /// How much farther surface `a` lies than `b` at a point.
-pub(super) fn gap(surfaces: &[Ready<'_>], a: usize, b: usize, p: Point) -> f64 {
+pub(super) fn gap(surfaces: &[PreparedSurface<'_>], a: usize, b: usize, p: Point) -> f64 {
     surfaces[a].depth.at(p) - surfaces[b].depth.at(p)
 }
 
 /// Gaps up to this are rounding.
-pub(super) fn slack(surfaces: &[Ready<'_>], a: usize, b: usize) -> f64 {
+pub(super) fn slack(surfaces: &[PreparedSurface<'_>], a: usize, b: usize) -> f64 {
     surfaces[a].slack + surfaces[b].slack
 }
 
 /// How surface `a` lies to `b` at points; where they lie together, the later one is in front.
-pub(super) fn relation(surfaces: &[Ready<'_>], a: usize, b: usize, points: &[Point]) -> Relation {
+pub(super) fn relation(
+    surfaces: &[PreparedSurface<'_>],
+    a: usize,
+    b: usize,
+    points: &[Point],
+) -> Relation {
     let slack = slack(surfaces, a, b);
     let (mut nearer, mut farther) = (false, false);
     for &p in points {
@@ -48,7 +53,7 @@ pub(super) fn relation(surfaces: &[Ready<'_>], a: usize, b: usize, points: &[Poi
 
 /// Sorts surfaces front to back as seen at points. Of two that cross, the one that is nearer in the
 /// mean comes first.
-pub(super) fn sort(surfaces: &[Ready<'_>], members: &mut [usize], points: &[Point]) {
+pub(super) fn sort(surfaces: &[PreparedSurface<'_>], members: &mut [usize], points: &[Point]) {
     let before = |a: usize, b: usize| match relation(surfaces, a, b, points) {
         Relation::Front => true,
         Relation::Behind => false,
@@ -67,7 +72,7 @@ pub(super) fn sort(surfaces: &[Ready<'_>], members: &mut [usize], points: &[Poin
 
 /// The picture at a point: surfaces that are sorted front to back, over the background.
 pub(super) fn compose(
-    surfaces: &[Ready<'_>],
+    surfaces: &[PreparedSurface<'_>],
     members: &[usize],
     background: [f64; 3],
     p: Point,

@@ -1,12 +1,12 @@
 //! What colour a surface has at a point, and along which lines that changes its formula.
 
 use super::cell::{Cell, Cut, Point};
-use super::surface::Ready;
+use super::surface::PreparedSurface;
 use etalon_methods::{Paint, Texture};
 use etalon_pipeline::texel_position;
 use etalon_scene::AddressMode;
 
-impl Ready<'_> {
+impl PreparedSurface<'_> {
     /// The colour at a point: straight red, green, blue and alpha.
     pub(super) fn color(&self, p: Point) -> [f64; 4] {
         let grey = |v: f64| [v, v, v, 1.0];

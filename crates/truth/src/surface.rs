@@ -92,7 +92,7 @@ pub(super) enum Overlap {
 
 /// A surface that covers something.
 #[derive(Debug)]
-pub(super) struct Ready<'a> {
+pub(super) struct PreparedSurface<'a> {
     pub(super) paint: &'a Paint,
     pub(super) depth: Linear,
     /// The texture coordinates of a textured surface, across and down.
@@ -108,7 +108,7 @@ pub(super) struct Ready<'a> {
     high: Point,
 }
 
-impl<'a> Ready<'a> {
+impl<'a> PreparedSurface<'a> {
     /// Makes a surface ready; `None` where it covers nothing: fewer than three different corners, no
     /// area, or numbers in it or in its paint that mean nothing.
     pub(super) fn new(surface: &'a Surface) -> Option<Self> {
