@@ -19,4 +19,4 @@ pub use distance::distance;
 pub use etalon_methods::Truth;
 pub use picture::TruthPicture;
 pub use render::truth;
-pub use rgb8::shown;
+pub use rgb8::rgb8;

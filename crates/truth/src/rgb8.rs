@@ -5,14 +5,14 @@ use etalon_frame::{ChannelEncoding, Image};
 
 impl TruthPicture {
     /// Returns red, green and blue of each texel, row by row from the top, values 0..1 as 0..255.
-    pub fn shown(&self) -> Vec<u8> {
+    pub fn rgb8(&self) -> Vec<u8> {
         self.rgb.iter().flatten().map(|v| quantized(*v)).collect()
     }
 }
 
-/// Returns a colour image in the layout of [`TruthPicture::shown`]: the first sample of each texel, 0 for
+/// Returns a colour image in the layout of [`TruthPicture::rgb8`]: the first sample of each texel, 0 for
 /// a missing channel. An image with fewer codes than its size asks for gives fewer texels.
-pub fn shown(image: &Image) -> Vec<u8> {
+pub fn rgb8(image: &Image) -> Vec<u8> {
     let channels = image.channels.len().max(1);
     let texels = image
         .codes
