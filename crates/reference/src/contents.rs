@@ -1,9 +1,9 @@
 //! What attachments hold besides what is drawn: their first contents, and what is resolved to them.
 
 use crate::interval::Interval;
-use crate::judge::{Notes, Sample, Walk, codes_text};
 use crate::judging::{Judging, Range};
 use crate::rules::Resolve;
+use crate::walk::{Notes, Sample, Walk, codes_text};
 use crate::world::{Cell, World};
 use etalon_frame::CodeInterval;
 use etalon_pipeline::Arithmetic;

@@ -1,8 +1,8 @@
 //! Which primitives cover a sample, in which worlds.
 
-use crate::judge::{Notes, Place, Walk, Worlds};
+use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, inside_of, is_outside};
 use crate::rules::SharedEdge;
-use crate::setup::{Primitive, Shape, Side, Triangle};
+use crate::walk::{Notes, Place, Walk, Worlds};
 use crate::world::{Decision, World};
 use etalon_pipeline::{Point, front_facing, is_top_left};
 use etalon_scene::Draw;
@@ -16,7 +16,7 @@ impl Walk<'_> {
     pub(crate) fn in_viewport(
         &self,
         draw: &Draw,
-        primitive: &Primitive,
+        primitive: &SnappedPrimitive,
         point: Point,
     ) -> (bool, bool) {
         let rect = draw.viewport.area().map(f64::from);
@@ -204,26 +204,4 @@ impl Walk<'_> {
             self.fragment(place, world, positive_area, result, notes);
         }
     }
-}
-
-/// The side of a triangle's edges on which its inside lies. With y down, a triangle of positive area
-/// (y up) has it where edge functions are negative.
-fn inside_of(positive_area: bool) -> Side {
-    if positive_area {
-        Side::Negative
-    } else {
-        Side::Positive
-    }
-}
-
-/// Whether a sample is outside a triangle whichever way it turns: nothing happens in any world.
-pub(crate) fn misses(triangle: &Triangle, sides: [Side; 3]) -> bool {
-    let (least, most) = triangle.area;
-    let outside = |positive: bool| sides.into_iter().any(|side| is_outside(side, positive));
-    least != 0 && most != 0 && (most < 0 || outside(true)) && (least > 0 || outside(false))
-}
-
-/// Whether a side of one edge is certainly outside a triangle.
-fn is_outside(side: Side, positive_area: bool) -> bool {
-    matches!(side, Side::Positive | Side::Negative) && side != inside_of(positive_area)
 }

@@ -1,10 +1,10 @@
 //! What happens to one fragment in one world: culling, shading, tests, blending, stores.
 
 use crate::interval::Interval;
-use crate::judge::{Notes, Place, Walk};
 use crate::judging::{Judging, Range};
+use crate::primitive::Shape;
 use crate::rules::{DepthOrder, DepthRange, EarlyUpdates, SameDepth};
-use crate::setup::Shape;
+use crate::walk::{Notes, Place, Walk};
 use crate::world::{Cell, Event, World};
 use etalon_frame::{ChannelEncoding, CodeInterval, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};

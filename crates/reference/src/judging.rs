@@ -492,7 +492,7 @@ mod tests {
 
     #[test]
     fn the_yardstick_wants_the_nearest_code_and_exact_round_trips() {
-        let rules = Rules::yardstick(&crate::judge::tests::limits(Api::Vulkan));
+        let rules = Rules::yardstick(&crate::test_limits::limits(Api::Vulkan));
         let mut a = Judging::new(&rules);
         let e = ChannelEncoding::Unorm(8);
         for code in 0..=255 {

@@ -4,7 +4,9 @@
 //! gives a [`LegalSet`](etalon_frame::LegalSet) per band; [`explain`] tells the story of one sample.
 //! The permissions it grants stand in [`rules`], with their citations.
 
+mod bias;
 mod contents;
+mod context;
 mod counting;
 mod coverage;
 mod depth;
@@ -12,15 +14,21 @@ mod fragment;
 mod interval;
 mod judge;
 mod judging;
+mod primitive;
 pub mod rules;
 mod sampling;
 mod setup;
+mod snap;
 mod store;
+#[cfg(test)]
+mod test_limits;
 mod texels;
+mod walk;
 mod world;
 
 pub use interval::Interval;
-pub use judge::{Judgement, Sample, explain, judge, judgements, judgements_of};
+pub use judge::{Judgement, explain, judge, judgements, judgements_of};
 pub use judging::{Judging, Range};
 pub use rules::{Permission, Rules};
 pub use texels::Texels;
+pub use walk::Sample;

@@ -1,8 +1,8 @@
 //! What a shader sees of its textures: single texels, or a sampler's weighted average.
 
 use crate::interval::Interval;
-use crate::judge::{Place, Sample, Walk};
 use crate::judging::{Judging, Range};
+use crate::walk::{Place, Sample, Walk};
 use crate::world::World;
 use etalon_frame::CodeInterval;
 use etalon_pipeline::{Arithmetic, texel_position};

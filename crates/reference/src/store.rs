@@ -1,8 +1,8 @@
 //! Stores: depth and colours of a fragment that passed, with masks, blending and logic operations.
 
 use crate::fragment::Incoming;
-use crate::judge::{Notes, Place, Walk, codes_text};
 use crate::judging::{Judging, Range};
+use crate::walk::{Notes, Place, Walk, codes_text};
 use crate::world::World;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::shader::FragmentOutput;

@@ -1,6 +1,6 @@
 //! Which pictures must be the same although the rules leave each of them open.
 
-use super::{Permission, Rules, permit};
+use super::permission::{Permission, Rules, permit};
 use etalon_frame::{Api, Band};
 use etalon_scene::Invariance;
 
