@@ -59,7 +59,7 @@ fn biases(list: &mut List) {
                 (b.clamp, b.slope) = (b.slope, b.clamp);
             },
         ),
-        ("clamp-ignored", "The bias is not held to its clamp.", |b| {
+        ("clamp-ignored", "The bias is not clamped.", |b| {
             b.clamp = 0.0;
         }),
         ("clamp-negated", "The clamp changes its sign.", |b| {
@@ -206,7 +206,7 @@ fn ranges(list: &mut List) {
         ("reversed", "Near and far are exchanged.", |[n, f]| [f, n]),
         (
             "sorted",
-            "A reversed range is taken the right way round.",
+            "A reversed range is treated as not reversed.",
             |[n, f]| [n.min(f), n.max(f)],
         ),
         ("near-ignored", "Near is 0.", |[_, f]| [0.0, f]),
@@ -332,7 +332,7 @@ fn bounds(list: &mut List) {
     list.rows(CONFUSION, in_bounds, &rows);
     list.add(
         "rejected-as-failed-depth",
-        "a bounds test behind the stencil test",
+        "a bounds test after the stencil test",
         "Fragments outside the bounds count as failing the depth test, also for stencil.",
         bounds_fail_as_depth(|| true),
     );
@@ -364,7 +364,7 @@ fn read_only(list: &mut List) {
     let rows: [Row<fn(&mut Pass)>; 4] = [
         (
             "depth-still-written",
-            "Read-only depth is written all the same.",
+            "Read-only depth is still written.",
             |pass| {
                 let states = pass.draws.iter_mut().filter_map(|d| d.depth.as_mut());
                 states.for_each(|d| d.write = true);
@@ -391,11 +391,11 @@ fn read_only(list: &mut List) {
             },
         ),
     ];
-    list.rows("read-only attachments taken for others", passes, &rows);
+    list.rows("read-only attachments treated as writable", passes, &rows);
     list.add(
         "from-the-start",
         CONFUSION,
-        "What one pass promises not to write, no pass before it writes.",
+        "A read-only attachment is not written by earlier passes either.",
         scene(|scene| {
             if scene.passes.iter().any(|p| p.depth_stencil_read_only) {
                 for draw in scene.passes.iter_mut().flat_map(|p| &mut p.draws) {

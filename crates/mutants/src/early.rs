@@ -54,7 +54,7 @@ fn tests(list: &mut List) {
         (
             "promise-as-order",
             CONFUSION,
-            "A promise about the written depth makes tests come early, with the fragment's own.",
+            "A layout qualifier on the written depth makes tests early, with the fragment's own depth.",
             |draw| draw.early_tests.is_conservative(),
         ),
     ];
@@ -181,7 +181,7 @@ fn counters(list: &mut List) {
     list.add(
         "samples-as-any",
         CONFUSION,
-        "A precise count tells only whether there is any sample.",
+        "A precise count reports only whether any sample passed.",
         counts(precise, |n| n.min(1)),
     );
     list.add(
@@ -205,7 +205,7 @@ fn counters(list: &mut List) {
     list.add(
         "any-inverted",
         CONFUSION,
-        "Any is told as none.",
+        "A query for any samples reports none.",
         counts(any, |n| 1 - n.min(1)),
     );
     list.add(
@@ -255,7 +255,7 @@ fn counters(list: &mut List) {
     list.add(
         "query-never-ends",
         "state left from the draw before",
-        "A counter goes on counting in the draws after its own.",
+        "A counter continues through later draws.",
         Plant::Scene(Box::new(|scene| {
             let scene_counters = scene.counters.clone();
             let occlusion = |i: &usize| scene_counters[*i].kind.is_occlusion();

@@ -1,4 +1,4 @@
-//! Bugs of what is covered, of uploads and fetches, and of draws as a whole.
+//! Bugs of coverage, uploads, fetches and whole draws.
 
 use super::hooks::{covered, fetch};
 use super::list::{CONFUSION, List, Row, SMALL};
@@ -104,7 +104,7 @@ fn coverage(list: &mut List) {
     );
 }
 
-/// Moves everything by so many texels to the right and down.
+/// Moves everything by a number of texels to the right and down.
 fn shifted(right: f32, down: f32) -> Plant {
     scene(move |scene| {
         for pass in &mut scene.passes {
@@ -213,7 +213,7 @@ fn vertex_depth(list: &mut List) {
     );
 }
 
-/// What is uploaded to an attachment.
+/// The codes that are uploaded to an attachment.
 struct Upload {
     format: TextureFormat,
     /// Codes per texel.

@@ -4,9 +4,9 @@ use crate::mutant::Mutant;
 use crate::plant::Plant;
 
 /// The source of a bug that no driver is known to have shipped.
-pub(super) const CONFUSION: &str = "neighbour confusion";
+pub(super) const CONFUSION: &str = "a likely mistake, known from no driver";
 /// The source of a bug too small for suites with thresholds.
-pub(super) const SMALL: &str = "a small error, which suites with thresholds miss";
+pub(super) const SMALL: &str = "a small error, below the thresholds of other suites";
 
 /// A mutant in a table: its name, its effect, and the bug.
 pub(super) type Row<B> = (&'static str, &'static str, B);

@@ -24,7 +24,7 @@ pub(super) fn add(list: &mut List) {
     resolves(list);
 }
 
-/// Changes draws to attachments of several samples, given how many.
+/// Changes draws to attachments of several samples, given their number.
 fn draws(bug: fn(&mut Draw, u32)) -> Plant {
     scene(move |scene| {
         for at in 0..scene.passes.len() {
@@ -62,14 +62,14 @@ fn masks(list: &mut List) {
         ),
         (
             "mask-first-bit-for-all",
-            "The mask's first bit stands for all.",
+            "The mask's first bit applies to all samples.",
             |mask, _| {
                 if mask & 1 == 0 { 0 } else { u32::MAX }
             },
         ),
         (
             "mask-any-bit-for-all",
-            "Any bit of the mask stands for all.",
+            "Any bit of the mask enables all samples.",
             |mask, n| {
                 if mask & (u32::MAX >> (32 - n)) == 0 {
                     0
@@ -215,7 +215,7 @@ fn alpha(list: &mut List) {
     let rows: [Row<Bug>; 6] = [
         (
             "alpha-to-coverage-ignored",
-            "Alpha takes no samples away.",
+            "Alpha removes no samples.",
             |_, _, _| true,
         ),
         (
@@ -240,7 +240,7 @@ fn alpha(list: &mut List) {
         ),
         (
             "alpha-to-coverage-for-zero-alone",
-            "Only alpha 0 takes samples away.",
+            "Only alpha 0 removes samples.",
             |a, _, _| a > 0.0,
         ),
     ];
@@ -267,7 +267,7 @@ fn alpha(list: &mut List) {
     let states: [Row<DrawBug>; 5] = [
         (
             "alpha-to-coverage-always",
-            "Alpha takes samples away without being asked.",
+            "Alpha removes samples although alpha to coverage is off.",
             |d, _| {
                 d.multisample.alpha_to_coverage = true;
             },
@@ -290,7 +290,7 @@ fn alpha(list: &mut List) {
         ),
         (
             "alpha-to-one-always",
-            "Alpha becomes 1 without being asked.",
+            "Alpha becomes 1 although alpha to one is off.",
             |d, _| {
                 d.multisample.alpha_to_one = true;
             },
@@ -337,7 +337,7 @@ fn per_sample(list: &mut List) {
         list.add(
             &format!("{name}-sees-the-first"),
             "one stored value for all samples",
-            format!("The {name} of every sample sees what the first one holds."),
+            format!("The {name} of every sample reads the first one's value."),
             stored_sample(move |a, s| if a == aspect { 0 } else { s }),
         );
     }
@@ -440,7 +440,7 @@ fn resolves(list: &mut List) {
     list.add(
         "first-pass-alone",
         CONFUSION,
-        "Passes behind the first resolve nothing.",
+        "Passes after the first resolve nothing.",
         scene(|scene| {
             let rest = scene.passes.iter_mut().skip(1);
             rest.for_each(|p| p.resolve.fill(None));
@@ -449,7 +449,7 @@ fn resolves(list: &mut List) {
     list.add(
         "last-pass-to-all",
         "a resolve at the end of the frame and not of the pass",
-        "Every resolve takes what the samples hold at the end.",
+        "Every resolve takes the final values of the samples.",
         scene(|scene| {
             let mut targets = Vec::new();
             for pass in &mut scene.passes {
@@ -457,7 +457,7 @@ fn resolves(list: &mut List) {
                     targets.extend(target.take().map(|t| (*source, t)));
                 }
             }
-            // Passes that draw nothing carry the resolves.
+            // Passes that draw nothing hold the resolves.
             let last = scene.passes.last().cloned();
             for (source, target) in targets {
                 scene.passes.extend(last.clone().map(|mut pass| {

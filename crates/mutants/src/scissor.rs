@@ -79,7 +79,7 @@ fn rects(list: &mut List) {
         ("ignored", "There is no scissor test.", |_, _| None),
         (
             "empty-as-all",
-            "An empty rectangle is taken for none.",
+            "An empty rectangle counts as no scissor test.",
             |rect, _| (rect[2] > 0 && rect[3] > 0).then_some(rect),
         ),
         (
@@ -104,7 +104,7 @@ fn rects(list: &mut List) {
         ),
         (
             "size-as-end",
-            "Width and height are taken for the last column and row.",
+            "Width and height are read as the last column and row.",
             |r, _| {
                 let [x, y, w, h] = r;
                 Some([x, y, w.saturating_sub(x), h.saturating_sub(y)])
@@ -117,7 +117,7 @@ fn rects(list: &mut List) {
         ),
         (
             "lost-when-partly-outside",
-            "Rectangles that reach outside are taken for none.",
+            "Rectangles that reach outside count as no scissor test.",
             |r, s| {
                 let [x, y, w, h] = r;
                 (x + w <= s[0] && y + h <= s[1]).then_some(r)
@@ -158,7 +158,7 @@ fn around([x, y, w, h]: [u32; 4], size: [u32; 2]) -> Vec<[u32; 4]> {
     ]
 }
 
-/// Lets no colour through.
+/// Masks all colours.
 fn without_color(draw: &mut Draw) {
     draw.targets.iter_mut().for_each(|t| t.write_mask = 0);
 }
@@ -177,7 +177,7 @@ fn without_stencil(draw: &mut Draw) {
 }
 
 /// The scissor test is not done for one kind of attachment: the draw is repeated around the
-/// rectangle with the other two kinds kept from writing.
+/// rectangle with the writes of the other two kinds masked.
 fn kinds(list: &mut List) {
     type Others = [fn(&mut Draw); 2];
     fn beyond(others: Others) -> Plant {
@@ -220,7 +220,7 @@ fn kinds(list: &mut List) {
     list.rows(CONFUSION, beyond, &rows);
 }
 
-/// The first draw's scissor rectangle holds back the clears before it: outside it, attachments
+/// The first draw's scissor rectangle applies to the clears before it: outside of it, attachments
 /// start from 0.
 fn clears(list: &mut List) {
     list.add(
@@ -417,7 +417,7 @@ fn viewports(list: &mut List) {
     );
     list.add(
         "not-clipping",
-        "a guard band without the clip behind it",
+        "a guard band without clipping",
         "Primitives are not clipped to the viewport.",
         sized(|draw, size| {
             let [x, y, w, h] = draw.viewport.rect;

@@ -78,7 +78,7 @@ fn independent(list: &mut List) {
         ),
         (
             "write-masks-joined",
-            "A channel is written to all that is written to any.",
+            "A channel written to one attachment is written to all.",
             |t| {
                 let mask = t.iter().fold(0, |mask, t| mask | t.write_mask);
                 t.iter_mut().for_each(|t| t.write_mask = mask);
@@ -133,7 +133,7 @@ fn independent(list: &mut List) {
     list.add(
         "enables-inverted",
         "wgpu: per-target enable arguments flipped",
-        "Where some are blended and others are not, it is the other way round.",
+        "Where some attachments are blended and others are not, the two are exchanged.",
         draws(move |draw| {
             let on = draw.targets.iter().filter(|t| t.blend.is_some()).count();
             if on > 0 && on < draw.targets.len() {
@@ -149,7 +149,7 @@ fn independent(list: &mut List) {
     );
 }
 
-/// What a destination alpha of 1 makes of a factor.
+/// Returns the equivalent of a factor for a destination alpha of 1.
 fn with_alpha_one(factor: &mut BlendFactor) {
     *factor = match *factor {
         BlendFactor::DstAlpha => BlendFactor::One,
@@ -195,14 +195,14 @@ fn second_sources(list: &mut List) {
         list.add(
             &format!("color-factor-{was}-as-{is}"),
             CONFUSION,
-            format!("For colour, factor {was} is done as {is}."),
+            format!("For colour, factor {was} acts as {is}."),
             color_blend(swap),
         );
         if !tables::same_for_alpha(right, wrong) {
             list.add(
                 &format!("alpha-factor-{was}-as-{is}"),
                 CONFUSION,
-                format!("For alpha, factor {was} is done as {is}."),
+                format!("For alpha, factor {was} acts as {is}."),
                 alpha_blend(swap),
             );
         }
@@ -211,14 +211,14 @@ fn second_sources(list: &mut List) {
     let rows: [Row<Bug>; 7] = [
         (
             "second-is-the-first",
-            "The first source stands for both.",
+            "The first source is used for both.",
             |i| {
                 i.src1 = i.src;
             },
         ),
         (
             "first-is-the-second",
-            "The second source stands for both.",
+            "The second source is used for both.",
             |i| {
                 i.src = i.src1;
             },

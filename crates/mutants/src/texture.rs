@@ -75,7 +75,7 @@ pub(super) fn add(list: &mut List) {
     );
     list.add(
         "red-and-blue-exchanged",
-        "formats taken for each other",
+        "formats mistaken for each other",
         "Red and blue of sampled textures are exchanged.",
         texels(|texel| {
             if texel.len() > 2 {

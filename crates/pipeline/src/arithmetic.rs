@@ -47,7 +47,7 @@ pub trait Arithmetic {
     /// A window depth computed by the viewport transform into a range of depths.
     fn window_depth(&mut self, value: Self::Real, range: [f32; 2]) -> Self::Real;
 
-    /// The value that a stored code stands for.
+    /// The value of a stored code.
     fn decode(&mut self, encoding: ChannelEncoding, code: Self::Code) -> Self::Real;
     /// The code that a value is stored as.
     fn encode(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Code;

@@ -1,4 +1,4 @@
-//! Depth bias.
+//! Depth bias: the interval that the rules let it add.
 
 use crate::context::PassContext;
 use crate::depth::planes;
@@ -8,7 +8,7 @@ use etalon_frame::ChannelEncoding;
 use etalon_pipeline::slope;
 use etalon_scene::Draw;
 
-/// Everything that the rules let a depth bias add (Vulkan, Depth Bias; OpenGL 4.6, 14.6.5).
+/// Returns the interval that the rules let a depth bias add (Vulkan, Depth Bias; OpenGL 4.6, 14.6.5).
 pub(crate) fn depth_bias(
     context: &PassContext<'_>,
     draw: &Draw,
@@ -34,7 +34,7 @@ pub(crate) fn depth_bias(
         }
         _ => {
             let exponent = |v: f64| v.max(f64::from(f32::MIN_POSITIVE)).log2().floor() as i32;
-            // What near and far planes clip away may count or not.
+            // Vertices beyond the near and far planes may count or not.
             let inside = f64::from(draw.viewport.depth[0].min(draw.viewport.depth[1]));
             let low = z.iter().map(|z| z.low).fold(0.0, f64::max);
             let low = if low > 1.0 { inside } else { low };
@@ -61,7 +61,7 @@ pub(crate) fn depth_bias(
     }
 }
 
-/// The least and greatest slope per texel over all snapped positions.
+/// Returns the least and greatest slope per texel over all snapped positions.
 fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interval; 3]) -> Interval {
     let units = units_per_texel(context.limits) as f64;
     let middle = z.map(|z| (z.low + z.high) / 2.0);

@@ -1,4 +1,4 @@
-//! Which primitives cover a sample, in which worlds.
+//! Coverage of a sample by primitives, world by world.
 
 use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, inside_of, is_outside};
 use crate::rules::SharedEdge;
@@ -9,9 +9,9 @@ use etalon_scene::Draw;
 use smallvec::SmallVec;
 
 impl Walk<'_> {
-    /// Whether a sample can and whether it must lie inside a draw's viewport, whose edges are
-    /// clip planes and may be snapped. Points and lines are clipped before they are given a width
-    /// (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): what is left may reach a texel beyond, and a
+    /// Returns whether a sample can lie inside a draw's viewport, and whether it must. The viewport's edges
+    /// are clip planes and may be snapped. Points and lines are clipped before they have a width
+    /// (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): the rest may reach a texel beyond, and a
     /// clipped end or a point outside may be missing.
     pub(crate) fn in_viewport(
         &self,

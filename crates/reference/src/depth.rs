@@ -7,12 +7,12 @@ use etalon_pipeline::{DepthPlane, Point};
 /// A depth over a primitive.
 #[derive(Clone, Debug)]
 pub(crate) struct Depth {
-    /// The planes that legal snapping can lay through the vertices, by their extremes; none where
-    /// the depth is the same everywhere or nothing is known but the vertices' depths.
+    /// The extreme planes through the vertices that legal snapping allows; none if the depth is constant
+    /// or nothing but the vertices' depths is known.
     planes: Vec<DepthPlane>,
-    /// How far a depth can lie off its plane.
+    /// The largest distance of a depth from its plane.
     pub(crate) error: f64,
-    /// Between the vertices' depths nothing leaves.
+    /// The range of the vertices' depths.
     pub(crate) hull: Interval,
 }
 
@@ -65,7 +65,7 @@ impl Depth {
         depth
     }
 
-    /// The most that the depth can grow over one unit to the side and one down.
+    /// Returns the largest growth of the depth over one unit right and one down.
     pub(crate) fn steepest(&self) -> f64 {
         let all = self.planes.iter();
         let largest = all.fold((0.0, 0.0), |(x, y): (f64, f64), p| {
@@ -74,14 +74,14 @@ impl Depth {
         largest.0 + largest.1
     }
 
-    /// Over the edges of a triangle, which reach beyond it as lines do.
+    /// Widens the depth for the edges of a triangle, which reach beyond it as lines do.
     pub(crate) fn reach_out(&mut self, units: i64) {
         let far = self.steepest() * 2.0 * units as f64;
         self.error += far;
         self.hull = self.hull.widen(far);
     }
 
-    /// The hull over the texel that holds a point, inside of the primitive or not.
+    /// Returns the hull over the texel that holds a point, inside of the primitive or not.
     pub(crate) fn over_texel(&self, point: Point, units: i64) -> Interval {
         let corner = |v: i64| v.div_euclid(units) * units;
         let (x, y) = (corner(point.x), corner(point.y));
@@ -101,7 +101,7 @@ impl Depth {
         self.beyond(point).clamp(self.hull.low, self.hull.high)
     }
 
-    /// The depth at a point that need not lie inside.
+    /// Returns the depth at a point that need not lie inside.
     pub(crate) fn beyond(&self, point: Point) -> Interval {
         let all = self.planes.iter().map(|p| Interval::exact(p.at(point)));
         all.reduce(Interval::hull)
@@ -109,9 +109,8 @@ impl Depth {
     }
 }
 
-/// The planes through all corners of the snapped positions: one where they are exact. What a
-/// plane's growth can be is a quotient of functions linear in every coordinate alone, so its
-/// extremes stand at corners.
+/// Returns the planes through all corners of the snapped positions: one if they are exact. A plane's
+/// growth is a quotient of functions linear in each coordinate alone, so its extremes lie at corners.
 pub(crate) fn planes(boxes: [SnapBox; 3], z: [f64; 3]) -> impl Iterator<Item = DepthPlane> {
     let corners = |b: SnapBox| {
         let all = b.corners();

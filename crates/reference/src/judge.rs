@@ -12,22 +12,22 @@ use etalon_scene::Scene;
 pub struct Judgement {
     /// The limits that were assumed: every depth format has one encoding.
     pub limits: Limits,
-    /// What the API's text allows.
+    /// The values that the API's text allows.
     pub legal: LegalSet,
-    /// What the yardstick wants.
+    /// The values within the yardstick.
     pub yardstick: LegalSet,
-    /// How many samples of all images of one size were looked at, summed over sizes and sample counts:
-    /// of the others nothing is asserted.
+    /// The number of judged samples of all images of one size, summed over sizes and sample counts. Of
+    /// others nothing is asserted.
     pub looked_at: u64,
 }
 
-/// Judges a scene in both bands, once per depth encoding that the adapter may have.
+/// Returns both bands of a scene, once per depth encoding that the adapter may have.
 pub fn judgements(scene: &Scene, limits: &Limits) -> Vec<Judgement> {
     judgements_of(scene, limits, Texels::All)
 }
 
-/// As [`judgements`], of some texels only; of the others nothing is asserted. Counters are sums over all
-/// texels: unless all are looked at, nothing is asserted of them either.
+/// Returns [`judgements`] of some texels; of others nothing is asserted. Counters are sums over all
+/// texels: unless all are judged, nothing is asserted of counters either.
 pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judgement> {
     let texels = texels.of(scene);
     limits
@@ -49,8 +49,8 @@ pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judg
         .collect()
 }
 
-/// What the rules allow at every sample of what the scene reads back. Of a depth format with
-/// several possible encodings the first is assumed; see [`judgements`].
+/// Returns the legal set of all attachments that the scene reads back. Of a depth format with several
+/// possible encodings the first is assumed; see [`judgements`].
 pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
     judge_some(scene, limits, rules, Texels::All)
 }
@@ -141,8 +141,8 @@ fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> 
     builder.build()
 }
 
-/// The story of one sample: every operation on it with its outcome and, where a permission was
-/// used, its citation.
+/// Returns the story of one sample: every operation on it with its outcome and the citation of each
+/// permission that was used.
 pub fn explain(scene: &Scene, limits: &Limits, rules: &Rules, at: Sample) -> Story {
     let mut story = Story::default();
     let texels = Texels::One([at.x, at.y]);

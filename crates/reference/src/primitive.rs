@@ -6,7 +6,7 @@ use crate::judging::Range;
 use crate::snap::SnapBox;
 use etalon_pipeline::{Point, edge_value};
 
-/// What a primitive covers.
+/// The shape of a primitive.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Shape {
     /// The inside of a triangle.
@@ -23,13 +23,13 @@ pub(crate) enum Shape {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Triangle {
     pub(crate) vertices: [SnapBox; 3],
-    /// Which positions coincide: equal numbers, equal places in clip space.
+    /// Numbers of the positions: equal for equal positions in clip space.
     pub(crate) ids: [u64; 3],
     /// Least and greatest signed area, y up.
     pub(crate) area: (i64, i64),
 }
 
-/// A primitive ready to be judged.
+/// A primitive with snapped vertices.
 #[derive(Clone, Debug)]
 pub(crate) struct SnappedPrimitive {
     pub(crate) shape: Shape,
@@ -41,20 +41,20 @@ pub(crate) struct SnappedPrimitive {
     pub(crate) window_depth: Depth,
     /// Clip-space depth, by which the near and far planes clip.
     pub(crate) clip_depth: Depth,
-    /// What a depth bias adds.
+    /// The depth bias.
     pub(crate) bias: Interval,
     /// All snapped vertices.
     pub(crate) all: SnapBox,
     /// Texture coordinates, where the shader reads them.
     pub(crate) uv: Option<[Depth; 2]>,
-    /// Tells geometries apart: the same number, the same vertices under the same viewport. 0 where the
-    /// draw tests no depth.
+    /// A number that is equal for the same vertices under the same viewport; 0 if the draw tests no
+    /// depth.
     pub(crate) geometry: u64,
     /// Its place in the draw.
     pub(crate) index: u32,
 }
 
-/// Where a sample lies relative to one edge.
+/// The side of one edge on which a sample lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Side {
     /// On the side where the edge function is positive, whatever the snapping.
@@ -68,11 +68,10 @@ pub(crate) enum Side {
 }
 
 impl Triangle {
-    /// The side of the edge from vertex `i` to the next one on which a point lies.
+    /// Returns the side of the edge from vertex `i` to the next one on which a point lies.
     pub(crate) fn side(&self, i: usize, at: Point) -> Side {
         let (p, q) = (self.vertices[i], self.vertices[(i + 1) % 3]);
-        // One corner settles most samples: the others are no farther from it than the boxes let them
-        // be.
+        // One corner decides most samples: the boxes bound the distance of the others.
         let size = |b: SnapBox| (b.high.x - b.low.x).max(b.high.y - b.low.y);
         let moved = size(p).max(size(q));
         let reach = |v: Point| (v.x - at.x).abs() + (v.y - at.y).abs();
@@ -82,7 +81,7 @@ impl Triangle {
             value if value < -bound => return Side::Negative,
             _ => {}
         }
-        // The edge function is linear in each coordinate alone, so its extremes stand at corners.
+        // The edge function is linear in each coordinate alone, so its extremes lie at corners.
         let (mut least, mut most) = (i64::MAX, i64::MIN);
         for p in p.corners() {
             for q in q.corners() {
@@ -102,18 +101,18 @@ impl Triangle {
         }
     }
 
-    /// The exact end points of an edge that lies on its sample exactly.
+    /// Returns the end points of an edge that lies on its sample exactly.
     pub(crate) fn edge(&self, i: usize) -> (Point, Point) {
         (self.vertices[i].low, self.vertices[(i + 1) % 3].low)
     }
 }
 
-/// How often a sample is covered by one primitive: at least, at most.
+/// The least and the largest number of times that one primitive covers a sample.
 pub(crate) type Times = (u32, u32);
 
 impl SnappedPrimitive {
-    /// How often a sample of a texel is covered by a point, a line or an outline. Triangles are
-    /// walked edge by edge instead.
+    /// Returns how often a point, a line or an outline covers a sample. Triangles are walked edge by edge
+    /// instead.
     pub(crate) fn times(&self, at: Point, units: i64) -> Times {
         match &self.shape {
             Shape::Point(center) => point_times(*center, at, units),
@@ -130,14 +129,14 @@ impl SnappedPrimitive {
         }
     }
 
-    /// The window depth at a sample that the primitive covers, with its bias.
+    /// Returns the window depth at a sample that the primitive covers, with its bias.
     pub(crate) fn depth_at(&self, at: Point) -> Range {
         let depth = self.window_depth.at(at);
         Range::same(depth.corners(self.bias, |a, b| a + b))
     }
 
-    /// The depth that a shader sees at the fragment of a texel: of several samples it may stand for
-    /// any point of the texel, and whether a bias is in it is not told.
+    /// Returns the depth that a shader reads. With several samples it may be that of any point of the
+    /// texel; with or without the bias.
     pub(crate) fn depth_seen(&self, at: Point, units: i64, samples: u32) -> Range {
         let mut depth = self.window_depth.at(at);
         if samples > 1 {
@@ -147,9 +146,9 @@ impl SnappedPrimitive {
         Range::same(depth.hull(biased))
     }
 
-    /// The texture coordinates that a shader sees at a sample that the primitive covers, where it reads
-    /// them. Of several samples they may be those of any point of the texel, the centre outside of the
-    /// primitive too (Vulkan, Interpolation Decorations; OpenGL 4.6, 14.3.1).
+    /// Returns the texture coordinates at a sample that the primitive covers, if the shader reads any. With
+    /// several samples they may be those of any point of the texel, also of a centre outside of the
+    /// primitive (Vulkan, Interpolation Decorations; OpenGL 4.6, 14.3.1).
     pub(crate) fn uv_seen(&self, at: Point, units: i64, samples: u32) -> Option<[Interval; 2]> {
         let both = self.uv.as_ref()?;
         Some(both.each_ref().map(|one| {
@@ -161,18 +160,18 @@ impl SnappedPrimitive {
         }))
     }
 
-    /// Whether a depth bias may move its fragments.
+    /// True if a depth bias may move its fragments.
     pub(crate) fn is_biased(&self) -> bool {
         !self.bias.is(0.0)
     }
 
-    /// Whether all vertices lie inside a rectangle of left, top, width and height.
+    /// True if all vertices lie inside a rectangle of left, top, width and height.
     pub(crate) fn inside_rect(&self, [x, y, w, h]: [f64; 4]) -> bool {
         let (low, high) = (self.all.low, self.all.high);
         low.x as f64 >= x && low.y as f64 >= y && high.x as f64 <= x + w && high.y as f64 <= y + h
     }
 
-    /// Whether a covered sample lies between near and far plane: whether it can, whether it must.
+    /// Returns whether a covered sample can lie between the near and far planes, and whether it must.
     pub(crate) fn inside_depth(&self, at: Point) -> (bool, bool) {
         let depth = self.clip_depth.at(at);
         (
@@ -213,7 +212,7 @@ fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
         return (0, 0);
     }
     let along = |low: i64, high: i64, at: i64| at - units > low && at + units < high;
-    // Whether a line between two positions neither runs through the sample's texel nor, one texel
+    // True if a line between two positions neither runs through the sample's texel nor, one texel
     // wide, reaches the sample.
     let misses = |low: i64, high: i64, at: i64| {
         let far = at < low - units / 2 || at > high + units / 2;
@@ -239,14 +238,14 @@ fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     (u32::from(must), u32::from(!beside))
 }
 
-/// Whether a line that lies between two positions can run through a sample's texel.
+/// True if a line between two positions can run through a sample's texel.
 fn touches(low: i64, high: i64, at: i64, units: i64) -> bool {
     let cell = at.div_euclid(units);
     low.div_euclid(units) <= cell && cell <= high.div_euclid(units)
 }
 
-/// The side of a triangle's edges on which its inside lies. With y down, a triangle of positive area
-/// (y up) has it where edge functions are negative.
+/// Returns the inner side of a triangle's edges. With y down, a triangle of positive area (y up) lies
+/// where edge functions are negative.
 pub(crate) fn inside_of(positive_area: bool) -> Side {
     if positive_area {
         Side::Negative
@@ -255,14 +254,14 @@ pub(crate) fn inside_of(positive_area: bool) -> Side {
     }
 }
 
-/// Whether a sample is outside a triangle whichever way it turns: nothing happens in any world.
+/// True if a sample is outside a triangle of either orientation, and so uncovered in every world.
 pub(crate) fn misses(triangle: &Triangle, sides: [Side; 3]) -> bool {
     let (least, most) = triangle.area;
     let outside = |positive: bool| sides.into_iter().any(|side| is_outside(side, positive));
     least != 0 && most != 0 && (most < 0 || outside(true)) && (least > 0 || outside(false))
 }
 
-/// Whether a side of one edge is certainly outside a triangle.
+/// True if a side of one edge is certainly outside a triangle.
 pub(crate) fn is_outside(side: Side, positive_area: bool) -> bool {
     matches!(side, Side::Positive | Side::Negative) && side != inside_of(positive_area)
 }

@@ -1,4 +1,4 @@
-//! Primitives, once per scene: snapped positions, facing, depth, and which rows they can reach.
+//! Primitive setup, once per draw: snapped positions, depth, and the rows of texels that they can reach.
 
 use crate::bias::depth_bias;
 use crate::context::PassContext;
@@ -61,8 +61,8 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> DrawSetup {
     DrawSetup { primitives, rows }
 }
 
-/// Whether no texel that is looked at is anywhere near a primitive, by a rough estimate: most of a
-/// million small triangles then cost no more than this.
+/// True if no judged texel is near a primitive, by a rough estimate: it is the whole cost of most of a
+/// million small triangles.
 fn is_far(context: &PassContext<'_>, draw: &Draw, one: Primitive) -> bool {
     if context.lattice == Lattice::ALL {
         return false;
@@ -80,14 +80,14 @@ fn is_far(context: &PassContext<'_>, draw: &Draw, one: Primitive) -> bool {
             if !v.is_finite() {
                 return false;
             }
-            // More than all that rules let a position be off and a line reach beyond its ends.
+            // More than the rules let a position be off or a line reach beyond its ends.
             let slack = 4.0 + v.abs() / 1024.0;
             low[axis] = low[axis].min(v - slack);
             high[axis] = high[axis].max(v + slack);
         }
     }
     let [width, height] = context.size;
-    // `as` holds what is out of range to the ends.
+    // `as` saturates.
     let within = |v: f32, most: u32| (v as u32).min(most);
     !context.lattice.meets([
         within(low[0].floor(), width),
@@ -182,7 +182,7 @@ fn primitive(
     }
 }
 
-/// A number for the vertices of a primitive in their order and all that its depth comes from.
+/// Returns a number for the vertices of a primitive in order and all other inputs of its depth.
 fn geometry(draw: &Draw, one: Primitive) -> u64 {
     let mut hasher = DefaultHasher::new();
     let own = match one {
@@ -203,7 +203,7 @@ fn geometry(draw: &Draw, one: Primitive) -> u64 {
     hasher.finish()
 }
 
-/// The texture coordinates over a primitive.
+/// Returns the texture coordinates over a primitive.
 fn texture_coordinates(
     context: &PassContext<'_>,
     draw: &Draw,

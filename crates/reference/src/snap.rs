@@ -1,10 +1,10 @@
-//! Snapped positions.
+//! Snapped positions: boxes of integers, since legal snapping leaves a position open by a step of the grid.
 
 use etalon_frame::Limits;
 use etalon_pipeline::{Point, signed_area};
 
-/// All positions that legal snapping can give one vertex: x and y each from low to high, in units
-/// of [`units_per_texel`].
+/// The positions that legal snapping allows for one vertex: x and y each from low to high, in units of
+/// [`units_per_texel`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SnapBox {
     pub(crate) low: Point,
@@ -40,14 +40,15 @@ impl SnapBox {
     }
 }
 
-/// Sub-texel units: fine enough for the adapter's grid and for sample positions in 1/256 texel.
+/// Returns the units per texel: fine enough for the adapter's grid and for sample positions in 1/256
+/// texel.
 pub(crate) fn units_per_texel(limits: &Limits) -> i64 {
     1 << limits.sub_pixel_bits.max(8)
 }
 
 /// Returns the least and the greatest signed area of a triangle, y up.
 pub(crate) fn area(boxes: [SnapBox; 3]) -> (i64, i64) {
-    // One corner settles most triangles; see `side`.
+    // One corner decides most triangles; see `Triangle::side`.
     let size = |b: SnapBox| (b.high.x - b.low.x).max(b.high.y - b.low.y);
     let moved = boxes.map(size).into_iter().max().unwrap_or(0);
     let [a, b, c] = boxes.map(|b| b.low);

@@ -1,4 +1,5 @@
-//! The walk over samples and worlds.
+//! The walk of one sample through its worlds. Samples are walked one by one, so that a story needs no walk
+//! over the others.
 
 use crate::context::PassContext;
 use crate::judging::{Judging, Range};
@@ -36,10 +37,10 @@ pub struct Sample {
 
 pub(crate) type Worlds = SmallVec<[World; 2]>;
 
-/// Worlds by samples per texel, sample and passes; `None` where the sample is open.
+/// Worlds by samples per texel, sample and passes; `None` if the sample is open.
 type Known = HashMap<(u32, u32, usize), Option<Rc<Worlds>>>;
 
-/// Whether a draw's scissor rectangle lets a texel through.
+/// True if a texel lies inside a draw's scissor rectangle.
 fn in_scissor(draw: &Draw, at: Sample) -> bool {
     draw.scissor
         .is_none_or(|[x, y, w, h]| at.x >= x && at.y >= y && at.x - x < w && at.y - y < h)
@@ -52,17 +53,17 @@ pub(crate) struct Walk<'a> {
     /// Per pass and draw.
     setups: Vec<Vec<DrawSetup>>,
     pub(crate) units: i64,
-    /// What the samples of the texel at hand were after some passes, where that was asked for.
+    /// The samples of the current texel after some passes, as far as they were needed.
     known: RefCell<Known>,
 }
 
-/// Where in the scene a fragment comes from.
+/// The origin of a fragment in the scene.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<'a> {
     pub(crate) at: Sample,
     /// The sample's position in sub-texel units.
     pub(crate) point: Point,
-    /// Where it lies relative to a triangle's edges.
+    /// Its sides of a triangle's edges.
     pub(crate) sides: [Side; 3],
     pub(crate) pass: usize,
     pub(crate) draw_index: usize,
@@ -71,11 +72,11 @@ pub(crate) struct Place<'a> {
     pub(crate) primitive: &'a SnappedPrimitive,
     /// Unique over the scene.
     pub(crate) draw_id: u32,
-    /// How many worlds there are, for the story.
+    /// The number of the world, for the story; 0 if there is one.
     pub(crate) world: usize,
 }
 
-/// A note taker: costs nothing while nobody listens.
+/// The story, if one is recorded; without one, notes cost nothing.
 pub(crate) struct Notes<'s>(pub(crate) Option<&'s mut Story>);
 
 impl Notes<'_> {
@@ -146,8 +147,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// What another sample of the texel at hand is after the first passes; `None` when it is open. Passes
-    /// that read and resolve what passes before them left ask for the same again and again.
+    /// Returns another sample of the current texel after the first passes; `None` if it is open. Cached,
+    /// since passes that read or resolve earlier ones need the same repeatedly.
     pub(crate) fn earlier(&self, at: Sample, passes: usize) -> Option<Rc<Worlds>> {
         let key = (at.samples, at.sample, passes);
         if let Some(known) = self.known.borrow().get(&key) {
@@ -158,17 +159,17 @@ impl<'a> Walk<'a> {
         worlds
     }
 
-    /// Goes on to another texel.
+    /// Clears the cache before another texel.
     pub(crate) fn forget(&self) {
         self.known.borrow_mut().clear();
     }
 
-    /// The encoding in which an attachment stores its depth.
+    /// Returns the encoding in which an attachment stores its depth.
     pub(crate) fn depth_encoding(&self, attachment: usize) -> ChannelEncoding {
         depth_encoding(self.scene, self.limits, attachment)
     }
 
-    /// The encodings in which an aspect arrives, and how it is read.
+    /// Returns the encodings in which an aspect is read back, and the read path.
     pub(crate) fn read_encoding(
         &self,
         attachment: usize,
@@ -199,7 +200,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The worlds of a sample after the first passes; `None` when it is open.
+    /// Returns the worlds of a sample after the first passes; `None` if it is open.
     pub(crate) fn worlds(
         &self,
         at: Sample,
@@ -330,7 +331,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The boxes of what is read back.
+    /// Returns the boxes of the attachments that are read back.
     pub(crate) fn finish(&self, worlds: &[World], at: Sample, notes: &mut Notes<'_>) -> TexelSet {
         let mut set = TexelSet::default();
         for world in worlds {
@@ -377,7 +378,7 @@ impl<'a> Walk<'a> {
         set
     }
 
-    /// A depth as it is read back: its code, or the float that a shader sees.
+    /// Returns a depth as it is read back: its code, or the float that a shader reads.
     fn read_depth(&self, attachment: usize, stored: CodeInterval) -> CodeInterval {
         let encoding = self.depth_encoding(attachment);
         let (read, _) = self.read_encoding(attachment, Aspect::Depth);

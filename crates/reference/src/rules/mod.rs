@@ -1,9 +1,10 @@
-//! What each specification permits: data with citations, one file per API.
+//! The permissions of each specification: data with citations, one file per API, so that a reader can
+//! hold each against its text.
 //!
-//! A cell on which a text is silent takes the union of what the other APIs permit: never nothing,
-//! never the tightest. The yardstick is no permission but the quality band: 32-bit float arithmetic on
-//! exact inputs, one conversion within 0.6 codes at the store, the adapter's own sub-pixel bits,
-//! the top-left rule.
+//! If a text is silent, the union of the other APIs' permissions holds: never nothing, never the
+//! tightest. The yardstick is not a permission but the quality band: 32-bit float arithmetic on exact
+//! inputs, one conversion within 0.6 codes at the store, the adapter's own sub-pixel bits, the top-left
+//! rule.
 
 mod invariance;
 mod opengl;
@@ -21,7 +22,7 @@ pub use permission::{
 use etalon_frame::{Api, Limits};
 
 impl Rules {
-    /// The permissions of an API.
+    /// Returns the permissions of an API.
     pub fn of(api: Api) -> Self {
         match api {
             Api::Vulkan => vulkan::rules(),
@@ -31,7 +32,7 @@ impl Rules {
         }
     }
 
-    /// The quality band for an adapter.
+    /// Returns the quality band for an adapter.
     pub fn yardstick(limits: &Limits) -> Self {
         yardstick::rules(limits.api)
     }

@@ -1,6 +1,6 @@
 //! Permissions as data: the set of choices that a text leaves open, each with its citation.
 
-/// What is permitted, and where it is written.
+/// A permission with its citation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Permission<T> {
     /// The permission.
@@ -14,7 +14,7 @@ pub(super) const fn permit<T>(value: T, citation: &'static str) -> Permission<T>
     Permission { value, citation }
 }
 
-/// How vertices are snapped to the sub-pixel grid.
+/// Snapping of vertices to the sub-pixel grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Snap {
     /// To either grid line beside the position.
@@ -23,27 +23,27 @@ pub enum Snap {
     Nearest,
 }
 
-/// Who covers a sample that lies on an edge of two triangles, or too near to tell.
+/// Coverage of a sample on the shared edge of two triangles, or too near to it to tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SharedEdge {
     /// Exactly one of two triangles whose edges have identical end points.
     ExactlyOne,
-    /// Nothing is said; each triangle decides for itself.
+    /// Unspecified; each triangle decides for itself.
     Independent,
     /// The one whose top or left edge it is.
     TopLeft,
 }
 
-/// How a real number becomes a normalized integer code.
+/// Conversion of a real number to a normalized integer code.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rounding {
     /// Either of the two nearest codes; an exactly representable value exactly.
     EitherNeighbour,
-    /// Any code within so many codes.
+    /// Any code within this distance in codes.
     Within(f64),
 }
 
-/// At which precision blending computes.
+/// The precision of blending.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BlendPrecision {
     /// In floating-point, or with every result rounded to one of the destination's neighbouring
@@ -53,7 +53,7 @@ pub enum BlendPrecision {
     Float32,
 }
 
-/// What a depth test compares.
+/// The values that a depth test compares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthOrder {
     /// The incoming value before or after its conversion to the attachment's encoding.
@@ -74,30 +74,30 @@ pub struct BiasUnit {
     pub float: (f64, f64),
 }
 
-/// Whether blend factors of normalized formats are clamped to what the format can hold.
+/// Clamping of blend factors to the range of a normalized format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FactorClamp {
-    /// They are.
+    /// Clamped.
     Clamped,
-    /// They are or they are not.
+    /// Clamped or not.
     Either,
 }
 
-/// What becomes of a depth outside of the viewport's range that a shader or a bias made, where the
-/// draw does not clamp.
+/// The result for a depth outside of the viewport's range that a shader or a bias produced, if the draw
+/// does not clamp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthRange {
     /// Anything from 0 to 1.
     Undefined,
-    /// It is held to 0 and 1.
+    /// It is clamped to 0..1.
     Unit,
-    /// It is held to the viewport's range or to 0 and 1.
+    /// It is clamped to the viewport's range or to 0..1.
     Either,
-    /// A shader's is held to the viewport's range; one that a bias made is held to that or to 0 and 1.
+    /// A shader's depth is clamped to the viewport's range, a biased one to that or to 0..1.
     ViewportIfWritten,
 }
 
-/// What a resolve makes of a texel's samples.
+/// The result of resolving a texel's samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resolve {
     /// Anything between the least and the greatest of them.
@@ -106,17 +106,17 @@ pub enum Resolve {
     Average,
 }
 
-/// Whether depth, stencil and counts change for fragments that forced early tests let through and that
-/// the shader discards or alpha to coverage takes away afterwards.
+/// Updates of depth, stencil and counters by fragments that pass forced early tests and are then
+/// discarded by the shader or by alpha to coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EarlyUpdates {
-    /// They do.
+    /// They happen.
     Happen,
-    /// They do or they do not.
+    /// They happen or not.
     Either,
 }
 
-/// What a precise occlusion query adds for a fragment of several samples.
+/// The increment of a precise occlusion query for a fragment of several samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SamplesCounted {
     /// Its samples that pass.
@@ -125,7 +125,7 @@ pub enum SamplesCounted {
     PassingOrAll,
 }
 
-/// Which redraws of the same geometry have the same depths, bit for bit.
+/// The redraws of the same geometry that have the same depths, bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SameDepth {
     /// Those whose shaders write the fragment's own depth.
@@ -153,9 +153,9 @@ pub struct Rules {
     pub store: Permission<Rounding>,
     /// Blending.
     pub blend: Permission<BlendPrecision>,
-    /// What a depth test compares.
+    /// The values that a depth test compares.
     pub depth_order: Permission<DepthOrder>,
-    /// What a depth bias counts in.
+    /// The unit of a constant depth bias.
     pub depth_bias_unit: Permission<BiasUnit>,
     /// Depths outside of the viewport's range.
     pub depth_range: Permission<DepthRange>,
@@ -163,31 +163,31 @@ pub struct Rules {
     pub factor_clamp: Permission<FactorClamp>,
     /// Averaging samples.
     pub resolve: Permission<Resolve>,
-    /// Whether points and lines face front; where not, either is legal.
+    /// True if points and lines face front; otherwise either is legal.
     pub points_face_front: Permission<bool>,
-    /// Whether the edges of a polygon, drawn as lines, face as the polygon does; where not, either is
-    /// legal. Culling goes by the polygon in any case.
+    /// True if the edges of a polygon drawn as lines face as the polygon; otherwise either is legal.
+    /// Culling always follows the polygon.
     pub outlines_face_as_polygons: Permission<bool>,
-    /// What forced early tests change for fragments that go away afterwards: depth and stencil.
+    /// Updates of depth and stencil by fragments discarded after forced early tests.
     pub early_updates: Permission<EarlyUpdates>,
-    /// What forced early tests count of fragments that go away afterwards.
+    /// Counting of fragments discarded after forced early tests.
     pub early_counts: Permission<EarlyUpdates>,
     /// Precise occlusion queries over several samples.
     pub samples_counted: Permission<SamplesCounted>,
-    /// Which redraws have the same depths.
+    /// The redraws with the same depths.
     pub same_depth: Permission<SameDepth>,
     /// The coarsest step, in texels, to which coordinates may be rounded in filtering.
     pub filter_step: Permission<f64>,
-    /// Whether floats below the normal ones may be stored as zero.
+    /// True if subnormal floats may be stored as zero.
     pub flushes_small_floats: Permission<bool>,
-    /// What makes a shader run for each fragment that it has to run for.
+    /// The clause that requires a shader to run for a fragment.
     pub shader_runs: &'static str,
     /// Alpha to coverage: alpha 0 gives no sample, alpha 1 all, anything between any.
     pub alpha_to_coverage: &'static str,
-    /// What is said of zero-area and reversed triangles.
+    /// The clause on zero-area and reversed triangles.
     pub facing: &'static str,
-    /// What makes stencil values exact.
+    /// The clause that makes stencil values exact.
     pub stencil: &'static str,
-    /// What makes unwritten channels exact.
+    /// The clause that makes unwritten channels exact.
     pub write_mask: &'static str,
 }
