@@ -54,6 +54,16 @@ pub(super) fn draws(bug: impl Fn(&mut Draw) + Send + Sync + 'static) -> Plant {
     })
 }
 
+/// Changes draws, given the size of the attachments.
+pub(super) fn sized(bug: impl Fn(&mut Draw, [u32; 2]) + Send + Sync + 'static) -> Plant {
+    scene(move |scene| {
+        for at in 0..scene.passes.len() {
+            let size = scene.pass_size(&scene.passes[at]);
+            scene.passes[at].draws.iter_mut().for_each(|d| bug(d, size));
+        }
+    })
+}
+
 /// Changes both faces of every stencil test.
 pub(super) fn faces(bug: impl Fn(&mut StencilFace) + Send + Sync + 'static) -> Plant {
     draws(move |draw| {
