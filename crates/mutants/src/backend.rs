@@ -1,7 +1,8 @@
 //! The rasterizer with one bug in it.
 
+use super::library::mutants;
+use super::mutant::Mutant;
 use super::plant::Plant;
-use super::{Mutant, mutants};
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_cpu::{CpuBackend, PreparedScene};
 use etalon_frame::{Frame, Limits};
@@ -13,12 +14,12 @@ use std::cell::RefCell;
 pub struct MutantBackend {
     inner: CpuBackend,
     mutant: &'static Mutant,
-    /// The scene before, for what sticks.
+    /// The previous scene, for state that persists.
     before: RefCell<Option<Scene>>,
 }
 
 impl MutantBackend {
-    /// The rasterizer with the bug of this name; `None` where there is no such bug.
+    /// Returns the rasterizer with the bug of this name; `None` if there is none.
     pub fn new(name: &str) -> Option<Self> {
         let mutant = mutants().iter().find(|m| m.name == name)?;
         Some(Self {
@@ -28,7 +29,7 @@ impl MutantBackend {
         })
     }
 
-    /// What the bug makes of a scene.
+    /// Returns the scene that the bug turns a scene into.
     fn believed(&self, scene: &Scene) -> Scene {
         let mut believed = scene.clone();
         match &self.mutant.plant {
@@ -45,8 +46,8 @@ impl MutantBackend {
     }
 }
 
-/// Takes back tests of aspects that a pass does not have, since no bug can make a driver test them,
-/// and indices of vertices that a bug left out.
+/// Reverts tests of aspects that a pass does not have, which no bug can make a driver test, and removes
+/// indices of vertices that a bug left out.
 fn keep_possible(asked: &Scene, believed: &mut Scene) {
     for (pass, original) in believed.passes.iter_mut().zip(&asked.passes) {
         let format = pass.depth_stencil.map(|i| asked.attachments[i].format);
@@ -96,7 +97,7 @@ impl Backend for MutantBackend {
     }
 }
 
-/// A scene whose frame comes back changed.
+/// A scene whose frame is changed when it is read back.
 struct PreparedMutant<'a, F: ?Sized> {
     inner: Box<dyn Prepared + 'a>,
     scene: Scene,

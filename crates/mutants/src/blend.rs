@@ -1,10 +1,11 @@
 //! Bugs of blending.
 
-mod precision;
+pub(super) mod precision;
 
 use super::hooks::{blending, faithful_blend};
+use super::list::{CONFUSION, List};
 use super::plant::{Plant, alpha_blend, color_blend, draws};
-use super::{CONFUSION, List, tables};
+use super::tables;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::BlendInput;
 use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState};
@@ -18,7 +19,6 @@ pub(super) fn add(list: &mut List) {
     equations(list);
     saturate(list);
     switches(list);
-    precision::add(list);
 }
 
 fn neighbours(list: &mut List) {
@@ -34,7 +34,7 @@ fn neighbours(list: &mut List) {
             &format!("color-factor-{}-as-{}", right.name(), wrong.name()),
             CONFUSION,
             format!(
-                "For colour, factor {} is done as {}.",
+                "For colour, factor {} acts as {}.",
                 right.name(),
                 wrong.name()
             ),
@@ -45,7 +45,7 @@ fn neighbours(list: &mut List) {
                 &format!("alpha-factor-{}-as-{}", right.name(), wrong.name()),
                 CONFUSION,
                 format!(
-                    "For alpha, factor {} is done as {}.",
+                    "For alpha, factor {} acts as {}.",
                     right.name(),
                     wrong.name()
                 ),
@@ -62,13 +62,13 @@ fn neighbours(list: &mut List) {
         list.add(
             &format!("color-operation-{}-as-{}", right.name(), wrong.name()),
             CONFUSION,
-            format!("For colour, {} is done as {}.", right.name(), wrong.name()),
+            format!("For colour, {} acts as {}.", right.name(), wrong.name()),
             color_blend(swap),
         );
         list.add(
             &format!("alpha-operation-{}-as-{}", right.name(), wrong.name()),
             CONFUSION,
-            format!("For alpha, {} is done as {}.", right.name(), wrong.name()),
+            format!("For alpha, {} acts as {}.", right.name(), wrong.name()),
             alpha_blend(swap),
         );
     }
@@ -179,7 +179,7 @@ fn equations(list: &mut List) {
     list.add(
         "color-factor-not-mapped-for-alpha",
         "dozen: colour factor not mapped to alpha in the alpha equation",
-        "In the equation of alpha, factors of colour take red.",
+        "In the alpha equation, colour factors use red.",
         blending(|state, encodings, input| {
             let mut result = faithful_blend(state, encodings, input);
             // A colour's equation on alpha's operands, with red as the factors' channel.
@@ -223,7 +223,7 @@ fn equations(list: &mut List) {
     list.add(
         "sum-wraps",
         CONFUSION,
-        "Sums above 1 wrap round.",
+        "Sums above 1 wrap around.",
         blending(|state, encodings, input| {
             faithful_blend(state, encodings, input).map(|v| if v > 1.0 { v - 1.0 } else { v })
         }),
@@ -276,7 +276,7 @@ fn saturate(list: &mut List) {
     list.add(
         "saturate-not-one-for-alpha",
         CONFUSION,
-        "For alpha, saturate is what it is for colour.",
+        "For alpha, saturate is computed as for colour.",
         blending(move |state, encodings, input| {
             let mut result = faithful_blend(state, encodings, input);
             // Alpha's equation on alpha's operands, computed as if it were red.

@@ -1,8 +1,8 @@
 //! Bugs of clear values.
 
 use super::hooks::{clear_code, code};
+use super::list::{CONFUSION, List, SMALL};
 use super::plant::{Plant, in_bits, nudge, scene};
-use super::{CONFUSION, List, SMALL};
 use etalon_frame::ChannelEncoding;
 use etalon_scene::Contents;
 
@@ -29,7 +29,7 @@ fn depths_and_stencils(bug: impl Fn(&mut f32, &mut u8) + Send + Sync + 'static) 
     })
 }
 
-/// Whether an encoding is one that depths have. Colours of 32-bit floats are taken for depths too.
+/// True if an encoding is one of depth. Colours of 32-bit floats count as depths too.
 fn is_depth(encoding: ChannelEncoding) -> bool {
     matches!(
         encoding,
@@ -114,7 +114,7 @@ fn color(list: &mut List) {
     list.add(
         "color-clamped-late",
         CONFUSION,
-        "Cleared colours outside 0 to 1 wrap round instead of being clamped.",
+        "Cleared colours outside 0 to 1 wrap around instead of being clamped.",
         colors(|color| {
             *color = color.map(|v| {
                 if (0.0..=1.0).contains(&v) {
@@ -127,7 +127,7 @@ fn color(list: &mut List) {
     );
     list.add(
         "color-encoded-as-srgb",
-        "a linear format taken for an sRGB one",
+        "a linear format treated as sRGB",
         "Cleared colours are encoded as sRGB.",
         colors(|color| {
             for v in &mut color[..3] {

@@ -1,7 +1,7 @@
 //! Bugs of facing and culling.
 
+use super::list::{CONFUSION, List};
 use super::plant::{Plant, draws};
-use super::{CONFUSION, List};
 use etalon_scene::{CullMode, Draw, FrontFace, Primitive, PrimitiveTopology, Shader};
 
 const MODES: [CullMode; 4] = [
@@ -46,7 +46,7 @@ pub(super) fn add(list: &mut List) {
             list.add(
                 &format!("{}-as-{}", right.name(), wrong.name()),
                 CONFUSION,
-                format!("Cull mode {} is done as {}.", right.name(), wrong.name()),
+                format!("Cull mode {} acts as {}.", right.name(), wrong.name()),
                 draws(move |draw| {
                     if draw.cull == right {
                         draw.cull = wrong;
@@ -70,7 +70,7 @@ pub(super) fn add(list: &mut List) {
     list.add(
         "front-face-inverted",
         "lima: front face inverted",
-        "Counter-clockwise is clockwise and the other way round.",
+        "Clockwise and counter-clockwise are exchanged.",
         draws(|draw| {
             draw.front_face = match draw.front_face {
                 FrontFace::Ccw => FrontFace::Cw,
@@ -89,7 +89,7 @@ pub(super) fn add(list: &mut List) {
     list.add(
         "shader-sees-the-other-face",
         "lima: front face inverted",
-        "Shaders are told the opposite of the face.",
+        "Shaders receive the opposite facing.",
         draws(|draw| {
             if draw.shader == Shader::FrontFacing {
                 std::mem::swap(&mut draw.params.color, &mut draw.params.back_color);
@@ -99,7 +99,7 @@ pub(super) fn add(list: &mut List) {
     list.add(
         "shader-sees-front-always",
         CONFUSION,
-        "Shaders are told that every face is a front face.",
+        "Shaders receive every face as a front face.",
         draws(|draw| {
             if draw.shader == Shader::FrontFacing {
                 draw.params.back_color = draw.params.color;

@@ -1,8 +1,9 @@
 //! Bugs of the depth test and of stored depths.
 
 use super::hooks::{code, depth_code, depth_passes, written};
+use super::list::{CONFUSION, List, SMALL};
 use super::plant::{draws, in_bits};
-use super::{CONFUSION, List, SMALL, tables};
+use super::tables;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::compare;
 use etalon_scene::{CompareFunction, DepthState, Shader};
@@ -15,11 +16,7 @@ pub(super) fn add(list: &mut List) {
         list.add(
             &format!("compare-{}-as-{}", right.name(), wrong.name()),
             CONFUSION,
-            format!(
-                "The depth test {} is done as {}.",
-                right.name(),
-                wrong.name()
-            ),
+            format!("The depth test {} acts as {}.", right.name(), wrong.name()),
             draws(move |draw| {
                 if let Some(depth) = &mut draw.depth
                     && depth.compare == right
@@ -100,7 +97,7 @@ fn writes(list: &mut List) {
     list.add(
         "write-off-with-always",
         CONFUSION,
-        "A test that always passes is taken for no test, and its write is lost.",
+        "A test that always passes counts as no test, and its write is lost.",
         draws(|draw| {
             draw.depth = draw.depth.filter(|d| d.compare != CompareFunction::Always);
         }),
@@ -147,7 +144,7 @@ fn writes(list: &mut List) {
     list.add(
         "no-color-with-depth-write",
         CONFUSION,
-        "A draw that writes depth is taken for a depth-only one and writes no colour.",
+        "A draw that writes depth is treated as depth-only and writes no colour.",
         draws(|draw| {
             if draw.depth.is_some_and(|d| d.write) {
                 draw.targets.iter_mut().for_each(|t| t.write_mask = 0);
@@ -167,7 +164,7 @@ fn writes(list: &mut List) {
     list.add(
         "written-before-stencil-decides",
         "v3d: early depth against stencil writes",
-        "Depth is written before the stencil test decides.",
+        "Depth is written before the stencil test.",
         written(|[covered, stencil, depth]| [covered && stencil && depth, covered && depth]),
     );
     // Only draws with a stencil test show it.

@@ -5,8 +5,8 @@ mod orders;
 use super::hooks::{
     blending, clear_code, code, color_code, color_value, faithful_blend, missing_alpha,
 };
+use super::list::{CONFUSION, List, Row, SMALL};
 use super::plant::{Plant, nudge};
-use super::{CONFUSION, List, SMALL};
 use etalon_frame::ChannelEncoding::{self, Float16, Float32, Snorm, Srgb8, Ufloat, Unorm};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain};
 use etalon_scene::{BlendFactor, BlendState};
@@ -22,7 +22,7 @@ const SMALL_FLOATS: &str = "Vulkan: Fundamentals, 16-Bit and Unsigned 11-Bit and
 const PRECISION: &str = "Vulkan: Blending: precision no lower than that used to represent \
                          destination components, read as codes of the destination";
 
-/// The encodings, and how many codes off still leaves a code within their range.
+/// The encodings, and the largest offset in codes that stays within their range.
 const ENCODINGS: [(&str, ChannelEncoding, i64); 12] = [
     ("unorm1", Unorm(1), 1),
     ("unorm2", Unorm(2), 1),
@@ -62,17 +62,17 @@ pub(super) fn add(list: &mut List) {
     orders::add(list);
 }
 
-/// How one encoding is stored.
+/// Replaces the store of one encoding.
 fn store(encoding: ChannelEncoding, bug: impl Fn(f32) -> u32 + Send + Sync + 'static) -> Plant {
     color_code(move |e, v| if e == encoding { bug(v) } else { code(e, v) })
 }
 
-/// What is read of one encoding where a blend reads the destination.
+/// Replaces the destination value that a blend reads of one encoding.
 fn read(encoding: ChannelEncoding, bug: impl Fn(u32) -> f32 + Send + Sync + 'static) -> Plant {
     color_value(move |e, c| if e == encoding { bug(c) } else { value(e, c) })
 }
 
-/// How attachments are blended whose red has this property.
+/// Replaces the blend of attachments whose red has this property.
 fn blend_of(
     which: fn(ChannelEncoding) -> bool,
     bug: impl Fn(&BlendState, Encodings, &Input) -> [f32; 4] + Send + Sync + 'static,
@@ -86,7 +86,7 @@ fn blend_of(
     })
 }
 
-/// The value that a code rightly stands for.
+/// Returns the correct value of a code.
 fn value(encoding: ChannelEncoding, code: u32) -> f32 {
     let [value] = Plain::<1>.decode(encoding, [code]);
     value
@@ -102,7 +102,7 @@ fn linear(encoded: f32) -> f32 {
 }
 
 fn srgb(list: &mut List) {
-    const NONLINEAR: &str = "SwiftShader: sRGB taken for linear";
+    const NONLINEAR: &str = "SwiftShader: sRGB treated as linear";
     list.add(
         "srgb-stored-linear",
         NONLINEAR,
@@ -176,13 +176,13 @@ fn srgb(list: &mut List) {
     );
     list.add(
         "unorm8-stored-as-srgb",
-        "a linear format taken for an sRGB one",
+        "a linear format treated as sRGB",
         "Linear 8-bit formats are stored as sRGB.",
         store(Unorm(8), |v| code(Srgb8, v)),
     );
     list.add(
         "unorm8-destination-read-as-srgb",
-        "a linear format taken for an sRGB one",
+        "a linear format treated as sRGB",
         "Linear 8-bit destinations are read as sRGB.",
         read(Unorm(8), |c| value(Srgb8, c)),
     );
@@ -196,7 +196,7 @@ fn signed(list: &mut List) {
             "truncation instead of rounding",
             about,
             store(snorm, move |v| {
-                // Codes are where they belong, whatever the product's last bit says.
+                // Codes are rounded, so that the product's last bit does not matter.
                 let exact = v.clamp(-1.0, 1.0) * 127.0;
                 let near = exact.round();
                 let whole = (exact - near).abs() < 1e-4;
@@ -236,7 +236,7 @@ fn signed(list: &mut List) {
         ),
         (
             "snorm8-wraps",
-            "Signed values outside -1 to 1 wrap round.",
+            "Signed values outside -1 to 1 wrap around.",
             |v| ((v * 127.0).round() as i64 & 0xff) as u32,
         ),
         (
@@ -288,7 +288,7 @@ fn signed(list: &mut List) {
     );
 }
 
-/// The input held between a lower end and 1.
+/// Returns the input clamped to a lower end and 1.
 fn clamp(input: &Input, low: f32) -> Input {
     let held = |values: [[f32; 1]; 4]| values.map(|[v]| [v.clamp(low, 1.0)]);
     BlendInput {
@@ -308,7 +308,7 @@ fn few_bits(list: &mut List) {
             format!("Destinations of {bits} bits are shifted into 8 bits whose lowest stay 0."),
             read(Unorm(bits), move |c| (c << (8 - bits)) as f32 / 255.0),
         );
-        // Four bits repeated are exactly the value they stand for.
+        // Four bits repeated are exactly their value.
         if bits > 4 {
             list.add(
                 &format!("unorm{bits}-destination-replicated"),
@@ -452,7 +452,7 @@ fn floats(list: &mut List) {
             store(encoding, move |v| code(encoding, v) & !1),
         );
     }
-    let blends: [super::Row<fn(&mut Input)>; 5] = [
+    let blends: [Row<fn(&mut Input)>; 5] = [
         (
             "float-constant-clamped",
             "On float formats, the constant is clamped to 0 to 1.",
@@ -494,7 +494,7 @@ fn floats(list: &mut List) {
     list.add(
         "float-result-clamped",
         CLAMPED,
-        "On float formats, what was blended is clamped to 0 to 1.",
+        "On float formats, blend results are clamped to 0 to 1.",
         blend_of(is_float, |state, encodings, input| {
             faithful_blend(state, encodings, input).map(|v| v.clamp(0.0, 1.0))
         }),

@@ -1,10 +1,9 @@
-//! Bugs of what is covered, of uploads and fetches, and of draws as a whole.
+//! Bugs of coverage, positions and whole draws.
 
-use super::hooks::{covered, fetch};
+use super::hooks::covered;
+use super::list::{CONFUSION, List, SMALL};
 use super::plant::{Plant, draws, in_bits, scene};
-use super::{CONFUSION, List, Row, SMALL};
-use etalon_frame::{ChannelEncoding, TextureFormat};
-use etalon_scene::{Contents, FrontFace};
+use etalon_scene::FrontFace;
 
 pub(super) fn add(list: &mut List) {
     list.class("geometry", "blend");
@@ -12,8 +11,6 @@ pub(super) fn add(list: &mut List) {
     positions(list);
     list.class("geometry", "depth");
     vertex_depth(list);
-    list.class("upload", "blend");
-    uploads(list);
 }
 
 fn coverage(list: &mut List) {
@@ -104,7 +101,7 @@ fn coverage(list: &mut List) {
     );
 }
 
-/// Moves everything by so many texels to the right and down.
+/// Moves everything by a number of texels to the right and down.
 fn shifted(right: f32, down: f32) -> Plant {
     scene(move |scene| {
         for pass in &mut scene.passes {
@@ -211,157 +208,4 @@ fn vertex_depth(list: &mut List) {
         "Vertex depths keep 16 bits.",
         depths(|z| in_bits(z, 16)),
     );
-}
-
-/// What is uploaded to an attachment.
-struct Upload {
-    format: TextureFormat,
-    /// Codes per texel.
-    texel: usize,
-    /// Codes per row.
-    row: usize,
-}
-
-/// Changes the codes of uploads.
-fn texels(bug: impl Fn(&Upload, &mut Vec<u32>) + Send + Sync + 'static) -> Plant {
-    scene(move |scene| {
-        for attachment in &mut scene.attachments {
-            if let Contents::Texels(codes) = &mut attachment.contents {
-                let texel = attachment.format.color_channels().len();
-                let upload = Upload {
-                    format: attachment.format,
-                    texel,
-                    row: texel * attachment.size[0] as usize,
-                };
-                bug(&upload, codes);
-            }
-        }
-    })
-}
-
-/// Changes every code of uploads of one format.
-fn codes(format: TextureFormat, bug: fn(u32) -> u32) -> Plant {
-    texels(move |upload, codes| {
-        if upload.format == format {
-            codes.iter_mut().for_each(|c| *c = bug(*c));
-        }
-    })
-}
-
-/// A value rounded to a 16-bit float.
-fn half(value: f32) -> f32 {
-    let encoding = ChannelEncoding::Float16;
-    let order = encoding.order_of_code(encoding.nearest_code(f64::from(value)));
-    encoding.value_of_order(order) as f32
-}
-
-fn uploads(list: &mut List) {
-    type Bug = fn(&Upload, &mut Vec<u32>);
-    let places: [Row<Bug>; 5] = [
-        (
-            "red-blue-swapped",
-            "Red and blue of uploads are exchanged.",
-            |upload, codes| {
-                if upload.texel > 2 {
-                    let texels = codes.chunks_exact_mut(upload.texel);
-                    texels.for_each(|t| t.swap(0, 2));
-                }
-            },
-        ),
-        (
-            "upside-down",
-            "Uploads are upside down.",
-            |upload, codes| {
-                let rows = codes.chunks_exact(upload.row).rev();
-                *codes = rows.flatten().copied().collect();
-            },
-        ),
-        (
-            "rows-one-late",
-            "Uploads start one row late.",
-            |upload, codes| codes.rotate_right(upload.row),
-        ),
-        (
-            "texels-one-late",
-            "Uploads start one texel late.",
-            |upload, codes| codes.rotate_right(upload.texel),
-        ),
-        (
-            "last-row-lost",
-            "The last row of uploads is 0.",
-            |upload, codes| {
-                let n = codes.len();
-                codes[n - upload.row..].fill(0);
-            },
-        ),
-    ];
-    list.rows("a row pitch or origin that is off", texels, &places);
-    type Code = (&'static str, TextureFormat, &'static str, fn(u32) -> u32);
-    let precisions: [Code; 5] = [
-        (
-            "code-plus-1",
-            TextureFormat::Rgba8Unorm,
-            "Uploaded 8-bit codes below 255 are one too large.",
-            |code| (code + 1).min(255),
-        ),
-        (
-            "lowest-bit-lost",
-            TextureFormat::Rgba8Unorm,
-            "Uploaded 8-bit codes lose their lowest bit.",
-            |code| code & 0xfe,
-        ),
-        (
-            "float-source-clamped-to-8-bits",
-            TextureFormat::Rgba32Float,
-            "Uploaded floats are clamped and kept in 8 bits.",
-            |code| in_bits(f32::from_bits(code).clamp(0.0, 1.0), 8).to_bits(),
-        ),
-        (
-            "float-source-in-6-bits",
-            TextureFormat::Rgba32Float,
-            "Uploaded floats keep 6 bits.",
-            |code| in_bits(f32::from_bits(code), 6).to_bits(),
-        ),
-        (
-            "float-source-in-16-bits",
-            TextureFormat::Rgba32Float,
-            "Uploaded floats are rounded to 16-bit ones.",
-            |code| half(f32::from_bits(code)).to_bits(),
-        ),
-    ];
-    for (name, format, about, bug) in precisions {
-        list.add(name, SMALL, about, codes(format, bug));
-    }
-    list.class("fetch", "blend");
-    type From = fn([u32; 2], [u32; 2]) -> [u32; 2];
-    let fetches: [(&str, &str, From); 5] = [
-        (
-            "one-texel-right",
-            "Texels are fetched one too far to the right.",
-            |[x, y], _| [x + 1, y],
-        ),
-        (
-            "one-texel-down",
-            "Texels are fetched one too far down.",
-            |[x, y], _| [x, y + 1],
-        ),
-        (
-            "upside-down",
-            "Texels are fetched upside down.",
-            |[x, y], [_, h]| [x, (h - 1).saturating_sub(y)],
-        ),
-        (
-            "first-texel-alone",
-            "The first texel is fetched everywhere.",
-            |_, _| [0, 0],
-        ),
-        (
-            "transposed",
-            "Columns are fetched for rows.",
-            |[x, y], _| [y, x],
-        ),
-    ];
-    for (name, about, bug) in fetches {
-        list.add(name, CONFUSION, about, fetch(bug));
-    }
 }

@@ -1,6 +1,5 @@
-//! Steps of the arithmetic with one of them replaced.
+//! The rasterizer's steps with one of them replaced.
 
-use super::plant::Plant;
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{Codes, Faithful, LANES, Mask, Path, Real, Steps, Tests, Written};
 use etalon_frame::{Aspect, ChannelEncoding};
@@ -10,7 +9,8 @@ use etalon_scene::{
     BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Shader, StencilFace,
 };
 
-/// Declares the replaceable steps: each a field of [`Hooks`] and a function that plants a bug there.
+/// Declares the replaceable steps: each is a field of [`Hooks`] and a function that replaces it. The
+/// function returns anything made from hooks, so that this file does not depend on `plant`.
 macro_rules! hooks {
     ($($(#[$doc:meta])* $name:ident($($argument:ty),*) -> $result:ty;)+) => {
         /// Replacements of single steps, one texel at a time: planted bugs need not be fast.
@@ -20,19 +20,19 @@ macro_rules! hooks {
         }
 
         $($(#[$doc])*
-        pub(super) fn $name(
+        pub(super) fn $name<P: From<Hooks>>(
             bug: impl Fn($($argument),*) -> $result + Send + Sync + 'static,
-        ) -> Plant {
-            Plant::Steps(Box::new(Hooks {
+        ) -> P {
+            P::from(Hooks {
                 $name: Some(Box::new(bug)),
                 ..Hooks::default()
-            }))
+            })
         })+
     };
 }
 
 hooks! {
-    /// Only texels are covered of which `bug([x, y], [width, height])` says so too.
+    /// Coverage, restricted to texels of which `bug([x, y], [width, height])` is true.
     covered([u32; 2], [u32; 2]) -> bool;
     /// Texels are fetched from `bug([x, y], [width, height])`.
     fetch([u32; 2], [u32; 2]) -> [u32; 2];
@@ -40,12 +40,12 @@ hooks! {
     stencil_passes(&StencilFace, u8) -> bool;
     /// The stencil update, write mask and all.
     stencil_write(&StencilFace, Path, u8) -> u8;
-    /// The conversion of depths between 0 and 1.
+    /// The conversion of depths in 0..1.
     depth_code(ChannelEncoding, f32) -> u32;
     /// The depth comparison of codes, incoming first.
     depth_passes(CompareFunction, u32, u32) -> bool;
-    /// Whether colour and depth are written, of whether a texel is covered and passes the stencil
-    /// and the depth test.
+    /// Returns which of colour and depth are written, given whether a texel is covered, passes the
+    /// stencil test and passes the depth test.
     written([bool; 3]) -> [bool; 2];
     /// Blending.
     blending(&BlendState, [ChannelEncoding; 4], &BlendInput<[f32; 1]>) -> [f32; 4];
@@ -53,52 +53,52 @@ hooks! {
     color_code(ChannelEncoding, f32) -> u32;
     /// The conversion of clear values, colour and depth.
     clear_code(ChannelEncoding, f32) -> u32;
-    /// The conversion of stored colours to what is blended.
+    /// The conversion of stored colours to blend operands.
     color_value(ChannelEncoding, u32) -> f32;
-    /// The alpha that is blended with where the format has none.
+    /// The destination alpha of formats without alpha.
     missing_alpha(&BlendState) -> f32;
     /// The second source after alpha to one.
     second_source(&Multisample, [f32; 4]) -> [f32; 4];
-    /// Logic operations, of whether the attachment takes any, and the codes of source and
+    /// Logic operations, given whether they apply to the attachment, and the codes of source and
     /// destination.
     logic(bool, ChannelEncoding, LogicOperation, u32, u32) -> u32;
-    /// The least step of a depth bias, of the largest depth of a primitive.
+    /// The least step of a depth bias, given the largest depth of a primitive.
     bias_unit(ChannelEncoding, f64) -> f64;
-    /// The depth bias, of the least step and the slope.
+    /// The depth bias, given the least step and the slope.
     bias(&DepthBias, f64, f64) -> f64;
-    /// Whether points and lines are biased.
+    /// True if points and lines are biased.
     biases_lines() -> bool;
-    /// Whether points and lines face front.
+    /// True if points and lines face front.
     lines_face_front() -> bool;
-    /// How a depth is held to the viewport's range.
+    /// The clamping of a depth to the viewport's range.
     held_to_range(f32, [f32; 2]) -> f32;
-    /// The depth bounds test, of the bounds, the stored and the incoming depth.
+    /// The depth bounds test, given the bounds, the stored and the incoming depth.
     in_bounds([f32; 2], f32, f32) -> bool;
-    /// Whether fragments outside the depth bounds count as failing the depth test.
+    /// True if fragments outside the depth bounds count as failing the depth test.
     bounds_fail_as_depth() -> bool;
     /// The positions of samples, in 1/256 texel.
     sample_positions(Vec<[u16; 2]>) -> Vec<[u16; 2]>;
-    /// Whether a fragment's alpha draws a sample, of its number and how many there are.
+    /// True if a fragment's alpha covers a sample, given its index and the number of samples.
     alpha_covers(f32, usize, usize) -> bool;
-    /// Whether a shader runs once per sample.
+    /// True if a shader runs once per sample.
     runs_per_sample(Shader) -> bool;
-    /// Whose stored value a sample's test or blend sees.
+    /// The sample whose stored value a sample's test or blend reads.
     stored_sample(Aspect, usize) -> usize;
-    /// At whose position, of so many samples, a sample's depth is taken.
+    /// The sample at whose position a sample's depth is taken, given the number of samples.
     depth_sample(usize, usize) -> usize;
-    /// Whether a shader that may discard keeps a fragment, of the value and its limit.
+    /// True if a shader keeps a fragment, given the value and its limit.
     kept(f32, f32) -> bool;
     /// A channel of a resolved texel.
     resolve(ChannelEncoding, &[u32]) -> u32;
 }
 
-/// The code that a value is rightly stored as.
+/// Returns the correct code of a value.
 pub(super) fn code(encoding: ChannelEncoding, value: f32) -> u32 {
     let [code] = Plain::<1>.encode(encoding, [value]);
     code
 }
 
-/// Blending as it should be.
+/// Returns the correct result of blending.
 pub(super) fn faithful_blend(
     state: &BlendState,
     encodings: [ChannelEncoding; 4],

@@ -1,7 +1,7 @@
-//! Bugs that leave every frame legal by itself and make it differ from another one.
+//! Bugs that leave each frame legal and make it differ from another one.
 
+use super::list::{List, SMALL};
 use super::plant::{Plant, nudge};
-use super::{List, SMALL};
 use etalon_frame::{Aspect, Frame};
 use etalon_scene::{Contents, Draw, Scene};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -36,7 +36,7 @@ pub(super) fn add(list: &mut List) {
     list.add(
         "contents-move-values",
         SMALL,
-        "Over a ground that is not black, values are one step off.",
+        "Over a background that is not black, values are one step off.",
         frame(|scene| {
             let black = |c: &Contents| !matches!(c, Contents::Color(v) if *v != [0.0; 4]);
             !scene.attachments.iter().all(|a| black(&a.contents))
@@ -85,7 +85,7 @@ fn draws(scene: &Scene) -> impl Iterator<Item = &Draw> {
     scene.passes.iter().flat_map(|pass| &pass.draws)
 }
 
-/// Takes all colours and depths that lie between the ends one step up, when asked to.
+/// Raises all colours and depths between the ends by one step, if asked to.
 fn frame(when: impl Fn(&Scene) -> bool + Send + Sync + 'static) -> Plant {
     Plant::Frame(Box::new(move |scene, frame| {
         if !when(scene) {

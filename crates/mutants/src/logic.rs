@@ -1,8 +1,9 @@
 //! Bugs of logic operations.
 
 use super::hooks::{code, logic};
+use super::list::{CONFUSION, List, Row};
 use super::plant::{Plant, draws};
-use super::{CONFUSION, List, Row, tables};
+use super::tables;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::logic_operation;
 use etalon_scene::LogicOperation;
@@ -13,7 +14,7 @@ pub(super) fn add(list: &mut List) {
         list.add(
             &format!("{}-as-{}", right.name(), wrong.name()),
             CONFUSION,
-            format!("{} is done as {}.", right.name(), wrong.name()),
+            format!("{} acts as {}.", right.name(), wrong.name()),
             draws(move |draw| {
                 if draw.logic == Some(right) {
                     draw.logic = Some(wrong);
@@ -118,7 +119,7 @@ pub(super) fn add(list: &mut List) {
     list.rows("logic operations on too few bits", plant, &rows[4..]);
 }
 
-/// What the operation rightly leaves.
+/// Returns the correct result of an operation.
 fn right(obeys: bool, encoding: ChannelEncoding, operation: LogicOperation, s: u32, d: u32) -> u32 {
     if obeys {
         logic_operation(encoding, operation, s, d)
@@ -127,7 +128,7 @@ fn right(obeys: bool, encoding: ChannelEncoding, operation: LogicOperation, s: u
     }
 }
 
-/// The operation on so many bits.
+/// Returns the result of an operation on a number of bits.
 fn bits(bits: u8, operation: LogicOperation, s: u32, d: u32) -> u32 {
     logic_operation(ChannelEncoding::Unorm(bits), operation, s, d)
 }

@@ -1,7 +1,7 @@
 //! Bugs of the colour write mask.
 
+use super::list::{CONFUSION, List};
 use super::plant::{Plant, draws};
-use super::{CONFUSION, List};
 
 fn masks(bug: impl Fn(u8) -> u8 + Send + Sync + 'static) -> Plant {
     draws(move |draw| {
@@ -43,7 +43,7 @@ pub(super) fn add(list: &mut List) {
     list.add(
         "zero-still-writes",
         "SwiftShader: write mask 0 still writing",
-        "A write mask of nothing writes all channels.",
+        "A write mask of 0 writes all channels.",
         masks(|mask| if mask == 0 { 0xf } else { mask }),
     );
     list.add(

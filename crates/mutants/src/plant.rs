@@ -1,4 +1,4 @@
-//! The ways to plant a bug.
+//! Planting a bug: in the scene, in a step, or in the frame.
 
 use super::hooks::Hooks;
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, TextureFormat};
@@ -11,13 +11,13 @@ type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
 
 /// A planted bug.
 pub(super) enum Plant {
-    /// The driver believes that it was asked for another scene.
+    /// The driver draws another scene.
     Scene(Box<SceneBug>),
-    /// The same, with something left over from the scene before.
+    /// The driver draws another scene, with state of the previous one.
     Sticky(Box<StickyBug>),
-    /// A step of the arithmetic is another one.
+    /// A step of the rasterizer is replaced.
     Steps(Box<Hooks>),
-    /// Something else than what was drawn comes back.
+    /// The frame is changed when it is read back.
     Frame(Box<FrameBug>),
 }
 
@@ -29,6 +29,12 @@ impl fmt::Debug for Plant {
             Self::Steps(_) => "Steps",
             Self::Frame(_) => "Frame",
         })
+    }
+}
+
+impl From<Hooks> for Plant {
+    fn from(hooks: Hooks) -> Self {
+        Self::Steps(Box::new(hooks))
     }
 }
 
@@ -45,6 +51,16 @@ pub(super) fn draws(bug: impl Fn(&mut Draw) + Send + Sync + 'static) -> Plant {
             .iter_mut()
             .flat_map(|p| &mut p.draws)
             .for_each(&bug);
+    })
+}
+
+/// Changes draws, given the size of the attachments.
+pub(super) fn sized(bug: impl Fn(&mut Draw, [u32; 2]) + Send + Sync + 'static) -> Plant {
+    scene(move |scene| {
+        for at in 0..scene.passes.len() {
+            let size = scene.pass_size(&scene.passes[at]);
+            scene.passes[at].draws.iter_mut().for_each(|d| bug(d, size));
+        }
     })
 }
 
@@ -74,7 +90,7 @@ pub(super) fn alpha_blend(bug: impl Fn(&mut BlendComponent) + Send + Sync + 'sta
     })
 }
 
-/// The first draw of a scene sees the last draw of the scene before.
+/// Changes the first draw of a scene, given the last draw of the previous scene.
 pub(super) fn from_case(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) -> Plant {
     Plant::Sticky(Box::new(move |before, scene| {
         let last = before.passes.iter().flat_map(|p| &p.draws).next_back();
@@ -85,7 +101,7 @@ pub(super) fn from_case(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) 
     }))
 }
 
-/// Every draw but the first sees the one before it, as it was asked for.
+/// Changes every draw but the first, given the unchanged draw before it.
 pub(super) fn from_draw(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) -> Plant {
     scene(move |scene| {
         let mut before: Option<Draw> = None;
@@ -143,13 +159,13 @@ pub(super) fn moved(
     })
 }
 
-/// Adds steps to a code, held at the ends of its encoding.
+/// Returns a code moved by a number of steps, clamped to its encoding.
 pub(super) fn nudge(encoding: ChannelEncoding, code: u32, steps: i64) -> u32 {
     let order = encoding.order_of_code(code) + steps;
     encoding.code_of_order(order.clamp(encoding.min_order(), encoding.max_order()))
 }
 
-/// A value kept in so many bits, as a normalized integer.
+/// Returns a value rounded to a normalized integer of `bits` bits.
 pub(super) fn in_bits(value: f32, bits: u32) -> f32 {
     let most = ((1_u64 << bits) - 1) as f32;
     (value * most).round() / most

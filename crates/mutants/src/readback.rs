@@ -1,7 +1,7 @@
-//! Bugs of what comes back.
+//! Bugs of read-back.
 
+use super::list::{CONFUSION, List, Row, SMALL};
 use super::plant::{Plant, images, moved, nudge};
-use super::{CONFUSION, List, Row, SMALL};
 use etalon_frame::{Aspect, ChannelEncoding, Image};
 
 const ASPECTS: [(Aspect, &str); 3] = [
@@ -10,7 +10,7 @@ const ASPECTS: [(Aspect, &str); 3] = [
     (Aspect::Stencil, "stencil"),
 ];
 
-/// A code so many steps further; depths stay above 0, since no depth is negative.
+/// Returns a code moved by a number of steps; depths stay above 0, since no depth is negative.
 fn held(aspect: Aspect, encoding: ChannelEncoding, code: u32, steps: i64) -> u32 {
     let moved = nudge(encoding, code, steps);
     if aspect == Aspect::Depth && encoding.order_of_code(moved) < 0 {
@@ -20,7 +20,7 @@ fn held(aspect: Aspect, encoding: ChannelEncoding, code: u32, steps: i64) -> u32
     }
 }
 
-/// Moves one channel of every texel by so many codes.
+/// Moves one channel of every texel by a number of codes.
 fn channel(aspect: Aspect, channel: usize, steps: i64) -> Plant {
     images(aspect, move |image| {
         let n = image.channels.len();
@@ -33,7 +33,7 @@ fn channel(aspect: Aspect, channel: usize, steps: i64) -> Plant {
     })
 }
 
-/// Moves the first channel of one texel by so many codes, inwards from an end of its range.
+/// Moves the first channel of one texel by a number of codes, inwards from an end of its range.
 fn one_texel(
     aspect: Aspect,
     steps: i64,
@@ -99,7 +99,7 @@ pub(super) fn add(list: &mut List) {
         list.add(
             name,
             CONFUSION,
-            format!("Every alpha comes back as {alpha}."),
+            format!("Every alpha is read back as {alpha}."),
             images(Aspect::Color, move |image| {
                 if let Some(encoding) = image.channels.get(3) {
                     let code = encoding.nearest_code(alpha);
@@ -112,13 +112,13 @@ pub(super) fn add(list: &mut List) {
     list.add(
         "stencil-zero",
         CONFUSION,
-        "Stencil comes back as 0.",
+        "Stencil is read back as 0.",
         images(Aspect::Stencil, |image| image.codes.fill(0)),
     );
     list.add(
         "stencil-highest-bit-lost",
         SMALL,
-        "Stencil comes back without its highest bit.",
+        "Stencil is read back without its highest bit.",
         images(Aspect::Stencil, |image| {
             image.codes.iter_mut().for_each(|c| *c &= 0x7f);
         }),
@@ -126,14 +126,14 @@ pub(super) fn add(list: &mut List) {
     list.add(
         "stencil-lowest-bit-lost",
         SMALL,
-        "Stencil comes back without its lowest bit.",
+        "Stencil is read back without its lowest bit.",
         images(Aspect::Stencil, |image| {
             image.codes.iter_mut().for_each(|c| *c &= 0xfe);
         }),
     );
 }
 
-/// Changes how the samples of every texel stand: `from(sample, samples)` gives whose codes one gets.
+/// Permutes the samples of every texel: each gets the codes of sample `from(sample, samples)`.
 fn samples(aspect: Aspect, from: fn(usize, usize) -> usize) -> Plant {
     images(aspect, move |image| {
         let (n, samples) = (image.channels.len(), image.samples as usize);
@@ -147,7 +147,7 @@ fn samples(aspect: Aspect, from: fn(usize, usize) -> usize) -> Plant {
     })
 }
 
-/// Moves the texels of one sample: `from([x, y], size)` gives whose codes they get.
+/// Moves the texels of one sample: each gets the codes of texel `from([x, y], size)`.
 fn plane(aspect: Aspect, which: fn(u32) -> u32, from: fn([u32; 2], [u32; 2]) -> [u32; 2]) -> Plant {
     images(aspect, move |image| {
         let original = image.clone();
@@ -197,7 +197,7 @@ fn multisampled(list: &mut List, aspect: Aspect) {
         list.add(
             &format!("{name}-{bug}"),
             "a sample index that is off",
-            format!("The {name} image comes back {about}."),
+            format!("The {name} image is read back {about}."),
             samples(aspect, from),
         );
     }
@@ -231,7 +231,7 @@ fn multisampled(list: &mut List, aspect: Aspect) {
         list.add(
             &format!("{name}-{bug}"),
             SMALL,
-            format!("One sample of the {name} image comes back {about}."),
+            format!("One sample of the {name} image is read back {about}."),
             plane(aspect, which, from),
         );
     }
@@ -290,7 +290,7 @@ fn places(list: &mut List, aspect: Aspect) {
                 "upside-down" => "ANGLE: y flip breaking depth and stencil",
                 _ => "a shift of one texel, which dEQP's groups do not see in depth and stencil",
             },
-            format!("The {name} image comes back {about}."),
+            format!("The {name} image is read back {about}."),
             moved(aspect, from),
         );
     }

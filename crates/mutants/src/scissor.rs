@@ -1,7 +1,7 @@
-//! Bugs of scissor rectangles and viewports.
+//! Bugs of scissor rectangles.
 
-use super::plant::{Plant, draws, scene};
-use super::{CONFUSION, List, Row, SMALL};
+use super::list::{CONFUSION, List, Row, SMALL};
+use super::plant::{Plant, scene, sized};
 use etalon_scene::{
     CompareFunction, Contents, DepthState, Draw, Pass, Scene, StencilFace, StencilOperation,
 };
@@ -11,23 +11,11 @@ pub(super) fn add(list: &mut List) {
     rects(list);
     kinds(list);
     clears(list);
-    list.class("viewport", "scissor");
-    viewports(list);
 }
 
 /// Changes scissor rectangles, given the size of the attachments.
 fn scissors(bug: fn([u32; 4], [u32; 2]) -> Option<[u32; 4]>) -> Plant {
     sized(move |draw, size| draw.scissor = draw.scissor.and_then(|rect| bug(rect, size)))
-}
-
-/// Changes draws, given the size of the attachments.
-fn sized(bug: impl Fn(&mut Draw, [u32; 2]) + Send + Sync + 'static) -> Plant {
-    scene(move |scene| {
-        for at in 0..scene.passes.len() {
-            let size = scene.pass_size(&scene.passes[at]);
-            scene.passes[at].draws.iter_mut().for_each(|d| bug(d, size));
-        }
-    })
 }
 
 fn rects(list: &mut List) {
@@ -79,7 +67,7 @@ fn rects(list: &mut List) {
         ("ignored", "There is no scissor test.", |_, _| None),
         (
             "empty-as-all",
-            "An empty rectangle is taken for none.",
+            "An empty rectangle counts as no scissor test.",
             |rect, _| (rect[2] > 0 && rect[3] > 0).then_some(rect),
         ),
         (
@@ -104,7 +92,7 @@ fn rects(list: &mut List) {
         ),
         (
             "size-as-end",
-            "Width and height are taken for the last column and row.",
+            "Width and height are read as the last column and row.",
             |r, _| {
                 let [x, y, w, h] = r;
                 Some([x, y, w.saturating_sub(x), h.saturating_sub(y)])
@@ -117,7 +105,7 @@ fn rects(list: &mut List) {
         ),
         (
             "lost-when-partly-outside",
-            "Rectangles that reach outside are taken for none.",
+            "Rectangles that reach outside count as no scissor test.",
             |r, s| {
                 let [x, y, w, h] = r;
                 (x + w <= s[0] && y + h <= s[1]).then_some(r)
@@ -158,7 +146,7 @@ fn around([x, y, w, h]: [u32; 4], size: [u32; 2]) -> Vec<[u32; 4]> {
     ]
 }
 
-/// Lets no colour through.
+/// Masks all colours.
 fn without_color(draw: &mut Draw) {
     draw.targets.iter_mut().for_each(|t| t.write_mask = 0);
 }
@@ -177,7 +165,7 @@ fn without_stencil(draw: &mut Draw) {
 }
 
 /// The scissor test is not done for one kind of attachment: the draw is repeated around the
-/// rectangle with the other two kinds kept from writing.
+/// rectangle with the writes of the other two kinds masked.
 fn kinds(list: &mut List) {
     type Others = [fn(&mut Draw); 2];
     fn beyond(others: Others) -> Plant {
@@ -220,7 +208,7 @@ fn kinds(list: &mut List) {
     list.rows(CONFUSION, beyond, &rows);
 }
 
-/// The first draw's scissor rectangle holds back the clears before it: outside it, attachments
+/// The first draw's scissor rectangle applies to the clears before it: outside of it, attachments
 /// start from 0.
 fn clears(list: &mut List) {
     list.add(
@@ -306,141 +294,4 @@ fn filler(pass: &Pass, rect: [u32; 4]) -> Option<Draw> {
         write: true,
     });
     Some(draw)
-}
-
-fn viewports(list: &mut List) {
-    type Bug = fn([f32; 4], [f32; 2]) -> [f32; 4];
-    fn rects(bug: Bug) -> Plant {
-        sized(move |draw, size| {
-            draw.viewport.rect = bug(draw.viewport.rect, size.map(|s| s as f32));
-        })
-    }
-    let small: [Row<Bug>; 8] = [
-        (
-            "one-texel-right",
-            "Viewports lie one texel too far right.",
-            |[x, y, w, h], _| [x + 1.0, y, w, h],
-        ),
-        (
-            "one-texel-left",
-            "Viewports lie one texel too far left.",
-            |[x, y, w, h], _| [x - 1.0, y, w, h],
-        ),
-        (
-            "one-texel-down",
-            "Viewports lie one texel too far down.",
-            |[x, y, w, h], _| [x, y + 1.0, w, h],
-        ),
-        (
-            "one-texel-up",
-            "Viewports lie one texel too far up.",
-            |[x, y, w, h], _| [x, y - 1.0, w, h],
-        ),
-        (
-            "one-texel-wider",
-            "Viewports are one texel too wide.",
-            |[x, y, w, h], _| [x, y, w + 1.0, h],
-        ),
-        (
-            "one-texel-narrower",
-            "Viewports are one texel too narrow.",
-            |[x, y, w, h], _| [x, y, w - 1.0, h],
-        ),
-        (
-            "one-texel-higher",
-            "Viewports are one texel too high.",
-            |[x, y, w, h], _| [x, y, w, h + 1.0],
-        ),
-        (
-            "one-texel-lower",
-            "Viewports are one texel too low.",
-            |[x, y, w, h], _| [x, y, w, h - 1.0],
-        ),
-    ];
-    list.rows(SMALL, rects, &small);
-    let confused: [Row<Bug>; 7] = [
-        (
-            "ignored",
-            "Viewports are the whole attachment.",
-            |_, [w, h]| [0.0, 0.0, w, h],
-        ),
-        (
-            "counted-from-the-bottom",
-            "Viewports are counted from the bottom.",
-            |r, size| {
-                let [x, y, w, h] = r;
-                [x, size[1] - y - h, w, h]
-            },
-        ),
-        (
-            "counted-from-the-right",
-            "Viewports are counted from the right.",
-            |r, size| {
-                let [x, y, w, h] = r;
-                [size[0] - x - w, y, w, h]
-            },
-        ),
-        (
-            "transposed",
-            "Columns and rows are exchanged.",
-            |[x, y, w, h], _| [y, x, h, w],
-        ),
-        (
-            "from-the-origin",
-            "Viewports begin at the origin.",
-            |[_, _, w, h], _| [0.0, 0.0, w, h],
-        ),
-        (
-            "held-inside",
-            "Viewports are moved to begin inside.",
-            |[x, y, w, h], _| [x.max(0.0), y.max(0.0), w, h],
-        ),
-        (
-            "cut-to-the-attachment",
-            "Viewports are cut to the attachment.",
-            |r, size| {
-                let [x, y, w, h] = r;
-                let (left, top) = (x.max(0.0), y.max(0.0));
-                [
-                    left,
-                    top,
-                    (x + w).min(size[0]) - left,
-                    (y + h).min(size[1]) - top,
-                ]
-            },
-        ),
-    ];
-    list.rows(
-        "ANGLE: y flip, and other readings of a rectangle",
-        rects,
-        &confused,
-    );
-    list.add(
-        "not-clipping",
-        "a guard band without the clip behind it",
-        "Primitives are not clipped to the viewport.",
-        sized(|draw, size| {
-            let [x, y, w, h] = draw.viewport.rect;
-            let [all_w, all_h] = size.map(|s| s as f32);
-            draw.viewport.rect = [0.0, 0.0, all_w, all_h];
-            for vertex in &mut draw.mesh.vertices {
-                let p = &mut vertex.position;
-                let across = (p[0] / p[3] + 1.0) * w / 2.0 + x;
-                let down = (1.0 - p[1] / p[3]) * h / 2.0 + y;
-                p[0] = (across * 2.0 / all_w - 1.0) * p[3];
-                p[1] = (1.0 - down * 2.0 / all_h) * p[3];
-            }
-        }),
-    );
-    list.add(
-        "as-scissor",
-        CONFUSION,
-        "The scissor rectangle is the viewport's.",
-        draws(|draw| {
-            if draw.scissor.is_some() {
-                let [x, y, w, h] = draw.viewport.rect.map(|v| v.max(0.0) as u32);
-                draw.scissor = Some([x, y, w, h]);
-            }
-        }),
-    );
 }

@@ -1,8 +1,9 @@
 //! Bugs of the stencil test and its updates.
 
 use super::hooks::{stencil_passes, stencil_write, written};
-use super::plant::{draws, faces, scene};
-use super::{CONFUSION, List, tables};
+use super::list::{CONFUSION, List};
+use super::plant::{Plant, draws, faces, scene};
+use super::tables;
 use etalon_cpu::steps::Path;
 use etalon_frame::TextureFormat;
 use etalon_pipeline::{compare, stencil_operation, stencil_passes as passes};
@@ -15,7 +16,7 @@ pub(super) fn add(list: &mut List) {
             &format!("compare-{}-as-{}", right.name(), wrong.name()),
             CONFUSION,
             format!(
-                "The stencil test {} is done as {}.",
+                "The stencil test {} acts as {}.",
                 right.name(),
                 wrong.name()
             ),
@@ -38,7 +39,7 @@ pub(super) fn add(list: &mut List) {
                 &format!("{path}-{}-as-{}", right.name(), wrong.name()),
                 CONFUSION,
                 format!(
-                    "The {path} operation {} is done as {}.",
+                    "The {path} operation {} acts as {}.",
                     right.name(),
                     wrong.name()
                 ),
@@ -94,7 +95,7 @@ pub(super) fn add(list: &mut List) {
     switches(list);
 }
 
-fn stencils(bug: impl Fn(&mut StencilState) + Send + Sync + 'static) -> super::Plant {
+fn stencils(bug: impl Fn(&mut StencilState) + Send + Sync + 'static) -> Plant {
     draws(move |draw| {
         if let Some(stencil) = &mut draw.stencil {
             bug(stencil);
@@ -106,7 +107,7 @@ fn sides(list: &mut List) {
     list.add(
         "faces-swapped",
         CONFUSION,
-        "Front faces take the back's state and the other way round.",
+        "The states of front and back faces are exchanged.",
         stencils(|s| std::mem::swap(&mut s.front, &mut s.back)),
     );
     list.add(
@@ -153,7 +154,7 @@ fn masks(list: &mut List) {
     list.add(
         "read-mask-ignored",
         CONFUSION,
-        "The read mask is taken for all ones.",
+        "The read mask counts as all ones.",
         faces(|face| face.read_mask = 0xff),
     );
     list.add(
@@ -201,7 +202,7 @@ fn masks(list: &mut List) {
     list.add(
         "write-mask-zero-still-writes",
         "SwiftShader: write mask 0 still writing",
-        "A write mask of 0 is taken for all ones.",
+        "A write mask of 0 counts as all ones.",
         faces(|face| {
             if face.write_mask == 0 {
                 face.write_mask = 0xff;

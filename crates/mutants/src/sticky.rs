@@ -1,12 +1,12 @@
-//! State that sticks: from the case before, and from the draw before.
+//! State that persists: of the previous case, and of the previous draw.
 
-use super::plant::{from_case, from_draw};
-use super::{List, Plant};
+use super::list::List;
+use super::plant::{Plant, from_case, from_draw};
 use etalon_scene::{DepthBias, Draw};
 
 type Leftover = fn(&Draw, &mut Draw);
 
-/// What sticks, the area that must see it, and how a draw takes it from the one before.
+/// The state that persists, the area that must catch it, and the copy from the previous draw.
 const LEFTOVERS: [(&str, &str, Leftover); 32] = [
     ("depth-test", "depth", |before, draw| {
         draw.depth = before.depth
@@ -145,8 +145,8 @@ pub(super) fn add(list: &mut List) {
             list.class("sticky", area);
             list.add(
                 &format!("{what}-from-the-{kind}-before"),
-                "lavapipe, ANGLE: state that sticks",
-                format!("The {what} of the {kind} before stays in force."),
+                "lavapipe, ANGLE: stale state",
+                format!("The {what} of the previous {kind} persists."),
                 plant(take),
             );
         }

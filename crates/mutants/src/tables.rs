@@ -1,10 +1,10 @@
-//! Which states are neighbours: those that a slip in a table would confuse.
+//! Neighbours of states: those that a mistake in a table would exchange.
 
 use etalon_scene::{
     BlendFactor, BlendOperation, CompareFunction, LogicOperation, StencilOperation,
 };
 
-/// Functions that differ in one of the three outcomes below, equal and above.
+/// Returns functions that differ in one of the three outcomes below, equal and above.
 pub(super) fn compare_neighbours() -> Vec<(CompareFunction, CompareFunction)> {
     use CompareFunction as F;
     // Bit 0: true when below, bit 1: when equal, bit 2: when above. This is the order in which the
@@ -28,7 +28,7 @@ pub(super) fn compare_neighbours() -> Vec<(CompareFunction, CompareFunction)> {
     pairs
 }
 
-/// Values and those declared before and after them, round the end.
+/// Returns values and those declared before and after them, cyclically.
 fn round<T: Copy>(all: &[T]) -> Vec<(T, T)> {
     let n = all.len();
     (0..n)
@@ -36,17 +36,17 @@ fn round<T: Copy>(all: &[T]) -> Vec<(T, T)> {
         .collect()
 }
 
-/// Operations and those declared before and after them, round the end.
+/// Returns operations and those declared before and after them, cyclically.
 pub(super) fn stencil_neighbours() -> Vec<(StencilOperation, StencilOperation)> {
     round(StencilOperation::ALL)
 }
 
-/// Operations and those declared before and after them, round the end.
+/// Returns operations and those declared before and after them, cyclically.
 pub(super) fn operation_neighbours() -> Vec<(BlendOperation, BlendOperation)> {
     round(BlendOperation::ALL)
 }
 
-/// Operations and those declared before and after them, round the end; and those that differ in
+/// Returns operations and those declared before and after them, cyclically; and those that differ in
 /// which of source and destination is inverted.
 pub(super) fn logic_neighbours() -> Vec<(LogicOperation, LogicOperation)> {
     use LogicOperation as L;
@@ -62,8 +62,8 @@ pub(super) fn logic_neighbours() -> Vec<(LogicOperation, LogicOperation)> {
     pairs
 }
 
-/// Factors of the second source and those that differ in one thing: complement, channel or alpha,
-/// which source.
+/// Returns factors of the second source and those that differ in one thing: complement, channel or
+/// alpha, which source.
 pub(super) fn second_source_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
     use BlendFactor as F;
     let first = [F::Src, F::OneMinusSrc, F::SrcAlpha, F::OneMinusSrcAlpha];
@@ -73,7 +73,7 @@ pub(super) fn second_source_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
         .collect()
 }
 
-/// Factors and those that differ in one thing: complement, channel or alpha, whose value.
+/// Returns factors and those that differ in one thing: complement, channel or alpha, whose value.
 pub(super) fn factor_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
     use BlendFactor as F;
     // Rows: whose value. Columns: channel or alpha, each with its complement.
@@ -105,7 +105,7 @@ pub(super) fn factor_neighbours() -> Vec<(BlendFactor, BlendFactor)> {
     pairs
 }
 
-/// Whether two factors mean the same in the equation of alpha.
+/// True if two factors are equal in the alpha equation.
 pub(super) fn same_for_alpha(a: BlendFactor, b: BlendFactor) -> bool {
     use BlendFactor as F;
     let meaning = |factor| match factor {

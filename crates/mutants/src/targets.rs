@@ -1,17 +1,13 @@
-//! Bugs of several attachments in one pass, and of the second source.
+//! Bugs of several attachments in one pass.
 
-use super::hooks::{blending, faithful_blend};
-use super::plant::{Plant, alpha_blend, color_blend, draws, scene};
-use super::{CONFUSION, List, Row, tables};
-use etalon_pipeline::BlendInput;
+use super::list::{List, Row};
+use super::plant::{Plant, draws, scene};
 use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget};
 
 pub(super) fn add(list: &mut List) {
     list.class("targets", "blend");
     independent(list);
     mixed_alpha(list);
-    list.class("dual-source", "blend");
-    second_sources(list);
 }
 
 /// Changes the targets of draws to several attachments.
@@ -77,7 +73,7 @@ fn independent(list: &mut List) {
         ),
         (
             "write-masks-joined",
-            "A channel is written to all that is written to any.",
+            "A channel written to one attachment is written to all.",
             |t| {
                 let mask = t.iter().fold(0, |mask, t| mask | t.write_mask);
                 t.iter_mut().for_each(|t| t.write_mask = mask);
@@ -132,7 +128,7 @@ fn independent(list: &mut List) {
     list.add(
         "enables-inverted",
         "wgpu: per-target enable arguments flipped",
-        "Where some are blended and others are not, it is the other way round.",
+        "Where some attachments are blended and others are not, the two are exchanged.",
         draws(move |draw| {
             let on = draw.targets.iter().filter(|t| t.blend.is_some()).count();
             if on > 0 && on < draw.targets.len() {
@@ -148,7 +144,7 @@ fn independent(list: &mut List) {
     );
 }
 
-/// What a destination alpha of 1 makes of a factor.
+/// Returns the equivalent of a factor for a destination alpha of 1.
 fn with_alpha_one(factor: &mut BlendFactor) {
     *factor = match *factor {
         BlendFactor::DstAlpha => BlendFactor::One,
@@ -179,76 +175,4 @@ fn mixed_alpha(list: &mut List) {
             }
         }),
     );
-}
-
-fn second_sources(list: &mut List) {
-    for (right, wrong) in tables::second_source_neighbours() {
-        let swap = move |component: &mut BlendComponent| {
-            for factor in [&mut component.src_factor, &mut component.dst_factor] {
-                if *factor == right {
-                    *factor = wrong;
-                }
-            }
-        };
-        let (is, was) = (wrong.name(), right.name());
-        list.add(
-            &format!("color-factor-{was}-as-{is}"),
-            CONFUSION,
-            format!("For colour, factor {was} is done as {is}."),
-            color_blend(swap),
-        );
-        if !tables::same_for_alpha(right, wrong) {
-            list.add(
-                &format!("alpha-factor-{was}-as-{is}"),
-                CONFUSION,
-                format!("For alpha, factor {was} is done as {is}."),
-                alpha_blend(swap),
-            );
-        }
-    }
-    type Bug = fn(&mut BlendInput<[f32; 1]>);
-    let rows: [Row<Bug>; 7] = [
-        (
-            "second-is-the-first",
-            "The first source stands for both.",
-            |i| {
-                i.src1 = i.src;
-            },
-        ),
-        (
-            "first-is-the-second",
-            "The second source stands for both.",
-            |i| {
-                i.src = i.src1;
-            },
-        ),
-        ("exchanged", "The two sources are exchanged.", |i| {
-            std::mem::swap(&mut i.src, &mut i.src1);
-        }),
-        ("zero", "The second source is 0.", |i| i.src1 = [[0.0]; 4]),
-        ("alpha-zero", "The second source's alpha is 0.", |i| {
-            i.src1[3] = [0.0];
-        }),
-        ("alpha-one", "The second source's alpha is 1.", |i| {
-            i.src1[3] = [1.0];
-        }),
-        (
-            "alpha-from-the-first",
-            "The second source has the first's alpha.",
-            |i| {
-                i.src1[3] = i.src[3];
-            },
-        ),
-    ];
-    fn sources(bug: Bug) -> Plant {
-        blending(move |state, encodings, input| {
-            let factors = [state.color, state.alpha].map(|c| [c.src_factor, c.dst_factor]);
-            let mut changed = *input;
-            if factors.as_flattened().iter().any(|f| f.is_second_source()) {
-                bug(&mut changed);
-            }
-            faithful_blend(state, encodings, &changed)
-        })
-    }
-    list.rows("a second source lost on its way", sources, &rows);
 }

@@ -1,7 +1,7 @@
 //! Bugs of textures that shaders sample.
 
+use super::list::{CONFUSION, List, SMALL};
 use super::plant::{Plant, draws, scene};
-use super::{CONFUSION, List};
 use etalon_scene::{AddressMode, Contents, FilterMode};
 
 pub(super) fn add(list: &mut List) {
@@ -75,7 +75,7 @@ pub(super) fn add(list: &mut List) {
     );
     list.add(
         "red-and-blue-exchanged",
-        "formats taken for each other",
+        "formats mistaken for each other",
         "Red and blue of sampled textures are exchanged.",
         texels(|texel| {
             if texel.len() > 2 {
@@ -107,7 +107,7 @@ pub(super) fn add(list: &mut List) {
     );
     list.add(
         "one-texel-wrong",
-        super::SMALL,
+        SMALL,
         "The first texel of sampled textures is another.",
         scene(|scene| {
             for texture in sampled(scene) {

@@ -1,8 +1,8 @@
 //! Bugs of topologies, polygon modes and rasterizer discard.
 
 use super::hooks::lines_face_front;
+use super::list::{CONFUSION, List, Row};
 use super::plant::draws;
-use super::{CONFUSION, List, Row};
 use etalon_scene::{CullMode, Draw, PolygonMode, PrimitiveTopology, RESTART};
 
 pub(super) fn add(list: &mut List) {
@@ -42,7 +42,7 @@ pub(super) fn add(list: &mut List) {
         ),
         (
             "restart-as-first-vertex",
-            "A restart is taken for the first vertex.",
+            "A restart counts as the first vertex.",
             |draw| {
                 for index in draw.mesh.indices.iter_mut().flatten() {
                     if *index == RESTART {
@@ -53,7 +53,7 @@ pub(super) fn add(list: &mut List) {
         ),
         (
             "restart-ends-the-draw",
-            "Nothing is drawn behind a restart.",
+            "Nothing is drawn after a restart.",
             |draw| {
                 if let Some(indices) = &mut draw.mesh.indices {
                     let end = indices.iter().position(|i| *i == RESTART);
@@ -103,7 +103,7 @@ pub(super) fn add(list: &mut List) {
         }),
         (
             "lines-culled",
-            "Culling both faces takes lines away.",
+            "Culling both faces removes lines.",
             |draw| {
                 if draw.cull == CullMode::FrontAndBack && draw.topology == T::LineList {
                     draw.rasterizer_discard = true;
@@ -112,7 +112,7 @@ pub(super) fn add(list: &mut List) {
         ),
         (
             "points-culled",
-            "Culling both faces takes points away.",
+            "Culling both faces removes points.",
             |draw| {
                 if draw.cull == CullMode::FrontAndBack && draw.topology == T::PointList {
                     draw.rasterizer_discard = true;
@@ -129,14 +129,14 @@ pub(super) fn add(list: &mut List) {
         }),
         (
             "discard-ignored",
-            "Rasterization cannot be switched off.",
+            "Rasterizer discard is ignored.",
             |draw| {
                 draw.rasterizer_discard = false;
             },
         ),
         (
             "all-discarded-with-both-culled",
-            "Culling both faces is no rasterization.",
+            "Culling both faces acts as rasterizer discard.",
             |draw| {
                 draw.rasterizer_discard |= draw.cull == CullMode::FrontAndBack;
             },
@@ -152,7 +152,7 @@ pub(super) fn add(list: &mut List) {
     list.add(
         "discarded-still-writes-depth-and-stencil",
         CONFUSION,
-        "Rasterization that is switched off still changes depth and stencil.",
+        "Rasterizer discard still changes depth and stencil.",
         draws(|draw| {
             if std::mem::take(&mut draw.rasterizer_discard) {
                 draw.targets.iter_mut().for_each(|t| t.write_mask = 0);

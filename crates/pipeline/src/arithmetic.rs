@@ -1,17 +1,17 @@
-//! What a number system offers to the pipeline.
+//! The number system that the pipeline is generic over.
 
 use etalon_frame::ChannelEncoding;
 use etalon_scene::LogicOperation;
 
-/// A number system. Operations take `&mut self` so that a system may keep notes of what it did.
+/// A number system. Operations take `&mut self` so that a system may record what it did.
 ///
-/// The named steps exist because the specifications grant each its own freedom: a store may round
-/// to either neighbour, a blend may work at the destination's precision. [`crate::Plain`] takes
-/// the one result that the yardstick wants; the judging system takes all that are allowed.
+/// A step has a name where the specifications grant it freedom of its own: a store may round to
+/// either neighbour, a blend may work at the destination's precision. [`crate::Plain`] computes the
+/// one result that the yardstick expects; the judging system all that are allowed.
 pub trait Arithmetic {
-    /// One real value or several side by side.
+    /// One real value, or one per lane.
     type Real: Copy;
-    /// Codes of one channel, as the walker stores them.
+    /// Codes of one channel, as the caller stores them.
     type Code: Copy;
 
     /// A value that is exactly this float.
@@ -22,7 +22,7 @@ pub trait Arithmetic {
     fn sub(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
     /// Product.
     fn mul(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
-    /// Quotient; by zero it is infinite or no number.
+    /// Quotient; infinite or NaN for a divisor of zero.
     fn div(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
     /// The smaller of two.
     fn min(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
@@ -42,22 +42,22 @@ pub trait Arithmetic {
         otherwise: Self::Real,
     ) -> Self::Real;
 
-    /// A window coordinate computed by the viewport transform, in texels of an axis so long.
+    /// A window coordinate computed by the viewport transform, in texels of an axis of `length`.
     fn window_coordinate(&mut self, value: Self::Real, length: f32) -> Self::Real;
     /// A window depth computed by the viewport transform into a range of depths.
     fn window_depth(&mut self, value: Self::Real, range: [f32; 2]) -> Self::Real;
 
-    /// The value that a stored code stands for.
+    /// The value of a stored code.
     fn decode(&mut self, encoding: ChannelEncoding, code: Self::Code) -> Self::Real;
     /// The code that a value is stored as.
     fn encode(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Code;
 
-    /// A source, destination or constant as it enters a blend into this encoding: clamped to what
-    /// the encoding can hold, at the precision of blending.
+    /// A source, destination or constant as it enters a blend into this encoding: clamped to the
+    /// encoding's range, at the precision of blending.
     fn blend_operand(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
     /// A blend factor of the form `1 - value`.
     fn blend_complement(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
-    /// A factor as it is multiplied: clamped to what the encoding can hold.
+    /// A factor as it is multiplied: clamped to the encoding's range.
     fn blend_factor(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
     /// One side of a blend equation: operand times factor.
     fn blend_product(
@@ -66,7 +66,7 @@ pub trait Arithmetic {
         operand: Self::Real,
         factor: Self::Real,
     ) -> Self::Real;
-    /// The two sides of a blend equation joined: `a + b`, or `a - b`.
+    /// The result of a blend equation: `a + b`, or `a - b`.
     fn blend_sum(
         &mut self,
         encoding: ChannelEncoding,

@@ -4,7 +4,7 @@ use crate::arithmetic::Arithmetic;
 use etalon_frame::ChannelEncoding;
 use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState};
 
-/// What a blend works on. Channels in the order red, green, blue, alpha.
+/// The inputs of a blend. Channels in the order red, green, blue, alpha.
 #[derive(Clone, Copy, Debug)]
 pub struct BlendInput<R> {
     /// The fragment's colour.
@@ -17,15 +17,15 @@ pub struct BlendInput<R> {
     pub constant: [R; 4],
 }
 
-/// A factor before it is multiplied: the two that no arithmetic is needed for stay apart, since
-/// `0 * x = 0` and `1 * x = x` are exact for finite `x` in every specification.
+/// A factor before it is multiplied. Zero and one need no arithmetic: `0 * x = 0` and `1 * x = x` are
+/// exact for finite `x` in every specification.
 enum Factor<R> {
     Zero,
     One,
     Value(R),
 }
 
-/// Blends one colour. `encodings` are the destination's channels; all four must be given.
+/// Blends one colour. `encodings` are those of the destination's four channels.
 pub fn blend<A: Arithmetic>(
     a: &mut A,
     state: &BlendState,

@@ -24,7 +24,7 @@ pub fn signed_area(vertices: [Point; 3]) -> i64 {
     -edge_value(vertices[0], vertices[1], vertices[2])
 }
 
-/// Whether a sample on the edge from `p` to `q` belongs to the triangle that lies clockwise of it
+/// True if a sample on the edge from `p` to `q` belongs to the triangle that lies clockwise of it
 /// on the screen: the edge is a top or a left one (Direct3D 11.3 functional specification,
 /// 3.4.2.1).
 #[inline(always)]
@@ -32,7 +32,7 @@ pub fn is_top_left(p: Point, q: Point) -> bool {
     q.y < p.y || (q.y == p.y && q.x > p.x)
 }
 
-/// A triangle that has an inside, with its vertices in clockwise order on the screen.
+/// A triangle of positive area, with its vertices in clockwise order on the screen.
 #[derive(Clone, Copy, Debug)]
 pub struct SnappedTriangle {
     vertices: [Point; 3],
@@ -40,7 +40,7 @@ pub struct SnappedTriangle {
 }
 
 impl SnappedTriangle {
-    /// The triangle, or `None` when its area is zero.
+    /// Returns the triangle, or `None` if its area is zero.
     pub fn new(vertices: [Point; 3]) -> Option<Self> {
         let [a, b, c] = vertices;
         let vertices = match signed_area(vertices) {
@@ -55,13 +55,13 @@ impl SnappedTriangle {
         Some(Self { vertices, bias })
     }
 
-    /// The vertices, clockwise on the screen.
+    /// Returns the vertices, clockwise on the screen.
     pub fn vertices(&self) -> [Point; 3] {
         self.vertices
     }
 
-    /// Each edge's function at a point, and how it grows per unit to the right; a point is inside
-    /// when all three are at least zero (ties are already decided by the top-left rule).
+    /// Returns each edge function at a point and its growth per unit to the right. A point is inside
+    /// if all three are at least zero: the top-left rule has already decided ties.
     #[inline(always)]
     pub fn edges_at(&self, s: Point) -> [(i64, i64); 3] {
         std::array::from_fn(|i| {
@@ -70,7 +70,7 @@ impl SnappedTriangle {
         })
     }
 
-    /// Whether the sample at a point is covered.
+    /// True if the sample at a point is covered.
     pub fn covers(&self, s: Point) -> bool {
         self.edges_at(s).iter().all(|(value, _)| *value >= 0)
     }

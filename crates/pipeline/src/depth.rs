@@ -1,4 +1,4 @@
-//! Depth over a triangle, and what a bias adds to it.
+//! Depth over a triangle: its plane, and the slope that a depth bias scales.
 
 use crate::coverage::{Point, signed_area};
 
@@ -15,7 +15,7 @@ pub struct DepthPlane {
 }
 
 impl DepthPlane {
-    /// The plane through three vertices; flat where they span no area.
+    /// Returns the plane through three vertices; flat if they span no area.
     pub fn new(points: [Point; 3], z: [f64; 3]) -> Self {
         let [a, b, c] = points;
         // With y down the determinant is the negated signed area.
@@ -38,7 +38,7 @@ impl DepthPlane {
         }
     }
 
-    /// The depth at a point.
+    /// Returns the depth at a point.
     pub fn at(&self, point: Point) -> f64 {
         let dx = (point.x - self.origin.x) as f64 * self.dx;
         let dy = (point.y - self.origin.y) as f64 * self.dy;
@@ -46,8 +46,8 @@ impl DepthPlane {
     }
 }
 
-/// The steepest slope of a plane, from its growth per texel: the least and the greatest value that
-/// a specification lets it have, the larger of the two growths and their root of squares (Vulkan,
+/// Returns the maximum slope of a plane, from its growth per texel: the least and the greatest value
+/// that a specification allows, the larger of the two growths and the root of their squares (Vulkan,
 /// Depth Bias; OpenGL 4.6, 14.6.5).
 pub fn slope(dx: f64, dy: f64) -> (f64, f64) {
     (dx.abs().max(dy.abs()), dx.hypot(dy))

@@ -1,12 +1,11 @@
 //! The fragment pipeline's arithmetic, written once and generic over its number system.
 //!
-//! Two systems exist: [`Plain`], 32-bit floats in lanes, which the rasterizer computes with, and
-//! the judging intervals of the reference. Whoever walks over samples (tiles there, worlds here)
-//! calls the same functions, so that both mean the same pipeline; a property test in the reference
-//! holds that plain results lie inside judging ones.
+//! There are two number systems: [`Plain`], 32-bit floats in lanes, for the rasterizer, and the
+//! intervals of the judge. Both callers use the same functions, so that both mean the same pipeline;
+//! a property test in `reference` holds that plain results lie inside judging ones.
 //!
-//! What is exact in every specification, as stencil values, write masks and the edge functions of
-//! snapped vertices, is computed in integers and has no number system.
+//! Values that are exact in every specification (stencil values, write masks, the edge functions of
+//! snapped vertices) are computed in integers and have no number system.
 
 mod arithmetic;
 mod blend;

@@ -3,8 +3,8 @@
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::LogicOperation;
 
-/// Whether attachments of a format obey logic operations; those with floats or in sRGB take the
-/// source as it is, all channels of it.
+/// True if logic operations apply to attachments of a format. Where one channel is a float or sRGB,
+/// all channels take the source unchanged.
 pub fn takes_logic(format: TextureFormat) -> bool {
     format
         .color_channels()
@@ -12,7 +12,7 @@ pub fn takes_logic(format: TextureFormat) -> bool {
         .all(|e| !e.is_float() && *e != ChannelEncoding::Srgb8)
 }
 
-/// The code that an operation leaves. Float and sRGB encodings take the source as it is.
+/// Returns the code that an operation stores. Float and sRGB encodings take the source unchanged.
 #[inline(always)]
 pub fn logic_operation(
     encoding: ChannelEncoding,

@@ -1,4 +1,4 @@
-//! The plain number system: 32-bit floats, several side by side.
+//! The plain number system: 32-bit floats in lanes.
 
 use crate::arithmetic::Arithmetic;
 use crate::logic::logic_operation;
@@ -7,7 +7,7 @@ use etalon_scene::LogicOperation;
 use half::f16;
 use std::sync::LazyLock;
 
-/// `N` floats side by side. All loops run over all lanes without branching on values, so that the
+/// `N` floats, one per lane. Loops run over all lanes without branching on values, so that the
 /// compiler turns them into vector instructions.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Plain<const N: usize>;
@@ -17,7 +17,7 @@ static SRGB: LazyLock<[f32; 256]> = LazyLock::new(|| {
     std::array::from_fn(|c| ChannelEncoding::Srgb8.value_of_order(c as i64) as f32)
 });
 
-/// Lane by lane, in a plain loop: what the standard library builds arrays with is not always inlined here.
+/// Maps lane by lane in a loop: `std::array::from_fn` is not always inlined here.
 #[inline(always)]
 fn each<const N: usize, T: Copy, U: Copy + Default>(values: [T; N], f: impl Fn(T) -> U) -> [U; N] {
     let mut result = [U::default(); N];

@@ -1,8 +1,8 @@
-//! Which texel of a texture a coordinate means.
+//! Texture coordinates to texels: wrapping.
 
 use etalon_scene::AddressMode;
 
-/// The texel that stands at a position of an axis with `size` texels, inside or outside (Vulkan, Texel
+/// Returns the texel at a position of an axis with `size` texels, inside or outside (Vulkan, Texel
 /// Coordinate Wrapping; OpenGL 4.6, 8.14.2; WebGPU, GPUAddressMode).
 pub fn texel_position(mode: AddressMode, position: i64, size: u32) -> usize {
     let size = i64::from(size.max(1));

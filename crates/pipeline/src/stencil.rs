@@ -3,7 +3,7 @@
 
 use etalon_scene::{CompareFunction, StencilFace, StencilOperation};
 
-/// Whether `incoming` compares to `stored` as the function asks.
+/// Returns the result of comparing `incoming` with `stored`.
 #[inline(always)]
 pub fn compare<T: PartialOrd>(function: CompareFunction, incoming: T, stored: T) -> bool {
     match function {
@@ -18,7 +18,7 @@ pub fn compare<T: PartialOrd>(function: CompareFunction, incoming: T, stored: T)
     }
 }
 
-/// Whether a stored value passes the stencil test.
+/// True if a stored value passes the stencil test.
 #[inline(always)]
 pub fn stencil_passes(face: &StencilFace, stored: u8) -> bool {
     compare(
@@ -28,7 +28,7 @@ pub fn stencil_passes(face: &StencilFace, stored: u8) -> bool {
     )
 }
 
-/// A stored value after an operation, before the write mask.
+/// Returns a stored value after an operation, before the write mask.
 #[inline(always)]
 pub fn stencil_operation(operation: StencilOperation, stored: u8, reference: u8) -> u8 {
     match operation {
@@ -43,7 +43,7 @@ pub fn stencil_operation(operation: StencilOperation, stored: u8, reference: u8)
     }
 }
 
-/// The value that an operation leaves in the attachment: bits outside the write mask stay.
+/// Returns the value that is stored after an operation: bits outside the write mask stay.
 #[inline(always)]
 pub fn stencil_write(face: &StencilFace, operation: StencilOperation, stored: u8) -> u8 {
     let new = stencil_operation(operation, stored, face.reference);

@@ -1,9 +1,9 @@
-//! From clip space to the window, and which faces are left.
+//! The viewport transform, and culling by facing.
 
 use crate::arithmetic::Arithmetic;
 use etalon_scene::{CullMode, FrontFace, Viewport};
 
-/// The window position of a clip-space position: x and y in texels from the top left corner, depth
+/// Returns the window position of a clip-space position: x and y in texels from the top left corner, depth
 /// between the viewport's depths (Vulkan, Controlling the Viewport; WebGPU, 23.2.4: y up in clip
 /// space is down in the window).
 pub fn window_position<A: Arithmetic>(
@@ -42,7 +42,7 @@ pub fn window_position<A: Arithmetic>(
     [x, y, z]
 }
 
-/// Whether a triangle of this signed area (y up) faces front. Zero area faces back.
+/// True if a triangle of this signed area (y up) faces front. Zero area faces back.
 pub fn front_facing(signed_area: i64, front_face: FrontFace) -> bool {
     match front_face {
         FrontFace::Ccw => signed_area > 0,
@@ -50,7 +50,7 @@ pub fn front_facing(signed_area: i64, front_face: FrontFace) -> bool {
     }
 }
 
-/// Whether a face is culled.
+/// True if a face is culled.
 pub fn is_culled(mode: CullMode, front: bool) -> bool {
     match mode {
         CullMode::None => false,

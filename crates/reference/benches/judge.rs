@@ -1,4 +1,4 @@
-//! What judging one 16 by 16 case costs: both legal sets, and a frame held against them.
+//! The cost of judging one case of 16 by 16 texels: both legal sets, and a frame compared with them.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_backend::Backend;

@@ -1,9 +1,9 @@
-//! What attachments hold besides what is drawn: their first contents, and what is resolved to them.
+//! Contents of attachments that no draw wrote: first contents and resolves.
 
 use crate::interval::Interval;
-use crate::judge::{Notes, Sample, Walk, codes_text};
 use crate::judging::{Judging, Range};
 use crate::rules::Resolve;
+use crate::walk::{Notes, Sample, Walk, codes_text};
 use crate::world::{Cell, World};
 use etalon_frame::CodeInterval;
 use etalon_pipeline::Arithmetic;
@@ -11,9 +11,9 @@ use etalon_scene::Contents;
 use smallvec::SmallVec;
 
 impl Walk<'_> {
-    /// What the samples of a texel can become after the first passes; `None` when a sample is open. An
-    /// average is the hull over samples and worlds, never their product; of integers one sample stands
-    /// for all (Vulkan, Resolving Multisample Images; OpenGL 4.6, 18.3.1).
+    /// Returns the values that a texel can be resolved to after the first passes; `None` if a sample is
+    /// open. An average is the hull over samples and worlds, never their product; integers resolve to one
+    /// of the samples (Vulkan, Resolving Multisample Images; OpenGL 4.6, 18.3.1).
     pub(crate) fn resolve(
         &self,
         source: usize,
@@ -88,7 +88,7 @@ impl Walk<'_> {
         Some(vec![result])
     }
 
-    /// What a texel of an attachment holds before the first pass.
+    /// Returns the contents of a texel of an attachment before the first pass.
     pub(crate) fn first_contents(&self, index: usize, [x, y]: [usize; 2]) -> Cell {
         let mut judging = Judging::new(self.rules);
         let attachment = &self.scene.attachments[index];
@@ -128,7 +128,7 @@ impl Walk<'_> {
             .iter()
             .enumerate()
             .map(|(index, attachment)| {
-                // What an attachment of another size holds elsewhere is no part of this sample's story.
+                // The contents of an attachment of another size are no part of this sample's story.
                 let same = attachment.size == at.size;
                 let place = if same { [at.x, at.y] } else { [0, 0] };
                 let cell = self.first_contents(index, place.map(|v| v as usize));

@@ -1,26 +1,26 @@
-//! Counters: what the worlds of all samples leave of their values.
+//! Counters: the range of each that the worlds of all samples leave.
 
 use crate::rules::{Rules, SamplesCounted};
 use crate::world::{Event, World};
 use etalon_frame::{CountRange, CounterKind, CounterSet};
 use etalon_scene::Scene;
 
-/// One counter over the texels walked so far, and over the samples of the texel at hand.
+/// One counter over the texels walked so far, and over the samples of the current texel.
 #[derive(Clone, Debug)]
 struct Count {
     low: u64,
-    /// `None` where nothing limits it.
+    /// `None` if unlimited.
     high: Option<u64>,
     /// Of this texel: certain events, summed over samples.
     certain: u64,
     /// Of this texel: possible events, summed over samples; `None` where a sample is open.
     possible: Option<u64>,
-    /// Fragments of this texel of which some sample counts for certain, and for which any may.
+    /// Fragments of this texel of which a sample counts for certain, and of which one may.
     must: Vec<(u32, u32)>,
     may: Vec<(u32, u32)>,
 }
 
-/// Adds up what counts, texel by texel.
+/// Sums of events, texel by texel.
 pub(crate) struct Tally<'a> {
     scene: &'a Scene,
     rules: &'a Rules,
@@ -44,7 +44,7 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Adds the worlds of the next sample of the texel; none when it is open.
+    /// Adds the worlds of the next sample of the texel; `None` if it is open.
     pub(crate) fn sample(&mut self, worlds: Option<&[World]>) {
         for (index, count) in self.counts.iter_mut().enumerate() {
             let Some(worlds) = worlds else {
@@ -75,7 +75,7 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Ends a texel of so many samples.
+    /// Ends a texel of `samples` samples.
     pub(crate) fn texel(&mut self, samples: u32) {
         for (counter, count) in self.scene.counters.iter().zip(&mut self.counts) {
             let (low, high) = match counter.kind {
@@ -92,7 +92,7 @@ impl<'a> Tally<'a> {
                     let none = count.possible == Some(0);
                     (count.must.len() as u64, none.then_some(0))
                 }
-                // Statistics are for comparing drivers with themselves (Vulkan, Pipeline Statistics
+                // Statistics compare a driver with itself (Vulkan, Pipeline Statistics
                 // Queries).
                 CounterKind::FragmentInvocations => (0, None),
             };
@@ -104,7 +104,7 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// What is legal of each counter.
+    /// Returns the legal range of each counter.
     pub(crate) fn finish(self) -> impl Iterator<Item = CounterSet> + use<'a> {
         let each = self.scene.counters.iter().zip(self.counts);
         each.map(|(counter, count)| {

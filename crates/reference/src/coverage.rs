@@ -1,22 +1,22 @@
-//! Which primitives cover a sample, in which worlds.
+//! Coverage of a sample by primitives, world by world.
 
-use crate::judge::{Notes, Place, Walk, Worlds};
+use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, inside_of, is_outside};
 use crate::rules::SharedEdge;
-use crate::setup::{Primitive, Shape, Side, Triangle};
+use crate::walk::{Notes, Place, Walk, Worlds};
 use crate::world::{Decision, World};
 use etalon_pipeline::{Point, front_facing, is_top_left};
 use etalon_scene::Draw;
 use smallvec::SmallVec;
 
 impl Walk<'_> {
-    /// Whether a sample can and whether it must lie inside a draw's viewport, whose edges are
-    /// clip planes and may be snapped. Points and lines are clipped before they are given a width
-    /// (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): what is left may reach a texel beyond, and a
+    /// Returns whether a sample can lie inside a draw's viewport, and whether it must. The viewport's edges
+    /// are clip planes and may be snapped. Points and lines are clipped before they have a width
+    /// (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): the rest may reach a texel beyond, and a
     /// clipped end or a point outside may be missing.
     pub(crate) fn in_viewport(
         &self,
         draw: &Draw,
-        primitive: &Primitive,
+        primitive: &SnappedPrimitive,
         point: Point,
     ) -> (bool, bool) {
         let rect = draw.viewport.area().map(f64::from);
@@ -204,26 +204,4 @@ impl Walk<'_> {
             self.fragment(place, world, positive_area, result, notes);
         }
     }
-}
-
-/// The side of a triangle's edges on which its inside lies. With y down, a triangle of positive area
-/// (y up) has it where edge functions are negative.
-fn inside_of(positive_area: bool) -> Side {
-    if positive_area {
-        Side::Negative
-    } else {
-        Side::Positive
-    }
-}
-
-/// Whether a sample is outside a triangle whichever way it turns: nothing happens in any world.
-pub(crate) fn misses(triangle: &Triangle, sides: [Side; 3]) -> bool {
-    let (least, most) = triangle.area;
-    let outside = |positive: bool| sides.into_iter().any(|side| is_outside(side, positive));
-    least != 0 && most != 0 && (most < 0 || outside(true)) && (least > 0 || outside(false))
-}
-
-/// Whether a side of one edge is certainly outside a triangle.
-fn is_outside(side: Side, positive_area: bool) -> bool {
-    matches!(side, Side::Positive | Side::Negative) && side != inside_of(positive_area)
 }

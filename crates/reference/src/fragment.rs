@@ -1,10 +1,10 @@
-//! What happens to one fragment in one world: culling, shading, tests, blending, stores.
+//! One fragment in one world: culling, shading, tests, blending, stores.
 
 use crate::interval::Interval;
-use crate::judge::{Notes, Place, Walk};
 use crate::judging::{Judging, Range};
+use crate::primitive::Shape;
 use crate::rules::{DepthOrder, DepthRange, EarlyUpdates, SameDepth};
-use crate::setup::Shape;
+use crate::walk::{Notes, Place, Walk};
 use crate::world::{Cell, Event, World};
 use etalon_frame::{ChannelEncoding, CodeInterval, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
@@ -154,8 +154,8 @@ impl Walk<'_> {
         output
     }
 
-    /// Whether the shader, the sample mask and alpha to coverage can and whether they must let the
-    /// sample through.
+    /// Returns whether the shader, the sample mask and alpha to coverage can keep the sample, and whether
+    /// they must.
     fn covered_after_shading(
         &self,
         place: Place<'_>,
@@ -202,8 +202,8 @@ impl Walk<'_> {
         (kept_can && can, kept_must && must)
     }
 
-    /// A fragment that forced early tests let through: what the shader then takes away may still have
-    /// changed depth and stencil and have counted.
+    /// A fragment that passed forced early tests: one that the shader then discards may still have
+    /// changed depth and stencil and have been counted.
     #[expect(
         clippy::too_many_arguments,
         reason = "a fragment with all that was found out about it"
@@ -347,9 +347,9 @@ impl Walk<'_> {
         result
     }
 
-    /// The depth that is tested and stored: held to the viewport's range where the draw clamps;
-    /// where it does not, what lies outside of the range is treated as the rules say. The clipped
-    /// fixed-function depth alone lies inside.
+    /// Returns the depth that is tested and stored: clamped to the viewport's range if the draw clamps;
+    /// else the rules decide for a depth outside of the range. The clipped fixed-function depth alone
+    /// lies inside.
     fn in_range(&self, place: Place<'_>, depth: Range, source: Source) -> Incoming {
         let [near, far] = place.draw.viewport.depth.map(f64::from);
         let (near, far) = (near.min(far), near.max(far));
@@ -364,7 +364,7 @@ impl Walk<'_> {
         let written = source == Source::Written;
         let exported = written || place.primitive.is_biased();
         let depth = match self.rules.depth_range.value {
-            // What is no number stays none, or is held to whatever there is.
+            // NaN stays NaN, or is clamped to any value of the range.
             _ if depth.float.may_be_nan() => depth.float,
             _ if place.draw.depth_clamp => held,
             _ if !(exported && outside) => unit,
@@ -384,7 +384,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Whether mask and alpha to coverage can and whether they must let the sample through.
+    /// Returns whether mask and alpha to coverage can keep the sample, and whether they must.
     fn sample_passes(&self, place: Place<'_>, alpha: Range) -> (bool, bool) {
         let state = place.draw.multisample;
         if state.mask & (1 << place.at.sample) == 0 {
@@ -398,8 +398,8 @@ impl Walk<'_> {
         (alpha.high > 0.0 || !several, alpha.low >= 1.0)
     }
 
-    /// Whether the stored depth can and whether it must lie within the bounds (Vulkan, Depth Bounds
-    /// Test).
+    /// Returns whether the stored depth can lie within the bounds, and whether it must (Vulkan, Depth
+    /// Bounds Test).
     fn depth_bounds(
         &self,
         place: Place<'_>,
@@ -469,7 +469,7 @@ impl Walk<'_> {
         );
     }
 
-    /// Which outcomes of a depth test are possible: passing, failing.
+    /// Returns whether a depth test can pass, and whether it can fail.
     fn depth_test(
         &self,
         place: Place<'_>,
@@ -518,7 +518,7 @@ impl Walk<'_> {
     }
 }
 
-/// Where a depth comes from.
+/// The source of a depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Source {
     /// The fragment's own.
@@ -535,8 +535,8 @@ pub(crate) struct Incoming {
     pub(crate) origin: Option<u64>,
 }
 
-/// Whether a comparison of some value of `left` with some value of `right` can be true, and whether
-/// it can be false.
+/// Returns whether a comparison of some value of `left` with some value of `right` can be true, and
+/// whether it can be false.
 fn possible(function: CompareFunction, left: Interval, right: Interval) -> [bool; 2] {
     let can_be_less = left.low < right.high;
     let can_be_greater = left.high > right.low;

@@ -13,18 +13,18 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Everything, infinite values and what is no number among it.
+    /// All values, infinities and NaN among them.
     pub const EVERYTHING: Self = Self {
         low: f64::NEG_INFINITY,
         high: f64::INFINITY,
     };
 
-    /// Whether what is no number may be among the values.
+    /// True if NaN may be among the values.
     pub fn may_be_nan(self) -> bool {
         self == Self::EVERYTHING
     }
 
-    /// The interval of one number.
+    /// Returns the interval of one number.
     pub fn exact(value: f64) -> Self {
         Self {
             low: value,
@@ -32,7 +32,7 @@ impl Interval {
         }
     }
 
-    /// The interval between two numbers, in whichever order.
+    /// Returns the interval between two numbers, in either order.
     pub fn between(a: f64, b: f64) -> Self {
         Self {
             low: a.min(b),
@@ -40,7 +40,7 @@ impl Interval {
         }
     }
 
-    /// The values of an interval of codes; everything where there are codes of no number among them.
+    /// Returns the values of an interval of codes; all values if a code of NaN is among them.
     pub fn of_codes(encoding: ChannelEncoding, codes: CodeInterval) -> Self {
         let (low, high) = (
             encoding.value_of_order(codes.low),
@@ -52,17 +52,17 @@ impl Interval {
         Self { low, high }
     }
 
-    /// Whether this is the one number.
+    /// True if the interval is this one number.
     pub fn is(self, value: f64) -> bool {
         self.low == value && self.high == value
     }
 
-    /// Whether the number lies inside.
+    /// True if the number lies inside.
     pub fn contains(self, value: f64) -> bool {
         self.low <= value && value <= self.high
     }
 
-    /// The smallest interval that holds both.
+    /// Returns the smallest interval that holds both.
     pub fn hull(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
@@ -70,7 +70,7 @@ impl Interval {
         }
     }
 
-    /// Applies a function that grows with its argument.
+    /// Applies an increasing function.
     pub fn map_increasing(self, f: impl Fn(f64) -> f64) -> Self {
         Self {
             low: f(self.low),
@@ -78,8 +78,8 @@ impl Interval {
         }
     }
 
-    /// Applies a function that is monotone in each argument alone; its extremes stand at corners. A
-    /// corner that is no number, as of an infinite end, makes it everything.
+    /// Applies a function that is monotone in each argument alone; its extremes lie at corners. A corner
+    /// that is NaN, as from an infinite end, makes the result all values.
     pub fn corners(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let values = [
             f(self.low, other.low),
@@ -128,7 +128,7 @@ impl fmt::Display for Interval {
     }
 }
 
-/// A number with as many digits as tell it from its neighbours in a story.
+/// Returns a number in the digits that a story shows.
 struct Short(f64);
 
 impl fmt::Display for Short {

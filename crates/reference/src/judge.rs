@@ -1,45 +1,33 @@
-//! The walk over samples and worlds.
+//! Legal sets and stories: the walk, over all samples in both bands or over one.
 
 use crate::counting::Tally;
-use crate::coverage::misses;
-use crate::judging::{Judging, Range};
 use crate::rules::Rules;
-use crate::setup::{self, DrawSetup, Primitive, Shape, Side, units_per_texel};
 use crate::texels::Texels;
-use crate::world::{Cell, World, merge};
-use etalon_frame::{
-    Aspect, ChannelEncoding, CodeInterval, CountRange, LegalSet, LegalSetBuilder, Limits, ReadPath,
-    Story, StoryLine, TexelSet, WorldBox,
-};
-use etalon_pipeline::{Arithmetic, Point};
-use etalon_scene::{Draw, Scene};
-use smallvec::SmallVec;
-use std::borrow::Cow;
-use std::cell::RefCell;
-use std::collections::HashMap;
-use std::rc::Rc;
+use crate::walk::{Notes, Sample, Walk};
+use etalon_frame::{CountRange, LegalSet, LegalSetBuilder, Limits, Story, TexelSet};
+use etalon_scene::Scene;
 
 /// Both bands of one scene for one possible set of limits.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// The limits that were assumed: every depth format has one encoding.
     pub limits: Limits,
-    /// What the API's text allows.
+    /// The values that the API's text allows.
     pub legal: LegalSet,
-    /// What the yardstick wants.
+    /// The values within the yardstick.
     pub yardstick: LegalSet,
-    /// How many samples of all images of one size were looked at, summed over sizes and sample counts:
-    /// of the others nothing is asserted.
+    /// The number of judged samples of all images of one size, summed over sizes and sample counts. Of
+    /// others nothing is asserted.
     pub looked_at: u64,
 }
 
-/// Judges a scene in both bands, once per depth encoding that the adapter may have.
+/// Returns both bands of a scene, once per depth encoding that the adapter may have.
 pub fn judgements(scene: &Scene, limits: &Limits) -> Vec<Judgement> {
     judgements_of(scene, limits, Texels::All)
 }
 
-/// As [`judgements`], of some texels only; of the others nothing is asserted. Counters are sums over all
-/// texels: unless all are looked at, nothing is asserted of them either.
+/// Returns [`judgements`] of some texels; of others nothing is asserted. Counters are sums over all
+/// texels: unless all are judged, nothing is asserted of counters either.
 pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judgement> {
     let texels = texels.of(scene);
     limits
@@ -61,8 +49,8 @@ pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judg
         .collect()
 }
 
-/// What the rules allow at every sample of what the scene reads back. Of a depth format with
-/// several possible encodings the first is assumed; see [`judgements`].
+/// Returns the legal set of all attachments that the scene reads back. Of a depth format with several
+/// possible encodings the first is assumed; see [`judgements`].
 pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
     judge_some(scene, limits, rules, Texels::All)
 }
@@ -153,23 +141,8 @@ fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> 
     builder.build()
 }
 
-/// One sample of the attachments of one shape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sample {
-    /// The attachments' width and height.
-    pub size: [u32; 2],
-    /// Their samples per texel.
-    pub samples: u32,
-    /// Column.
-    pub x: u32,
-    /// Row.
-    pub y: u32,
-    /// Sample within the texel.
-    pub sample: u32,
-}
-
-/// The story of one sample: every operation on it with its outcome and, where a permission was
-/// used, its citation.
+/// Returns the story of one sample: every operation on it with its outcome and the citation of each
+/// permission that was used.
 pub fn explain(scene: &Scene, limits: &Limits, rules: &Rules, at: Sample) -> Story {
     let mut story = Story::default();
     let texels = Texels::One([at.x, at.y]);
@@ -177,379 +150,5 @@ pub fn explain(scene: &Scene, limits: &Limits, rules: &Rules, at: Sample) -> Sto
     story
 }
 
-pub(crate) type Worlds = SmallVec<[World; 2]>;
-
-/// Worlds by samples per texel, sample and passes; `None` where the sample is open.
-type Known = HashMap<(u32, u32, usize), Option<Rc<Worlds>>>;
-
-/// Whether a draw's scissor rectangle lets a texel through.
-fn in_scissor(draw: &Draw, at: Sample) -> bool {
-    draw.scissor
-        .is_none_or(|[x, y, w, h]| at.x >= x && at.y >= y && at.x - x < w && at.y - y < h)
-}
-
-pub(crate) struct Walk<'a> {
-    pub(crate) scene: &'a Scene,
-    pub(crate) limits: &'a Limits,
-    pub(crate) rules: &'a Rules,
-    /// Per pass and draw.
-    setups: Vec<Vec<DrawSetup>>,
-    pub(crate) units: i64,
-    /// What the samples of the texel at hand were after some passes, where that was asked for.
-    known: RefCell<Known>,
-}
-
-/// Where in the scene a fragment comes from.
-#[derive(Clone, Copy)]
-pub(crate) struct Place<'a> {
-    pub(crate) at: Sample,
-    /// The sample's position in sub-texel units.
-    pub(crate) point: Point,
-    /// Where it lies relative to a triangle's edges.
-    pub(crate) sides: [Side; 3],
-    pub(crate) pass: usize,
-    pub(crate) draw_index: usize,
-    pub(crate) draw: &'a Draw,
-    pub(crate) primitive_index: usize,
-    pub(crate) primitive: &'a Primitive,
-    /// Unique over the scene.
-    pub(crate) draw_id: u32,
-    /// How many worlds there are, for the story.
-    pub(crate) world: usize,
-}
-
-/// A note taker: costs nothing while nobody listens.
-pub(crate) struct Notes<'s>(pub(crate) Option<&'s mut Story>);
-
-impl Notes<'_> {
-    pub(crate) fn add(
-        &mut self,
-        at: impl FnOnce() -> String,
-        operation: &str,
-        detail: impl FnOnce() -> String,
-        citation: Option<&str>,
-    ) {
-        if let Some(story) = &mut self.0 {
-            story.lines.push(StoryLine {
-                at: at(),
-                operation: operation.to_owned(),
-                detail: detail(),
-                citation: citation.map(str::to_owned),
-            });
-        }
-    }
-}
-
-impl Place<'_> {
-    pub(crate) fn name(&self) -> String {
-        let world = if self.world == 0 {
-            String::new()
-        } else {
-            format!(", world {}", self.world)
-        };
-        format!(
-            "pass {}, draw {}, primitive {}{world}",
-            self.pass, self.draw_index, self.primitive_index
-        )
-    }
-}
-
-impl<'a> Walk<'a> {
-    fn new(scene: &'a Scene, limits: &'a Limits, rules: &'a Rules, texels: Texels) -> Self {
-        let setups = scene
-            .passes
-            .iter()
-            .map(|pass| {
-                let context = setup::Context {
-                    rules,
-                    limits,
-                    size: scene.pass_size(pass),
-                    lattice: texels.lattice(scene.pass_size(pass)),
-                    depth: pass
-                        .depth_stencil
-                        .filter(|i| scene.attachments[*i].format.has_depth())
-                        .map(|i| depth_encoding(scene, limits, i)),
-                };
-                let draws = pass.draws.iter();
-                draws.map(|draw| setup::draw(&context, draw)).collect()
-            })
-            .collect();
-        Self {
-            scene,
-            limits,
-            rules,
-            setups,
-            units: units_per_texel(limits),
-            known: RefCell::default(),
-        }
-    }
-
-    /// What another sample of the texel at hand is after the first passes; `None` when it is open. Passes
-    /// that read and resolve what passes before them left ask for the same again and again.
-    pub(crate) fn earlier(&self, at: Sample, passes: usize) -> Option<Rc<Worlds>> {
-        let key = (at.samples, at.sample, passes);
-        if let Some(known) = self.known.borrow().get(&key) {
-            return known.clone();
-        }
-        let worlds = self.worlds(at, passes, &mut Notes(None)).map(Rc::new);
-        self.known.borrow_mut().insert(key, worlds.clone());
-        worlds
-    }
-
-    /// Goes on to another texel.
-    fn forget(&self) {
-        self.known.borrow_mut().clear();
-    }
-
-    /// The encoding in which an attachment stores its depth.
-    pub(crate) fn depth_encoding(&self, attachment: usize) -> ChannelEncoding {
-        depth_encoding(self.scene, self.limits, attachment)
-    }
-
-    /// The encodings in which an aspect arrives, and how it is read.
-    fn read_encoding(
-        &self,
-        attachment: usize,
-        aspect: Aspect,
-    ) -> (Cow<'static, [ChannelEncoding]>, ReadPath) {
-        let format = self.scene.attachments[attachment].format;
-        let read = self
-            .limits
-            .formats
-            .get(&format)
-            .map_or(ReadPath::Copy, |support| support.read);
-        match aspect {
-            Aspect::Color => (Cow::Borrowed(format.color_channels()), read),
-            Aspect::Depth => match (read, self.depth_encoding(attachment)) {
-                (ReadPath::Shader, _) => (Cow::Borrowed(&[ChannelEncoding::Float32]), read),
-                (ReadPath::Copy, encoding) => (Cow::Owned(vec![encoding]), read),
-            },
-            // Integers are exact however they are read.
-            Aspect::Stencil => (Cow::Borrowed(&[ChannelEncoding::Uint(8)]), ReadPath::Copy),
-        }
-    }
-
-    fn sample(&self, at: Sample, story: Option<&mut Story>) -> TexelSet {
-        let mut notes = Notes(story);
-        match self.worlds(at, self.scene.passes.len(), &mut notes) {
-            Some(worlds) => self.finish(&worlds, at, &mut notes),
-            None => TexelSet::default(),
-        }
-    }
-
-    /// The worlds of a sample after the first passes; `None` when it is open.
-    pub(crate) fn worlds(
-        &self,
-        at: Sample,
-        passes: usize,
-        notes: &mut Notes<'_>,
-    ) -> Option<Worlds> {
-        let mut worlds: Worlds = SmallVec::new();
-        worlds.push(self.initial(at, notes));
-        let mut draw_id = 0;
-        for (p, pass) in self.scene.passes[..passes].iter().enumerate() {
-            let shape = (self.scene.pass_size(pass), self.scene.pass_samples(pass));
-            for (d, draw) in pass.draws.iter().enumerate() {
-                draw_id += 1;
-                if shape != (at.size, at.samples) || !in_scissor(draw, at) {
-                    continue;
-                }
-                let point = self.sample_point(at);
-                let setup = &self.setups[p][d];
-                for i in &setup.rows[at.y as usize] {
-                    let primitive = &setup.primitives[*i as usize];
-                    let x = i64::from(at.x);
-                    if x < primitive.bounds[0] || x >= primitive.bounds[2] {
-                        continue;
-                    }
-                    let (can, must) = self.in_viewport(draw, primitive, point);
-                    if !can {
-                        continue;
-                    }
-                    let sides = match &primitive.shape {
-                        Shape::Triangle(triangle) => {
-                            let sides = [0, 1, 2].map(|i| triangle.side(i, point));
-                            if misses(triangle, sides) {
-                                continue;
-                            }
-                            sides
-                        }
-                        _ => [Side::Unknown; 3],
-                    };
-                    let place = Place {
-                        at,
-                        point,
-                        sides,
-                        pass: p,
-                        draw_index: d,
-                        draw,
-                        primitive_index: primitive.index as usize,
-                        primitive,
-                        draw_id,
-                        world: 0,
-                    };
-                    let (inside_can, inside_must) = primitive.inside_depth(point);
-                    if !draw.depth_clamp && !inside_can {
-                        continue;
-                    }
-                    let certain = must && (draw.depth_clamp || inside_must);
-                    let before = (!certain).then(|| worlds.clone());
-                    worlds = self.primitive(place, worlds, notes);
-                    // A sample that may be clipped away also keeps what it was.
-                    worlds.extend(before.into_iter().flatten());
-                    if !merge(&mut worlds) {
-                        notes.add(
-                            || place.name(),
-                            "give up",
-                            || format!("{} worlds: the sample is open", worlds.len()),
-                            None,
-                        );
-                        return None;
-                    }
-                }
-                // No later draw refers to this one's choices.
-                worlds.iter_mut().for_each(|w| w.decisions.clear());
-                merge(&mut worlds);
-            }
-            for (source, target) in pass.color.iter().zip(&pass.resolve) {
-                let Some(target) = *target else { continue };
-                let attachment = &self.scene.attachments[target];
-                if (attachment.size, attachment.samples) == (at.size, at.samples) {
-                    let outcomes = self.resolve(*source, at, p + 1, notes)?;
-                    worlds = worlds
-                        .iter()
-                        .flat_map(|world| {
-                            outcomes.iter().map(|channels| {
-                                let mut world = world.clone();
-                                world.cells[target].channels = *channels;
-                                world
-                            })
-                        })
-                        .collect();
-                    if !merge(&mut worlds) {
-                        return None;
-                    }
-                }
-            }
-        }
-        Some(worlds)
-    }
-
-    pub(crate) fn cell_text(&self, attachment: usize, cell: &Cell) -> String {
-        let format = self.scene.attachments[attachment].format;
-        let mut parts = Vec::new();
-        for (c, encoding) in format.color_channels().iter().enumerate() {
-            parts.push(codes_text(*encoding, cell.channels[c]));
-        }
-        if format.has_depth() {
-            let encoding = self.depth_encoding(attachment);
-            parts.push(format!("depth {}", codes_text(encoding, cell.channels[0])));
-        }
-        if format.has_stencil() {
-            parts.push(format!("stencil {}", cell.stencil));
-        }
-        parts.join(", ")
-    }
-
-    fn sample_point(&self, at: Sample) -> Point {
-        let position = self
-            .limits
-            .sample_positions
-            .get(&at.samples)
-            .and_then(|all| all.get(at.sample as usize))
-            .copied()
-            .unwrap_or([128, 128]);
-        let axis = |texel: u32, offset: u16| {
-            i64::from(texel) * self.units + i64::from(offset) * self.units / 256
-        };
-        Point {
-            x: axis(at.x, position[0]),
-            y: axis(at.y, position[1]),
-        }
-    }
-
-    /// The boxes of what is read back.
-    fn finish(&self, worlds: &[World], at: Sample, notes: &mut Notes<'_>) -> TexelSet {
-        let mut set = TexelSet::default();
-        for world in worlds {
-            let mut channels = SmallVec::new();
-            for index in &self.scene.read {
-                let attachment = &self.scene.attachments[*index];
-                if (attachment.size, attachment.samples) != (at.size, at.samples) {
-                    continue;
-                }
-                let cell = &world.cells[*index];
-                for aspect in attachment.format.aspects() {
-                    match aspect {
-                        Aspect::Color => {
-                            let n = attachment.format.color_channels().len();
-                            channels.extend_from_slice(&cell.channels[..n]);
-                        }
-                        Aspect::Depth => channels.push(self.read_depth(*index, cell.channels[0])),
-                        Aspect::Stencil => {
-                            channels.push(CodeInterval::exact(i64::from(cell.stencil)));
-                        }
-                    }
-                }
-                let how = match self.read_encoding(*index, Aspect::Depth).1 {
-                    ReadPath::Shader if attachment.format.has_depth() => {
-                        ", its depth read by a shader"
-                    }
-                    _ => "",
-                };
-                notes.add(
-                    || "at the end".to_owned(),
-                    "read back",
-                    || {
-                        format!(
-                            "{} holds {}{how}",
-                            attachment.name,
-                            self.cell_text(*index, cell)
-                        )
-                    },
-                    None,
-                );
-            }
-            set.worlds.push(WorldBox { channels });
-        }
-        set
-    }
-
-    /// A depth as it is read back: its code, or the float that a shader sees.
-    fn read_depth(&self, attachment: usize, stored: CodeInterval) -> CodeInterval {
-        let encoding = self.depth_encoding(attachment);
-        let (read, _) = self.read_encoding(attachment, Aspect::Depth);
-        if read[0] == encoding {
-            return stored;
-        }
-        let mut judging = Judging::new(self.rules);
-        let value = judging.decode(encoding, stored);
-        judging.encode(read[0], Range::same(value.float))
-    }
-}
-
-fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {
-    let format = scene.attachments[attachment].format;
-    let of = |encodings: &[ChannelEncoding]| encodings.first().copied();
-    limits
-        .formats
-        .get(&format)
-        .and_then(|support| of(&support.depth))
-        .or_else(|| of(format.depth_encodings()))
-        .unwrap_or(ChannelEncoding::Float32)
-}
-
-pub(crate) fn codes_text(encoding: ChannelEncoding, codes: CodeInterval) -> String {
-    let text = |order: i64| match encoding {
-        ChannelEncoding::Float32 => format!("{:?}", encoding.value_of_order(order) as f32),
-        _ => order.to_string(),
-    };
-    if codes.is_exact() {
-        text(codes.low)
-    } else {
-        format!("{}..{}", text(codes.low), text(codes.high))
-    }
-}
-
 #[cfg(test)]
-pub(crate) mod tests;
+mod tests;

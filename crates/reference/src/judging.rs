@@ -6,7 +6,7 @@ use etalon_frame::{ChannelEncoding, CodeInterval, srgb_to_linear};
 use etalon_pipeline::{Arithmetic, logic_operation};
 use etalon_scene::LogicOperation;
 
-/// Every value that some permitted way of computing arrives at.
+/// The values that permitted ways of computing arrive at.
 ///
 /// A blend may be computed in floating-point throughout, or with every result rounded to a
 /// neighbouring code of the destination. The two are carried side by side: joined early, the error
@@ -21,12 +21,12 @@ pub struct Range {
 }
 
 impl Range {
-    /// Exactly one value.
+    /// Returns exactly one value.
     pub fn exact(value: f64) -> Self {
         Self::same(Interval::exact(value))
     }
 
-    /// One interval for both ways of computing.
+    /// Returns one interval for both ways of computing.
     pub fn same(interval: Interval) -> Self {
         Self {
             float: interval,
@@ -34,7 +34,7 @@ impl Range {
         }
     }
 
-    /// The values of both ways.
+    /// Returns the values of both ways.
     pub fn hull(self) -> Interval {
         self.float.hull(self.coarse)
     }
@@ -59,7 +59,7 @@ pub struct Judging<'r> {
 const INTEGER_SLACK: f64 = 1e-10;
 
 impl<'r> Judging<'r> {
-    /// Arithmetic under these rules.
+    /// Returns arithmetic under these rules.
     pub fn new(rules: &'r Rules) -> Self {
         Self { rules }
     }
@@ -68,8 +68,8 @@ impl<'r> Judging<'r> {
         self.rules.float_error.value
     }
 
-    /// Everything that a shader's computing makes of an exact result. What a 32-bit float does not hold
-    /// is infinite or no number, and what is below its normal numbers may be zero.
+    /// Returns the results that a shader may compute for an exact one. Values beyond 32-bit floats are
+    /// infinite or NaN, and subnormal ones may be zero.
     fn computed(&self, value: Interval) -> Interval {
         let most = f64::from(f32::MAX);
         if value.low < -most || value.high > most {
@@ -94,9 +94,9 @@ impl<'r> Judging<'r> {
         }
     }
 
-    /// Everything that a shader's binary logarithm makes of a value: 3 units in the last place, between
+    /// Returns the results of a shader's binary logarithm: within 3 units in the last place, between
     /// a half and 2 an absolute error of 2^-21 (Vulkan, Precision of GLSL.std.450 Instructions; WGSL,
-    /// 15.7.4), or what a shader's precision makes of it where that is more.
+    /// 15.7.4), or within a shader's precision if that is more.
     fn logarithm(&self, value: Interval) -> Interval {
         if value.low <= 0.0 || value.may_be_nan() {
             return Interval::EVERYTHING;
@@ -201,7 +201,7 @@ impl<'r> Judging<'r> {
     }
 }
 
-/// All codes of a float encoding, of infinite values and of what is no number too.
+/// Returns all codes of a float encoding, those of infinities and NaN too.
 fn all_codes(encoding: ChannelEncoding) -> CodeInterval {
     match encoding {
         ChannelEncoding::Ufloat(mantissa) => CodeInterval::new(0, (32 << mantissa) - 1),
@@ -210,7 +210,7 @@ fn all_codes(encoding: ChannelEncoding) -> CodeInterval {
     }
 }
 
-/// The order of the largest 32-bit float not above a value.
+/// Returns the order of the largest 32-bit float not above a value.
 fn order_below(value: f64) -> i64 {
     let encoding = ChannelEncoding::Float32;
     let order = encoding.order_of_code((value as f32).to_bits());
@@ -221,7 +221,7 @@ fn order_below(value: f64) -> i64 {
     }
 }
 
-/// The order of the smallest 32-bit float not below a value.
+/// Returns the order of the smallest 32-bit float not below a value.
 fn order_above(value: f64) -> i64 {
     let encoding = ChannelEncoding::Float32;
     let order = encoding.order_of_code((value as f32).to_bits());
@@ -296,8 +296,7 @@ impl Arithmetic for Judging<'_> {
         Range::same(value.float.widen(scale * self.error() * 2.0))
     }
 
-    /// The terms are as large as the viewport's depths; where the near one is 0 there is but one
-    /// term.
+    /// The terms are as large as the viewport's depths; if the near one is 0 there is one term only.
     fn window_depth(&mut self, value: Range, range: [f32; 2]) -> Range {
         let error = self.error();
         Range::same(if range[0] == 0.0 {
@@ -492,7 +491,7 @@ mod tests {
 
     #[test]
     fn the_yardstick_wants_the_nearest_code_and_exact_round_trips() {
-        let rules = Rules::yardstick(&crate::judge::tests::limits(Api::Vulkan));
+        let rules = Rules::yardstick(&crate::test_limits::limits(Api::Vulkan));
         let mut a = Judging::new(&rules);
         let e = ChannelEncoding::Unorm(8);
         for code in 0..=255 {

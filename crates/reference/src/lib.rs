@@ -1,10 +1,13 @@
-//! The judge: what the specifications allow at every sample of a scene.
+//! The judge: the values that the specifications allow at every sample of a scene.
 //!
-//! [`judge`] walks the scene sample by sample with the judging number system ([`Judging`]) and
-//! gives a [`LegalSet`](etalon_frame::LegalSet) per band; [`explain`] tells the story of one sample.
-//! The permissions it grants stand in [`rules`], with their citations.
+//! [`judge`] walks a scene sample by sample with the judging number system ([`Judging`]) and returns a
+//! [`LegalSet`](etalon_frame::LegalSet) per band; [`explain`] returns the story of one sample. A sample
+//! is followed through worlds, not one hull: a texel on an edge is covered or it is not, and no value in
+//! between is legal. The permissions are data in [`rules`], with their citations.
 
+mod bias;
 mod contents;
+mod context;
 mod counting;
 mod coverage;
 mod depth;
@@ -12,15 +15,21 @@ mod fragment;
 mod interval;
 mod judge;
 mod judging;
+mod primitive;
 pub mod rules;
 mod sampling;
 mod setup;
+mod snap;
 mod store;
+#[cfg(test)]
+mod test_limits;
 mod texels;
+mod walk;
 mod world;
 
 pub use interval::Interval;
-pub use judge::{Judgement, Sample, explain, judge, judgements, judgements_of};
+pub use judge::{Judgement, explain, judge, judgements, judgements_of};
 pub use judging::{Judging, Range};
 pub use rules::{Permission, Rules};
 pub use texels::Texels;
+pub use walk::Sample;

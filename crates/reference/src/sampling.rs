@@ -1,15 +1,15 @@
-//! What a shader sees of its textures: single texels, or a sampler's weighted average.
+//! Textures as a shader reads them: single texels, or a sampler's weighted average.
 
 use crate::interval::Interval;
-use crate::judge::{Place, Sample, Walk};
 use crate::judging::{Judging, Range};
+use crate::walk::{Place, Sample, Walk};
 use crate::world::World;
 use etalon_frame::CodeInterval;
 use etalon_pipeline::{Arithmetic, texel_position};
 use etalon_scene::{AddressMode, FilterMode, Sampler};
 
 impl Walk<'_> {
-    /// What the shader sees of a texture at the sample, in a world.
+    /// Returns the value that the shader reads of a texture at the sample, in a world.
     pub(crate) fn texel(&self, place: Place<'_>, world: &World, t: usize) -> [Range; 4] {
         let Some(index) = place.draw.textures.get(t).copied() else {
             return [Range::exact(0.0); 4];
@@ -23,7 +23,7 @@ impl Walk<'_> {
         }
     }
 
-    /// The texture coordinates that the shader sees.
+    /// Returns the texture coordinates that the shader reads.
     pub(crate) fn uv(&self, place: Place<'_>) -> [Range; 2] {
         self.coordinates(place)
             .map_or([Range::exact(0.0); 2], |uv| uv.map(Range::same))
@@ -34,14 +34,14 @@ impl Walk<'_> {
         place.primitive.uv_seen(place.point, self.units, at.samples)
     }
 
-    /// Whether a pass before this one draws or resolves to an attachment.
+    /// True if a pass before this one draws or resolves to an attachment.
     fn is_drawn_before(&self, index: usize, pass: usize) -> bool {
         self.scene.passes[..pass]
             .iter()
             .any(|pass| pass.color.contains(&index) || pass.resolve.contains(&Some(index)))
     }
 
-    /// What a sampler may make of a texture of which the texels are not looked into.
+    /// Returns the result of a sampler on a texture whose texels are not followed.
     fn anything(&self, index: usize) -> [Range; 4] {
         let encodings = self.scene.attachments[index].format.color_channels();
         let slack = self.rules.float_error.value * 4.0;
@@ -59,8 +59,8 @@ impl Walk<'_> {
         texel
     }
 
-    /// The texel that earlier passes left under the sample: in a pass of its own shape this world's, else
-    /// everything that it can be.
+    /// Returns the texel under the sample after earlier passes: this world's in a pass of its own shape, else
+    /// all that it can be.
     fn left_before(&self, place: Place<'_>, world: &World, index: usize) -> [Range; 4] {
         let attachment = &self.scene.attachments[index];
         let at = place.at;
@@ -86,12 +86,12 @@ impl Walk<'_> {
         )
     }
 
-    /// One texel of a texture that nothing was drawn to.
+    /// Returns one texel of a texture that nothing was drawn to.
     fn fetched(&self, index: usize, at: [usize; 2]) -> [Range; 4] {
         self.decoded(index, self.first_contents(index, at).channels)
     }
 
-    /// What a shader sees of stored codes. A format without alpha is read with alpha 1.
+    /// Returns the value of stored codes. A format without alpha is read with alpha 1.
     fn decoded(&self, index: usize, codes: [CodeInterval; 4]) -> [Range; 4] {
         let mut judging = Judging::new(self.rules);
         let mut texel = [0.0, 0.0, 0.0, 1.0].map(Range::exact);
@@ -102,9 +102,9 @@ impl Walk<'_> {
         texel
     }
 
-    /// Everything that legal filtering makes of the texels around a coordinate: the hull of what it
-    /// is at all coordinates that rounding can lead to. In a linear filter that is a polynomial linear
-    /// in each coordinate between two texel centres, so its extremes stand at ends and centres.
+    /// Returns all results of legal filtering at a coordinate: the hull over all coordinates that rounding
+    /// can lead to. A linear filter is linear in each coordinate between two texel centres, so its extremes
+    /// lie at ends and centres.
     fn sampled(&self, texture: usize, sampler: Sampler, uv: [Interval; 2]) -> [Range; 4] {
         if uv
             .iter()
@@ -119,7 +119,7 @@ impl Walk<'_> {
             let scaled = uv[axis].map_increasing(|v| v * f64::from(size));
             let reach = scaled.widen(step);
             match sampler.filter {
-                // Which texel is nearest changes at whole numbers.
+                // The nearest texel changes at whole numbers.
                 FilterMode::Nearest => whole(reach.low.floor(), reach.high.floor(), size),
                 FilterMode::Linear => {
                     let (low, high) = (reach.low - 0.5, reach.high - 0.5);
@@ -155,7 +155,7 @@ impl Walk<'_> {
             .map(|channel| channel.float.hull(channel.coarse))
     }
 
-    /// The average at a position counted from the centre of the first texel.
+    /// Returns the average at a position counted from the centre of the first texel.
     fn weighted(&self, texture: usize, sampler: Sampler, at: [f64; 2]) -> [Interval; 4] {
         let first = at.map(f64::floor);
         let weight = [at[0] - first[0], at[1] - first[1]];
@@ -181,8 +181,8 @@ impl Walk<'_> {
     }
 }
 
-/// The whole numbers from one to another, no more than go twice around the texture: after that all
-/// texels have been met.
+/// Returns the integers from one to another, at most twice around the texture: by then all texels have
+/// been met.
 fn whole(low: f64, high: f64, size: u32) -> Vec<f64> {
     let most = 2 * size as usize + 1;
     std::iter::successors(Some(low), |v| Some(v + 1.0))

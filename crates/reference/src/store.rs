@@ -1,8 +1,8 @@
 //! Stores: depth and colours of a fragment that passed, with masks, blending and logic operations.
 
 use crate::fragment::Incoming;
-use crate::judge::{Notes, Place, Walk, codes_text};
 use crate::judging::{Judging, Range};
+use crate::walk::{Notes, Place, Walk, codes_text};
 use crate::world::World;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::shader::FragmentOutput;
@@ -138,7 +138,7 @@ impl Walk<'_> {
     }
 }
 
-/// What a destination's missing channels count as in blending: colours 0, alpha 1 (Vulkan, Blending;
+/// The value of a destination's missing channel in blending: colours 0, alpha 1 (Vulkan, Blending;
 /// OpenGL 4.6, 17.3.6).
 fn missing_channels(channels: usize) -> [Option<f64>; 4] {
     std::array::from_fn(|c| {

@@ -1,38 +1,39 @@
-//! Which texels of an image are judged: all of them, or few that lie everywhere.
+//! The texels of an image that are judged: all, or a lattice. A large picture is there to be measured, and
+//! judging all of it would take longer than drawing it.
 
 use etalon_scene::{Attachment, Scene};
 
-/// Which texels a judge looks at. Of the others nothing is asserted, and nothing is computed.
+/// The texels that are judged. Of others nothing is computed or asserted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Texels {
     /// All.
     All,
-    /// Of each image at most so many, of a lattice that is the same for all images of one size. Where the
-    /// number allows it, every row and every column is met.
+    /// At most so many of each image, on a lattice that is the same for all images of one size. It meets
+    /// every row and column if the number allows it.
     AtMost(u64),
     /// One, in column and row.
     One([u32; 2]),
 }
 
-/// The texels of one size of image that are looked at: one, or each whose column plus five times its
-/// row is a multiple of a step.
+/// The judged texels of images of one size: one, or each whose column plus five times its row is a
+/// multiple of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Lattice {
     Step(u64),
     One([u32; 2]),
 }
 
-/// How far a lattice moves to the side from one row to the next. Prime, as all steps but 1 are, so that
-/// a step of lattice rows meets each column.
+/// The shift of a lattice from one row to the next. Prime, as all steps but 1 are, so that a step of
+/// lattice rows meets each column.
 const SHEAR: u64 = 5;
 
 impl Texels {
-    /// Whether nothing is left out.
+    /// True if all texels are judged.
     pub fn is_all(self) -> bool {
         self == Self::All
     }
 
-    /// The same of a scene, as [`Texels::All`] where nothing in it is left out.
+    /// Returns the choice for a scene: [`Texels::All`] if it leaves out nothing there.
     pub(crate) fn of(self, scene: &Scene) -> Self {
         let whole = |a: &Attachment| self.lattice(a.size) == Lattice::ALL;
         match scene.attachments.iter().all(whole) {
@@ -41,12 +42,12 @@ impl Texels {
         }
     }
 
-    /// Whether a texel of an image of so many columns and rows is looked at.
+    /// True if a texel of an image of this size is judged.
     pub fn contains(self, size: [u32; 2], x: u32, y: u32) -> bool {
         self.lattice(size).contains(x, y)
     }
 
-    /// How many texels of such an image are looked at.
+    /// Returns the number of judged texels of an image of this size.
     pub fn count(self, size: [u32; 2]) -> u64 {
         self.lattice(size).count(size)
     }
@@ -63,7 +64,7 @@ impl Texels {
                 }
                 let fits = |step: &u64| Lattice::Step(*step).count(size) <= most;
                 let primes = (texels.div_ceil(most)..).filter(|n| is_prime(*n) && *n != SHEAR);
-                // Past the number of texels one lattice point is left, so that one step always fits.
+                // A step past the number of texels leaves one lattice point, so that one step always fits.
                 Lattice::Step(primes.into_iter().find(fits).unwrap_or(texels))
             }
         }
@@ -78,7 +79,7 @@ impl Lattice {
         self.first(x, y) == Some(x)
     }
 
-    /// The first column, from one on, that is looked at in a row.
+    /// Returns the first judged column of a row, from a column on.
     pub(crate) fn first(self, from: u32, y: u32) -> Option<u32> {
         match self {
             Self::One([x, row]) => (row == y && x >= from).then_some(x),
@@ -90,7 +91,7 @@ impl Lattice {
         }
     }
 
-    /// Whether a rectangle of left, top, right and bottom, the last two excluded, holds one of them.
+    /// True if a rectangle of left, top, right and bottom, the last two excluded, holds one of them.
     pub(crate) fn meets(self, [left, top, right, bottom]: [u32; 4]) -> bool {
         (top..bottom).any(|y| self.first(left, y).is_some_and(|x| x < right))
     }
@@ -131,10 +132,11 @@ mod tests {
             ([16, 16], 50),
         ] {
             let texels = Texels::AtMost(most);
+            let lattice = texels.lattice(size);
             let (mut rows, mut columns) = (vec![0; size[1] as usize], vec![0; size[0] as usize]);
             for y in 0..size[1] {
                 for x in 0..size[0] {
-                    if texels.contains(size, x, y) {
+                    if lattice.contains(x, y) {
                         rows[y as usize] += 1;
                         columns[x as usize] += 1;
                     }

@@ -3,28 +3,28 @@
 use etalon_frame::CodeInterval;
 use smallvec::SmallVec;
 
-/// The most worlds that a sample is followed through; past it the sample is open.
+/// The most worlds of one sample; past it the sample is open.
 pub(crate) const WORLD_CAP: usize = 16;
 
-/// What one attachment holds at a sample.
+/// The contents of one attachment at a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Cell {
     /// Colour channels; of a depth attachment the first is the depth.
     pub(crate) channels: [CodeInterval; 4],
     /// Stencil.
     pub(crate) stencil: u8,
-    /// Which geometry the depth is of, where that pins it: see [`crate::rules::SameDepth`].
+    /// The geometry that the depth comes from, where that pins it: see [`crate::rules::SameDepth`].
     pub(crate) origin: Option<u64>,
 }
 
-/// Something that counts.
+/// An event that a counter counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Event {
     /// The counter, by its place in the scene.
     pub(crate) counter: u16,
     /// The draw and the primitive whose fragment counts.
     pub(crate) fragment: (u32, u32),
-    /// Whether it counts for certain, or may.
+    /// True if it counts for certain; else it may.
     pub(crate) certain: bool,
 }
 
@@ -41,12 +41,12 @@ pub(crate) struct Decision {
     pub(crate) owner: Option<u32>,
 }
 
-/// One consistent story: what every attachment holds, and the choices that led there.
+/// One consistent story: the contents of every attachment, and the choices that led there.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct World {
     pub(crate) cells: SmallVec<[Cell; 2]>,
     pub(crate) decisions: SmallVec<[(Decision, bool); 2]>,
-    /// What counted so far, in the order in which it happened.
+    /// The events so far, in order.
     pub(crate) events: SmallVec<[Event; 1]>,
 }
 
@@ -58,8 +58,8 @@ impl World {
             .map(|(_, outcome)| *outcome)
     }
 
-    /// This world with a choice taken; `true` is the positive side of the edge from the lower to the
-    /// higher number.
+    /// Returns this world with a choice taken; `true` is the positive side of the edge from the lower to
+    /// the higher number.
     pub(crate) fn with(&self, decision: Decision, outcome: bool) -> Self {
         let mut world = self.clone();
         world.decisions.push((decision, outcome));
@@ -67,7 +67,7 @@ impl World {
     }
 }
 
-/// Merges equal worlds; `false` when more than [`WORLD_CAP`] remain.
+/// Merges equal worlds; returns `false` if more than [`WORLD_CAP`] remain.
 pub(crate) fn merge(worlds: &mut SmallVec<[World; 2]>) -> bool {
     if worlds.len() > 1 {
         worlds.sort_unstable();

@@ -1,4 +1,4 @@
-//! The mean of the picture over a cell.
+//! The integral of the picture over a cell.
 //!
 //! The cell is cut along the edges of the surfaces, along the lines where two of them pass through
 //! each other, and where a paint changes its formula, until one formula holds in every piece. Flat
@@ -7,22 +7,22 @@
 use super::cell::{Cell, Cut, Point, SLACK};
 use super::order::{self, Members, Relation};
 use super::quadrature;
-use super::surface::Ready;
+use super::surface::PreparedSurface;
 use smallvec::SmallVec;
 
-/// Pieces that a texel may have before it is halved.
+/// The most pieces of a texel before it is halved.
 const PIECES: usize = 4096;
 
-/// Cuts within cuts that are followed before a texel is halved: they take room on the stack.
+/// The deepest recursion of cuts before a texel is halved: a bound on the stack.
 const DEPTH: usize = 200;
 
-/// How often a texel may be halved: to 16 by 16 parts.
+/// The most halvings of a texel: to 16 by 16 parts.
 const HALVINGS: u32 = 8;
 
 /// The most textured surfaces over each other that are integrated exactly.
 const EXACT_TEXTURES: usize = 6;
 
-/// Points along a side where there are more, and those of the rule that it is held against.
+/// Points along a side if there are more, and those of the rule that the result is compared with.
 const DENSE: [usize; 2] = [6, 4];
 
 /// An integral over a part of the picture.
@@ -30,7 +30,7 @@ const DENSE: [usize; 2] = [6, 4];
 pub(super) struct Integral {
     /// Colour times area.
     pub(super) sum: [f64; 3],
-    /// How far any channel of it may be off.
+    /// The largest possible error of a channel.
     pub(super) error: f64,
 }
 
@@ -43,20 +43,20 @@ impl Integral {
     }
 }
 
-/// The surfaces that may be seen in a part of the picture.
-pub(super) struct Scene<'a> {
-    pub(super) surfaces: &'a [Ready<'a>],
+/// The surfaces that may be visible in a part of the picture, over the background.
+pub(super) struct Layers<'a> {
+    pub(super) surfaces: &'a [PreparedSurface<'a>],
     pub(super) background: [f64; 3],
-    /// Those that may be seen there, the nearer first as far as that is known.
+    /// Those that may be visible there, nearer ones first as far as that is known.
     pub(super) touching: &'a [usize],
 }
 
-impl Scene<'_> {
-    /// The integral of the picture over a cell.
+impl Layers<'_> {
+    /// Returns the integral of the picture over a cell.
     ///
-    /// A cell with too many pieces is halved and each half tried anew. What has too many even as a
-    /// 256th of a texel counts as what is seen at its middle, and its area times the widest spread of
-    /// colours as the error: every colour that `over` gives lies between those it is given.
+    /// A cell with too many pieces is halved. A 256th of a texel that still has too many counts with the
+    /// colour at its middle; the error is its area times the widest spread of colours, since `over`
+    /// returns a colour between its inputs.
     pub(super) fn integral(&self, low: Point, high: Point) -> Integral {
         self.halved(low, high, 0)
     }
@@ -64,7 +64,7 @@ impl Scene<'_> {
     fn halved(&self, low: Point, high: Point, halvings: u32) -> Integral {
         let cell = Cell::rectangle(low, high);
         let mut pieces = Pieces {
-            scene: self,
+            layers: self,
             left: (PIECES >> halvings).max(16),
             depth: 0,
             integral: Integral::default(),
@@ -105,8 +105,8 @@ impl Scene<'_> {
         }
     }
 
-    /// Sorts the surfaces that cover all of a cell, leaves out those that nothing is seen of, and
-    /// gives them front to back; or two that cross in it.
+    /// Returns the visible ones of the surfaces that cover all of a cell, front to back; or two that cross
+    /// in it.
     pub(super) fn visible(&self, cell: &Cell, members: &[usize]) -> Result<Members, [usize; 2]> {
         let mut sorted = Members::from_slice(members);
         order::sort(self.surfaces, &mut sorted, cell.corners());
@@ -115,7 +115,7 @@ impl Scene<'_> {
         };
         for (i, &member) in sorted.iter().enumerate() {
             if self.surfaces[member].opaque {
-                // What lies behind an opaque surface may be in any order, as long as it stays behind.
+                // Surfaces behind an opaque one may be in any order.
                 let behind = sorted[i + 1..].iter().find(|&&b| crossing(member, b));
                 if let Some(&behind) = behind {
                     return Err([member, behind]);
@@ -132,16 +132,16 @@ impl Scene<'_> {
     }
 }
 
-/// The pieces of a cell; every function gives `None` once there are too many.
+/// The pieces of a cell; every function returns `None` once there are too many.
 struct Pieces<'a> {
-    scene: &'a Scene<'a>,
+    layers: &'a Layers<'a>,
     left: usize,
     depth: usize,
     integral: Integral,
 }
 
 impl Pieces<'_> {
-    /// Goes one cut deeper.
+    /// Recurses by one cut.
     fn deeper(&mut self, what: impl FnOnce(&mut Self) -> Option<()>) -> Option<()> {
         self.left = self.left.checked_sub(1)?;
         self.depth = (self.depth < DEPTH).then_some(self.depth + 1)?;
@@ -152,10 +152,10 @@ impl Pieces<'_> {
 
     /// Adds a cell that `members` cover, and of which the surfaces from `next` on may cover a part.
     fn cover(&mut self, cell: Cell, next: usize, members: &mut Members) -> Option<()> {
-        let (known, scene) = (members.len(), self.scene);
+        let (known, layers) = (members.len(), self.layers);
         let mut rest = cell;
-        for (i, &candidate) in scene.touching.iter().enumerate().skip(next) {
-            let surface = &scene.surfaces[candidate];
+        for (i, &candidate) in layers.touching.iter().enumerate().skip(next) {
+            let surface = &layers.surfaces[candidate];
             if surface.misses(&rest) || self.hidden(candidate, members, &rest) {
                 continue;
             }
@@ -182,9 +182,9 @@ impl Pieces<'_> {
         Some(())
     }
 
-    /// Whether a surface lies behind an opaque one in all of a cell.
+    /// True if a surface lies behind an opaque one in all of a cell.
     fn hidden(&self, candidate: usize, members: &[usize], cell: &Cell) -> bool {
-        let surfaces = self.scene.surfaces;
+        let surfaces = self.layers.surfaces;
         members.iter().any(|&member| {
             surfaces[member].opaque
                 && order::relation(surfaces, member, candidate, cell.corners()) == Relation::Front
@@ -193,8 +193,8 @@ impl Pieces<'_> {
 
     /// Adds a cell that all of `members` and no other surface covers.
     fn arrange(&mut self, cell: &Cell, members: &[usize]) -> Option<()> {
-        let surfaces = self.scene.surfaces;
-        match self.scene.visible(cell, members) {
+        let surfaces = self.layers.surfaces;
+        match self.layers.visible(cell, members) {
             Ok(visible) => self.paint(cell, &visible),
             Err([a, b]) => {
                 let slack = order::slack(surfaces, a, b);
@@ -209,13 +209,13 @@ impl Pieces<'_> {
         }
     }
 
-    /// Adds a cell in which these surfaces are seen, in this order.
+    /// Adds a cell in which these surfaces are visible, in this order.
     fn paint(&mut self, cell: &Cell, visible: &[usize]) -> Option<()> {
-        let scene = self.scene;
-        let seen = |p| order::compose(scene.surfaces, visible, scene.background, p);
-        let all = || visible.iter().map(|&i| &scene.surfaces[i]);
+        let layers = self.layers;
+        let seen = |p| order::compose(layers.surfaces, visible, layers.background, p);
+        let all = || visible.iter().map(|&i| &layers.surfaces[i]);
         let textures = all().filter(|s| s.is_textured()).count();
-        let fades = all().any(Ready::fades);
+        let fades = all().any(PreparedSurface::fades);
         if let Some((one, other)) = all().find_map(|s| s.kink(cell)) {
             return self.deeper(|pieces| {
                 pieces.paint(&one, visible)?;
@@ -223,7 +223,7 @@ impl Pieces<'_> {
             });
         }
         if textures == 0 && !fades {
-            // Linear at most: the mean is what is seen at the centre of gravity.
+            // Linear at most: the mean is the colour at the centroid.
             let (area, centroid) = cell.area_and_centroid();
             self.integral.add(Integral {
                 sum: seen(centroid).map(|v| v * area),
@@ -241,9 +241,9 @@ impl Pieces<'_> {
             }
             sum
         };
-        // Each texture takes (1 - alpha), of degree 2, from what is behind it, and gives colour times
-        // alpha, of degree 4: together `2 * textures + 2`. Between a distance and its double,
-        // 8 points give 1 over it to 1e-10.
+        // Each texture multiplies the colour behind it by (1 - alpha), of degree 2, and adds colour times
+        // alpha, of degree 4: together `2 * textures + 2`. Between a distance and its double, 8 points
+        // approximate its reciprocal to 1e-10.
         let fading = if fades { 6 } else { 0 };
         self.integral.add(if textures <= EXACT_TEXTURES {
             Integral {
@@ -262,8 +262,12 @@ impl Pieces<'_> {
     }
 }
 
-/// The surfaces by their depth at a point, the nearest first.
-pub(super) fn nearest_first(surfaces: &[Ready<'_>], touching: &[usize], p: Point) -> Vec<usize> {
+/// Returns the surfaces by their depth at a point, the nearest first.
+pub(super) fn nearest_first(
+    surfaces: &[PreparedSurface<'_>],
+    touching: &[usize],
+    p: Point,
+) -> Vec<usize> {
     let mut depths: SmallVec<[(f64, usize); 16]> = touching
         .iter()
         .map(|&i| (surfaces[i].depth.at(p), i))

@@ -1,4 +1,4 @@
-//! Convex pieces of the picture, and cutting them along lines.
+//! Convex pieces of the picture, cut along lines.
 
 use smallvec::SmallVec;
 
@@ -14,11 +14,11 @@ pub(super) struct Cell {
     corners: SmallVec<[Point; 8]>,
 }
 
-/// What a line leaves of a cell on its two sides.
+/// The parts of a cell on the two sides of a line.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(
     clippy::large_enum_variant,
-    reason = "cuts are taken apart at once and never kept: a box would cost more than the room"
+    reason = "cuts are taken apart at once and never stored: a box would cost more than the space"
 )]
 pub(super) enum Cut {
     /// No corner lies on the negative side.
@@ -30,7 +30,7 @@ pub(super) enum Cut {
 }
 
 impl Cell {
-    /// The rectangle between two corners.
+    /// Returns the rectangle between two corners.
     pub(super) fn rectangle(low: Point, high: Point) -> Self {
         let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
         Self {
@@ -38,12 +38,12 @@ impl Cell {
         }
     }
 
-    /// The corners in order around the cell.
+    /// Returns the corners in order around the cell.
     pub(super) fn corners(&self) -> &[Point] {
         &self.corners
     }
 
-    /// The least and the largest value that a linear function takes in the cell.
+    /// Returns the least and the largest value of a linear function in the cell.
     pub(super) fn range(&self, function: impl Fn(Point) -> f64) -> (f64, f64) {
         let values = self.corners.iter().map(|&corner| function(corner));
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
@@ -81,13 +81,13 @@ impl Cell {
         Cut::Both(Self { corners: positive }, Self { corners: negative })
     }
 
-    /// The triangles between the first corner and each side that does not meet it.
+    /// Returns the triangles between the first corner and each side that does not meet it.
     pub(super) fn triangles(&self) -> impl Iterator<Item = [Point; 3]> + '_ {
         let sides = self.corners.windows(2).skip(1);
         sides.map(|side| [self.corners[0], side[0], side[1]])
     }
 
-    /// The area in texels and the centre of gravity.
+    /// Returns the area in texels and the centroid.
     pub(super) fn area_and_centroid(&self) -> (f64, Point) {
         let (mut area, mut moment) = (0.0, [0.0; 2]);
         let origin = self.corners[0];
@@ -108,7 +108,7 @@ impl Cell {
     }
 }
 
-/// The area of a triangle whose corners go around as those of a cell do.
+/// Returns the area of a triangle whose corners are in the order of a cell's.
 pub(super) fn area_of([a, b, c]: [Point; 3]) -> f64 {
     (((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0).max(0.0)
 }

@@ -1,21 +1,22 @@
-//! How far a picture that came back lies from the truth.
+//! The distance of a picture from the truth.
 
-use super::TruthPicture;
+use super::picture::TruthPicture;
+use super::rgb8::{decode, quantized};
 use etalon_frame::{Aspect, ChannelEncoding, Distance, Image};
 use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, flip};
 
-/// A texel is wrong from this difference of a channel on. The small part is for rounding: two whole
-/// codes of 255 are not more than two.
+/// The difference of a channel above which a texel counts as wrong: two codes of 255, and room for
+/// rounding.
 const WRONG: f64 = 2.0 / 255.0 + 1e-9;
 
-/// Measures how far a picture lies from the truth: its red, green and blue values as its codes stand
-/// for them (linear ones, of sRGB codes), a channel that it has not as 0, alpha not at all.
+/// Returns the distance of a picture from the truth, over the linear values of red, green and blue. A
+/// missing channel counts as 0; alpha is ignored.
 ///
-/// A value that is not finite differs by 1, and for FLIP it is an infinity's end of 0 to 1, of a NaN
-/// the end that is farther from the truth.
+/// A value that is not finite differs by 1. In FLIP, infinities are clamped to 0..1, and a NaN is the
+/// end that is farther from the truth.
 ///
-/// `None` where there is nothing to measure: the image is not colour, has several samples or integer
-/// channels, is not of the truth's size, or is empty.
+/// `None` if there is nothing to measure: the image is not colour, has several samples or integer
+/// channels, differs from the truth in size, or is empty.
 pub fn distance(truth: &TruthPicture, picture: &Image) -> Option<Distance> {
     let [width, height] = picture.size;
     let texels = truth.rgb.len();
@@ -71,18 +72,6 @@ pub fn distance(truth: &TruthPicture, picture: &Image) -> Option<Distance> {
     result.wrong = wrong as f64 / texels as f64;
     result.flip = mean_flip(picture.size, &should, &is);
     Some(result)
-}
-
-pub(super) fn decode(encoding: ChannelEncoding, code: u32) -> f64 {
-    if encoding.is_nan(code) {
-        return f64::NAN;
-    }
-    encoding.value_of_order(encoding.order_of_code(code))
-}
-
-/// The nearest of 256 steps from 0 to 1.
-pub(super) fn quantized(value: f64) -> u8 {
-    (value.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
 fn mean_flip([width, height]: [u32; 2], should: &[u8], is: &[u8]) -> f64 {

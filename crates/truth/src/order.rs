@@ -1,35 +1,40 @@
-//! Which surface lies in front of which.
+//! The depth order of surfaces.
 
 use super::cell::Point;
-use super::surface::Ready;
+use super::surface::PreparedSurface;
 use smallvec::SmallVec;
 
 /// Surfaces by their position in the scene.
 pub(super) type Members = SmallVec<[usize; 16]>;
 
-/// How two surfaces lie at all of some points.
+/// The order of two surfaces at all of some points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Relation {
     /// The first one is in front.
     Front,
     /// The second one is in front.
     Behind,
-    /// Here the one, there the other.
+    /// The first one at some points, the second one at others.
     Crossing,
 }
 
-/// How much farther surface `a` lies than `b` at a point.
-pub(super) fn gap(surfaces: &[Ready<'_>], a: usize, b: usize, p: Point) -> f64 {
+/// Returns the depth of surface `a` minus that of `b` at a point.
+pub(super) fn gap(surfaces: &[PreparedSurface<'_>], a: usize, b: usize, p: Point) -> f64 {
     surfaces[a].depth.at(p) - surfaces[b].depth.at(p)
 }
 
-/// Gaps up to this are rounding.
-pub(super) fn slack(surfaces: &[Ready<'_>], a: usize, b: usize) -> f64 {
+/// Returns the largest gap that is rounding.
+pub(super) fn slack(surfaces: &[PreparedSurface<'_>], a: usize, b: usize) -> f64 {
     surfaces[a].slack + surfaces[b].slack
 }
 
-/// How surface `a` lies to `b` at points; where they lie together, the later one is in front.
-pub(super) fn relation(surfaces: &[Ready<'_>], a: usize, b: usize, points: &[Point]) -> Relation {
+/// Returns the order of surfaces `a` and `b` at points; of two at equal depth, the later is in front.
+pub(super) fn relation(
+    surfaces: &[PreparedSurface<'_>],
+    a: usize,
+    b: usize,
+    points: &[Point],
+) -> Relation {
     let slack = slack(surfaces, a, b);
     let (mut nearer, mut farther) = (false, false);
     for &p in points {
@@ -46,15 +51,14 @@ pub(super) fn relation(surfaces: &[Ready<'_>], a: usize, b: usize, points: &[Poi
     }
 }
 
-/// Sorts surfaces front to back as seen at points. Of two that cross, the one that is nearer in the
-/// mean comes first.
-pub(super) fn sort(surfaces: &[Ready<'_>], members: &mut [usize], points: &[Point]) {
+/// Sorts surfaces front to back at points. Of two that cross, the nearer in the mean comes first.
+pub(super) fn sort(surfaces: &[PreparedSurface<'_>], members: &mut [usize], points: &[Point]) {
     let before = |a: usize, b: usize| match relation(surfaces, a, b, points) {
         Relation::Front => true,
         Relation::Behind => false,
         Relation::Crossing => points.iter().map(|&p| gap(surfaces, a, b, p)).sum::<f64>() < 0.0,
     };
-    // By insertion: mostly they come sorted, and a library's sort may panic where rounding makes
+    // By insertion: the input is mostly sorted, and the standard sort may panic if rounding makes
     // equality of depths intransitive.
     for i in 1..members.len() {
         let mut j = i;
@@ -65,9 +69,9 @@ pub(super) fn sort(surfaces: &[Ready<'_>], members: &mut [usize], points: &[Poin
     }
 }
 
-/// The picture at a point: surfaces that are sorted front to back, over the background.
+/// Returns the colour at a point of surfaces sorted front to back, over the background.
 pub(super) fn compose(
-    surfaces: &[Ready<'_>],
+    surfaces: &[PreparedSurface<'_>],
     members: &[usize],
     background: [f64; 3],
     p: Point,

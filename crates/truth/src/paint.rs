@@ -1,13 +1,13 @@
-//! What colour a surface has at a point, and along which lines that changes its formula.
+//! The colour of a surface at a point, and the lines along which its formula changes.
 
 use super::cell::{Cell, Cut, Point};
-use super::surface::Ready;
+use super::surface::PreparedSurface;
 use etalon_methods::{Paint, Texture};
 use etalon_pipeline::texel_position;
 use etalon_scene::AddressMode;
 
-impl Ready<'_> {
-    /// The colour at a point: straight red, green, blue and alpha.
+impl PreparedSurface<'_> {
+    /// Returns the colour at a point: red, green, blue, not premultiplied, and alpha.
     pub(super) fn color(&self, p: Point) -> [f64; 4] {
         let grey = |v: f64| [v, v, v, 1.0];
         match self.paint {
@@ -32,26 +32,25 @@ impl Ready<'_> {
         }
     }
 
-    /// Whether the colour is the same everywhere.
+    /// True if the colour is constant.
     pub(super) fn is_flat(&self) -> bool {
         matches!(self.paint, Paint::Flat(_))
     }
 
-    /// Whether it is textured.
+    /// True if it is textured.
     pub(super) fn is_textured(&self) -> bool {
         matches!(self.paint, Paint::Texture { .. })
     }
 
-    /// Whether it fades with the distance.
+    /// True if its colour depends on the distance.
     pub(super) fn fades(&self) -> bool {
         matches!(self.paint, Paint::Distance { .. } | Paint::Fog { .. })
     }
 
-    /// Cuts a cell in two where no single smooth formula gives the colour in all of it.
+    /// Returns the parts of a cell if no single smooth formula describes the colour in all of it.
     ///
-    /// A textured cell is cut between texel centres, so that each piece's colour and alpha are of the
-    /// second degree. A faded one is cut where the depth leaves 0 to 1, and halved until the distance
-    /// no more than doubles in it.
+    /// A textured cell is cut along texel centres, so that each part's colour and alpha are of degree 2. A
+    /// faded one is cut where the depth leaves 0..1, and halved until the distance at most doubles in it.
     pub(super) fn kink(&self, cell: &Cell) -> Option<(Cell, Cell)> {
         let cut = |function: &dyn Fn(Point) -> f64, range: (f64, f64)| match cell
             .cut(function, 1e-9 * (range.1 - range.0))
@@ -91,7 +90,7 @@ impl Ready<'_> {
         }
     }
 
-    /// Where a point lies in the texture, in texels from the centre of the first one.
+    /// Returns the position of a point in the texture, in texels from the centre of the first one.
     fn positions(&self, texture: &Texture, p: Point) -> [f64; 2] {
         std::array::from_fn(|axis| {
             let coordinate = self.uv.as_ref().map_or(0.0, |uv| uv[axis].at(p));
@@ -100,13 +99,13 @@ impl Ready<'_> {
     }
 }
 
-/// The distance that a window depth stands for, 0 at the near and 1 at the far plane and beyond.
+/// Returns the distance of a window depth: 0 at the near plane, 1 at the far plane and beyond.
 fn fade(depth: f64, near: f64, far: f64) -> f64 {
     let distance = near * far / (far - depth.clamp(0.0, 1.0) * (far - near));
     ((distance - near) / (far - near)).clamp(0.0, 1.0)
 }
 
-/// The weighted mean of the four texels around a position (Vulkan, Texel Filtering).
+/// Returns the weighted mean of the four texels around a position (Vulkan, Texel Filtering).
 fn filtered(texture: &Texture, position: [f64; 2]) -> [f64; 4] {
     let first = position.map(f64::floor);
     let weight = [position[0] - first[0], position[1] - first[1]];

@@ -1,4 +1,4 @@
-//! Means over triangles, by points and weights that are exact for polynomials.
+//! Integrals over triangles, by Gauss-Legendre rules, which are exact for polynomials.
 
 use super::cell::{Point, area_of};
 use std::f64::consts::PI;
@@ -10,8 +10,8 @@ pub(super) const MOST: usize = 14;
 /// Gauss-Legendre points and weights on 0 to 1, by the number of points.
 static RULES: LazyLock<Vec<Vec<(f64, f64)>>> = LazyLock::new(|| (0..=MOST).map(gauss).collect());
 
-/// The points of the rule with `n` points on 0 to 1, each with its weight: roots of the Legendre
-/// polynomial by Newton's method from the usual guess (Press and others, Numerical Recipes, 4.6).
+/// Returns the points and weights of the rule with `n` points on 0..1: roots of the Legendre polynomial
+/// by Newton's method from the usual guess (Press and others, Numerical Recipes, 4.6).
 fn gauss(n: usize) -> Vec<(f64, f64)> {
     let rule = (0..n).map(|i| {
         let mut x = (PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
@@ -35,9 +35,9 @@ fn gauss(n: usize) -> Vec<(f64, f64)> {
     rule.collect()
 }
 
-/// The integral of a function over a triangle from `points`² points, at most [`MOST`]²: exact for
-/// polynomials of degree `2 * points - 2`, because the square that is folded to the triangle at its
-/// first corner (Duffy 1982) adds one degree.
+/// Returns the integral of a function over a triangle from `points`² points, at most [`MOST`]²: exact for
+/// polynomials of degree `2 * points - 2`, because the map from the square to the triangle, collapsed at
+/// its first corner (Duffy 1982), adds one degree.
 pub(super) fn integral(
     triangle: [Point; 3],
     points: usize,

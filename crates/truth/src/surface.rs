@@ -1,4 +1,4 @@
-//! Surfaces made ready: edges, depth as a linear function, what can be said of their paint.
+//! Prepared surfaces: edges, depth as a linear function, bounds of the paint.
 
 use super::cell::{Cell, Point, SLACK};
 use etalon_methods::{Paint, Surface, Texture};
@@ -12,8 +12,8 @@ pub(super) struct Linear {
 }
 
 impl Linear {
-    /// The function that has these values at these corners; where no linear function has, the mean of
-    /// those through the triangles around the first corner, weighted by their areas.
+    /// Returns the function with these values at these corners; if there is none, the mean of those
+    /// through the triangles around the first corner, weighted by their areas.
     fn through(corners: &[Point], values: &[f64]) -> Self {
         let (origin, value) = (corners[0], values[0]);
         let (mut area, mut slope) = (0.0, [0.0; 2]);
@@ -31,7 +31,7 @@ impl Linear {
         }
     }
 
-    /// Its value at a point.
+    /// Returns its value at a point.
     pub(super) fn at(&self, p: Point) -> f64 {
         self.value
             + self.slope[0] * (p[0] - self.origin[0])
@@ -43,15 +43,15 @@ impl Linear {
     }
 }
 
-/// One side of a polygon, its ends in an order that both polygons at it agree on: so they compute
-/// the same number for a point, up to the sign.
+/// One side of a polygon, its ends in an order that both polygons at it share, so that they compute the
+/// same number for a point up to the sign.
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     from: Point,
     to: Point,
     /// 1 over its length, negative where the inside lies on the other side.
     scale: f64,
-    /// Whether a point on it belongs to this polygon: the top-left rule.
+    /// True if a point on it belongs to this polygon: the top-left rule.
     owns: bool,
 }
 
@@ -71,7 +71,7 @@ impl Edge {
         }
     }
 
-    /// How far inside the edge a point lies, in texels.
+    /// Returns the signed distance of a point from the edge in texels, positive inside.
     fn distance(&self, p: Point) -> f64 {
         let across = (self.to[0] - self.from[0]) * (p[1] - self.from[1])
             - (self.to[1] - self.from[1]) * (p[0] - self.from[0]);
@@ -79,27 +79,27 @@ impl Edge {
     }
 }
 
-/// How a polygon lies to a rectangle.
+/// The part of a rectangle that a polygon covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Overlap {
-    /// Nowhere in it, with room to spare.
+    /// None of it, by more than rounding.
     None,
-    /// Perhaps in a part of it.
+    /// Perhaps a part of it.
     Part,
-    /// Everywhere in it, with room to spare.
+    /// All of it, by more than rounding.
     Whole,
 }
 
-/// A surface that covers something.
+/// A surface of positive area, ready to be evaluated.
 #[derive(Debug)]
-pub(super) struct Ready<'a> {
+pub(super) struct PreparedSurface<'a> {
     pub(super) paint: &'a Paint,
     pub(super) depth: Linear,
     /// The texture coordinates of a textured surface, across and down.
     pub(super) uv: Option<[Linear; 2]>,
-    /// How far rounding can move a depth.
+    /// The largest rounding error of a depth.
     pub(super) slack: f64,
-    /// Whether nothing behind it is seen, wherever it is.
+    /// True if it hides everything behind it.
     pub(super) opaque: bool,
     /// The least and the largest value of any channel of its colour.
     pub(super) tones: [(f64, f64); 3],
@@ -108,9 +108,9 @@ pub(super) struct Ready<'a> {
     high: Point,
 }
 
-impl<'a> Ready<'a> {
-    /// Makes a surface ready; `None` where it covers nothing: fewer than three different corners, no
-    /// area, or numbers in it or in its paint that mean nothing.
+impl<'a> PreparedSurface<'a> {
+    /// Returns the prepared surface; `None` if it covers nothing: fewer than three different corners, no
+    /// area, or invalid numbers in it or in its paint.
     pub(super) fn new(surface: &'a Surface) -> Option<Self> {
         let corners: Vec<Point> = surface.corners.iter().map(|c| [c[0], c[1]]).collect();
         let depths: Vec<f64> = surface.corners.iter().map(|c| c[2]).collect();
@@ -132,7 +132,7 @@ impl<'a> Ready<'a> {
                 a[0] * b[1] - a[1] * b[0]
             })
             .sum();
-        // Below this the area is rounding. An extent or an area that overflows fails it too.
+        // Below this the area is rounding. An extent or an area that overflows fails the test too.
         let least = 1e-13 * extent * extent;
         if !(area.is_finite() && area.abs() > least) {
             return None;
@@ -175,7 +175,7 @@ impl<'a> Ready<'a> {
         })
     }
 
-    /// Whether the surface covers a point; of two that share an edge, one covers a point on it.
+    /// True if the surface covers a point; of two that share an edge, one covers a point on it.
     pub(super) fn covers(&self, p: Point) -> bool {
         self.edges.iter().all(|edge| {
             let distance = edge.distance(p);
@@ -183,7 +183,7 @@ impl<'a> Ready<'a> {
         })
     }
 
-    /// How the surface lies to a rectangle. "Perhaps" where rounding could decide.
+    /// Returns the part of a rectangle that the surface covers: `Part` if rounding could decide.
     pub(super) fn overlap(&self, low: Point, high: Point) -> Overlap {
         const ROOM: f64 = 1e-9;
         let apart =
@@ -205,17 +205,17 @@ impl<'a> Ready<'a> {
         overlap
     }
 
-    /// The number of edges.
+    /// Returns the number of edges.
     pub(super) fn edges(&self) -> usize {
         self.edges.len()
     }
 
-    /// How far inside one of its edges a point lies, in texels.
+    /// Returns the signed distance of a point from one of its edges in texels, positive inside.
     pub(super) fn inside(&self, edge: usize, p: Point) -> f64 {
         self.edges[edge].distance(p)
     }
 
-    /// Whether the surface covers nothing of a cell, as one of its edges shows.
+    /// True if a cell lies outside one of the edges.
     pub(super) fn misses(&self, cell: &Cell) -> bool {
         let mut edges = self.edges.iter();
         edges.any(|edge| cell.range(|p| edge.distance(p)).1 <= SLACK)
@@ -230,7 +230,7 @@ fn is_opaque(paint: &Paint) -> bool {
     }
 }
 
-/// The least and the largest value of each channel; `None` where the paint means nothing.
+/// Returns the least and the largest value of each channel; `None` if the paint is invalid.
 fn tones(paint: &Paint, depths: &[f64]) -> Option<[(f64, f64); 3]> {
     let hull = |values: &mut dyn Iterator<Item = f64>| {
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {

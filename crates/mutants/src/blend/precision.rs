@@ -2,8 +2,8 @@
 
 use super::component;
 use crate::hooks::{blending, code, color_code, faithful_blend};
+use crate::list::{CONFUSION, List, SMALL};
 use crate::plant::{Plant, draws, in_bits};
-use crate::{CONFUSION, List, SMALL};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::BlendInput;
 use etalon_scene::{BlendFactor, BlendOperation};
@@ -13,7 +13,7 @@ const PRECISION: &str = "Vulkan: Blending: precision no lower than that used to 
 const ROUNDED: &str = "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized \
                        Fixed-Point: one of the two closest values, the nearest only recommended";
 
-pub(super) fn add(list: &mut List) {
+pub(crate) fn add(list: &mut List) {
     constants(list);
     precision(list);
     stores(list);
@@ -83,7 +83,7 @@ fn constants(list: &mut List) {
     add(
         "constant-red-for-all",
         CONFUSION,
-        "The constant's red stands for all.",
+        "The constant's red is used for all channels.",
         |c| [c[0]; 4],
     );
     add(
@@ -121,7 +121,7 @@ fn constants(list: &mut List) {
     );
     list.add(
         "source-not-clamped",
-        "SwiftShader: clamping of what is blended",
+        "SwiftShader: clamping of blend inputs",
         "A source outside 0 to 1 is not clamped before it is blended.",
         blending(|state, _, input| {
             let input = BlendInput {
@@ -299,7 +299,7 @@ fn precision(list: &mut List) {
     );
     list.add(
         "in-srgb-space",
-        "SwiftShader: sRGB taken for linear",
+        "SwiftShader: sRGB treated as linear",
         "Colour is blended in linear light of an sRGB reading, though the format is linear.",
         blending(|state, encodings, input| {
             let mut light = *input;
@@ -342,14 +342,14 @@ fn stores(list: &mut List) {
     list.add(
         "store-by-256",
         "multiplying by 256 instead of 255",
-        "Colours are stored as v × 256, rounded down and held at 255.",
+        "Colours are stored as v × 256, rounded down and clamped to 255.",
         unorm8(|v| (v * 256.0 / 255.0).floor()),
     )
     .legal(ROUNDED);
     list.add(
         "store-wraps",
         CONFUSION,
-        "Colours outside 0 to 1 wrap round.",
+        "Colours outside 0 to 1 wrap around.",
         color_code(|encoding, v| match encoding {
             ChannelEncoding::Unorm(8) => ((v * 255.0 + 0.5).floor() as i64 & 0xff) as u32,
             _ => code(encoding, v),

@@ -1,11 +1,11 @@
-//! The order of channels in each format: in uploads, in clears, and in what comes back.
+//! Bugs of the order of channels in uploads, clears and read-back.
 
+use crate::list::{CONFUSION, List};
 use crate::plant::{Plant, images_of, scene};
-use crate::{CONFUSION, List};
 use etalon_frame::TextureFormat::{self, *};
 use etalon_scene::{Contents, Draw, Scene};
 
-/// The formats, and the two channels that a slip would exchange.
+/// The formats, and the two channels that a mistake would exchange.
 const ORDERS: [(TextureFormat, [usize; 2]); 11] = [
     (Rg8Unorm, [0, 1]),
     (Rgba8UnormSrgb, [0, 2]),
@@ -36,7 +36,7 @@ pub(super) fn add(list: &mut List) {
         };
         add(
             "read",
-            "in what comes back",
+            "in read-back",
             images_of(format, move |image| {
                 image.codes.chunks_exact_mut(n).for_each(|t| t.swap(a, b));
             }),
@@ -81,7 +81,7 @@ pub(super) fn add(list: &mut List) {
     );
 }
 
-/// Changes what attachments of a format start from.
+/// Changes the first contents of attachments of a format.
 fn contents(format: TextureFormat, bug: impl Fn(&mut Contents) + Send + Sync + 'static) -> Plant {
     scene(move |scene| {
         let all = scene.attachments.iter_mut();

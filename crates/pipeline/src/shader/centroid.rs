@@ -1,7 +1,7 @@
-//! Twin of `shaders/centroid.wgsl`. Inside a primitive whose first texture
-//! coordinates are not negative, neither is what is interpolated from them.
+//! Twin of `shaders/centroid.wgsl`. Inside a primitive whose first texture coordinates are not
+//! negative, the interpolated coordinate is not negative either.
 
-use super::{FragmentInput, FragmentOutput};
+use super::interface::{FragmentInput, FragmentOutput};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(

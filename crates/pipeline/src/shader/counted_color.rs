@@ -1,4 +1,3 @@
-//! Twin of `shaders/counted_color.wgsl`. What it counts is the walker's business; the rest is
-//! `uniform_color`.
+//! Twin of `shaders/counted_color.wgsl`: `uniform_color`. The caller counts its runs.
 
 pub(super) use super::uniform_color::fragment;

@@ -1,4 +1,3 @@
-//! Twin of `shaders/counted_depth.wgsl`. What it counts is the walker's business; the rest is
-//! `flat_color_depth`.
+//! Twin of `shaders/counted_depth.wgsl`: `flat_color_depth`. The caller counts its runs.
 
 pub(super) use super::flat_color_depth::fragment;

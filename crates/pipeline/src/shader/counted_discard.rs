@@ -1,4 +1,3 @@
-//! Twin of `shaders/counted_discard.wgsl`. What it counts is the walker's business; the rest is
-//! `texel_discard`.
+//! Twin of `shaders/counted_discard.wgsl`: `texel_discard`. The caller counts its runs.
 
 pub(super) use super::texel_discard::fragment;

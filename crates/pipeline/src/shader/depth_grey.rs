@@ -1,6 +1,6 @@
 //! Twin of `shaders/depth_grey.wgsl`.
 
-use super::{FragmentInput, FragmentOutput};
+use super::interface::{FragmentInput, FragmentOutput};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(

@@ -1,6 +1,7 @@
 //! Twin of `shaders/depth_linearized.wgsl`.
 
-use super::{FragmentInput, FragmentOutput, distance_behind, share_between};
+use super::arithmetic::{distance_behind, share_between};
+use super::interface::{FragmentInput, FragmentOutput};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(

@@ -1,6 +1,7 @@
 //! Twin of `shaders/dual_peel.wgsl`.
 
-use super::{FragmentInput, FragmentOutput, premultiplied};
+use super::arithmetic::premultiplied;
+use super::interface::{FragmentInput, FragmentOutput};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(
@@ -13,7 +14,7 @@ pub(super) fn fragment<A: Arithmetic>(
     let nothing = a.constant(-1.0);
     let nearest = a.sub(zero, range[0]);
     let farthest = range[1];
-    // Strictly between the two ends the depth is for the next step.
+    // A depth strictly between the two ends is left to the next pass.
     let between = |a: &mut A, value: A::Real| {
         let inside = a.select_less(depth, farthest, value, nothing);
         a.select_less(nearest, depth, inside, nothing)

@@ -1,6 +1,7 @@
 //! Twin of `shaders/edge_alpha.wgsl`.
 
-use super::{FragmentInput, FragmentOutput, clamp_to_unit};
+use super::arithmetic::clamp_to_unit;
+use super::interface::{FragmentInput, FragmentOutput};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(

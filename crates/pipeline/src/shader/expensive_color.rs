@@ -1,16 +1,15 @@
-//! Twin of `shaders/expensive_color.wgsl`. The value that is so costly to find out is 0, whatever the
-//! steps; whose time they take is the walker's business. The rest is `flat_color`.
+//! Twin of `shaders/expensive_color.wgsl`. The expensive value is 0 after any number of steps, so
+//! that the output is that of `flat_color`.
 //!
-//! [`cost`] is the same work for a rasterizer whose times are to mean something.
+//! [`cost`] is the same work, for a rasterizer whose frame times are measured.
 
 pub(super) use super::flat_color::fragment;
 
-/// What the shader adds to its colour, for some texels of a row by their columns: 0, after `steps` steps
-/// of work for each. Nothing tells the compiler that the steps are in vain, as long as what comes back is
-/// used.
+/// Returns the value that the shader adds to its colour, for texels of a row by their columns: 0, after
+/// `steps` steps for each. The compiler cannot leave out the steps as long as the result is used.
 pub fn cost<const N: usize>(columns: [u32; N], row: u32, steps: f32) -> [f32; N] {
     let mut hashes = columns.map(|x| x.wrapping_mul(747_796_405).wrapping_add(row));
-    // `as` holds a float that is no 32-bit integer to the nearest that is.
+    // `as` saturates, and maps NaN to 0.
     for _ in 0..steps as u32 {
         for hash in &mut hashes {
             *hash = hash.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

@@ -1,3 +1,3 @@
-//! Twin of `shaders/expensive_depth.wgsl`. But for the cost it is `frag_coord_depth`.
+//! Twin of `shaders/expensive_depth.wgsl`: `frag_coord_depth` without the cost.
 
 pub(super) use super::frag_coord_depth::fragment;

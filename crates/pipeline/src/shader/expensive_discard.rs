@@ -1,6 +1,6 @@
-//! Twin of `shaders/expensive_discard.wgsl`, but for the cost.
+//! Twin of `shaders/expensive_discard.wgsl`, without the cost.
 
-use super::{FragmentInput, FragmentOutput, Kept};
+use super::interface::{FragmentInput, FragmentOutput, Kept};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(

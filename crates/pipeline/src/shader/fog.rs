@@ -1,6 +1,7 @@
 //! Twin of `shaders/fog.wgsl`.
 
-use super::{FragmentInput, FragmentOutput, clamp_to_unit, distance_behind, share_between};
+use super::arithmetic::{clamp_to_unit, distance_behind, share_between};
+use super::interface::{FragmentInput, FragmentOutput};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(

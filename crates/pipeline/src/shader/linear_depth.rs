@@ -1,6 +1,7 @@
 //! Twin of `shaders/linear_depth.wgsl`.
 
-use super::{FragmentInput, FragmentOutput, share_between};
+use super::arithmetic::share_between;
+use super::interface::{FragmentInput, FragmentOutput};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(

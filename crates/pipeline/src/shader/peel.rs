@@ -1,6 +1,6 @@
 //! Twin of `shaders/peel.wgsl`.
 
-use super::{FragmentInput, FragmentOutput, Kept};
+use super::interface::{FragmentInput, FragmentOutput, Kept};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(

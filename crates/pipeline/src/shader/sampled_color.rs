@@ -1,4 +1,3 @@
-//! Twin of `shaders/sampled_color.wgsl`. Whether the texel was fetched or sampled is the walker's
-//! business: `texel_color`.
+//! Twin of `shaders/sampled_color.wgsl`: `texel_color`. The caller samples instead of fetching.
 
 pub(super) use super::texel_color::fragment;

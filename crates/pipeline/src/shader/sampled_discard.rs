@@ -1,4 +1,3 @@
-//! Twin of `shaders/sampled_discard.wgsl`. Whether the texel was fetched or sampled is the walker's
-//! business: `texel_discard`.
+//! Twin of `shaders/sampled_discard.wgsl`: `texel_discard`. The caller samples instead of fetching.
 
 pub(super) use super::texel_discard::fragment;

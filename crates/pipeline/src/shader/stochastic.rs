@@ -1,6 +1,6 @@
 //! Twin of `shaders/stochastic.wgsl`.
 
-use super::{FragmentInput, FragmentOutput, Kept};
+use super::interface::{FragmentInput, FragmentOutput, Kept};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(
@@ -8,7 +8,7 @@ pub(super) fn fragment<A: Arithmetic>(
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
     let [red, green, blue, alpha] = input.color;
-    // Samples past the fourth have the first one's threshold.
+    // Samples past the fourth use the first one's threshold.
     let threshold = match input.sample {
         1 => input.texels[0][1],
         2 => input.texels[0][2],

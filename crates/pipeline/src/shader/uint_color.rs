@@ -1,4 +1,3 @@
-//! Twin of `shaders/uint_color.wgsl`. Whole numbers are the same as integers and as reals:
-//! `uniform_color`.
+//! Twin of `shaders/uint_color.wgsl`: `uniform_color`, since integers are exact as reals.
 
 pub(super) use super::uniform_color::fragment;

@@ -1,6 +1,7 @@
 //! Twin of `shaders/weighted_accumulate.wgsl`.
 
-use super::{FragmentInput, FragmentOutput, premultiplied};
+use super::arithmetic::premultiplied;
+use super::interface::{FragmentInput, FragmentOutput};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(

@@ -1,31 +1,9 @@
-use super::*;
+use super::{Sample, explain, judge};
+use crate::rules::Rules;
+use crate::test_limits::limits;
 use etalon_case::{Case, CaseFile, Profile};
-use etalon_frame::{Api, Feature, FormatSupport, TextureFormat};
-
-/// Limits of an adapter that has everything, copies everything, and has 8 sub-pixel bits.
-pub(crate) fn limits(api: Api) -> Limits {
-    let formats = TextureFormat::ALL
-        .into_iter()
-        .map(|format| {
-            let support = FormatSupport {
-                samples: vec![1],
-                blendable: true,
-                depth: format.depth_encodings().iter().copied().take(1).collect(),
-                read: ReadPath::Copy,
-            };
-            (format, support)
-        })
-        .collect();
-    Limits {
-        api,
-        sub_pixel_bits: 8,
-        max_size: 4096,
-        max_color_attachments: 8,
-        formats,
-        features: Feature::ALL.into_iter().collect(),
-        sample_positions: [(1, vec![[128, 128]])].into_iter().collect(),
-    }
-}
+use etalon_frame::Api;
+use etalon_scene::Scene;
 
 fn case(text: &str) -> Case {
     let file = CaseFile::parse("t.json", text).expect("parses");

@@ -1,13 +1,13 @@
-//! Which pictures must be the same although the rules leave each of them open.
+//! Invariance: pictures that must be equal although the rules leave each of them open.
 
-use super::{Permission, Rules, permit};
+use super::permission::{Permission, Rules, permit};
 use etalon_frame::{Api, Band};
 use etalon_scene::Invariance;
 
 impl Rules {
-    /// What a difference between two pictures means that only this change tells apart: a Fail where
-    /// the text requires them to be the same, Imprecise where it suggests it, nothing where it does
-    /// not. WebGPU is silent on all of it, so what both other texts require is required.
+    /// Returns the band of a difference between two pictures that differ in this change alone: Fail if the
+    /// text requires them to be equal, Imprecise if it suggests it, `None` otherwise. WebGPU is silent on
+    /// all of it and takes what both other texts require.
     pub fn invariance(api: Api, change: Invariance) -> Permission<Option<Band>> {
         use Invariance as By;
         match (api, change) {

@@ -1,6 +1,6 @@
 //! OpenGL's permissions (4.6 core profile).
 
-use super::{
+use super::permission::{
     BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
     Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };

@@ -1,6 +1,6 @@
 //! OpenGL ES's permissions (3.2; the sections read the same in 3.1).
 
-use super::{
+use super::permission::{
     BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
     Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };

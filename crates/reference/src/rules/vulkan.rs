@@ -1,6 +1,6 @@
 //! Vulkan's permissions.
 
-use super::{
+use super::permission::{
     BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
     Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };

@@ -1,6 +1,6 @@
 //! WebGPU's permissions. Where the text is silent, what the APIs under it permit.
 
-use super::{
+use super::permission::{
     BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
     Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };

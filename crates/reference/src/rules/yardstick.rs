@@ -1,6 +1,6 @@
 //! The quality band, in the spirit of the Direct3D 11.3 functional specification.
 
-use super::{
+use super::permission::{
     BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
     Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };

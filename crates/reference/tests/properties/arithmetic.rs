@@ -26,7 +26,7 @@ fn state() -> impl Strategy<Value = BlendState> {
     (component(), component()).prop_map(|(color, alpha)| BlendState { color, alpha })
 }
 
-/// Values inside and outside of 0..=1, those with a code of their own among them.
+/// Values inside and outside of 0..=1, exactly representable ones among them.
 fn value() -> impl Strategy<Value = f32> {
     prop_oneof![
         select(vec![
@@ -93,7 +93,7 @@ fn judged(
     blend(&mut a, state, [encoding; 4], &input).map(|v| a.encode(encoding, v))
 }
 
-/// Pairs of rules of which the second permits all that the first does.
+/// Pairs of rules of which the second permits everything that the first permits.
 pub(crate) fn wider() -> Vec<(Rules, Rules)> {
     use etalon_reference::rules::{DepthOrder, SharedEdge, Snap};
     let yardstick = || all_rules().pop().expect("the yardstick comes last");

@@ -11,7 +11,7 @@ use proptest::test_runner::{Config, RngSeed};
 /// Every API.
 pub(crate) const APIS: [Api; 4] = [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu];
 
-/// The rasterizer's limits, bound by another API's rules.
+/// The rasterizer's limits under another API's rules.
 pub(crate) fn limits(api: Api) -> Limits {
     let mut limits = CpuBackend::new("cpu").limits().clone();
     limits.api = api;
@@ -25,7 +25,7 @@ pub(crate) fn all_rules() -> Vec<Rules> {
     rules
 }
 
-/// The scene of a case file that holds only attachments, passes and what is read.
+/// The scene of a case file, from its attachments, passes and read list.
 pub(crate) fn scene(body: &str) -> Scene {
     let text = format!(r#"{{"about":"t","spec":["t"],"scene":{body}}}"#);
     let file = CaseFile::parse("t.json", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
@@ -33,7 +33,7 @@ pub(crate) fn scene(body: &str) -> Scene {
     case.build().unwrap_or_else(|e| panic!("{e}\n{text}")).scene
 }
 
-/// What the rasterizer draws.
+/// Returns the rasterizer's frame.
 pub(crate) fn draw(scene: &Scene) -> Frame {
     let backend = CpuBackend::new("cpu");
     let mut prepared = backend.prepare(scene).expect("the rasterizer prepares");
@@ -41,8 +41,8 @@ pub(crate) fn draw(scene: &Scene) -> Frame {
     prepared.read_back().expect("the rasterizer reads back")
 }
 
-/// So many cases, the same ones in every run, so that a commit is green or red once and for all.
-/// `PROPTEST_RNG_SEED` and `PROPTEST_CASES` look further.
+/// A number of cases, the same ones in every run, so that a commit is green or red once and for all.
+/// `PROPTEST_RNG_SEED` and `PROPTEST_CASES` choose others.
 pub(crate) fn config(cases: u32) -> Config {
     let given = |name: &str| std::env::var(name).ok().and_then(|v| v.parse::<u64>().ok());
     Config {

@@ -1,5 +1,4 @@
-//! Whole frames: what the rasterizer draws is legal, wider rules allow more, and pinned inputs
-//! leave one value.
+//! Whole frames: the rasterizer's are legal, wider rules allow more, and pinned inputs leave one value.
 
 use crate::arithmetic::wider;
 use crate::common::{APIS, config, draw, limits, scene};
@@ -13,7 +12,7 @@ use etalon_reference::{Rules, judge, judgements};
 use etalon_scene::Scene;
 use proptest::prelude::*;
 
-/// The frame as an adapter would return it that reads depth through a shader.
+/// Returns the frame of an adapter that reads depth through a shader.
 fn read_by_shader(mut frame: Frame) -> Frame {
     for image in &mut frame.images {
         if image.aspect == Aspect::Depth {
@@ -28,7 +27,7 @@ fn read_by_shader(mut frame: Frame) -> Frame {
     frame
 }
 
-/// One sample's codes in the order of the group's channels.
+/// Returns one sample's codes in the order of the group's channels.
 fn orders(frame: &Frame, set: &LegalSet, group: usize, x: u32, y: u32) -> Vec<i64> {
     let mut orders = Vec::new();
     for (image, info) in frame.images.iter().zip(&set.images) {
@@ -45,8 +44,8 @@ fn orders(frame: &Frame, set: &LegalSet, group: usize, x: u32, y: u32) -> Vec<i6
     orders
 }
 
-/// A sample of `tight` that `wide` forbids: the ends of each box, and the frame's codes and their
-/// neighbours.
+/// Returns codes that `tight` allows and `wide` forbids, among the ends of each box and the frame's codes
+/// with their neighbours.
 fn lost(tight: &TexelSet, wide: &TexelSet, drawn: &[i64]) -> Option<Vec<i64>> {
     let ends = tight.worlds.iter().flat_map(|w| {
         let low = w.channels.iter().map(|i| i.low).collect();

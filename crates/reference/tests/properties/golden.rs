@@ -90,8 +90,8 @@ fn codes_become_the_fractions_that_they_stand_for() {
     }
 }
 
-/// Blends one colour over uploaded codes and holds the legal sets against the codes due: at most so many codes per channel,
-/// and that one alone by the yardstick.
+/// Blends one colour over uploaded codes and compares the legal sets with the codes due: at most `most`
+/// codes per channel are legal, and by the yardstick that one alone.
 fn blended(blend: &str, src: &str, dst: &str, due: [i64; 4], most: u64) {
     let scene = scene(&format!(
         r#"{{"attachments":{{"color":{{"format":"rgba8unorm","size":[1,1],"texels":{{"kind":"rows","values":[{dst}]}}}}}},

@@ -1,4 +1,4 @@
-//! What holds of the judge whatever the input: plain arithmetic lies inside judging arithmetic, the
+//! Properties of the judge for any input: plain arithmetic lies inside judging arithmetic, the
 //! rasterizer's frames are legal, and wider rules never forbid what tighter ones allow.
 
 mod arithmetic;

@@ -7,12 +7,12 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
-/// Which inputs a scene is made of.
+/// The inputs that a scene is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Inputs {
     /// Anything.
     Any,
-    /// Only what every rule pins: zeros, ones, integers, edges away from samples.
+    /// Inputs that every rule pins: zeros, ones, integers, edges away from samples.
     Pinned,
 }
 
@@ -63,7 +63,7 @@ fn depths(inputs: Inputs) -> BoxedStrategy<String> {
     }
 }
 
-/// A mesh, and whether it is made of loose vertices.
+/// A mesh, and true if it is made of loose vertices.
 fn mesh(inputs: Inputs, size: [u32; 2]) -> BoxedStrategy<String> {
     let [w, h] = size;
     let values = || four(inputs, false);
@@ -167,7 +167,7 @@ pub(crate) fn stencil() -> BoxedStrategy<String> {
         .boxed()
 }
 
-/// Either nothing or what the strategy gives, as a piece of JSON.
+/// Nothing or a value of the strategy, as a piece of JSON.
 pub(crate) fn maybe(enabled: bool, some: BoxedStrategy<String>) -> BoxedStrategy<String> {
     if enabled {
         prop_oneof![1 => Just(String::new()), 2 => some].boxed()

@@ -1,5 +1,5 @@
-//! Shaders that compute and passes that read what earlier passes left: the twins' plain results lie
-//! inside the judging ones, and the rasterizer's frames are legal.
+//! Shaders that compute and passes that read earlier ones: the twins' plain results lie inside the
+//! judging ones, and the rasterizer's frames are legal.
 
 use crate::common::{APIS, all_rules, config, draw, limits, scene};
 use etalon_case::{Library, Profile};
@@ -11,7 +11,7 @@ use etalon_scene::{Params, Scene, Shader};
 use proptest::prelude::*;
 use proptest::sample::select;
 
-/// A number, and how far to either side what is known of it reaches.
+/// A number, and the width of its interval to either side.
 type Known = (f32, [f64; 2]);
 
 fn known() -> impl Strategy<Value = Known> {
@@ -88,7 +88,7 @@ fn plain(shader: Shader, inputs: &Inputs) -> FragmentOutput<[f32; 1]> {
     fragment(&mut Plain::<1>, shader, &input)
 }
 
-/// Whether a plain result is one that a judging one allows; what is no number wants everything.
+/// True if a judging result allows a plain one; NaN requires that it allows all values.
 fn holds(range: Range, [value]: [f32; 1]) -> bool {
     let range = range.hull();
     if value.is_nan() {
@@ -98,7 +98,7 @@ fn holds(range: Range, [value]: [f32; 1]) -> bool {
     }
 }
 
-/// Everything that both outputs speak of.
+/// The values that both outputs have.
 fn pairs(
     plain: &FragmentOutput<[f32; 1]>,
     judged: &FragmentOutput<Range>,
@@ -152,7 +152,7 @@ proptest! {
     }
 }
 
-/// Holds the rasterizer's frame against both bands by every API; gives the frame and what came out by
+/// Compares the rasterizer's frame with both bands of every API; returns the frame and its judgement by
 /// Vulkan's rules.
 fn legal(scene: &Scene) -> (Frame, Comparison) {
     let frame = draw(scene);
@@ -169,7 +169,7 @@ fn legal(scene: &Scene) -> (Frame, Comparison) {
     (frame, first.expect("Vulkan has one alternative at least"))
 }
 
-/// Whether exactly one value stands at every sample of a set.
+/// True if a set holds exactly one value at every sample.
 fn is_exact(set: &LegalSet) -> bool {
     set.statistics().iter().all(|(_, s)| s.exact == s.channels)
 }
@@ -198,7 +198,7 @@ fn what_an_earlier_pass_left_is_read_exactly() {
     }
 }
 
-/// Flat layers over the picture, farthest first, and so many steps of peeling.
+/// Flat layers over the picture, farthest first, and a number of peeling passes.
 fn peeled(steps: usize) -> Scene {
     let layers = [("[0,0,1,1]", 0.75), ("[0,1,0,1]", 0.5), ("[1,0,0,1]", 0.25)];
     let mut attachments =
@@ -363,7 +363,7 @@ fn a_sampler_on_what_was_drawn_asserts_nothing_false() {
     }
 }
 
-/// Holds a sampled judgement against a full one.
+/// Compares a sampled judgement with a full one.
 fn check_sampled(id: &str, scene: &Scene, most: u64) {
     let texels = Texels::AtMost(most);
     let limits = limits(etalon_frame::Api::Vulkan);

@@ -8,7 +8,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
 
-/// What one scene is drawn to.
+/// The attachments of a scene.
 #[derive(Clone, Copy, Debug)]
 struct Ground {
     size: [u32; 2],
@@ -37,7 +37,7 @@ fn unit() -> BoxedStrategy<String> {
     number(Inputs::Any, false)
 }
 
-/// Where a vertex lies: clip space inside and outside of the viewport, texel centres and corners.
+/// The position of a vertex: clip space inside and outside of the viewport, texel centres and corners.
 fn coordinate() -> BoxedStrategy<String> {
     prop_oneof![
         3 => (0_i32..=16).prop_map(|i| (i - 8) as f32 / 8.0),
@@ -177,7 +177,7 @@ fn dual() -> BoxedStrategy<String> {
         .boxed()
 }
 
-/// What becomes of colours: blending, a logic operation, or every target its own way.
+/// Colour output: blending, a logic operation, or a state per target.
 fn colors(ground: Ground, dual_source: bool) -> BoxedStrategy<String> {
     if dual_source {
         return dual();

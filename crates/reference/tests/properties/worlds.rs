@@ -1,4 +1,4 @@
-//! Samples on edges and at vertices: what is exactly once, what is open, and that open never fails.
+//! Samples on edges and at vertices: covered exactly once, or open; and an open sample never fails.
 
 use crate::common::{APIS, config, draw, limits, scene};
 use etalon_frame::{Api, TexelSet, compare};
@@ -9,8 +9,8 @@ use proptest::prelude::*;
 /// Side of the attachment in texels.
 const SIZE: u32 = 8;
 
-/// A scene that counts, in the stencil, how often each sample of 8 by 8 is covered. Positions are
-/// in texels from the top left corner.
+/// A scene that counts in the stencil how often each sample of 8 by 8 is covered. Positions are in
+/// texels from the top left corner.
 fn counting(triangles: &[[[f64; 2]; 3]]) -> Scene {
     let ndc = |v: f64| v / f64::from(SIZE) * 2.0 - 1.0;
     let positions: Vec<String> = triangles
@@ -129,7 +129,7 @@ fn a_sample_at_the_hub_of_many_triangles_is_open_and_nothing_else_is() {
                 assert_eq!(set.is_open(), (x, y) == (3, 3), "{api} ({x}, {y})");
             }
         }
-        // Whatever stands at the hub, it is no failure; anywhere else it is.
+        // Any value at the hub is legal; elsewhere it is a failure.
         for value in [0, 1, 2, 24, 77, 255] {
             let mut frame = drawn.clone();
             frame.images[0].codes[(3 * SIZE + 3) as usize] = value;

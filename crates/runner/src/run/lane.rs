@@ -364,9 +364,9 @@ impl<'s, 'a> Lane<'s, 'a> {
             return Ok(());
         };
         let writer = lock(&shared.writer);
-        let seen = etalon_truth::shown(image);
+        let seen = etalon_truth::rgb8(image);
         measured.picture = Some(writer.write_picture(&record.case, image.size, &seen)?);
-        let due = truth.shown();
+        let due = truth.rgb8();
         measured.truth =
             Some(writer.write_picture(&format!("truth/{}", record.case), truth.size, &due)?);
         Ok(())

@@ -1,4 +1,4 @@
-//! Pictures that can be worked out by hand.
+//! Pictures with a closed form.
 
 use crate::common::{assert_near, pane, rectangle, scene, triangle};
 use etalon_methods::{Coverage, Paint, Surface, Texture};

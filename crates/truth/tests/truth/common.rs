@@ -15,7 +15,7 @@ pub(crate) fn rectangle(low: [f64; 2], high: [f64; 2], depth: f64, color: [f64; 
     }
 }
 
-/// A rectangle that reaches beyond a picture of 16 by 16 texels, its depth as a function of the place.
+/// A rectangle that reaches beyond a picture of 16 by 16 texels, its depth a function of the position.
 pub(crate) fn pane(depth: impl Fn(f64, f64) -> f64, paint: Paint) -> Surface {
     let corners = [[-4.0, -4.0], [20.0, -4.0], [20.0, 20.0], [-4.0, 20.0]];
     Surface {
@@ -40,7 +40,7 @@ pub(crate) fn scene(size: [u32; 2], coverage: Coverage, surfaces: Vec<Surface>) 
     }
 }
 
-/// The same scene, so many times as large.
+/// Returns a scene enlarged by a factor.
 pub(crate) fn enlarged(what: &Truth, times: u32) -> Truth {
     let mut what = what.clone();
     what.size = what.size.map(|n| n * times);
@@ -51,7 +51,7 @@ pub(crate) fn enlarged(what: &Truth, times: u32) -> Truth {
     what
 }
 
-/// The means of blocks of so many by so many texels.
+/// Returns the means of square blocks of texels.
 pub(crate) fn reduced(size: [u32; 2], rgb: &[[f64; 3]], times: u32) -> Vec<[f64; 3]> {
     let [width, height] = size.map(|n| n / times);
     let mut result = vec![[0.0; 3]; width as usize * height as usize];
@@ -66,7 +66,7 @@ pub(crate) fn reduced(size: [u32; 2], rgb: &[[f64; 3]], times: u32) -> Vec<[f64;
     result
 }
 
-/// The largest difference of any channel.
+/// Returns the largest difference of any channel.
 pub(crate) fn largest_difference(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     assert_eq!(a.len(), b.len());
     let pairs = a.iter().flatten().zip(b.iter().flatten());

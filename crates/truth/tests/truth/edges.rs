@@ -1,4 +1,4 @@
-//! Edges that are shared, corners on centres, polygons that are none.
+//! Shared edges, corners on centres, degenerate polygons.
 
 use crate::common::{assert_near, pane, rectangle, scene, triangle};
 use etalon_methods::{Coverage, Paint, Surface, Texture};
@@ -45,7 +45,7 @@ fn a_fan_around_a_centre_covers_it_once() {
     }
 }
 
-/// Many strips that all cross each other in one texel.
+/// Strips that all cross each other in one texel.
 #[test]
 fn too_many_pieces_are_sampled_and_the_error_is_said() {
     let strips = (0..200_u32).map(|i| {

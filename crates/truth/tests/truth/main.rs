@@ -1,4 +1,4 @@
-//! The truth mode against closed forms, against sampling, and against itself in another resolution.
+//! Truths compared with closed forms, with sampling, and with themselves in another resolution.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 mod closed;

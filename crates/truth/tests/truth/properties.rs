@@ -1,4 +1,4 @@
-//! What holds of any scene.
+//! Properties of any scene.
 
 use crate::common::{assert_near, enlarged, largest_difference, reduced, scene, triangle};
 use etalon_methods::{Coverage, Paint, Surface, Texture, Truth};
@@ -70,7 +70,7 @@ fn scenes(
     })
 }
 
-/// What is seen at a point of triangles in flat colours, by barycentric coordinates; `None` where an
+/// Returns the colour at a point of triangles in flat colours, by barycentric coordinates; `None` if an
 /// edge or another surface is too near to tell.
 fn seen(what: &Truth, p: [f64; 2]) -> Option<[f64; 3]> {
     let mut layers: Vec<(f64, [f64; 4])> = Vec::new();

@@ -1,18 +1,12 @@
 //! Bugs of several samples per texel.
 
 use super::hooks::{
-    alpha_covers, code, depth_sample, resolve, runs_per_sample, sample_positions, second_source,
-    stored_sample,
+    alpha_covers, depth_sample, runs_per_sample, sample_positions, second_source, stored_sample,
 };
-use super::plant::{Plant, nudge, scene};
-use super::{CONFUSION, List, Row, SMALL};
-use etalon_frame::{Aspect, ChannelEncoding, standard_sample_positions};
-use etalon_pipeline::{Arithmetic, Plain};
+use super::list::{CONFUSION, List, Row};
+use super::plant::{Plant, scene};
+use etalon_frame::{Aspect, standard_sample_positions};
 use etalon_scene::Draw;
-
-const IMPLICIT_RESOLVE: &str = "Vulkan: Render Pass, Resolve Operations: floating-point and \
-                                normalized samples are resolved in an implementation-dependent \
-                                manner";
 
 pub(super) fn add(list: &mut List) {
     list.class("samples", "multisample");
@@ -20,11 +14,9 @@ pub(super) fn add(list: &mut List) {
     positions(list);
     alpha(list);
     per_sample(list);
-    list.class("resolve", "multisample");
-    resolves(list);
 }
 
-/// Changes draws to attachments of several samples, given how many.
+/// Changes draws to attachments of several samples, given their number.
 fn draws(bug: fn(&mut Draw, u32)) -> Plant {
     scene(move |scene| {
         for at in 0..scene.passes.len() {
@@ -62,14 +54,14 @@ fn masks(list: &mut List) {
         ),
         (
             "mask-first-bit-for-all",
-            "The mask's first bit stands for all.",
+            "The mask's first bit applies to all samples.",
             |mask, _| {
                 if mask & 1 == 0 { 0 } else { u32::MAX }
             },
         ),
         (
             "mask-any-bit-for-all",
-            "Any bit of the mask stands for all.",
+            "Any bit of the mask enables all samples.",
             |mask, n| {
                 if mask & (u32::MAX >> (32 - n)) == 0 {
                     0
@@ -215,7 +207,7 @@ fn alpha(list: &mut List) {
     let rows: [Row<Bug>; 6] = [
         (
             "alpha-to-coverage-ignored",
-            "Alpha takes no samples away.",
+            "Alpha removes no samples.",
             |_, _, _| true,
         ),
         (
@@ -240,7 +232,7 @@ fn alpha(list: &mut List) {
         ),
         (
             "alpha-to-coverage-for-zero-alone",
-            "Only alpha 0 takes samples away.",
+            "Only alpha 0 removes samples.",
             |a, _, _| a > 0.0,
         ),
     ];
@@ -267,7 +259,7 @@ fn alpha(list: &mut List) {
     let states: [Row<DrawBug>; 5] = [
         (
             "alpha-to-coverage-always",
-            "Alpha takes samples away without being asked.",
+            "Alpha removes samples although alpha to coverage is off.",
             |d, _| {
                 d.multisample.alpha_to_coverage = true;
             },
@@ -290,7 +282,7 @@ fn alpha(list: &mut List) {
         ),
         (
             "alpha-to-one-always",
-            "Alpha becomes 1 without being asked.",
+            "Alpha becomes 1 although alpha to one is off.",
             |d, _| {
                 d.multisample.alpha_to_one = true;
             },
@@ -337,7 +329,7 @@ fn per_sample(list: &mut List) {
         list.add(
             &format!("{name}-sees-the-first"),
             "one stored value for all samples",
-            format!("The {name} of every sample sees what the first one holds."),
+            format!("The {name} of every sample reads the first one's value."),
             stored_sample(move |a, s| if a == aspect { 0 } else { s }),
         );
     }
@@ -365,115 +357,4 @@ fn per_sample(list: &mut List) {
             depth_sample(bug),
         );
     }
-}
-
-fn values(encoding: ChannelEncoding, codes: &[u32]) -> Vec<f32> {
-    let decode = |c: &u32| Plain::<1>.decode(encoding, [*c])[0];
-    codes.iter().map(decode).collect()
-}
-
-fn resolves(list: &mut List) {
-    type Bug = fn(ChannelEncoding, &[u32]) -> u32;
-    let legal: [Row<Bug>; 5] = [
-        (
-            "first-sample",
-            "A resolve takes the first sample.",
-            |_, c| c[0],
-        ),
-        ("last-sample", "A resolve takes the last sample.", |_, c| {
-            c[c.len() - 1]
-        }),
-        ("largest", "A resolve takes the largest sample.", |e, c| {
-            code(e, values(e, c).into_iter().fold(f32::MIN, f32::max))
-        }),
-        (
-            "smallest",
-            "A resolve takes the smallest sample.",
-            |e, c| code(e, values(e, c).into_iter().fold(f32::MAX, f32::min)),
-        ),
-        (
-            "srgb-encoded",
-            "Samples of sRGB formats are averaged as codes.",
-            |e, c| match e {
-                ChannelEncoding::Srgb8 => c.iter().sum::<u32>() / c.len() as u32,
-                _ => average(e, c),
-            },
-        ),
-    ];
-    let first = list.mutants.len();
-    let source = "SwiftShader: sRGB resolved non-linearly, and other averages";
-    list.rows(source, resolve, &legal);
-    for mutant in &mut list.mutants[first..] {
-        mutant.legal(IMPLICIT_RESOLVE);
-    }
-    let wrong: [Row<Bug>; 6] = [
-        ("sum", "A resolve adds the samples up.", |e, c| {
-            code(e, values(e, c).iter().sum())
-        }),
-        ("halved", "A resolve gives half the average.", |e, c| {
-            code(e, values(e, c).iter().sum::<f32>() / c.len() as f32 / 2.0)
-        }),
-        (
-            "by-one-more",
-            "A resolve divides by one sample too many.",
-            |e, c| code(e, values(e, c).iter().sum::<f32>() / (c.len() + 1) as f32),
-        ),
-        (
-            "plus-1-lsb",
-            "Resolved texels are one code too large.",
-            |e, c| nudge(e, average(e, c), 1),
-        ),
-        (
-            "minus-1-lsb",
-            "Resolved texels are one code too small.",
-            |e, c| nudge(e, average(e, c), -1),
-        ),
-        ("zero", "A resolve gives 0.", |_, _| 0),
-    ];
-    list.rows(SMALL, resolve, &wrong);
-    list.add(
-        "lost",
-        CONFUSION,
-        "Nothing is resolved.",
-        scene(|scene| scene.passes.iter_mut().for_each(|p| p.resolve.fill(None))),
-    );
-    list.add(
-        "first-pass-alone",
-        CONFUSION,
-        "Passes behind the first resolve nothing.",
-        scene(|scene| {
-            let rest = scene.passes.iter_mut().skip(1);
-            rest.for_each(|p| p.resolve.fill(None));
-        }),
-    );
-    list.add(
-        "last-pass-to-all",
-        "a resolve at the end of the frame and not of the pass",
-        "Every resolve takes what the samples hold at the end.",
-        scene(|scene| {
-            let mut targets = Vec::new();
-            for pass in &mut scene.passes {
-                for (source, target) in pass.color.iter().zip(&mut pass.resolve) {
-                    targets.extend(target.take().map(|t| (*source, t)));
-                }
-            }
-            // Passes that draw nothing carry the resolves.
-            let last = scene.passes.last().cloned();
-            for (source, target) in targets {
-                scene.passes.extend(last.clone().map(|mut pass| {
-                    pass.draws.clear();
-                    pass.color = vec![source];
-                    pass.resolve = vec![Some(target)];
-                    pass
-                }));
-            }
-        }),
-    );
-}
-
-fn average(encoding: ChannelEncoding, codes: &[u32]) -> u32 {
-    code(
-        encoding,
-        values(encoding, codes).iter().sum::<f32>() / codes.len() as f32,
-    )
 }

@@ -1,0 +1,49 @@
+//! The whole library, class by class.
+
+use crate::list::List;
+use crate::mutant::Mutant;
+use crate::{
+    bias, blend, bounds, clear, counter, cull, depth, depth_range, discard, dual_source, early,
+    fetch, formats, geometry, invariance, logic, mask, read_only, readback, resolve, samples,
+    scissor, stencil, sticky, targets, texture, topology, upload, viewport,
+};
+use std::sync::LazyLock;
+
+/// Returns all mutants, class by class.
+pub fn mutants() -> &'static [Mutant] {
+    static ALL: LazyLock<Vec<Mutant>> = LazyLock::new(|| {
+        let mut list = List::default();
+        depth::add(&mut list);
+        bias::add(&mut list);
+        depth_range::add(&mut list);
+        bounds::add(&mut list);
+        read_only::add(&mut list);
+        stencil::add(&mut list);
+        blend::add(&mut list);
+        blend::precision::add(&mut list);
+        mask::add(&mut list);
+        formats::add(&mut list);
+        targets::add(&mut list);
+        dual_source::add(&mut list);
+        logic::add(&mut list);
+        cull::add(&mut list);
+        topology::add(&mut list);
+        samples::add(&mut list);
+        resolve::add(&mut list);
+        scissor::add(&mut list);
+        viewport::add(&mut list);
+        clear::add(&mut list);
+        geometry::add(&mut list);
+        upload::add(&mut list);
+        fetch::add(&mut list);
+        early::add(&mut list);
+        discard::add(&mut list);
+        counter::add(&mut list);
+        texture::add(&mut list);
+        invariance::add(&mut list);
+        readback::add(&mut list);
+        sticky::add(&mut list);
+        list.mutants
+    });
+    &ALL
+}

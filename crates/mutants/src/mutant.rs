@@ -1,0 +1,26 @@
+//! One planted bug.
+
+use crate::plant::Plant;
+
+/// A planted bug.
+#[derive(Debug)]
+pub struct Mutant {
+    /// The stable name, its class first: `depth/write-ignored`.
+    pub name: String,
+    /// The effect, in one sentence.
+    pub about: String,
+    /// The driver that shipped it, or the kind of mistake.
+    pub source: &'static str,
+    /// The area whose cases alone must catch it.
+    pub area: &'static str,
+    /// The clause that allows it; `None` if it must be caught.
+    pub legal: Option<&'static str>,
+    pub(super) plant: Plant,
+}
+
+impl Mutant {
+    /// States the clause that allows it.
+    pub(super) fn legal(&mut self, why: &'static str) {
+        self.legal = Some(why);
+    }
+}

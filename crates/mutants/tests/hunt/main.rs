@@ -1,0 +1,203 @@
+//! Every mutant is caught by a case of its area, or a clause allows it.
+//!
+//! One test per class, so that they run side by side. A mutant draws the cases of its area until one
+//! fails; only frames that differ from the rasterizer's are judged. A mutant that a clause allows draws
+//! all cases of its area, with `ETALON_TESTS=all` those of all areas, and none may fail.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use etalon_backend::Backend;
+use etalon_case::{Case, Library, Profile};
+use etalon_cpu::CpuBackend;
+use etalon_frame::Frame;
+use etalon_mutants::{Mutant, MutantBackend, mutants};
+use etalon_record::{Record, Verdict};
+use etalon_runner::Judge;
+use std::cell::{LazyCell, OnceCell};
+use std::collections::BTreeSet;
+
+/// A mutant that its area does not catch, and the area that does.
+const CAUGHT_ELSEWHERE: (&str, &str) =
+    ("format/bgra8unorm-write-mask-red-blue-swapped", "combined");
+
+/// Declares a test for each class, and the list of them.
+macro_rules! classes {
+    ($($test:ident = $class:literal),+ $(,)?) => {
+        const CLASSES: &[&str] = &[$($class),+];
+        $(#[test]
+        fn $test() {
+            hunt($class);
+        })+
+    };
+}
+
+classes! {
+    bias = "bias",
+    blend = "blend",
+    bounds = "bounds",
+    clear = "clear",
+    counter = "counter",
+    cull = "cull",
+    depth = "depth",
+    depth_range = "depth-range",
+    discard = "discard",
+    dual_source = "dual-source",
+    early = "early",
+    fetch = "fetch",
+    format = "format",
+    geometry = "geometry",
+    invariance = "invariance",
+    logic = "logic",
+    read_only = "read-only",
+    readback = "readback",
+    resolve = "resolve",
+    samples = "samples",
+    scissor = "scissor",
+    stencil = "stencil",
+    sticky = "sticky",
+    targets = "targets",
+    texture = "texture",
+    topology = "topology",
+    upload = "upload",
+    viewport = "viewport",
+    write_mask = "write-mask",
+}
+
+/// True if tests leave nothing out.
+fn everything() -> bool {
+    std::env::var_os("ETALON_TESTS").is_some_and(|v| v == "all")
+}
+
+fn class_of(mutant: &Mutant) -> &str {
+    mutant.name.split('/').next().unwrap()
+}
+
+/// The area whose cases catch a mutant.
+fn catching_area(mutant: &Mutant) -> &'static str {
+    match CAUGHT_ELSEWHERE {
+        (name, area) if name == mutant.name => area,
+        _ => mutant.area,
+    }
+}
+
+/// Returns the frames of a case's scenes, drawn one after the other.
+fn draw(backend: &dyn Backend, case: &Case) -> Vec<Frame> {
+    let draw = |scene| {
+        let mut prepared = backend.prepare(scene).unwrap();
+        prepared.submit().unwrap();
+        prepared.read_back().unwrap()
+    };
+    case.scenes().map(draw).collect()
+}
+
+/// Cases with the frames that are due, drawn once.
+struct Cases {
+    faithful: CpuBackend,
+    judge: Judge,
+    all: Vec<(Case, OnceCell<Vec<Frame>>)>,
+}
+
+impl Cases {
+    /// The cases of some areas in the library's order.
+    fn new(profile: Profile, area: impl Fn(&str) -> bool) -> Self {
+        let library = Library::built_in().unwrap();
+        let chosen = library
+            .cases(profile)
+            .filter(|c| area(c.id().split('/').next().unwrap()))
+            .map(|c| c.build().unwrap())
+            // A selftest fails whatever draws it.
+            .filter(|c| c.judged_as.is_none());
+        Self {
+            faithful: CpuBackend::new("cpu"),
+            judge: Judge::default(),
+            all: chosen.map(|case| (case, OnceCell::new())).collect(),
+        }
+    }
+
+    /// Scatters the cases, since neighbours in a file try much the same.
+    fn scattered(mut self) -> Self {
+        let mut placed: Vec<_> = self.all.into_iter().zip(0_u32..).collect();
+        placed.sort_by_key(|(_, i)| i.wrapping_mul(2_654_435_761));
+        self.all = placed.into_iter().map(|(case, _)| case).collect();
+        self
+    }
+
+    /// The records of the cases that a mutant draws differently, in order; a case is drawn when its
+    /// record is asked for.
+    fn changed(&self, mutant: &Mutant) -> impl Iterator<Item = Record> {
+        let backend = MutantBackend::new(&mutant.name).unwrap();
+        let numbered = self.all.iter().enumerate();
+        numbered.filter_map(move |(number, (case, due))| {
+            let frames = draw(&backend, case);
+            if frames == *due.get_or_init(|| draw(&self.faithful, case)) {
+                return None;
+            }
+            let judged = self
+                .judge
+                .judge(number, case, &mutant.name, backend.limits(), &frames);
+            let record = judged.record;
+            assert_ne!(record.verdict, Verdict::InternalError, "{record:?}");
+            Some(record)
+        })
+    }
+}
+
+/// Holds all mutants of a class.
+fn hunt(class: &str) {
+    let own: Vec<&Mutant> = mutants().iter().filter(|m| class_of(m) == class).collect();
+    let areas: BTreeSet<&str> = own.iter().map(|m| catching_area(m)).collect();
+    let measured = ["methods", "perf"];
+    let all = LazyCell::new(|| Cases::new(Profile::Quick, |a| !measured.contains(&a)));
+    let mut survivors = Vec::new();
+    for area in areas {
+        let mut cases = Cases::new(Profile::Quick, |a| a == area);
+        // State of the previous case shows where the next one differs in that state alone.
+        if class != "sticky" {
+            cases = cases.scattered();
+        }
+        for mutant in own.iter().filter(|m| catching_area(m) == area) {
+            if mutant.legal.is_some() {
+                hold_legal(mutant, if everything() { &all } else { &cases });
+                continue;
+            }
+            match cases.changed(mutant).find(|r| r.verdict == Verdict::Fail) {
+                // A Fail shows what is wrong.
+                Some(record) => assert!(
+                    !record.wrong.is_empty() || record.counters.iter().any(|c| c.band.is_some()),
+                    "{record:?}"
+                ),
+                None => survivors.push(&mutant.name),
+            }
+        }
+    }
+    assert!(
+        survivors.is_empty(),
+        "no case of their area fails: {survivors:#?}"
+    );
+}
+
+/// Holds that a mutant which a clause allows changes some frame, and that none of them fails.
+fn hold_legal(mutant: &Mutant, cases: &Cases) {
+    let mut changes = 0;
+    for record in cases.changed(mutant) {
+        assert_ne!(
+            record.verdict,
+            Verdict::Fail,
+            "{} is legal: {:?}",
+            mutant.name,
+            mutant.legal
+        );
+        changes += 1;
+    }
+    // A change that the quick profile does not show is one of the full one.
+    if changes == 0 {
+        let full = Cases::new(Profile::Full, |area| area == mutant.area);
+        let changed = full.changed(mutant).next();
+        assert!(changed.is_some(), "{} changes no frame", mutant.name);
+    }
+}
+
+#[test]
+fn every_class_has_its_test() {
+    let all: BTreeSet<&str> = mutants().iter().map(class_of).collect();
+    assert_eq!(all, CLASSES.iter().copied().collect());
+}

@@ -1,0 +1,53 @@
+//! Arithmetic that several shaders share.
+
+use crate::arithmetic::Arithmetic;
+
+/// Returns a channel of a colour times its alpha; alpha itself unchanged.
+pub(super) fn premultiplied<A: Arithmetic>(a: &mut A, color: [A::Real; 4], c: usize) -> A::Real {
+    if c == 3 {
+        return color[3];
+    }
+    let product = a.mul(color[c], color[3]);
+    a.rounded(product)
+}
+
+/// Returns a value clamped to 0..1.
+pub(super) fn clamp_to_unit<A: Arithmetic>(a: &mut A, value: A::Real) -> A::Real {
+    let (zero, one) = (a.constant(0.0), a.constant(1.0));
+    let value = a.max(value, zero);
+    a.min(value, one)
+}
+
+/// Returns the place of a value between two others: 0 at the first, 1 at the second.
+pub(super) fn share_between<A: Arithmetic>(
+    a: &mut A,
+    value: A::Real,
+    from: A::Real,
+    to: A::Real,
+) -> A::Real {
+    let way = a.sub(value, from);
+    let way = a.rounded(way);
+    let whole = a.sub(to, from);
+    let whole = a.rounded(whole);
+    let share = a.div(way, whole);
+    a.rounded(share)
+}
+
+/// Returns the distance from the eye of a window depth under a perspective projection.
+pub(super) fn distance_behind<A: Arithmetic>(
+    a: &mut A,
+    depth: A::Real,
+    near: A::Real,
+    far: A::Real,
+) -> A::Real {
+    let range = a.sub(far, near);
+    let range = a.rounded(range);
+    let part = a.mul(depth, range);
+    let part = a.rounded(part);
+    let below = a.sub(far, part);
+    let below = a.rounded(below);
+    let product = a.mul(near, far);
+    let product = a.rounded(product);
+    let distance = a.div(product, below);
+    a.rounded(distance)
+}

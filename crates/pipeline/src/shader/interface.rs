@@ -1,0 +1,92 @@
+//! The interface of fragment shaders: inputs, outputs, and the condition to discard.
+
+use etalon_scene::Params;
+
+/// The inputs of a fragment shader.
+#[derive(Clone, Copy, Debug)]
+pub struct FragmentInput<'a, R> {
+    /// The vertex colour, flat over the primitive.
+    pub color: [R; 4],
+    /// True if the primitive faces front.
+    pub front: bool,
+    /// The fragment's window depth.
+    pub depth: R,
+    /// The sample being shaded.
+    pub sample: u32,
+    /// The values of textures 0 and 1, fetched at the fragment or sampled; zeros where the shader reads
+    /// none.
+    pub texels: [[R; 4]; 2],
+    /// The interpolated texture coordinates, where [`Shader::uses_uv`]; zeros elsewhere.
+    pub uv: [R; 2],
+    /// The parameter block.
+    pub params: &'a Params,
+}
+
+/// The outputs of a fragment shader.
+#[derive(Clone, Copy, Debug)]
+pub struct FragmentOutput<R> {
+    /// The colour at location 0, and at the shader's other locations unless `others` has them.
+    pub color: [R; 4],
+    /// The colours at locations 1 and 2, where they differ from that at location 0.
+    pub others: Option<[[R; 4]; 2]>,
+    /// The second source of dual-source blending, where the shader writes one.
+    pub second: Option<[R; 4]>,
+    /// The depth, where the shader writes one.
+    pub depth: Option<R>,
+    /// The condition that keeps the fragment, where the shader may discard.
+    pub kept: Option<Kept<R>>,
+}
+
+impl<R: Copy> FragmentOutput<R> {
+    /// Returns outputs with a colour and nothing else.
+    pub fn of(color: [R; 4]) -> Self {
+        Self {
+            color,
+            others: None,
+            second: None,
+            depth: None,
+            kept: None,
+        }
+    }
+
+    /// Returns the colour at a location.
+    #[inline(always)]
+    pub fn at_location(&self, location: usize) -> [R; 4] {
+        match (&self.others, location) {
+            (Some(others), 1 | 2) => others[location - 1],
+            _ => self.color,
+        }
+    }
+}
+
+/// The condition that keeps a fragment.
+#[derive(Clone, Copy, Debug)]
+pub struct Kept<R> {
+    /// The value that is compared.
+    pub value: R,
+    /// The limit that it is compared with.
+    pub limit: R,
+    /// True if a value equal to the limit is discarded: values above the limit are kept. Else those not
+    /// below it are.
+    pub strict: bool,
+}
+
+impl<R> Kept<R> {
+    /// Discards values below a limit.
+    pub fn unless_below(value: R, limit: R) -> Self {
+        Self {
+            value,
+            limit,
+            strict: false,
+        }
+    }
+
+    /// Discards values not above a limit.
+    pub fn above(value: R, limit: R) -> Self {
+        Self {
+            value,
+            limit,
+            strict: true,
+        }
+    }
+}

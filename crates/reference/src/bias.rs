@@ -1,0 +1,87 @@
+//! Depth bias: the interval that the rules let it add.
+
+use crate::context::PassContext;
+use crate::depth::planes;
+use crate::interval::Interval;
+use crate::snap::{SnapBox, area, units_per_texel};
+use etalon_frame::ChannelEncoding;
+use etalon_pipeline::slope;
+use etalon_scene::Draw;
+
+/// Returns the interval that the rules let a depth bias add (Vulkan, Depth Bias; OpenGL 4.6, 14.6.5).
+pub(crate) fn depth_bias(
+    context: &PassContext<'_>,
+    draw: &Draw,
+    boxes: [SnapBox; 3],
+    z: [Interval; 3],
+) -> Interval {
+    let state = draw.depth_bias;
+    let (Some(encoding), true) = (context.depth, state.constant != 0 || state.slope != 0.0) else {
+        return Interval::exact(0.0);
+    };
+    let rules = context.rules.depth_bias_unit.value;
+    let unit = match encoding {
+        ChannelEncoding::Unorm(bits) => {
+            let least = 2_f64.powi(-i32::from(bits));
+            let (low, high) = match bits {
+                16 => rules.unorm16,
+                _ => rules.unorm,
+            };
+            Interval {
+                low: least * low,
+                high: least * high,
+            }
+        }
+        _ => {
+            let exponent = |v: f64| v.max(f64::from(f32::MIN_POSITIVE)).log2().floor() as i32;
+            // Vertices beyond the near and far planes may count or not.
+            let inside = f64::from(draw.viewport.depth[0].min(draw.viewport.depth[1]));
+            let low = z.iter().map(|z| z.low).fold(0.0, f64::max);
+            let low = if low > 1.0 { inside } else { low };
+            let high = z.iter().map(|z| z.high).fold(0.0, f64::max);
+            Interval {
+                low: 2_f64.powi(exponent(low) - 23) * rules.float.0,
+                high: 2_f64.powi(exponent(high) - 23) * rules.float.1,
+            }
+        }
+    };
+    let by_constant = unit.corners(Interval::exact(f64::from(state.constant)), |a, b| a * b);
+    let by_slope =
+        slopes(context, boxes, z).corners(Interval::exact(f64::from(state.slope)), |a, b| a * b);
+    let sum = by_constant
+        .corners(by_slope, |a, b| a + b)
+        .widen_relative(context.rules.float_error.value);
+    let clamp = f64::from(state.clamp);
+    if clamp > 0.0 {
+        sum.map_increasing(|v| v.min(clamp))
+    } else if clamp < 0.0 {
+        sum.map_increasing(|v| v.max(clamp))
+    } else {
+        sum
+    }
+}
+
+/// Returns the least and greatest slope per texel over all snapped positions.
+fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interval; 3]) -> Interval {
+    let units = units_per_texel(context.limits) as f64;
+    let middle = z.map(|z| (z.low + z.high) / 2.0);
+    if z[0] == z[1] && z[1] == z[2] {
+        return Interval::exact(0.0);
+    }
+    let (least, most) = area(boxes);
+    if least <= 0 && most >= 0 {
+        return Interval {
+            low: 0.0,
+            high: f64::from(f32::MAX),
+        };
+    }
+    let slopes = planes(boxes, middle)
+        .map(|plane| {
+            let (low, high) = slope(plane.dx * units, plane.dy * units);
+            Interval { low, high }
+        })
+        .reduce(Interval::hull)
+        .unwrap_or(Interval::exact(0.0));
+    // Positions may be taken before or after snapping, and depths carry their own error.
+    slopes.widen_relative(0.01 + context.rules.float_error.value * 100.0)
+}

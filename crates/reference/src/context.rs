@@ -1,0 +1,17 @@
+//! The pass that primitives are set up for: passed by reference, since setup and bias both need all of it.
+
+use crate::rules::Rules;
+use crate::texels::Lattice;
+use etalon_frame::{ChannelEncoding, Limits};
+
+/// The inputs of primitive setup that all draws of a pass share.
+pub(crate) struct PassContext<'a> {
+    pub(crate) rules: &'a Rules,
+    pub(crate) limits: &'a Limits,
+    /// The size of the pass's attachments.
+    pub(crate) size: [u32; 2],
+    /// The texels of them that are judged.
+    pub(crate) lattice: Lattice,
+    /// The encoding of the pass's depth, where it has one.
+    pub(crate) depth: Option<ChannelEncoding>,
+}

@@ -1,0 +1,267 @@
+//! Snapped primitives: the samples they can and must cover, and their depth there.
+
+use crate::depth::Depth;
+use crate::interval::Interval;
+use crate::judging::Range;
+use crate::snap::SnapBox;
+use etalon_pipeline::{Point, edge_value};
+
+/// The shape of a primitive.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Shape {
+    /// The inside of a triangle.
+    Triangle(Triangle),
+    /// The edges of a triangle.
+    Outline(Triangle),
+    /// A line one texel wide.
+    Line([SnapBox; 2]),
+    /// A point of one texel.
+    Point(SnapBox),
+}
+
+/// A triangle's vertices in their own order.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Triangle {
+    pub(crate) vertices: [SnapBox; 3],
+    /// Numbers of the positions: equal for equal positions in clip space.
+    pub(crate) ids: [u64; 3],
+    /// Least and greatest signed area, y up.
+    pub(crate) area: (i64, i64),
+}
+
+/// A primitive with snapped vertices.
+#[derive(Clone, Debug)]
+pub(crate) struct SnappedPrimitive {
+    pub(crate) shape: Shape,
+    /// The flat vertex colour.
+    pub(crate) color: [Range; 4],
+    /// Texels it may touch: left, top, right, bottom, the last two excluded.
+    pub(crate) bounds: [i64; 4],
+    /// Window depth, before any bias.
+    pub(crate) window_depth: Depth,
+    /// Clip-space depth, by which the near and far planes clip.
+    pub(crate) clip_depth: Depth,
+    /// The depth bias.
+    pub(crate) bias: Interval,
+    /// All snapped vertices.
+    pub(crate) all: SnapBox,
+    /// Texture coordinates, where the shader reads them.
+    pub(crate) uv: Option<[Depth; 2]>,
+    /// A number that is equal for the same vertices under the same viewport; 0 if the draw tests no
+    /// depth.
+    pub(crate) geometry: u64,
+    /// Its place in the draw.
+    pub(crate) index: u32,
+}
+
+/// The side of one edge on which a sample lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    /// On the side where the edge function is positive, whatever the snapping.
+    Positive,
+    /// On the side where it is negative.
+    Negative,
+    /// On the edge exactly, whatever the snapping.
+    On,
+    /// It depends on the snapping.
+    Unknown,
+}
+
+impl Triangle {
+    /// Returns the side of the edge from vertex `i` to the next one on which a point lies.
+    pub(crate) fn side(&self, i: usize, at: Point) -> Side {
+        let (p, q) = (self.vertices[i], self.vertices[(i + 1) % 3]);
+        // One corner decides most samples: the boxes bound the distance of the others.
+        let size = |b: SnapBox| (b.high.x - b.low.x).max(b.high.y - b.low.y);
+        let moved = size(p).max(size(q));
+        let reach = |v: Point| (v.x - at.x).abs() + (v.y - at.y).abs();
+        let bound = moved * (reach(p.low) + reach(q.low)) + 2 * moved * moved;
+        match edge_value(p.low, q.low, at) {
+            value if value > bound => return Side::Positive,
+            value if value < -bound => return Side::Negative,
+            _ => {}
+        }
+        // The edge function is linear in each coordinate alone, so its extremes lie at corners.
+        let (mut least, mut most) = (i64::MAX, i64::MIN);
+        for p in p.corners() {
+            for q in q.corners() {
+                let value = edge_value(p, q, at);
+                least = least.min(value);
+                most = most.max(value);
+            }
+        }
+        if least > 0 {
+            Side::Positive
+        } else if most < 0 {
+            Side::Negative
+        } else if p.is_exact() && q.is_exact() {
+            Side::On
+        } else {
+            Side::Unknown
+        }
+    }
+
+    /// Returns the end points of an edge that lies on its sample exactly.
+    pub(crate) fn edge(&self, i: usize) -> (Point, Point) {
+        (self.vertices[i].low, self.vertices[(i + 1) % 3].low)
+    }
+}
+
+/// The least and the largest number of times that one primitive covers a sample.
+pub(crate) type Times = (u32, u32);
+
+impl SnappedPrimitive {
+    /// Returns how often a point, a line or an outline covers a sample. Triangles are walked edge by edge
+    /// instead.
+    pub(crate) fn times(&self, at: Point, units: i64) -> Times {
+        match &self.shape {
+            Shape::Point(center) => point_times(*center, at, units),
+            Shape::Line(ends) => line_times(*ends, at, units),
+            Shape::Outline(triangle) => {
+                let v = triangle.vertices;
+                let edges = [[v[0], v[1]], [v[1], v[2]], [v[2], v[0]]];
+                let each = edges.map(|edge| line_times(edge, at, units));
+                let most = each.iter().map(|t| t.1).sum();
+                // Edges that overlap may be drawn once.
+                (each.iter().map(|t| t.0).max().unwrap_or(0), most)
+            }
+            Shape::Triangle(_) => (0, 1),
+        }
+    }
+
+    /// Returns the window depth at a sample that the primitive covers, with its bias.
+    pub(crate) fn depth_at(&self, at: Point) -> Range {
+        let depth = self.window_depth.at(at);
+        Range::same(depth.corners(self.bias, |a, b| a + b))
+    }
+
+    /// Returns the depth that a shader reads. With several samples it may be that of any point of the
+    /// texel; with or without the bias.
+    pub(crate) fn depth_seen(&self, at: Point, units: i64, samples: u32) -> Range {
+        let mut depth = self.window_depth.at(at);
+        if samples > 1 {
+            depth = depth.hull(self.window_depth.over_texel(at, units));
+        }
+        let biased = depth.corners(self.bias, |a, b| a + b);
+        Range::same(depth.hull(biased))
+    }
+
+    /// Returns the texture coordinates at a sample that the primitive covers, if the shader reads any. With
+    /// several samples they may be those of any point of the texel, also of a centre outside of the
+    /// primitive (Vulkan, Interpolation Decorations; OpenGL 4.6, 14.3.1).
+    pub(crate) fn uv_seen(&self, at: Point, units: i64, samples: u32) -> Option<[Interval; 2]> {
+        let both = self.uv.as_ref()?;
+        Some(both.each_ref().map(|one| {
+            if samples > 1 {
+                one.at(at).hull(one.over_texel(at, units))
+            } else {
+                one.at(at)
+            }
+        }))
+    }
+
+    /// True if a depth bias may move its fragments.
+    pub(crate) fn is_biased(&self) -> bool {
+        !self.bias.is(0.0)
+    }
+
+    /// True if all vertices lie inside a rectangle of left, top, width and height.
+    pub(crate) fn inside_rect(&self, [x, y, w, h]: [f64; 4]) -> bool {
+        let (low, high) = (self.all.low, self.all.high);
+        low.x as f64 >= x && low.y as f64 >= y && high.x as f64 <= x + w && high.y as f64 <= y + h
+    }
+
+    /// Returns whether a covered sample can lie between the near and far planes, and whether it must.
+    pub(crate) fn inside_depth(&self, at: Point) -> (bool, bool) {
+        let depth = self.clip_depth.at(at);
+        (
+            depth.high >= 0.0 && depth.low <= 1.0,
+            depth.low >= 0.0 && depth.high <= 1.0,
+        )
+    }
+}
+
+fn point_times(center: SnapBox, at: Point, units: i64) -> Times {
+    let half = units / 2;
+    let axis = |low: i64, high: i64, at: i64| {
+        let must = high - half < at && at < low + half;
+        let can = low - half <= at && at <= high + half;
+        (can, must)
+    };
+    let x = axis(center.low.x, center.high.x, at.x);
+    let y = axis(center.low.y, center.high.y, at.y);
+    (u32::from(x.1 && y.1), u32::from(x.0 && y.0))
+}
+
+/// A line that runs along an axis covers, between its end texels, the texels it runs through; at
+/// the ends and beside slanted lines the rules (diamond exit, rectangle) differ, so that anything
+/// is legal there.
+fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
+    let [a, b] = ends;
+    let reach = units * 3 / 2;
+    let all = a.hull(b);
+    let near = at.x >= all.low.x - reach
+        && at.x <= all.high.x + reach
+        && at.y >= all.low.y - reach
+        && at.y <= all.high.y + reach;
+    let distance = edge_value(a.low, b.low, at).unsigned_abs() as f64;
+    let length = ((b.low.x - a.low.x) as f64).hypot((b.low.y - a.low.y) as f64);
+    // Legal snapping moves either end by no more than a texel's sixteenth, far less than the half
+    // texel that the reach leaves over.
+    if !near || (length > 0.0 && distance > length * reach as f64) {
+        return (0, 0);
+    }
+    let along = |low: i64, high: i64, at: i64| at - units > low && at + units < high;
+    // True if a line between two positions neither runs through the sample's texel nor, one texel
+    // wide, reaches the sample.
+    let misses = |low: i64, high: i64, at: i64| {
+        let far = at < low - units / 2 || at > high + units / 2;
+        far && !touches(low, high, at, units)
+    };
+    let across = |line: SnapBox, low: fn(Point) -> i64, at: i64| {
+        let (least, most) = (low(line.low), low(line.high));
+        let cell = at.div_euclid(units);
+        least.div_euclid(units) == cell
+            && most.div_euclid(units) == cell
+            && most - units / 2 < at
+            && at < least + units / 2
+    };
+    let horizontal = a.low.y == b.low.y && a.high.y == b.high.y;
+    let vertical = a.low.x == b.low.x && a.high.x == b.high.x;
+    let x = (a.high.x.min(b.high.x), a.low.x.max(b.low.x));
+    let y = (a.high.y.min(b.high.y), a.low.y.max(b.low.y));
+    let must = (horizontal && along(x.0, x.1, at.x) && across(all, |p| p.y, at.y))
+        || (vertical && along(y.0, y.1, at.y) && across(all, |p| p.x, at.x));
+    // An axis-aligned line covers nothing farther beside it.
+    let beside = (horizontal && misses(all.low.y, all.high.y, at.y))
+        || (vertical && misses(all.low.x, all.high.x, at.x));
+    (u32::from(must), u32::from(!beside))
+}
+
+/// True if a line between two positions can run through a sample's texel.
+fn touches(low: i64, high: i64, at: i64, units: i64) -> bool {
+    let cell = at.div_euclid(units);
+    low.div_euclid(units) <= cell && cell <= high.div_euclid(units)
+}
+
+/// Returns the inner side of a triangle's edges. With y down, a triangle of positive area (y up) lies
+/// where edge functions are negative.
+pub(crate) fn inside_of(positive_area: bool) -> Side {
+    if positive_area {
+        Side::Negative
+    } else {
+        Side::Positive
+    }
+}
+
+/// True if a sample is outside a triangle of either orientation, and so uncovered in every world.
+pub(crate) fn misses(triangle: &Triangle, sides: [Side; 3]) -> bool {
+    let (least, most) = triangle.area;
+    let outside = |positive: bool| sides.into_iter().any(|side| is_outside(side, positive));
+    least != 0 && most != 0 && (most < 0 || outside(true)) && (least > 0 || outside(false))
+}
+
+/// True if a side of one edge is certainly outside a triangle.
+pub(crate) fn is_outside(side: Side, positive_area: bool) -> bool {
+    matches!(side, Side::Positive | Side::Negative) && side != inside_of(positive_area)
+}

@@ -1,0 +1,72 @@
+//! Snapped positions: boxes of integers, since legal snapping leaves a position open by a step of the grid.
+
+use etalon_frame::Limits;
+use etalon_pipeline::{Point, signed_area};
+
+/// The positions that legal snapping allows for one vertex: x and y each from low to high, in units of
+/// [`units_per_texel`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SnapBox {
+    pub(crate) low: Point,
+    pub(crate) high: Point,
+}
+
+impl SnapBox {
+    pub(crate) fn corners(self) -> [Point; 4] {
+        let point = |x, y| Point { x, y };
+        [
+            self.low,
+            point(self.high.x, self.low.y),
+            point(self.low.x, self.high.y),
+            self.high,
+        ]
+    }
+
+    pub(crate) fn is_exact(self) -> bool {
+        self.low == self.high
+    }
+
+    pub(crate) fn hull(self, other: Self) -> Self {
+        Self {
+            low: Point {
+                x: self.low.x.min(other.low.x),
+                y: self.low.y.min(other.low.y),
+            },
+            high: Point {
+                x: self.high.x.max(other.high.x),
+                y: self.high.y.max(other.high.y),
+            },
+        }
+    }
+}
+
+/// Returns the units per texel: fine enough for the adapter's grid and for sample positions in 1/256
+/// texel.
+pub(crate) fn units_per_texel(limits: &Limits) -> i64 {
+    1 << limits.sub_pixel_bits.max(8)
+}
+
+/// Returns the least and the greatest signed area of a triangle, y up.
+pub(crate) fn area(boxes: [SnapBox; 3]) -> (i64, i64) {
+    // One corner decides most triangles; see `Triangle::side`.
+    let size = |b: SnapBox| (b.high.x - b.low.x).max(b.high.y - b.low.y);
+    let moved = boxes.map(size).into_iter().max().unwrap_or(0);
+    let [a, b, c] = boxes.map(|b| b.low);
+    let span = |p: Point, q: Point| (p.x - q.x).abs() + (p.y - q.y).abs();
+    let bound = 2 * moved * (span(a, b) + span(b, c) + span(c, a)) + 8 * moved * moved;
+    let one = signed_area([a, b, c]);
+    if one.abs() > bound {
+        return (one - bound, one + bound);
+    }
+    let (mut least, mut most) = (i64::MAX, i64::MIN);
+    for a in boxes[0].corners() {
+        for b in boxes[1].corners() {
+            for c in boxes[2].corners() {
+                let value = signed_area([a, b, c]);
+                least = least.min(value);
+                most = most.max(value);
+            }
+        }
+    }
+    (least, most)
+}

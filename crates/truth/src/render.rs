@@ -1,0 +1,131 @@
+//! The picture, in halves down to texels.
+
+use super::area::{self, Layers};
+use super::cell::{Cell, Point};
+use super::order::{self, Members};
+use super::picture::TruthPicture;
+use super::surface::{Overlap, PreparedSurface};
+use etalon_methods::{Coverage, Truth};
+
+/// Returns the true picture of a scene.
+///
+/// With [`Coverage::Center`] a texel has the colour at its centre; where an edge runs through it, the
+/// top-left rule gives it to one of the two polygons. With [`Coverage::Area`] it has the mean over its
+/// area: exact for flat paints, depth and distance, and for up to six textured surfaces
+/// over each other. With more of these, every piece on which their product is one polynomial is
+/// integrated by 36 points in each triangle, and the error is estimated as twice what 16 points give
+/// otherwise: on one polynomial the error of such rules falls geometrically with the points along a
+/// side, so that the difference is several times what is left. A texel whose edges make more than
+/// 4096 pieces is halved up to 8 times; a part still in too many pieces is sampled, and the error is
+/// its area times the spread of colours there.
+///
+/// A surface covers nothing where it has fewer than three corners, no area, a corner or a paint
+/// that is not finite, a near or far plane that is not positive or not apart from the other, or a
+/// texture whose texels or coordinates do not match its size or corners. Alpha is clamped to 0..1, and so is
+/// the depth of a paint that fades. A polygon that is not convex covers only the points
+/// that lie inside of all its edges.
+pub fn truth(scene: &Truth) -> TruthPicture {
+    let surfaces: Vec<PreparedSurface<'_>> = scene
+        .surfaces
+        .iter()
+        .filter_map(PreparedSurface::new)
+        .collect();
+    let [width, height] = scene.size;
+    let mut renderer = Renderer {
+        surfaces: &surfaces,
+        background: scene.background,
+        coverage: scene.coverage,
+        picture: TruthPicture {
+            size: scene.size,
+            rgb: vec![scene.background; width as usize * height as usize],
+            error: 0.0,
+        },
+    };
+    let all: Vec<usize> = (0..surfaces.len()).collect();
+    if width > 0 && height > 0 {
+        renderer.block([0, 0], [width, height], &all);
+    }
+    renderer.picture
+}
+
+/// The picture while blocks of it are filled.
+struct Renderer<'a> {
+    surfaces: &'a [PreparedSurface<'a>],
+    background: [f64; 3],
+    coverage: Coverage,
+    picture: TruthPicture,
+}
+
+impl Renderer<'_> {
+    /// Fills the texels from `low` to `high`, the latter excluded, in which no other than these surfaces
+    /// are visible: at once where all texels have one colour, else in halves.
+    fn block(&mut self, low: [u32; 2], high: [u32; 2], surfaces: &[usize]) {
+        let [from, to] = [low, high].map(|corner| corner.map(f64::from));
+        let mut whole = true;
+        let mut touching = Vec::with_capacity(surfaces.len());
+        for &i in surfaces {
+            match self.surfaces[i].overlap(from, to) {
+                Overlap::None => continue,
+                Overlap::Part => whole = false,
+                Overlap::Whole => {}
+            }
+            touching.push(i);
+        }
+        if whole && let Some(color) = self.only_color(from, to, &touching) {
+            return self.fill(low, high, color);
+        }
+        let [width, height] = [high[0] - low[0], high[1] - low[1]];
+        if width == 1 && height == 1 {
+            let color = match self.coverage {
+                Coverage::Center => self.center([from[0] + 0.5, from[1] + 0.5], &touching),
+                Coverage::Area => self.mean(from, to, &touching),
+            };
+            return self.fill(low, high, color);
+        }
+        let axis = usize::from(height > width);
+        let (mut before, mut after) = (high, low);
+        before[axis] = low[axis] + (high[axis] - low[axis]) / 2;
+        after[axis] = before[axis];
+        self.block(low, before, &touching);
+        self.block(after, high, &touching);
+    }
+
+    fn fill(&mut self, low: [u32; 2], high: [u32; 2], color: [f64; 3]) {
+        let width = self.picture.size[0] as usize;
+        for y in low[1]..high[1] {
+            let row = y as usize * width;
+            self.picture.rgb[row + low[0] as usize..row + high[0] as usize].fill(color);
+        }
+    }
+
+    /// Returns the colour of a rectangle; `None` if it may have several.
+    fn only_color(&self, low: Point, high: Point, covering: &[usize]) -> Option<[f64; 3]> {
+        let layers = self.layers(covering);
+        let visible = layers.visible(&Cell::rectangle(low, high), covering).ok()?;
+        let flat = visible.iter().all(|&i| self.surfaces[i].is_flat());
+        flat.then(|| order::compose(self.surfaces, &visible, self.background, low))
+    }
+
+    fn center(&self, p: Point, touching: &[usize]) -> [f64; 3] {
+        let covering = touching.iter().copied();
+        let mut members: Members = covering.filter(|&i| self.surfaces[i].covers(p)).collect();
+        order::sort(self.surfaces, &mut members, &[p]);
+        order::compose(self.surfaces, &members, self.background, p)
+    }
+
+    fn mean(&mut self, low: Point, high: Point, touching: &[usize]) -> [f64; 3] {
+        let middle = [low[0] + 0.5, low[1] + 0.5];
+        let sorted = area::nearest_first(self.surfaces, touching, middle);
+        let integral = self.layers(&sorted).integral(low, high);
+        self.picture.error = self.picture.error.max(integral.error);
+        integral.sum
+    }
+
+    fn layers<'b>(&'b self, touching: &'b [usize]) -> Layers<'b> {
+        Layers {
+            surfaces: self.surfaces,
+            background: self.background,
+            touching,
+        }
+    }
+}
