@@ -1,6 +1,6 @@
 //! The hunt for planted bugs: every case drawn by every mutant, in this process, on all cores.
 
-use crate::verdict::Judge;
+use crate::judge::Judge;
 use etalon_backend::{Backend, BackendError};
 use etalon_case::Case;
 use etalon_frame::{Frame, WrongTexel};
@@ -9,7 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::channel;
 use std::thread;
 
-/// What is hunted, and with which cases.
+/// The planted bugs of a hunt, and the cases that must catch them.
 #[derive(Clone, Copy, Debug)]
 pub struct HuntPlan<'a> {
     /// The cases. Selftests are left out: they fail whatever draws them.
@@ -18,16 +18,15 @@ pub struct HuntPlan<'a> {
     pub mutants: &'a [MutantInfo],
     /// Draw every case with every bug, instead of ending an area at a bug's first Fail there.
     pub full: bool,
-    /// How many threads.
+    /// The number of threads.
     pub jobs: usize,
 }
 
-/// Draws and judges the cases with every bug planted, and tells what became of each, in the order
-/// of the plan. `open` gives the backend with the bug of a name in it; `drawn` is told after each
-/// case by each thread.
+/// Draws and judges the cases with every bug planted. Returns a record of each bug, in the order of the
+/// plan. `open` returns the backend with the named bug in it; each thread calls `drawn` after each case.
 ///
-/// Every thread holds its own share of the bugs and goes through the cases in order, so that state
-/// which sticks from one case to the next does so in the same way every time.
+/// Every thread holds its own share of the bugs and draws the cases in order, so that state which a bug
+/// carries from one case to the next is the same every time.
 pub fn hunt(
     plan: HuntPlan<'_>,
     open: &(dyn Fn(&str) -> Option<Box<dyn Backend>> + Sync),
@@ -86,7 +85,7 @@ fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Suspect], fu
                 Some((_, sighting)) => sighting.clone(),
                 None => {
                     let limits = backend.limits();
-                    let sighting = match judge.glance(number, case, limits, &frames) {
+                    let sighting = match judge.verdict(number, case, limits, &frames) {
                         Err(message) => broken(case, message),
                         Ok((verdict, texel)) => sighting(case, verdict, texel),
                     };

@@ -12,7 +12,7 @@ use etalon_frame::{Frame, Limits};
 use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, Expectations, Machine, ShaderCache, Verdict,
 };
-use etalon_runner::{BenchEvent, BenchOutcome, BenchPlan, Launch, Worker};
+use etalon_runner::{BenchEvent, BenchPlan, BenchSummary, Launch, Worker};
 use etalon_scene::Scene;
 use std::fs::{self, File, OpenOptions};
 use std::io::BufReader;
@@ -132,7 +132,7 @@ fn cases(folder: &Path) -> Vec<Case> {
 }
 
 /// Benches all cases; the bench as it was read back, and what was told as `what adapter case` in order.
-fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchOutcome, Vec<String>) {
+fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchSummary, Vec<String>) {
     let folder: TempDir = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("cases")).unwrap();
     let cases = cases(&folder.path().join("cases"));
@@ -195,7 +195,7 @@ fn adapters_take_turns_case_after_case_and_round_after_round() {
     }
     assert_eq!(told, due);
     let nine = u64::from(CASES) * 3;
-    let all_fine = BenchOutcome {
+    let all_fine = BenchSummary {
         pictures: nine,
         timed: nine,
         unexpected: 0,
@@ -226,7 +226,7 @@ fn adapters_take_turns_case_after_case_and_round_after_round() {
 
 /// The bench of a faulty adapter beside a good one: the record of the marked case. All others are
 /// complete.
-fn marked(fault: &str) -> (etalon_record::BenchRecord, BenchOutcome) {
+fn marked(fault: &str) -> (etalon_record::BenchRecord, BenchSummary) {
     let (bench, outcome, _) = bench(vec![adapter("faulty", fault), adapter("good", "")]);
     let mut found = None;
     for record in bench.records {

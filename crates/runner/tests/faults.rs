@@ -9,7 +9,7 @@ use etalon_case::{Case, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Feature, Frame, Limits, Requirement};
 use etalon_record::{Expectations, FORMAT, Header, Machine, Record, Run, Verdict};
-use etalon_runner::{Event, Launch, Options, Outcome, Plan, StartError, Worker};
+use etalon_runner::{Event, Launch, Options, Plan, RunSummary, StartError, Worker};
 use etalon_scene::Scene;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, Write};
@@ -253,7 +253,7 @@ fn cases(folder: &Path) -> Vec<Case> {
 }
 
 /// Runs all cases on one worker; what was recorded, in order.
-fn run(launch: Launch) -> (Vec<Record>, Outcome) {
+fn run(launch: Launch) -> (Vec<Record>, RunSummary) {
     let folder = tempfile::tempdir().unwrap();
     let cases = cases(folder.path());
     let worker = Worker::start(&launch).unwrap_or_else(|e| panic!("{e}"));
