@@ -14,7 +14,7 @@ use etalon_record::{
     RecordError, Run, Settings, ShaderCache, Shard, selection_digest, shard_of,
 };
 use etalon_report::quoted;
-use etalon_runner::{Event, Options, Outcome, Plan, RunError};
+use etalon_runner::{Event, Options, Plan, RunError, RunSummary};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};
@@ -141,10 +141,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
         return Ok(0);
     }
     Ok(match outcome {
-        Outcome {
+        RunSummary {
             unexpected: 1.., ..
         } => UNEXPECTED,
-        Outcome {
+        RunSummary {
             improvements: 1.., ..
         } => IMPROVED,
         _ => 0,
@@ -326,7 +326,7 @@ pub(crate) fn expectations(file: Option<&Path>) -> Result<Expectations, Failure>
     .map_err(Failure::usage)
 }
 
-fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<Outcome, RunError> {
+fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<RunSummary, RunError> {
     let before = if plan.resume {
         Run::read(plan.folder).map_or(0, |run| run.records.len() as u64)
     } else {
