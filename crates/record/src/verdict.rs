@@ -1,4 +1,4 @@
-//! What became of a case on an adapter.
+//! The outcome of a case on an adapter.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -72,7 +72,7 @@ impl Verdict {
         }
     }
 
-    /// Whether the verdict speaks against a run unless it was expected.
+    /// True if the verdict counts against a run unless it was expected.
     pub fn is_bad(self) -> bool {
         match self {
             Self::Pass | Self::Imprecise | Self::Measured | Self::NotSupported | Self::Skipped => {
@@ -89,7 +89,7 @@ impl Verdict {
         }
     }
 
-    /// Whether a frame came back and was held against its legal set.
+    /// True if a frame came back and was compared with its legal set.
     pub fn is_judged(self) -> bool {
         matches!(
             self,
@@ -97,7 +97,8 @@ impl Verdict {
         )
     }
 
-    /// How bad the verdict is, for picking the worst of several: larger is worse.
+    /// The badness of the verdict, for picking the worst of several of one case: larger is worse. A Fail, as
+    /// a proof, is worst.
     pub fn severity(self) -> u8 {
         match self {
             Self::Skipped => 0,
