@@ -19,7 +19,7 @@ use etalon_case::Case;
 use etalon_frame::{Limits, WrongTexel};
 use etalon_record::{
     AdapterRecord, BenchHeader, BenchLine, BenchWriter, Ended, Expectations, Picture, Record,
-    RecordError, Round, Verdict,
+    RecordError, ReportFiles, Round, Verdict,
 };
 use etalon_reference::Rules;
 use etalon_scene::Invariance;
@@ -42,6 +42,8 @@ pub struct BenchPlan<'a> {
     pub expectations: &'a Expectations,
     /// The bench folder.
     pub folder: &'a Path,
+    /// The reports that are removed from a bench which is replaced.
+    pub reports: ReportFiles,
     /// The header of the bench, with its number of rounds.
     pub header: BenchHeader,
 }
@@ -107,7 +109,8 @@ pub fn bench(
     plan: BenchPlan<'_>,
     events: &mut dyn FnMut(BenchEvent),
 ) -> Result<BenchSummary, BenchError> {
-    let writer = BenchWriter::create(plan.folder, &plan.header).map_err(BenchError::Folder)?;
+    let writer = BenchWriter::replace(plan.folder, &plan.header, plan.reports)
+        .map_err(BenchError::Folder)?;
     let adapters = plan
         .adapters
         .into_iter()

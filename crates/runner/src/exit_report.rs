@@ -41,7 +41,7 @@ impl ExitReport {
         let own_status = status.filter(|_| kind == LossKind::Died);
         let message = match stderr.as_str() {
             "" => cause,
-            text => format!("{cause}; its last words: {text}"),
+            text => format!("{cause}; stderr ends with: {text}"),
         };
         Self {
             message,

@@ -12,7 +12,7 @@ use std::thread;
 /// The planted bugs of a hunt, and the cases that must catch them.
 #[derive(Clone, Copy, Debug)]
 pub struct HuntPlan<'a> {
-    /// The cases. Selftests are left out: they fail whatever draws them.
+    /// The cases. Selftests are left out: they fail on every backend.
     pub cases: &'a [Case],
     /// The planted bugs.
     pub mutants: &'a [MutantInfo],

@@ -1,7 +1,7 @@
 //! The memory that a process holds, and a limit on it.
 //!
-//! The parent polls instead of setting `RLIMIT_AS`: drivers reserve address space that they never
-//! touch, and a launcher may start the worker in another namespace.
+//! The parent polls instead of setting `RLIMIT_AS`, since drivers reserve address space that they never
+//! touch.
 
 use crate::sync::lock;
 use std::fs;

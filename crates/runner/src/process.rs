@@ -210,7 +210,7 @@ impl WorkerProcess {
 }
 
 impl Drop for WorkerProcess {
-    /// Closing the pipe asks the worker to end.
+    /// Closes the pipe, which asks the worker to exit, and kills it if it does not.
     fn drop(&mut self) {
         self.requests = None;
         if self.wait(CLOSE_TIMEOUT).is_none() {

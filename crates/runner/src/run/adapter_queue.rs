@@ -60,7 +60,7 @@ impl AdapterQueue {
     }
 
     /// The queue of an adapter whose driver does not start.
-    pub(super) fn dead(numbers: Vec<usize>, adapter: AdapterRecord, error: String) -> Self {
+    pub(super) fn not_started(numbers: Vec<usize>, adapter: AdapterRecord, error: String) -> Self {
         let launch = Launch {
             adapter: adapter.name.clone(),
             program: PathBuf::new(),

@@ -31,7 +31,7 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
         }
         writer
     } else {
-        RunWriter::create(plan.folder, &plan.header).map_err(RunError::Folder)?
+        RunWriter::replace(plan.folder, &plan.header, plan.reports).map_err(RunError::Folder)?
     };
     if let Some(ids) = plan.selection {
         let ids = || ids.iter().map(String::as_str);
@@ -67,8 +67,8 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
         AdapterQueue::new(numbers, launch, worker)
     });
     let dead = plan.dead.into_iter();
-    let dead =
-        dead.map(|(adapter, error)| AdapterQueue::dead(missing(&adapter.name), adapter, error));
+    let dead = dead
+        .map(|(adapter, error)| AdapterQueue::not_started(missing(&adapter.name), adapter, error));
     let queues: Vec<AdapterQueue> = running.chain(dead).collect();
     thread::scope(|scope| {
         for _ in 0..plan.options.jobs.max(1) {

@@ -4,7 +4,7 @@ use crate::drawing::DRAW_TIMEOUT;
 use crate::launch::Launch;
 use crate::worker::Worker;
 use etalon_case::Case;
-use etalon_record::{AdapterRecord, Expectations, Header, Record, RecordError};
+use etalon_record::{AdapterRecord, Expectations, Header, Record, RecordError, ReportFiles};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -26,6 +26,8 @@ pub struct Plan<'a> {
     pub expectations: &'a Expectations,
     /// The run folder.
     pub folder: &'a Path,
+    /// The reports that are removed from a run which is replaced.
+    pub reports: ReportFiles,
     /// The header of the run.
     pub header: Header,
     /// True to resume the run that the folder holds, false to replace it.
