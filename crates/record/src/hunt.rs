@@ -4,7 +4,8 @@ use crate::error::RecordError;
 use crate::json::json_line;
 use crate::machine::Machine;
 use crate::verdict::Verdict;
-use etalon_frame::WrongTexel;
+use etalon_frame::{WrongTexel, state_enum};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -29,29 +30,17 @@ pub struct MutantInfo {
     pub legal: Option<String>,
 }
 
-/// The outcome of a planted bug.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Catch {
-    /// Some case failed.
-    Caught,
-    /// Some case was imprecise, none failed.
-    Noticed,
-    /// Every case passed.
-    Survived,
-    /// It could not be drawn: a bug of the mutant, not a planted one.
-    Broken,
-}
-
-impl Catch {
-    /// The word in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Caught => "caught",
-            Self::Noticed => "noticed",
-            Self::Survived => "survived",
-            Self::Broken => "broken",
-        }
+state_enum! {
+    /// The outcome of a planted bug.
+    Catch {
+        /// Some case failed.
+        Caught = "caught",
+        /// Some case was imprecise, none failed.
+        Noticed = "noticed",
+        /// Every case passed.
+        Survived = "survived",
+        /// It could not be drawn: a bug of the mutant, not a planted one.
+        Broken = "broken",
     }
 }
 
