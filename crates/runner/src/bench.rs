@@ -227,12 +227,7 @@ impl Bench<'_, '_> {
             return failed(Verdict::NotSupported, missing.to_string());
         }
         let drawing = match adapter.supervisor.worker() {
-            Ok(worker) => {
-                let asked = Instant::now();
-                worker.request_case(0, case);
-                let wait = Wait::of(DRAW_TIMEOUT);
-                worker.receive_frames(0, case.scene_count(), asked, wait)
-            }
+            Ok(worker) => worker.draw_case(0, case, Wait::of(DRAW_TIMEOUT)),
             Err(loss) => Drawing::failed(loss.into()),
         };
         match drawing.frames {

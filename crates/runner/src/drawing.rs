@@ -1,9 +1,9 @@
-//! Drawing scenes in a worker: the requests for one frame, and their answers.
+//! Drawing in a worker: the requests for frames, and their answers.
 
 use crate::loss::{Failure, Loss};
 use crate::process::{Wait, WorkerProcess};
 use crate::protocol::{Payload, Request, Response};
-use etalon_backend::BackendError;
+use etalon_backend::{BackendError, FrameTime};
 use etalon_case::Case;
 use etalon_frame::Frame;
 use etalon_scene::Scene;
@@ -37,6 +37,48 @@ impl Drawing {
 }
 
 impl WorkerProcess {
+    /// Sends a request and waits for the answer, while nothing else is in flight. Returns it with the time
+    /// that the worker spent.
+    pub(crate) fn ask(
+        &mut self,
+        request: &Request,
+        timeout: Duration,
+    ) -> Result<(Payload, Duration), Failure> {
+        self.request(request);
+        match self.response(timeout)? {
+            Response::Done {
+                outcome: Ok(payload),
+                elapsed,
+                ..
+            } => Ok((payload, elapsed)),
+            Response::Done {
+                outcome: Err(error),
+                ..
+            } => Err(Failure::Backend(error)),
+            Response::Hello(_) => Err(second_greeting().into()),
+        }
+    }
+
+    /// Draws frames of a prepared scene, while nothing else is in flight.
+    pub(crate) fn submit(
+        &mut self,
+        slot: u32,
+        times: u32,
+        timeout: Duration,
+    ) -> Result<Vec<FrameTime>, Failure> {
+        match self.ask(&Request::Submit { slot, times }, timeout)? {
+            (Payload::Submitted(all), _) if all.len() == times as usize => Ok(all),
+            _ => Err(wrong_answer().into()),
+        }
+    }
+
+    /// Draws one frame of each of a case's scenes.
+    pub(crate) fn draw_case(&mut self, slot: u32, case: &Case, wait: Wait<'_>) -> Drawing {
+        let asked = Instant::now();
+        self.request_case(slot, case);
+        self.receive_frames(slot, case.scene_count(), asked, wait)
+    }
+
     /// Requests one frame of each of a case's scenes.
     pub(crate) fn request_case(&mut self, slot: u32, case: &Case) {
         for scene in case.scenes() {
@@ -88,10 +130,8 @@ impl WorkerProcess {
                     }
                     continue;
                 }
-                Ok(Response::Done { .. }) => {
-                    Loss::Garbage("an answer to another request".to_owned())
-                }
-                Ok(Response::Hello(_)) => Loss::Garbage("a second greeting".to_owned()),
+                Ok(Response::Done { .. }) => wrong_answer(),
+                Ok(Response::Hello(_)) => second_greeting(),
                 Err(loss) => loss,
             };
             drawing.frames = Err(Failure::Lost(loss));
@@ -109,4 +149,13 @@ impl WorkerProcess {
         drawing.since = begun.elapsed();
         drawing
     }
+}
+
+/// The loss of a worker whose answer does not fit the request.
+pub(crate) fn wrong_answer() -> Loss {
+    Loss::Garbage("an answer to another request".to_owned())
+}
+
+fn second_greeting() -> Loss {
+    Loss::Garbage("a second greeting".to_owned())
 }

@@ -39,13 +39,13 @@ pub fn hunt(
         for job in 0..jobs {
             let (sender, judge) = (sender.clone(), &judge);
             scope.spawn(move || {
-                let mut share: Vec<Suspect> = plan
+                let mut share: Vec<Mutant> = plan
                     .mutants
                     .iter()
                     .enumerate()
                     .skip(job)
                     .step_by(jobs)
-                    .map(|(at, info)| Suspect::new(at, info, open(&info.name)))
+                    .map(|(at, info)| Mutant::new(at, info, open(&info.name)))
                     .collect();
                 for (number, case) in plan.cases.iter().enumerate() {
                     if case.judged_as.is_none() {
@@ -53,9 +53,9 @@ pub fn hunt(
                     }
                     drawn();
                 }
-                for suspect in share {
+                for mutant in share {
                     // The receiver lives until all threads have ended.
-                    let _ = sender.send((suspect.at, suspect.finish()));
+                    let _ = sender.send((mutant.at, mutant.finish()));
                 }
             });
         }
@@ -68,15 +68,15 @@ pub fn hunt(
 
 /// Draws one case with each of a thread's bugs. Most of them give the same few frames, which are
 /// judged once.
-fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Suspect], full: bool) {
+fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], full: bool) {
     let mut seen: Vec<(Vec<Frame>, Sighting)> = Vec::new();
-    for suspect in share {
-        let area = suspect.area(case.area());
-        let tally = &suspect.record.areas[area];
+    for mutant in share {
+        let area = mutant.area(case.area());
+        let tally = &mutant.record.areas[area];
         if !full && tally.fail > 0 {
             continue;
         }
-        let Some(backend) = &suspect.backend else {
+        let Some(backend) = &mutant.backend else {
             continue;
         };
         let sighting = match draw(backend.as_ref(), case) {
@@ -94,7 +94,7 @@ fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Suspect], fu
                 }
             },
         };
-        suspect.note(area, sighting);
+        mutant.note(area, sighting);
     }
 }
 
@@ -131,13 +131,13 @@ fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
 }
 
 /// One planted bug while it is hunted.
-struct Suspect {
+struct Mutant {
     at: usize,
     backend: Option<Box<dyn Backend>>,
     record: MutantRecord,
 }
 
-impl Suspect {
+impl Mutant {
     fn new(at: usize, info: &MutantInfo, backend: Option<Box<dyn Backend>>) -> Self {
         Self {
             at,

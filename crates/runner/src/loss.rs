@@ -13,7 +13,7 @@ pub(crate) enum Failure {
     Lost(Loss),
 }
 
-/// How a worker was lost.
+/// The way in which a worker was lost.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Loss {
     /// It did not answer within this time.

@@ -2,7 +2,7 @@
 
 use crate::loss::{Failure, Loss};
 use crate::process::{Wait, WorkerProcess};
-use crate::protocol::{Payload, Request, Response};
+use crate::protocol::Request;
 use etalon_backend::FrameTime;
 use etalon_case::Case;
 use etalon_case::Method;
@@ -108,49 +108,44 @@ impl WorkerProcess {
         }
     }
 
+    /// Times frames of a scene; `None` where the backend reports an error.
     fn time_frames(
         &mut self,
         slot: u32,
         scene: &Scene,
         timeout: Duration,
     ) -> Result<Option<Times>, Loss> {
-        self.request(&Request::Prepare {
-            slot,
-            scene: Box::new(scene.clone()),
-        });
-        let prepared = self.answer(timeout)?.is_some();
-        let mut times = None;
-        if prepared {
-            let mut warm = self.submit(slot, 1, timeout)?;
-            if warm.first().is_some_and(|first| first.wall < BUDGET) {
-                warm = self.submit(slot, WARM_UP, timeout)?;
-            }
-            if let Some(last) = warm.last() {
-                let one = last.wall.as_secs_f64().max(1e-6);
-                let [fewest, most] = FRAMES;
-                let fit = (BUDGET.as_secs_f64() / one) as u32;
-                times = Some(self.submit(slot, fit.clamp(fewest, most), timeout)?);
-            }
+        let timed = self.prepare_and_time(slot, scene, timeout);
+        let dropped = match timed {
+            Err(Failure::Lost(loss)) => return Err(loss),
+            _ => self.ask(&Request::Drop { slot }, timeout),
+        };
+        match (timed, dropped) {
+            (_, Err(Failure::Lost(loss))) => Err(loss),
+            (Ok(times), _) => Ok(medians(&times)),
+            (Err(_), _) => Ok(None),
         }
-        self.request(&Request::Drop { slot });
-        self.answer(timeout)?;
-        Ok(times.and_then(|all| medians(&all)))
     }
 
-    fn submit(&mut self, slot: u32, times: u32, timeout: Duration) -> Result<Vec<FrameTime>, Loss> {
-        self.request(&Request::Submit { slot, times });
-        Ok(match self.answer(timeout)? {
-            Some(Payload::Submitted(times)) => times,
-            _ => Vec::new(),
-        })
-    }
-
-    /// The next answer; `None` where the backend could not do what was asked.
-    fn answer(&mut self, timeout: Duration) -> Result<Option<Payload>, Loss> {
-        match self.response(timeout)? {
-            Response::Done { outcome, .. } => Ok(outcome.ok()),
-            Response::Hello(_) => Err(Loss::Garbage("a second greeting".to_owned())),
+    fn prepare_and_time(
+        &mut self,
+        slot: u32,
+        scene: &Scene,
+        timeout: Duration,
+    ) -> Result<Vec<FrameTime>, Failure> {
+        let scene = Box::new(scene.clone());
+        self.ask(&Request::Prepare { slot, scene }, timeout)?;
+        let mut warm = self.submit(slot, 1, timeout)?;
+        if warm.first().is_some_and(|first| first.wall < BUDGET) {
+            warm = self.submit(slot, WARM_UP, timeout)?;
         }
+        let Some(last) = warm.last() else {
+            return Ok(Vec::new());
+        };
+        let one = last.wall.as_secs_f64().max(1e-6);
+        let [fewest, most] = FRAMES;
+        let fit = (BUDGET.as_secs_f64() / one) as u32;
+        self.submit(slot, fit.clamp(fewest, most), timeout)
     }
 }
 

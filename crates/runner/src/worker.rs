@@ -8,7 +8,7 @@ use crate::protocol::{Hello, Response};
 use etalon_backend::BackendError;
 use etalon_case::Case;
 use etalon_frame::Frame;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use thiserror::Error;
 
 /// The time that a driver may take to start.
@@ -49,12 +49,7 @@ impl Worker {
     /// # Errors
     /// The backend's error, or how the worker was lost.
     pub fn draw(&mut self, case: &Case) -> Result<Vec<Frame>, DrawError> {
-        let asked = Instant::now();
-        self.process.request_case(0, case);
-        let wait = Wait::of(DRAW_TIMEOUT);
-        let drawing = self
-            .process
-            .receive_frames(0, case.scene_count(), asked, wait);
+        let drawing = self.process.draw_case(0, case, Wait::of(DRAW_TIMEOUT));
         drawing.frames.map_err(|failure| match failure {
             Failure::Backend(error) => DrawError::Backend(error),
             Failure::Lost(loss) => DrawError::Lost(self.process.exit_report(loss).message),

@@ -1,9 +1,9 @@
 //! One round of frame times of one case on one worker.
 
-use crate::drawing::DRAW_TIMEOUT;
-use crate::loss::{Failure, Loss};
+use crate::drawing::{DRAW_TIMEOUT, wrong_answer};
+use crate::loss::Failure;
 use crate::process::WorkerProcess;
-use crate::protocol::{Payload, Request, Response};
+use crate::protocol::{Payload, Request};
 use etalon_backend::FrameTime;
 use etalon_frame::Frame;
 use etalon_scene::Scene;
@@ -41,13 +41,14 @@ impl WorkerProcess {
     /// after 60 frames, or when it has taken as long as the timed frames may. Drivers compile at the
     /// first frame and some once more at the second, so two frames are never timed.
     pub(crate) fn round(&mut self, scene: &Scene, budget: Duration) -> Result<RoundTimes, Failure> {
-        let (_, prepare) = self.ask(&Request::Prepare {
+        let request = Request::Prepare {
             slot: SLOT,
             scene: Box::new(scene.clone()),
-        })?;
+        };
+        let (_, prepare) = self.ask(&request, DRAW_TIMEOUT)?;
         let outcome = self.prepared_round(prepare, budget);
         if !matches!(outcome, Err(Failure::Lost(_))) {
-            self.ask(&Request::Drop { slot: SLOT })?;
+            self.ask(&Request::Drop { slot: SLOT }, DRAW_TIMEOUT)?;
         }
         outcome
     }
@@ -61,7 +62,11 @@ impl WorkerProcess {
         let mut warm: Vec<Duration> = Vec::new();
         while warm.len() < MOST_WARM_UP && !steady(&warm) {
             let number = if warm.len() < 2 { 1 } else { 2 };
-            warm.extend(self.draw_frames(number)?.iter().map(|t| t.wall));
+            warm.extend(
+                self.submit(SLOT, number, DRAW_TIMEOUT)?
+                    .iter()
+                    .map(|t| t.wall),
+            );
             if warm.len() >= 2 && warming.elapsed() > budget {
                 break;
             }
@@ -69,16 +74,16 @@ impl WorkerProcess {
         let recent = median(warm.get(warm.len().saturating_sub(3)..).unwrap_or_default());
         let [fewest, most] = FRAMES;
         let fit = (budget.as_secs_f64() / seconds(recent)) as u32;
-        let frames = self.draw_frames(fit.clamp(fewest, most))?;
+        let frames = self.submit(SLOT, fit.clamp(fewest, most), DRAW_TIMEOUT)?;
         let mut read_back = Vec::new();
         let mut picture = 0;
         let reading = Instant::now();
         while read_back.is_empty()
             || (read_back.len() < MOST_READ_BACKS && reading.elapsed() < budget / 4)
         {
-            let (payload, took) = self.ask(&Request::ReadBack { slot: SLOT })?;
+            let (payload, took) = self.ask(&Request::ReadBack { slot: SLOT }, DRAW_TIMEOUT)?;
             let Payload::Frame(frame) = payload else {
-                return Err(wrong_answer());
+                return Err(wrong_answer().into());
             };
             read_back.push(seconds(took));
             picture = fingerprint(&frame);
@@ -92,31 +97,6 @@ impl WorkerProcess {
             picture,
         })
     }
-
-    fn draw_frames(&mut self, times: u32) -> Result<Vec<FrameTime>, Failure> {
-        match self.ask(&Request::Submit { slot: SLOT, times })? {
-            (Payload::Submitted(all), _) if all.len() == times as usize => Ok(all),
-            _ => Err(wrong_answer()),
-        }
-    }
-
-    /// The answer to a request, and the time that the worker spent on it.
-    fn ask(&mut self, request: &Request) -> Result<(Payload, Duration), Failure> {
-        self.request(request);
-        match self.response(DRAW_TIMEOUT)? {
-            Response::Done {
-                outcome, elapsed, ..
-            } => match outcome {
-                Ok(payload) => Ok((payload, elapsed)),
-                Err(error) => Err(Failure::Backend(error)),
-            },
-            Response::Hello(_) => Err(Loss::Garbage("a second greeting".to_owned()).into()),
-        }
-    }
-}
-
-fn wrong_answer() -> Failure {
-    Loss::Garbage("an answer to another request".to_owned()).into()
 }
 
 /// A duration in seconds, at least the nanosecond that is a clock's finest step.

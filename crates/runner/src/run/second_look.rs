@@ -129,9 +129,7 @@ fn draw_alone(run: &AdapterRun<'_, '_>, before: &[usize], number: usize) -> Redr
 
 fn draw(run: &AdapterRun<'_, '_>, worker: &mut WorkerProcess, number: usize) -> Drawing {
     let case = run.case(number);
-    let asked = Instant::now();
-    worker.request_case(number as u32, case);
-    worker.receive_frames(number as u32, case.scene_count(), asked, run.wait(case))
+    worker.draw_case(number as u32, case, run.wait(case))
 }
 
 /// The cause of a verdict that a case does not get alone.
