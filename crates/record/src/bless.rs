@@ -1,32 +1,32 @@
-//! What a run shows of the expectations: what they lack, and what may go.
+//! Blessing: expectations are made to agree with a run.
 
+use crate::adapter::AdapterRecord;
 use crate::driver_version::driver_version;
 use crate::expectations::{Entry, Expectation, Expectations};
-use crate::header::AdapterRecord;
 use crate::run::Run;
 use crate::verdict::Verdict;
 use std::collections::BTreeSet;
 
-/// Expectations as they are after a run was blessed.
+/// The expectations after a run was blessed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Blessing {
     /// All entries, the new ones at the end.
     pub entries: Vec<Entry>,
-    /// How many are new.
+    /// The number of new ones.
     pub added: usize,
-    /// Entries that went: all that they name was drawn, and all of it is better.
+    /// Entries that were removed: all cases that they name were drawn, and all are better.
     pub removed: Vec<Entry>,
-    /// Entries of which the run showed a part as better: to be narrowed by hand.
+    /// Entries of which some cases are better: to be narrowed by hand.
     pub to_narrow: Vec<Entry>,
-    /// Records that speak against the run whatever is expected: selftests that do not fail.
+    /// Records that no expectation excuses: selftests that do not fail.
     pub unblessed: u64,
 }
 
 impl Expectations {
-    /// The expectations after everything that was unexpected in a run is expected, case by case, and what
-    /// is better has gone. `ids` are all cases there are, of which the run may have drawn a part;
-    /// `all_adapters` tells that it used every adapter that could be found. The reason of a new entry says
-    /// that nobody has explained it yet: that is for people to write.
+    /// Adds an entry for every unexpected verdict of a run, case by case, and removes the entries of cases
+    /// that are better. `ids` are all existing cases, of which the run may have drawn a part; `all_adapters`
+    /// is true if it used every adapter found. The reason of a new entry says that it is not explained yet:
+    /// explanations are for people to write.
     pub fn bless(&self, run: &Run, ids: &[String], all_adapters: bool, today: &str) -> Blessing {
         let mut blessing = Blessing::default();
         let mut drawn: Vec<BTreeSet<&str>> = vec![BTreeSet::new(); self.entries().len()];
@@ -108,7 +108,8 @@ fn entry(record: &crate::record::Record, adapter: &AdapterRecord, run: &Run, tod
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::header::{FORMAT, Header, Machine, Settings};
+    use crate::header::{FORMAT, Header, Settings};
+    use crate::machine::Machine;
     use crate::record::Record;
     use std::path::Path;
 

@@ -1,13 +1,13 @@
-//! The number in what a driver says of its version.
+//! The version number in the text that a driver reports.
 
 use semver::Version;
 
-/// The version in a text such as `4.5 (Core Profile) Mesa 22.3.6`: the number behind `Mesa`, else the first
-/// one with a dot. What a number lacks of three parts is 0, more parts are left off; `None` where there is no
-/// such number.
+/// The version in a text such as `4.5 (Core Profile) Mesa 22.3.6`: the number after `Mesa`, else the first
+/// one with a dot. Missing parts of three are 0, further parts are dropped; `None` if there is no such
+/// number.
 pub(crate) fn driver_version(text: &str) -> Option<Version> {
-    let behind_mesa = text.split_once("Mesa ").map(|(_, rest)| rest);
-    behind_mesa
+    let after_mesa = text.split_once("Mesa ").map(|(_, rest)| rest);
+    after_mesa
         .and_then(|rest| number(rest.split_whitespace().next()?))
         .or_else(|| text.split([' ', ',', '(', ')']).find_map(number))
 }

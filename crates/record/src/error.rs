@@ -1,4 +1,4 @@
-//! What can go wrong with run folders and expectations.
+//! Errors of run folders, bench folders and expectations.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ pub enum RecordError {
         action: &'static str,
         /// The file or folder.
         path: PathBuf,
-        /// The system's word.
+        /// The system's error.
         source: io::Error,
     },
     /// The folder holds no run.
@@ -43,14 +43,14 @@ pub enum RecordError {
     },
     /// Another process writes into the folder.
     #[error(
-        "another etalon is writing into {}; wait for its end, or choose another folder with --out",
+        "another etalon is writing into {}; wait until it ends, or choose another folder with --out",
         path.display()
     )]
     InUse {
         /// The folder.
         path: PathBuf,
     },
-    /// The folder holds a run that was not asked to go on or to go away.
+    /// The folder holds a run, and neither resuming nor replacing it was asked for.
     #[error(
         "{} holds a run already, with {records} of {expected} records; --resume draws what is missing, \
          --force replaces it",
@@ -64,15 +64,15 @@ pub enum RecordError {
         /// Records of the whole run.
         expected: u64,
     },
-    /// The run in the folder is another one than that which should go on.
+    /// The run in the folder is not the one to resume.
     #[error(
-        "the run in {} cannot go on: {reason}; --force begins a new one in its place",
+        "the run in {} cannot be resumed: {reason}; --force replaces it",
         path.display()
     )]
     Another {
         /// The folder.
         path: PathBuf,
-        /// What is different.
+        /// The difference.
         reason: String,
     },
     /// Two folders do not hold parts of one run.
@@ -82,7 +82,7 @@ pub enum RecordError {
         one: PathBuf,
         /// The other.
         other: PathBuf,
-        /// What is different.
+        /// The difference.
         reason: String,
     },
     /// A folder cannot be merged with any other.
@@ -90,10 +90,10 @@ pub enum RecordError {
     Unmergeable {
         /// The folder.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         reason: String,
     },
-    /// The run was written in another format.
+    /// The file is in another format.
     #[error(
         "{} is in format {found} where this etalon reads formats up to {expected}; \
          read it with the version that wrote it, or record the run again",
@@ -114,9 +114,9 @@ pub enum RecordError {
         path: PathBuf,
         /// The line, from 1.
         line: usize,
-        /// What is wrong.
+        /// The error.
         message: String,
-        /// What to do about it.
+        /// The remedy.
         remedy: &'static str,
     },
     /// A path in a record leaves the run folder.
@@ -125,7 +125,7 @@ pub enum RecordError {
         /// The path as recorded.
         path: String,
     },
-    /// A record's case, adapter or first wrong texel alone fill more than a line.
+    /// A record is too long even without wrong texels, story and message.
     #[error("the record of {case:?} on {adapter:?} cannot be shortened to {limit} bytes")]
     TooLong {
         /// The case.
@@ -138,7 +138,7 @@ pub enum RecordError {
     /// A value has no JSON form.
     #[error("cannot write {what} as JSON: {source}")]
     Serialize {
-        /// What was to be written.
+        /// The value that was to be written.
         what: &'static str,
         /// The reason.
         source: serde_json::Error,

@@ -1,8 +1,9 @@
-//! Verdicts that are known, explained and no news.
+//! Expectations: bad verdicts that are known and explained.
 
+use crate::adapter::AdapterRecord;
 use crate::driver_version::driver_version;
 use crate::error::RecordError;
-use crate::header::AdapterRecord;
+use crate::json::without_position;
 use crate::verdict::Verdict;
 use etalon_frame::shortened;
 use globset::{GlobBuilder, GlobMatcher};
@@ -20,18 +21,17 @@ pub struct Entry {
     pub adapter: String,
     /// A glob over [`AdapterRecord::driver_text`], driver and version; `*` for any.
     pub driver: String,
-    /// The driver versions that it is about, as comparisons of which all must hold: `>=22.3, <25.1`; all
-    /// where there is none. A driver that tells no version with a dot is in no range.
+    /// The driver versions that it applies to, as comparisons of which all must hold: `>=22.3, <25.1`; all
+    /// where there is none. A driver that reports no version with a dot is in no range.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub version: Option<String>,
     /// A glob over case ids; `*` also matches `/`.
     pub case: String,
-    /// The verdict that is no news. `flaky` excuses every bad verdict, `skipped` keeps the case from being
-    /// drawn.
+    /// The expected verdict. `flaky` excuses every bad verdict, `skipped` keeps the case from being drawn.
     pub verdict: Verdict,
-    /// Why the verdict is accepted.
+    /// The reason why the verdict is accepted.
     pub reason: String,
-    /// Where that is shown: a bug report, a section of a specification.
+    /// The evidence: a bug report, a section of a specification.
     pub evidence: String,
     /// The bug report's address.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -48,7 +48,7 @@ struct Written {
     entries: Vec<Entry>,
 }
 
-/// The entries of an expectations file, ready to be looked up.
+/// The entries of an expectations file, with compiled globs.
 #[derive(Clone, Debug, Default)]
 pub struct Expectations {
     entries: Vec<Entry>,
@@ -75,10 +75,10 @@ impl Globs {
     }
 }
 
-/// What the expectations say of a verdict.
+/// The expectation about a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expectation<'a> {
-    /// Nothing.
+    /// No entry names it.
     None,
     /// The verdict is the entry's.
     Agrees(&'a Entry),
@@ -204,7 +204,7 @@ impl Expectations {
             .map(|number| &self.entries[number])
     }
 
-    /// The numbers of the entries that are about a case on an adapter.
+    /// The numbers of the entries that name a case on an adapter.
     pub(crate) fn numbers<'e, 'a>(
         &'e self,
         adapter: &'a AdapterRecord,
@@ -215,7 +215,7 @@ impl Expectations {
             .map(|(number, _)| number)
     }
 
-    /// Whether an entry names a case, on whatever adapter.
+    /// True if an entry names a case, on any adapter.
     pub(crate) fn names(&self, number: usize, case: &str) -> bool {
         self.globs
             .get(number)
@@ -248,7 +248,7 @@ impl Expectations {
         &self.entries
     }
 
-    /// What the expectations say of this verdict. An entry that agrees goes before one that
+    /// Looks up a verdict. An entry that agrees goes before one that
     /// names another verdict; otherwise the first in the file counts.
     pub fn look_up(
         &self,
@@ -277,7 +277,7 @@ impl Expectations {
     }
 }
 
-/// Whether a text is a day as `2027-01-31`, so far as its form tells.
+/// True if a text has the form of a day: `2027-01-31`.
 fn is_date(text: &str) -> bool {
     let form = |(i, c): (usize, char)| match i {
         4 | 7 => c == '-',
@@ -295,15 +295,6 @@ fn line_of(text: &str, value: &str) -> usize {
     let quoted = serde_json::to_string(value).unwrap_or_default();
     let at = text.find(&quoted).unwrap_or(0);
     text[..at].matches('\n').count() + 1
-}
-
-/// serde_json's message without the position at its end, which the caller states itself.
-pub(crate) fn without_position(error: &serde_json::Error) -> String {
-    let text = error.to_string();
-    shortened(match text.rfind(" at line ") {
-        Some(at) => &text[..at],
-        None => &text,
-    })
 }
 
 #[cfg(test)]

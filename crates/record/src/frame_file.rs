@@ -1,9 +1,9 @@
-//! A frame that is worth looking at, beside what was allowed.
+//! The file of a frame that is not as it should be, beside its legal values.
 
 use etalon_frame::{Aspect, ChannelEncoding};
 use serde::{Deserialize, Serialize};
 
-/// A frame, the hull of what was allowed, and what the case is about.
+/// A frame, the hull of its legal values, and the description of the case.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FrameFile {
@@ -11,7 +11,7 @@ pub struct FrameFile {
     pub case: String,
     /// The adapter's name.
     pub adapter: String,
-    /// What the case file says it is about.
+    /// The `about` text of the case file.
     pub about: String,
     /// The sections of the specifications that the case file names.
     pub spec: Vec<String>,
@@ -26,7 +26,7 @@ pub struct FrameFile {
 pub struct FrameImage {
     /// The attachment's name in the scene.
     pub attachment: String,
-    /// Which aspect of it this is.
+    /// The aspect.
     pub aspect: Aspect,
     /// Width and height in texels.
     pub size: [u32; 2],
@@ -53,7 +53,7 @@ impl FrameImage {
     /// Outside the legal set.
     pub const FAIL: u8 = 2;
 
-    /// Whether the lists are as long as size, samples and channels call for.
+    /// True if the lengths of the lists agree with size, samples and channels.
     pub fn is_whole(&self) -> bool {
         let texels = (self.size[0] as usize).checked_mul(self.size[1] as usize);
         let samples = texels.and_then(|t| t.checked_mul(self.samples as usize));

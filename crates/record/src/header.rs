@@ -1,15 +1,15 @@
 //! The first line of a run.
 
-use crate::bench::ShaderCache;
-use crate::record::is_false;
-use etalon_frame::Limits;
+use crate::adapter::{AbsentAdapter, AdapterRecord};
+use crate::machine::Machine;
+use crate::shader_cache::ShaderCache;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The format of run folders that this crate writes. It reads this one and the ones before.
+/// The format of run folders that this crate writes. It reads this one and all before.
 pub const FORMAT: u32 = 2;
 
-/// What was run, where and when.
+/// The cases, adapters, machine and time of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Header {
@@ -26,9 +26,9 @@ pub struct Header {
     pub started: String,
     /// The command line, program first.
     pub command: Vec<String>,
-    /// How many cases were selected; a complete run has one record per case and adapter.
+    /// The number of selected cases; a complete run has one record per case and adapter.
     pub cases: u64,
-    /// How they were drawn.
+    /// The settings that they were drawn with.
     #[serde(default)]
     pub settings: Settings,
     /// The adapters that the cases ran on.
@@ -38,7 +38,7 @@ pub struct Header {
 }
 
 impl Header {
-    /// How many records a complete run has.
+    /// The number of records of a complete run.
     pub fn expected_records(&self) -> u64 {
         self.cases.saturating_mul(self.adapters.len() as u64)
     }
@@ -49,7 +49,7 @@ impl Header {
     }
 }
 
-/// How a run draws its cases: what must be the same when it is resumed or merged with others.
+/// The settings of a run. They must be the same when it is resumed or merged with others.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Settings {
@@ -62,14 +62,14 @@ pub struct Settings {
     /// The seed of the cases' order; the order of the case files where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shuffle: Option<u64>,
-    /// How often each case is drawn, each time in another process; once where there is none.
+    /// The number of times that each case is drawn, each time in another process; once where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub repeat: Option<u32>,
-    /// What the drivers' shader caches on disk hold.
+    /// The contents of the drivers' shader caches on disk.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shader_cache: Option<ShaderCache>,
-    /// Whether validation layers and debug output listened.
-    #[serde(default, skip_serializing_if = "is_false")]
+    /// True if validation layers and debug output were enabled.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub validate: bool,
     /// Seconds that one case may take.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -83,9 +83,9 @@ pub struct Settings {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shard {
-    /// Which one, from 1.
+    /// Its number, from 1.
     pub index: u32,
-    /// Of how many.
+    /// The number of parts.
     pub count: u32,
 }
 
@@ -93,63 +93,4 @@ impl fmt::Display for Shard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}/{}", self.index, self.count)
     }
-}
-
-/// The machine of a run, without anything that names its owner.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Machine {
-    /// The operating system and its version.
-    pub os: String,
-    /// The processor as it names itself.
-    pub cpu: String,
-    /// Logical processors that the run may use.
-    pub cores: u32,
-}
-
-/// Who an adapter is and what it can do.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AdapterRecord {
-    /// The adapter's name: `vulkan:lavapipe`.
-    pub name: String,
-    /// The backend: `cpu`, `vulkan`, `gl`, `wgpu`.
-    pub backend: String,
-    /// The device as the driver names it.
-    pub device: String,
-    /// The driver as it names itself.
-    pub driver: String,
-    /// The driver's version, as far as it tells.
-    pub driver_version: String,
-    /// What tells the driver from others for programs: `VkDriverId` and PCI ids in Vulkan; empty where
-    /// the API tells none.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub driver_id: String,
-    /// The API's version.
-    pub api_version: String,
-    /// Whether the device is the processor.
-    pub software: bool,
-    /// What it can do.
-    pub limits: Limits,
-}
-
-impl AdapterRecord {
-    /// Driver and version in one text, which the `driver` globs of expectations are held against.
-    pub fn driver_text(&self) -> String {
-        format!("{} {}", self.driver, self.driver_version)
-            .trim()
-            .to_owned()
-    }
-}
-
-/// An adapter that cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AbsentAdapter {
-    /// The adapter's name.
-    pub name: String,
-    /// What is missing or failed.
-    pub reason: String,
-    /// What to do about it.
-    pub remedy: String,
 }

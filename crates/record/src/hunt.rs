@@ -1,9 +1,11 @@
-//! What became of planted bugs.
+//! The result of a hunt for planted bugs.
 
 use crate::error::RecordError;
-use crate::header::Machine;
+use crate::json::json_line;
+use crate::machine::Machine;
 use crate::verdict::Verdict;
-use etalon_frame::WrongTexel;
+use etalon_frame::{WrongTexel, state_enum};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,50 +13,38 @@ use std::path::{Path, PathBuf};
 /// The format of `mutants.json` that this crate writes.
 pub const HUNT_FORMAT: u32 = 1;
 
-/// A planted bug, as whoever planted it describes it.
+/// The description of a planted bug.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MutantInfo {
     /// The stable name, its class first: `depth/write-ignored`.
     pub name: String,
-    /// What it does, in one sentence.
+    /// Its effect, in one sentence.
     pub about: String,
-    /// The driver that shipped it once, or what kind of confusion it is.
+    /// The driver that once had it, or the kind of mistake.
     pub source: String,
     /// The area whose cases alone must catch it.
     pub area: String,
-    /// Why nothing may be said against it, with the clause; `None` where it must be caught.
+    /// The reason why it is legal, with the clause; `None` where it must be caught.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub legal: Option<String>,
 }
 
-/// What became of a planted bug.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Catch {
-    /// Some case failed.
-    Caught,
-    /// Some case was imprecise, none failed.
-    Noticed,
-    /// Every case passed.
-    Survived,
-    /// It could not be drawn: a bug of the mutant, not a planted one.
-    Broken,
-}
-
-impl Catch {
-    /// The word in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Caught => "caught",
-            Self::Noticed => "noticed",
-            Self::Survived => "survived",
-            Self::Broken => "broken",
-        }
+state_enum! {
+    /// The outcome of a planted bug.
+    Catch {
+        /// Some case failed.
+        Caught = "caught",
+        /// Some case was imprecise, none failed.
+        Noticed = "noticed",
+        /// Every case passed.
+        Survived = "survived",
+        /// It could not be drawn: a bug of the mutant, not a planted one.
+        Broken = "broken",
     }
 }
 
-/// How one area's cases judged a planted bug.
+/// The verdicts of one area's cases on a planted bug.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AreaTally {
@@ -76,33 +66,33 @@ pub struct AreaTally {
 pub struct Sighting {
     /// The case.
     pub case: String,
-    /// Fail or Imprecise; what broke otherwise.
+    /// Fail or Imprecise; InternalError if it could not be drawn.
     pub verdict: Verdict,
     /// Its first texel outside.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texel: Option<WrongTexel>,
-    /// What broke; empty otherwise.
+    /// The error if it could not be drawn; empty otherwise.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub message: String,
 }
 
-/// What became of one planted bug.
+/// The result of one planted bug.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MutantRecord {
     /// The bug.
     pub mutant: MutantInfo,
-    /// What became of it.
+    /// Its outcome.
     pub outcome: Catch,
     /// Per area, in the order of the cases.
     pub areas: Vec<AreaTally>,
-    /// Where it was seen first.
+    /// The case that showed it first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub first: Option<Sighting>,
 }
 
 impl MutantRecord {
-    /// Whether the bug's own area alone gives the outcome.
+    /// True if the bug's own area alone gives the outcome.
     pub fn by_own_area(&self) -> bool {
         let own = self.areas.iter().find(|a| a.area == self.mutant.area);
         own.is_some_and(|area| match self.outcome {
@@ -112,8 +102,8 @@ impl MutantRecord {
         })
     }
 
-    /// What is wrong with the outcome: a bug got away without a proof that it may, or one that is
-    /// proven to be legal was called a failure. `None` where nothing is.
+    /// The error in the outcome: a bug was not caught and nothing proves it legal, or a legal one failed.
+    /// `None` if there is no error.
     pub fn complaint(&self) -> Option<&'static str> {
         match (self.outcome, &self.mutant.legal) {
             (Catch::Broken, _) => Some("it could not be drawn"),
@@ -144,21 +134,21 @@ pub struct Hunt {
     pub command: Vec<String>,
     /// Wall time in seconds.
     pub seconds: f64,
-    /// How many cases took part.
+    /// The number of cases.
     pub cases: u64,
-    /// Whether every case was drawn with every bug; otherwise a bug's area ends at its first Fail.
+    /// True if every case was drawn with every bug; otherwise a bug's area ends at its first Fail.
     pub full: bool,
-    /// What became of each bug, in the registry's order.
+    /// The result of each bug, in the registry's order.
     pub mutants: Vec<MutantRecord>,
 }
 
 impl Hunt {
-    /// How many bugs came to this outcome.
+    /// The number of bugs with this outcome.
     pub fn count(&self, outcome: Catch) -> usize {
         self.mutants.iter().filter(|m| m.outcome == outcome).count()
     }
 
-    /// The bugs that something is wrong with.
+    /// The bugs with an error in their outcome.
     pub fn complaints(&self) -> impl Iterator<Item = (&MutantRecord, &'static str)> {
         let each = |m: &'_ MutantRecord| m.complaint();
         self.mutants
@@ -173,9 +163,7 @@ impl Hunt {
     pub fn write(&self, folder: &Path) -> Result<PathBuf, RecordError> {
         fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
         let path = folder.join("mutants.json");
-        let mut text = serde_json::to_vec(self).map_err(RecordError::serialize("a hunt"))?;
-        text.push(b'\n');
-        fs::write(&path, text).map_err(RecordError::io("write", &path))?;
+        fs::write(&path, json_line("a hunt", self)?).map_err(RecordError::io("write", &path))?;
         Ok(path)
     }
 }

@@ -1,9 +1,9 @@
-//! Run, record and verdict: the wire format of a run folder and of the expectations.
+//! Run, record and verdict: the wire format of run folders, bench folders and expectations.
 //!
 //! A run folder holds `run.jsonl`, one [`Header`] line and then one [`Record`] line per case and
-//! adapter, and below `frames/` one [`FrameFile`] per frame that is worth looking at. [`RunWriter`]
+//! adapter, and below `frames/` one [`FrameFile`] per frame that is not as it should be. [`RunWriter`]
 //! writes such a folder, [`Run`] reads it; reports are made from it alone. [`Expectations`] name
-//! the verdicts that are known and explained. A [`Hunt`] tells what became of planted bugs. A bench
+//! the verdicts that are known and explained. A [`Hunt`] holds the results of planted bugs. A bench
 //! folder holds `bench.jsonl`, the raw frame times that [`BenchWriter`] writes and [`Bench`] reads.
 
 #![cfg_attr(
@@ -11,42 +11,59 @@
     expect(clippy::unwrap_used, reason = "a test that panics has failed")
 )]
 
+mod adapter;
 mod bench;
 mod bless;
+mod conflict;
 mod driver_version;
 mod error;
 mod expectations;
+mod folder;
 mod frame_file;
+mod hash;
 mod header;
 mod hunt;
+mod json;
+mod json_lines;
 mod lists;
 mod lock;
+mod machine;
 mod measured;
 mod merge;
+mod paths;
 mod record;
+mod report_files;
 mod run;
 mod selection;
+mod shader_cache;
+mod shorten;
 mod verdict;
 mod writer;
 
+pub use adapter::{AbsentAdapter, AdapterRecord};
 pub use bench::{
-    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchWriter, Ended, FolderKind,
-    Picture, Round, ShaderCache, Time,
+    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchWriter, Ended, Picture, Round,
+    Time,
 };
 pub use bless::Blessing;
 pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations};
+pub use folder::{CASES_FILE, FolderKind, MISSING_FILE};
 pub use frame_file::{FrameFile, FrameImage};
-pub use header::{AbsentAdapter, AdapterRecord, FORMAT, Header, Machine, Settings, Shard};
+pub use header::{FORMAT, Header, Settings, Shard};
 pub use hunt::{AreaTally, Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, Sighting};
 pub use lists::{About, Imported, ListError, ListKind, Lists};
 pub use lock::FolderLock;
+pub use machine::Machine;
 pub use measured::{Measured, Parameter, Times};
 pub use merge::{Merge, Merged};
 pub use record::{
-    Assertion, Expected, LossKind, MAX_VALIDATION, MAX_WRONG_TEXELS, ProcessEnd, Record, Seconds,
+    Assertion, Expected, LossKind, MAX_LINE, MAX_VALIDATION, MAX_WRONG_TEXELS, ProcessEnd, Record,
+    Seconds,
 };
+pub use report_files::ReportFiles;
 pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
+pub use shader_cache::ShaderCache;
 pub use verdict::Verdict;
-pub use writer::{CASES_FILE, MAX_LINE, MISSING_FILE, RunWriter};
+pub use writer::RunWriter;

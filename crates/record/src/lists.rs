@@ -1,11 +1,11 @@
-//! The lists of deqp-runner: what fails by exact name, what is flaky or skipped by regular expressions.
+//! The lists of deqp-runner: failures by exact name, flaky and skipped cases by regular expressions.
 //!
 //! A list of failures has a line `name,status` (or a name alone) per case; the other two a regular
-//! expression per line, which may match anywhere in a name. `results.csv`, what deqp-runner writes and
+//! expression per line, which may match anywhere in a name. `results.csv`, which deqp-runner writes and
 //! people make their lists from, has lines `name,status,seconds`. In all of them `#` begins a comment.
 
+use crate::adapter::AdapterRecord;
 use crate::expectations::{Entry, Expectations};
-use crate::header::AdapterRecord;
 use crate::verdict::Verdict;
 use regex::{Regex, RegexBuilder};
 use std::collections::BTreeSet;
@@ -33,7 +33,7 @@ pub struct ListError {
     pub list: String,
     /// The line, from 1.
     pub line: usize,
-    /// What is wrong, and what would be right.
+    /// The error and its remedy.
     pub message: String,
 }
 
@@ -46,7 +46,7 @@ pub struct Imported {
     pub unmatched: Vec<(String, String)>,
 }
 
-/// What every imported entry says beside case and verdict.
+/// The fields of every imported entry beside case and verdict.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct About {
     /// A glob over adapter names.
@@ -55,9 +55,9 @@ pub struct About {
     pub driver: String,
     /// A range of driver versions.
     pub version: Option<String>,
-    /// Why the verdict is accepted.
+    /// The reason why the verdict is accepted.
     pub reason: String,
-    /// Where that is shown.
+    /// The evidence.
     pub evidence: String,
     /// The bug report's address.
     pub link: Option<String>,
@@ -65,7 +65,7 @@ pub struct About {
     pub expires: Option<String>,
 }
 
-/// How the lines of a list are read.
+/// The kind of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ListKind {
     /// Failures, or results with their passes: exact names with a status.
@@ -77,7 +77,7 @@ pub enum ListKind {
 }
 
 impl Imported {
-    /// Adds a list, whose name serves messages. `ids` are the cases that there are.
+    /// Adds a list, whose name serves messages. `ids` are all existing cases.
     ///
     /// # Errors
     /// When a status or a regular expression cannot be read.
@@ -177,8 +177,8 @@ fn entry(id: &str, verdict: Verdict, about: &About) -> Entry {
 }
 
 impl Expectations {
-    /// What is expected of these cases on one adapter, as lists of deqp-runner. Verdicts for which it has
-    /// no status of their own are `Fail`.
+    /// The expectations about these cases on one adapter, as lists of deqp-runner. Verdicts without a
+    /// status of their own become `Fail`.
     pub fn lists(&self, adapter: &AdapterRecord, ids: &[String]) -> Lists {
         let mut lists = Lists::default();
         for id in ids {

@@ -1,4 +1,4 @@
-//! One writer at a time in a folder.
+//! The lock of a folder: one writer at a time.
 
 use crate::error::RecordError;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -10,18 +10,18 @@ use std::time::{Duration, Instant};
 /// The file that is locked; it is empty and stays behind.
 const LOCK_FILE: &str = ".lock";
 
-/// How long a lock that is held is tried again.
-const PATIENCE: Duration = Duration::from_secs(1);
+/// The time for which a held lock is tried again.
+const RETRY_TIME: Duration = Duration::from_secs(1);
 
-/// The right to write into a folder, until it is dropped or its process ends, however it ends.
+/// An exclusive lock on a folder, held until it is dropped or its process ends in any way.
 #[derive(Debug)]
 pub struct FolderLock {
     _file: File,
 }
 
 impl FolderLock {
-    /// Takes the right, and makes the folder where it does not exist. A file system without locks gives
-    /// it to everyone.
+    /// Locks a folder, which is made when it does not exist. On a file system without locks this always
+    /// succeeds.
     ///
     /// # Errors
     /// When another process holds it, or the folder cannot be written to.
@@ -37,10 +37,10 @@ impl FolderLock {
         let begun = Instant::now();
         loop {
             match file.try_lock() {
-                // A process that was killed may leave a child that is about to start another program, and
-                // holds what its parent held until then.
-                Err(TryLockError::WouldBlock) if begun.elapsed() < PATIENCE => {
-                    thread::sleep(PATIENCE / 20);
+                // A killed process may leave a child that has not yet executed another program, and holds
+                // the lock until then.
+                Err(TryLockError::WouldBlock) if begun.elapsed() < RETRY_TIME => {
+                    thread::sleep(RETRY_TIME / 20);
                 }
                 tried => return Self::after(tried, file, folder, &path),
             }

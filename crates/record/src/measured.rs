@@ -1,4 +1,4 @@
-//! What was measured of a method case: how far its picture lies from the truth, and what it costs.
+//! The measurements of a method case: the distance of its picture from the truth, and its costs.
 
 use etalon_frame::Distance;
 use serde::{Deserialize, Serialize};
@@ -13,19 +13,19 @@ pub struct Measured {
     pub scene: String,
     /// The method: `depth-peeling`.
     pub method: String,
-    /// What the stability curve of the family runs along, with this case's value.
+    /// The parameter of the family's stability curve, with this case's value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub parameter: Option<Parameter>,
     /// Distance from the truth.
     pub distance: Distance,
-    /// Frame times; `None` where the picture is wrong by the rules, which gets no time.
+    /// Frame times; `None` where the picture is wrong by the rules, and so is not timed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<Times>,
     /// Render passes.
     pub passes: u32,
     /// Draw calls.
     pub draws: u32,
-    /// Runs of fragment shaders that the adapter's statistics tell, where it has any.
+    /// Fragment shader invocations, if the adapter has statistics.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fragments: Option<u64>,
     /// Bytes of all attachments, by their formats' texel sizes.
@@ -52,7 +52,7 @@ pub struct Parameter {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Times {
-    /// How many frames were timed, after warming up.
+    /// The number of timed frames, after the warm-up.
     pub samples: u32,
     /// Until the device was done.
     pub wall: f64,

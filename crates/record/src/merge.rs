@@ -1,12 +1,15 @@
 //! One run of several: shards of a selection, or adapters that ran elsewhere.
 
 use crate::error::RecordError;
+use crate::folder::MISSING_FILE;
 use crate::header::Header;
+use crate::paths::below;
 use crate::record::Record;
-use crate::run::{Run, below};
+use crate::report_files::ReportFiles;
+use crate::run::Run;
 use crate::selection::read_cases;
 use crate::verdict::Verdict;
-use crate::writer::{MISSING_FILE, RunWriter};
+use crate::writer::RunWriter;
 use std::collections::{BTreeSet, HashMap};
 use std::fs;
 use std::io::ErrorKind;
@@ -22,12 +25,12 @@ pub struct Merge {
     merged: Merged,
 }
 
-/// What merging came to.
+/// The counts of a merge.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Merged {
     /// Records written.
     pub records: u64,
-    /// Records that speak against the run.
+    /// Records that count against the run.
     pub unexpected: u64,
     /// Verdicts better than the expectations.
     pub improvements: u64,
@@ -35,14 +38,14 @@ pub struct Merged {
     pub missing: Vec<(String, String)>,
     /// Folders that hold no run.
     pub empty: Vec<PathBuf>,
-    /// Records that several parts have, with the same verdict; one is kept.
+    /// Records that several parts have with the same verdict; one is kept.
     pub twice: u64,
-    /// Adapter and case of each record of which parts disagree; it becomes Flaky.
+    /// Adapter and case of each record on which parts disagree; it becomes Flaky.
     pub disagreeing: Vec<(String, String)>,
 }
 
 impl Merge {
-    /// Reads run folders and holds them against each other. Nothing is written.
+    /// Reads run folders and checks that they are parts of one run. Nothing is written.
     ///
     /// # Errors
     /// When a run is damaged, its selection is not known, or two are not parts of one run: another
@@ -87,7 +90,7 @@ impl Merge {
                 return Err(RecordError::Unmergeable {
                     path: folder.to_owned(),
                     reason: format!(
-                        "it has a record of {} on {}, which its header does not announce",
+                        "it has a record of {} on {}, which its header does not name",
                         record.case, record.adapter
                     ),
                 });
@@ -110,19 +113,19 @@ impl Merge {
         Ok(())
     }
 
-    /// The folders of the parts and the header of the whole, whose command and start the caller may
-    /// replace.
+    /// The header of the whole, whose command and start the caller may replace.
     pub fn header_mut(&mut self) -> &mut Header {
         &mut self.header
     }
 
     /// Writes the whole as a run folder: records by adapter and case in the list's order, their frames and
-    /// pictures, and the names of those that are missing.
+    /// pictures, and the names of those that are missing. `reports` are removed from a run that it
+    /// replaces.
     ///
     /// # Errors
     /// When a file cannot be read or written, or a record names one outside its folder.
-    pub fn write(mut self, out: &Path) -> Result<Merged, RecordError> {
-        let mut writer = RunWriter::create(out, &self.header)?;
+    pub fn write(mut self, out: &Path, reports: ReportFiles) -> Result<Merged, RecordError> {
+        let mut writer = RunWriter::replace(out, &self.header, reports)?;
         writer.write_cases(self.ids.iter().map(String::as_str))?;
         let mut merged = self.merged;
         for (a, adapter) in self.header.adapters.iter().enumerate() {
@@ -159,14 +162,14 @@ fn places<'a>(names: impl Iterator<Item = &'a String>) -> HashMap<&'a str, usize
     names.enumerate().map(|(i, n)| (n.as_str(), i)).collect()
 }
 
-/// The list of cases that all parts are of.
+/// The list of cases that all parts were selected from.
 fn selection(parts: &[(&PathBuf, Run)]) -> Result<Vec<String>, RecordError> {
     let mut list = None;
     for (folder, run) in parts {
         if run.header.settings.selection.is_empty() {
             return Err(RecordError::Unmergeable {
                 path: (*folder).clone(),
-                reason: "it does not tell which cases were selected; record it with this etalon"
+                reason: "it does not state its selection of cases; record it with this etalon"
                     .to_owned(),
             });
         }
@@ -178,7 +181,7 @@ fn selection(parts: &[(&PathBuf, Run)]) -> Result<Vec<String>, RecordError> {
     list.ok_or_else(|| RecordError::Unmergeable {
         path: first.unwrap_or_default(),
         reason:
-            "neither it nor any other part has its list of cases, cases.txt; copy the folders whole"
+            "neither it nor any other part has its list of cases, cases.txt; copy whole folders"
                 .to_owned(),
     })
 }
@@ -275,7 +278,7 @@ fn disagreeing(one: (Record, PathBuf), other: (Record, PathBuf)) -> (Record, Pat
     worse
 }
 
-/// Copies a file that a record names; one that is not there is told by the report.
+/// Copies a file that a record names; the report notes one that does not exist.
 fn copy(from: &Path, to: &Path, file: &str) -> Result<(), RecordError> {
     let relative = below(file)?;
     let (from, to) = (from.join(&relative), to.join(&relative));

@@ -1,7 +1,7 @@
-//! One line of a run: what became of a case on an adapter.
+//! One line of a run: the result of a case on an adapter.
 
+use crate::adapter::AdapterRecord;
 use crate::expectations::{Expectation, Expectations};
-use crate::header::AdapterRecord;
 use crate::measured::Measured;
 use crate::verdict::Verdict;
 use etalon_frame::{
@@ -9,12 +9,14 @@ use etalon_frame::{
 };
 use serde::{Deserialize, Serialize};
 
+/// The most bytes of a record's line, including its newline.
+pub const MAX_LINE: usize = 64 * 1024;
 /// The most wrong texels that a record lists.
 pub const MAX_WRONG_TEXELS: usize = 64;
 /// The most validation messages that a record keeps.
 pub const MAX_VALIDATION: usize = 16;
 
-/// What became of one case on one adapter.
+/// The result of one case on one adapter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Record {
@@ -22,7 +24,7 @@ pub struct Record {
     pub case: String,
     /// The adapter's name.
     pub adapter: String,
-    /// The raw verdict, whatever was expected.
+    /// The raw verdict, independent of expectations.
     pub verdict: Verdict,
     /// Set when the verdict agrees with an entry of the expectations.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -30,89 +32,84 @@ pub struct Record {
     /// The bad verdict that the expectations name here, when the raw one is better.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub improves: Option<Verdict>,
-    /// Whether the case is a selftest that must fail.
-    #[serde(default, skip_serializing_if = "is_false")]
+    /// True if the case is a selftest that must fail.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub due_fail: bool,
-    /// The missing requirement, the error, or the end of what the process wrote before it died.
+    /// The missing requirement, the error, or the end of the lost process's standard error.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub message: String,
-    /// How many samples fell where; all zero when no frame came back.
+    /// The number of samples by result; all zero when no frame came back.
     pub texels: TexelCounts,
-    /// How much was asserted, per aspect.
+    /// The asserted share and sharpness, per aspect.
     pub assertions: Vec<Assertion>,
-    /// How far the frame lies from the ideal, per aspect; empty when no frame came back.
+    /// The distance of the frame from the ideal, per aspect; empty when no frame came back.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub accuracy: Vec<Accuracy>,
-    /// Every counter with what is legal of it.
+    /// Every counter with its legal range.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub counters: Vec<CounterOutcome>,
     /// The first wrong samples, failures before imprecise ones; at most [`MAX_WRONG_TEXELS`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wrong: Vec<WrongTexel>,
-    /// What the reference did to the first wrong sample.
+    /// The story of the first wrong sample in the reference.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub story: Option<Story>,
     /// The frame file's path below the run folder, with `/` between its parts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<String>,
-    /// How long it took.
+    /// The time that it took.
     pub seconds: Seconds,
-    /// What was measured, of a method case.
+    /// The measurements of a method case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub measured: Option<Measured>,
-    /// How the process that drew the case was lost.
+    /// The end of the process that drew the case, if it was lost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub process: Option<ProcessEnd>,
-    /// What validation layers and debug output said, at most [`MAX_VALIDATION`] messages.
+    /// Messages of validation layers and debug output, at most [`MAX_VALIDATION`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub validation: Vec<String>,
-    /// The verdicts of all repetitions in fresh processes, where there were any; the first drawing's
-    /// verdict is not among them.
+    /// The verdicts of all repetitions in fresh processes, without that of the first drawing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub repeats: Vec<Verdict>,
-    /// The cases that must be drawn before in the same process for this verdict, in their order; alone
-    /// the case does better.
+    /// The cases that must be drawn before in the same process, in this order, for this verdict. Drawn
+    /// alone, the case has a better one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub after: Vec<String>,
 }
 
-/// How a process came to be lost.
+/// The way in which a process was lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LossKind {
-    /// It ended by itself or by a signal.
+    /// It exited or was ended by a signal.
     Died,
     /// It did not answer in time.
     Timeout,
-    /// It held more memory than it may.
+    /// It exceeded its memory limit.
     Memory,
-    /// It wrote what is no message.
+    /// Its output was no message of the protocol.
     Garbage,
     /// It could not be started again.
     NotStarted,
 }
 
-/// How the process that drew a case was lost.
+/// The end of a process that was lost.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProcessEnd {
-    /// What happened.
+    /// The way in which it was lost.
     pub kind: LossKind,
-    /// The signal that it died of.
+    /// The signal that ended it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub signal: Option<i32>,
-    /// The exit status that it ended with.
+    /// Its exit status.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exit: Option<i32>,
-    /// The last lines that it wrote to standard error.
+    /// The end of its standard error.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub stderr: String,
-    /// Seconds from the case's turn until the loss was noticed.
+    /// Seconds from the time that it could begin the case until the loss was noticed.
     pub seconds: f64,
-}
-
-pub(crate) fn is_false(value: &bool) -> bool {
-    !value
 }
 
 impl Record {
@@ -142,7 +139,7 @@ impl Record {
         }
     }
 
-    /// Holds the verdict against the expectations and notes what they say.
+    /// Notes what the expectations say of the verdict.
     pub fn expect(&mut self, expectations: &Expectations, adapter: &AdapterRecord) {
         (self.expected, self.improves) =
             match expectations.look_up(adapter, &self.case, self.verdict) {
@@ -166,8 +163,8 @@ impl Record {
             };
     }
 
-    /// Whether the record speaks against the run: a bad verdict that no expectation names, or a
-    /// selftest that was due to fail and did not.
+    /// True if the record counts against the run: a bad verdict that no expectation names, or a selftest
+    /// that had to fail and did not.
     pub fn unexpected(&self) -> bool {
         if self.expected.is_some() {
             return false;
@@ -182,7 +179,7 @@ impl Record {
         }
     }
 
-    /// Whether the verdict is better than the expectations say.
+    /// True if the verdict is better than expected.
     pub fn improvement(&self) -> bool {
         self.improves.is_some() && !self.unexpected()
     }
@@ -213,11 +210,11 @@ impl Record {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expected {
-    /// Why the verdict is known and accepted.
+    /// The reason why the verdict is accepted.
     pub reason: String,
 }
 
-/// How long one case took, in seconds of wall time.
+/// The times of one case, in seconds of wall time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Seconds {
@@ -227,7 +224,7 @@ pub struct Seconds {
     pub judge: f64,
 }
 
-/// How much the legal set and the yardstick assert of one aspect. A *channel* here is one channel
+/// The assertions of legal set and yardstick about one aspect. A *channel* here is one channel
 /// of one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -236,7 +233,7 @@ pub struct Assertion {
     pub aspect: Aspect,
     /// Channels in all samples.
     pub channels: u64,
-    /// Channels of which the legal set asserts something.
+    /// Channels that the legal set asserts something about.
     pub asserted: u64,
     /// Channels with exactly one legal code.
     pub exact: u64,
@@ -246,7 +243,7 @@ pub struct Assertion {
     pub yardstick_exact: u64,
     /// Codes inside the yardstick, summed over the channels that it asserts.
     pub yardstick_codes: u64,
-    /// Channels of which the yardstick asserts something.
+    /// Channels that the yardstick asserts something about.
     pub yardstick_asserted: u64,
 }
 

@@ -1,8 +1,11 @@
-//! Which cases a run is about, so that its parts can be proven to be parts of one whole.
+//! The selection of a run: the ids of its cases, their digest and their shards.
+//!
+//! The digest lets runs that hold only a part of the records prove that they are parts of one run.
 
 use crate::error::RecordError;
-use crate::header::{AdapterRecord, Header};
-use crate::writer::CASES_FILE;
+use crate::folder::CASES_FILE;
+use crate::hash::fnv;
+use crate::header::Header;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
@@ -11,23 +14,16 @@ use std::path::Path;
 /// The most bytes of a list of cases.
 const MAX_BYTES: u64 = 256 << 20;
 
-/// FNV-1a, 64 bits, over the bytes of a text: stable over releases, unlike the standard library's hasher.
-pub(crate) fn fnv(bytes: impl IntoIterator<Item = u8>) -> u64 {
-    bytes.into_iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
-}
-
-/// The digest of a selection, for [`Settings::selection`](crate::Settings::selection): how many ids, and
-/// a hash of them in sorted order.
+/// The digest of a selection, for [`Settings::selection`](crate::Settings::selection): the number of ids
+/// and a hash of them in sorted order.
 pub fn selection_digest<'a>(ids: impl IntoIterator<Item = &'a str>) -> String {
     let sorted: BTreeSet<&str> = ids.into_iter().collect();
     let bytes = sorted.iter().flat_map(|id| id.bytes().chain([b'\n']));
     format!("{}-{:016x}", sorted.len(), fnv(bytes))
 }
 
-/// Which of `count` shards an id belongs to, from 1. It depends on nothing but the id, so that a new case
-/// moves no other.
+/// The shard, from 1, of `count` that an id belongs to. It depends on the id alone, so that a new case moves
+/// no other.
 pub fn shard_of(id: &str, count: u32) -> u32 {
     // FNV mixes the last bytes badly, and ids differ at their ends: MurmurHash3's finaliser mixes them.
     let mut hash = fnv(id.bytes());
@@ -79,65 +75,6 @@ pub(crate) fn write_cases<'a>(
     fs::write(&beside, text)
         .and_then(|()| fs::rename(&beside, &path))
         .map_err(RecordError::io("write", &path))
-}
-
-impl Header {
-    /// What keeps records of a run with this header from standing beside records of one with the other:
-    /// another selection, other settings, another version of the suite. `None` where nothing does.
-    /// Shards, adapters, time and memory limits are not looked at.
-    pub fn conflict(&self, other: &Self) -> Option<String> {
-        let (a, b) = (&self.settings, &other.settings);
-        let differ = |what: &str, x: String, y: String| {
-            (x != y).then(|| format!("{what} was {x} there and is {y} here"))
-        };
-        let text = |n: Option<u64>| n.map_or_else(|| "none".to_owned(), |n| n.to_string());
-        differ(
-            "the version of etalon",
-            self.etalon.clone(),
-            other.etalon.clone(),
-        )
-        .or_else(|| {
-            differ(
-                "the commit of etalon",
-                self.commit.clone().unwrap_or_default(),
-                other.commit.clone().unwrap_or_default(),
-            )
-        })
-        .or_else(|| {
-            differ(
-                "the selection of cases",
-                a.selection.clone(),
-                b.selection.clone(),
-            )
-        })
-        .or_else(|| differ("--shuffle", text(a.shuffle), text(b.shuffle)))
-        .or_else(|| {
-            let times = |n: Option<u32>| text(n.map(u64::from));
-            differ("--repeat", times(a.repeat), times(b.repeat))
-        })
-        .or_else(|| {
-            let cache = |s: &crate::Settings| s.shader_cache.map_or("warm", |c| c.name());
-            differ("--shader-cache", cache(a).to_owned(), cache(b).to_owned())
-        })
-        .or_else(|| differ("--validate", a.validate.to_string(), b.validate.to_string()))
-    }
-}
-
-impl AdapterRecord {
-    /// What keeps this from being the same driver as another adapter of the same name; `None` where
-    /// nothing does.
-    pub fn conflict(&self, other: &Self) -> Option<String> {
-        let who = |a: &Self| format!("{}, {}, {}", a.device, a.driver_text(), a.api_version);
-        if who(self) != who(other) {
-            return Some(format!(
-                "{} was {} there and is {} here",
-                self.name,
-                who(self),
-                who(other)
-            ));
-        }
-        (self.limits != other.limits).then(|| format!("the limits of {} have changed", self.name))
-    }
 }
 
 #[cfg(test)]

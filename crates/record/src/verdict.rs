@@ -1,78 +1,43 @@
-//! What became of a case on an adapter.
+//! The outcome of a case on an adapter.
 
+use etalon_frame::state_enum;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::fmt;
 
-/// The outcome of one case on one adapter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Verdict {
-    /// Every texel lies inside the yardstick, and something was asserted.
-    Pass,
-    /// Every texel is legal, and some lie outside the yardstick: a quality finding, no failure.
-    Imprecise,
-    /// A texel lies outside what the API's text allows.
-    Fail,
-    /// Nothing could be asserted.
-    Open,
-    /// Numbers without judgement.
-    Measured,
-    /// The adapter lacks something that the scene needs.
-    NotSupported,
-    /// The expectations forbid drawing the case on this adapter.
-    Skipped,
-    /// The same case gave different frames.
-    Flaky,
-    /// The process that drew the case died.
-    Crash,
-    /// The case took longer than it may.
-    Timeout,
-    /// The API reported the device lost.
-    DeviceLost,
-    /// The driver refused an allocation or an object.
-    ResourceError,
-    /// The suite's own logic failed; says nothing about the driver.
-    InternalError,
+state_enum! {
+    /// The outcome of one case on one adapter.
+    Verdict: array {
+        /// Every texel lies inside the yardstick, and something was asserted.
+        Pass = "pass",
+        /// Every texel is legal, and some lie outside the yardstick: a quality finding, no failure.
+        Imprecise = "imprecise",
+        /// A texel lies outside what the API's text allows.
+        Fail = "fail",
+        /// Nothing could be asserted.
+        Open = "open",
+        /// Numbers without judgement.
+        Measured = "measured",
+        /// The adapter lacks something that the scene needs.
+        NotSupported = "not-supported",
+        /// The expectations forbid drawing the case on this adapter.
+        Skipped = "skipped",
+        /// The same case gave different frames.
+        Flaky = "flaky",
+        /// The process that drew the case died.
+        Crash = "crash",
+        /// The case took longer than it may.
+        Timeout = "timeout",
+        /// The API reported the device lost.
+        DeviceLost = "device-lost",
+        /// The driver refused an allocation or an object.
+        ResourceError = "resource-error",
+        /// The suite's own logic failed; says nothing about the driver.
+        InternalError = "internal-error",
+    }
 }
 
 impl Verdict {
-    /// Every verdict, in declaration order.
-    pub const ALL: [Self; 13] = [
-        Self::Pass,
-        Self::Imprecise,
-        Self::Fail,
-        Self::Open,
-        Self::Measured,
-        Self::NotSupported,
-        Self::Skipped,
-        Self::Flaky,
-        Self::Crash,
-        Self::Timeout,
-        Self::DeviceLost,
-        Self::ResourceError,
-        Self::InternalError,
-    ];
-
-    /// The verdict's name in records and reports: `not-supported`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pass => "pass",
-            Self::Imprecise => "imprecise",
-            Self::Fail => "fail",
-            Self::Open => "open",
-            Self::Measured => "measured",
-            Self::NotSupported => "not-supported",
-            Self::Skipped => "skipped",
-            Self::Flaky => "flaky",
-            Self::Crash => "crash",
-            Self::Timeout => "timeout",
-            Self::DeviceLost => "device-lost",
-            Self::ResourceError => "resource-error",
-            Self::InternalError => "internal-error",
-        }
-    }
-
-    /// Whether the verdict speaks against a run unless it was expected.
+    /// True if the verdict counts against a run unless it was expected.
     pub fn is_bad(self) -> bool {
         match self {
             Self::Pass | Self::Imprecise | Self::Measured | Self::NotSupported | Self::Skipped => {
@@ -89,7 +54,7 @@ impl Verdict {
         }
     }
 
-    /// Whether a frame came back and was held against its legal set.
+    /// True if a frame came back and was compared with its legal set.
     pub fn is_judged(self) -> bool {
         matches!(
             self,
@@ -97,7 +62,8 @@ impl Verdict {
         )
     }
 
-    /// How bad the verdict is, for picking the worst of several: larger is worse.
+    /// The badness of the verdict, for picking the worst of several of one case: larger is worse. A Fail, as
+    /// a proof, is worst.
     pub fn severity(self) -> u8 {
         match self {
             Self::Skipped => 0,
@@ -114,12 +80,6 @@ impl Verdict {
             Self::DeviceLost => 11,
             Self::Fail => 12,
         }
-    }
-}
-
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
     }
 }
 

@@ -1,27 +1,23 @@
 //! Writing a run folder.
 
+use crate::conflict::resume_conflict;
 use crate::error::RecordError;
+use crate::folder::{CASES_FILE, FRAMES, MISSING_FILE, PICTURES, RUN_FILE};
 use crate::frame_file::FrameFile;
 use crate::header::Header;
-use crate::record::{MAX_WRONG_TEXELS, Record};
+use crate::json::json_line;
+use crate::paths::{frame_path, picture_path};
+use crate::record::Record;
+use crate::report_files::ReportFiles;
 use crate::run::Run;
-use crate::selection::{fnv, write_cases};
-use etalon_frame::StoryLine;
-use serde::Serialize;
+use crate::selection::write_cases;
+use crate::shorten::fit;
 use std::fs::{self, File};
-use std::io::{ErrorKind, Read, Seek, SeekFrom, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The most bytes of a record's line, its newline among them.
-pub const MAX_LINE: usize = 64 * 1024;
-/// The file of a run folder that lists the selected ids, one per line, before sharding.
-pub const CASES_FILE: &str = "cases.txt";
-
-/// The file of a merged run that lists the records that no part has: adapter, space, case.
-pub const MISSING_FILE: &str = "missing.txt";
-
-/// Writes a run folder, line by line. What was appended survives the writer's death.
+/// Writes a run folder, line by line. Appended lines survive the end of the process.
 #[derive(Debug)]
 pub struct RunWriter {
     folder: PathBuf,
@@ -30,42 +26,42 @@ pub struct RunWriter {
     synced: Instant,
 }
 
-/// How much of a run a power cut may take: so long a time's records.
+/// The interval between two syncs: the most of a run that a power cut takes.
 const SYNC_EVERY: Duration = Duration::from_secs(1);
-/// What belongs to a run beside its records.
-const FOLDERS: [&str; 3] = ["frames", "pictures", "results"];
-const FILES: [&str; 8] = [
-    "index.html",
-    "methods.html",
-    "junit.xml",
-    "ctrf.json",
-    "summary.md",
-    MISSING_FILE,
-    CASES_FILE,
-    "run.jsonl",
-];
+/// The files of a run beside its reports, in the order of removal. The records go last: while they are
+/// there, the rest is known to belong to a run.
+const OWN: ReportFiles = ReportFiles {
+    folders: &[FRAMES, PICTURES],
+    files: &[MISSING_FILE, CASES_FILE, RUN_FILE],
+};
 
 impl RunWriter {
-    /// Begins a run in a folder, which is made when it does not exist. A run that the folder
-    /// already holds is replaced, with its frames and reports; a folder without a run loses
-    /// nothing.
+    /// Begins a run in a folder, which is made when it does not exist. A run that the folder already
+    /// holds is replaced, and its reports stay; a folder without a run loses nothing.
     ///
     /// # Errors
     /// When the folder cannot be written to.
     pub fn create(folder: &Path, header: &Header) -> Result<Self, RecordError> {
-        let path = folder.join("run.jsonl");
+        Self::replace(folder, header, ReportFiles::NONE)
+    }
+
+    /// [`RunWriter::create`], which also removes the reports of the run before.
+    ///
+    /// # Errors
+    /// When the folder cannot be written to.
+    pub fn replace(
+        folder: &Path,
+        header: &Header,
+        reports: ReportFiles,
+    ) -> Result<Self, RecordError> {
+        let path = folder.join(RUN_FILE);
         if path.is_file() {
-            // The run goes last: while it is there, the rest is known to be ours to remove.
-            for name in FOLDERS {
-                gone(fs::remove_dir_all(folder.join(name)), folder, name)?;
-            }
-            for name in FILES {
-                gone(fs::remove_file(folder.join(name)), folder, name)?;
-            }
+            reports.remove(folder)?;
+            OWN.remove(folder)?;
         }
         fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
         // Renamed into place, so that no run ever has half a header.
-        let beside = folder.join(format!(".run.jsonl.{}", std::process::id()));
+        let beside = folder.join(format!(".{RUN_FILE}.{}", std::process::id()));
         let mut file = File::create(&beside).map_err(RecordError::io("create", &beside))?;
         let line = json_line("the header", header)?;
         file.write_all(&line)
@@ -75,20 +71,20 @@ impl RunWriter {
         Ok(Self::new(folder, path, file))
     }
 
-    /// Goes on with the run that a folder holds; a last record that was cut off is cut away. Also gives
-    /// what the run holds.
+    /// Resumes the run that a folder holds, and returns what it holds. A last record that was cut off is
+    /// removed.
     ///
     /// # Errors
     /// When there is no run, it is damaged, or it is another run than that of the header.
     pub fn resume(folder: &Path, header: &Header) -> Result<(Self, Run), RecordError> {
         let (mut run, whole) = Run::read_prefix(folder)?;
-        if let Some(reason) = another(&run.header, header) {
+        if let Some(reason) = resume_conflict(&run.header, header) {
             return Err(RecordError::Another {
                 path: folder.to_owned(),
                 reason,
             });
         }
-        let path = folder.join("run.jsonl");
+        let path = folder.join(RUN_FILE);
         let mut file = File::options()
             .read(true)
             .write(true)
@@ -119,8 +115,8 @@ impl RunWriter {
         }
     }
 
-    /// Writes the list of selected ids beside the run, before sharding and in the case files' order. It
-    /// must be the selection that the header's digest names.
+    /// Writes the list of ids selected before sharding, in the order of the case files. It must be the
+    /// selection that the header's digest names.
     ///
     /// # Errors
     /// When the file cannot be written.
@@ -131,7 +127,7 @@ impl RunWriter {
         write_cases(&self.folder, ids)
     }
 
-    /// Appends one record in a single write. A record longer than [`MAX_LINE`] is shortened: wrong
+    /// Appends one record in a single write. A record longer than [`MAX_LINE`](crate::MAX_LINE) is shortened: wrong
     /// texels first, then the story, then the message.
     ///
     /// # Errors
@@ -147,8 +143,7 @@ impl RunWriter {
         Ok(())
     }
 
-    /// Has the system put everything that was appended where a power cut leaves it; [`RunWriter::append`]
-    /// does so about once a second.
+    /// Syncs everything that was appended to the disk; [`RunWriter::append`] does so about once a second.
     ///
     /// # Errors
     /// When the system cannot.
@@ -185,7 +180,7 @@ impl RunWriter {
         [width, height]: [u32; 2],
         rgb: &[u8],
     ) -> Result<String, RecordError> {
-        let relative = format!("{}.png", path_below("pictures", case));
+        let relative = picture_path(case);
         let path = self.folder.join(&relative);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(RecordError::io("create", parent))?;
@@ -199,185 +194,5 @@ impl RunWriter {
     /// The run folder.
     pub fn folder(&self) -> &Path {
         &self.folder
-    }
-}
-
-/// What makes the run of one header another than that of the other.
-fn another(there: &Header, here: &Header) -> Option<String> {
-    if let Some(conflict) = there.conflict(here) {
-        return Some(conflict);
-    }
-    let shard = |h: &Header| match h.settings.shard {
-        Some(shard) => format!("shard {shard}"),
-        None => "not sharded".to_owned(),
-    };
-    if shard(there) != shard(here) {
-        return Some(format!("it is {} and not {}", shard(there), shard(here)));
-    }
-    for adapter in &there.adapters {
-        match here.adapter(&adapter.name) {
-            None => return Some(format!("{} was there and is not here", adapter.name)),
-            Some(now) => {
-                if let Some(conflict) = adapter.conflict(now) {
-                    return Some(conflict);
-                }
-            }
-        }
-    }
-    let new = here.adapters.iter();
-    new.map(|a| &a.name)
-        .find(|name| there.adapter(name).is_none())
-        .map(|name| format!("{name} is here and was not there"))
-}
-
-pub(crate) fn gone(
-    result: std::io::Result<()>,
-    folder: &Path,
-    name: &str,
-) -> Result<(), RecordError> {
-    match result {
-        Err(e) if e.kind() != ErrorKind::NotFound => {
-            Err(RecordError::io("remove", &folder.join(name))(e))
-        }
-        _ => Ok(()),
-    }
-}
-
-pub(crate) fn json_line(
-    what: &'static str,
-    value: &impl Serialize,
-) -> Result<Vec<u8>, RecordError> {
-    let mut line = serde_json::to_vec(value).map_err(RecordError::serialize(what))?;
-    line.push(b'\n');
-    Ok(line)
-}
-
-/// `frames/<adapter>/<case>.json`, with everything that could mislead a file system replaced.
-fn frame_path(adapter: &str, case: &str) -> String {
-    let folder = format!("frames/{}", safe(adapter));
-    format!("{}.json", path_below(&folder, case))
-}
-
-/// `<folder>/<case>`, with everything in the case that could mislead a file system replaced.
-fn path_below(folder: &str, case: &str) -> String {
-    let mut path = folder.to_owned();
-    for part in case.split('/') {
-        path.push('/');
-        path.push_str(&safe(part));
-    }
-    path
-}
-
-/// One safe path component. `:` becomes `_`; a component that changes otherwise also gets a hash
-/// of what it was, so that two of them do not become one.
-fn safe(part: &str) -> String {
-    const LONGEST: usize = 160;
-    let fine = |c: char| c.is_ascii_alphanumeric() || "._=+-".contains(c);
-    let mut name: String = part
-        .chars()
-        .map(|c| if fine(c) { c } else { '_' })
-        .take(LONGEST)
-        .collect();
-    if name.starts_with('.') {
-        name.replace_range(..1, "_");
-    }
-    if name.is_empty() || name != part.replace(':', "_") {
-        name.push_str(&format!("-{:016x}", fnv(part.bytes())));
-    }
-    name
-}
-
-/// The record's line, shortened until it fits.
-fn fit(record: &Record) -> Result<Vec<u8>, RecordError> {
-    let write = |record: &Record| json_line("a record", record);
-    let mut line = write(record)?;
-    if line.len() <= MAX_LINE && record.wrong.len() <= MAX_WRONG_TEXELS {
-        return Ok(line);
-    }
-    let mut short = record.clone();
-    short.wrong.truncate(MAX_WRONG_TEXELS);
-    line = write(&short)?;
-    while line.len() > MAX_LINE && short.wrong.len() > 1 {
-        short.wrong.truncate(short.wrong.len() * 3 / 4);
-        line = write(&short)?;
-    }
-    while line.len() > MAX_LINE
-        && let Some(story) = &mut short.story
-    {
-        let kept = story.lines.len() / 2;
-        if kept < 3 {
-            short.story = None;
-        } else {
-            story.lines.truncate(kept);
-            story.lines.push(StoryLine {
-                at: "end of the record".to_owned(),
-                operation: "cut".to_owned(),
-                detail: "the rest of the story did not fit".to_owned(),
-                citation: None,
-            });
-        }
-        line = write(&short)?;
-    }
-    while line.len() > MAX_LINE && !short.message.is_empty() {
-        cut(&mut short.message);
-        line = write(&short)?;
-    }
-    if line.len() > MAX_LINE {
-        return Err(RecordError::TooLong {
-            case: record.case.chars().take(200).collect(),
-            adapter: record.adapter.chars().take(200).collect(),
-            limit: MAX_LINE,
-        });
-    }
-    Ok(line)
-}
-
-/// Takes a quarter off the front of a message: the reason of a death usually stands at its end.
-fn cut(message: &mut String) {
-    const MARK: &str = "[cut] ";
-    let text = message.strip_prefix(MARK).unwrap_or(message);
-    let mut from = text.len() / 4 + 1;
-    while from < text.len() && !text.is_char_boundary(from) {
-        from += 1;
-    }
-    let rest = text.get(from..).unwrap_or_default();
-    *message = if rest.is_empty() {
-        String::new()
-    } else {
-        format!("{MARK}{rest}")
-    };
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn frame_paths_stay_below_the_folder_and_apart() {
-        assert_eq!(
-            frame_path("gl:es:softpipe", "depth/compare/stored=0.5"),
-            "frames/gl_es_softpipe/depth/compare/stored=0.5.json"
-        );
-        for hostile in [
-            "../../x",
-            "/etc/passwd",
-            "a//b",
-            "..",
-            ".",
-            "",
-            "a\\b\0c",
-            "ü",
-        ] {
-            let path = frame_path(hostile, hostile);
-            assert!(
-                path.split('/')
-                    .all(|p| !p.is_empty() && !p.starts_with('.')),
-                "{path}"
-            );
-            assert!(path.is_ascii() && !path.contains('\\'), "{path}");
-        }
-        assert_ne!(frame_path("a", "x y"), frame_path("a", "x?y"));
-        let long = frame_path("a", &"v".repeat(5000));
-        assert!(long.len() < 255, "{}", long.len());
     }
 }

@@ -18,6 +18,9 @@ use data::Figures;
 use etalon_record::{AdapterRecord, Bench};
 use std::path::{Path, PathBuf};
 
+/// The files that [`write_bench`] writes into a bench folder.
+pub const BENCH_FILES: [&str; 3] = ["index.html", "bencher.json", "benchmark-action.json"];
+
 /// The files that [`write_bench`] made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenBench {

@@ -27,7 +27,8 @@ mod table;
 mod words;
 
 pub use bench::{
-    Change, Diff, Gone, Side, WrittenBench, bench_table, diff, diff_table, write_bench, write_diff,
+    BENCH_FILES, Change, Diff, Gone, Side, WrittenBench, bench_table, diff, diff_table,
+    write_bench, write_diff,
 };
 pub use html::quoted;
 pub use hunt::{WrittenHunt, hunt_table, write_hunt};
@@ -120,6 +121,17 @@ pub enum ReportError {
         after: String,
     },
 }
+
+/// The files that [`write()`] may write into a run folder.
+pub const RUN_FILES: [&str; 5] = [
+    "index.html",
+    methods::PAGE,
+    "junit.xml",
+    "ctrf.json",
+    "summary.md",
+];
+/// The folders that [`write()`] writes into a run folder.
+pub const RUN_FOLDERS: [&str; 1] = [deqp::FOLDER];
 
 /// Writes the reports of a run into its folder: `index.html`, `junit.xml`, `ctrf.json`, `summary.md`,
 /// `results/<adapter>.csv`, and `methods.html` where it has records of methods. Each is written beside

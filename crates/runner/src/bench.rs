@@ -1,87 +1,87 @@
-//! Frame times: pictures are judged first, then rounds of frames interleave over cases and adapters.
+//! Benches: pictures are judged first, then rounds of frame times interleave over cases and adapters.
 //!
-//! Every round starts workers of its own, since where a process lies in memory moves its times by per
-//! cents: measured in one process, that shift would look like a property of the driver. Within a round,
-//! cases follow one another and each is timed on adapter after adapter, A B C, so that drift of the
-//! machine hits all alike. All adapters' workers are up during a round, and one works at a time.
+//! Every round starts new workers, since the memory layout of a process moves its times by several per
+//! cent: measured in one process, that shift would look like a property of the driver. Within a round,
+//! each case is timed on one adapter after the other, so that drift of the machine affects all alike. All
+//! adapters' workers are running during a round, and one works at a time.
 
 mod round;
 mod ruler;
 
-use crate::link::{Link, Patience};
-use crate::loss::Loss;
-use crate::process::{DRAW_TIMEOUT, Drawn, Launch, StartError, Worker};
-use crate::run::adapter_record;
-use crate::verdict::Judge;
-use etalon_backend::BackendError;
+use crate::drawing::{DRAW_TIMEOUT, Drawing};
+use crate::judge::Judge;
+use crate::launch::Launch;
+use crate::loss::Failure;
+use crate::process::Wait;
+use crate::supervisor::{FailedStarts, Supervisor};
+use crate::worker::Worker;
 use etalon_case::Case;
 use etalon_frame::{Limits, WrongTexel};
 use etalon_record::{
     AdapterRecord, BenchHeader, BenchLine, BenchWriter, Ended, Expectations, Picture, Record,
-    RecordError, Round, Verdict,
+    RecordError, ReportFiles, Round, Verdict,
 };
 use etalon_reference::Rules;
 use etalon_scene::Invariance;
-use round::{Stopped, fingerprint, seconds};
+use round::{fingerprint, seconds};
 use std::path::Path;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// After so many vain starts in a row an adapter's other cases are not tried.
-const MAX_VAIN_STARTS: u32 = 3;
-
-/// What to time.
+/// The cases and adapters of a bench, and the folder it is written to.
 pub struct BenchPlan<'a> {
     /// The cases, each once.
     pub cases: &'a [Case],
-    /// How to start each adapter, and the worker that is already up, which draws the pictures that are
-    /// judged.
+    /// Each adapter's launch command, and the worker that is already running, which draws the pictures that
+    /// are judged.
     pub adapters: Vec<(Launch, Worker)>,
-    /// How long the timed frames of a case take together on an adapter in each round, about; warming up
+    /// The time that the timed frames of a case take together on an adapter in each round, about; the warm-up
     /// may take as long again.
     pub budget: Duration,
-    /// What is known to go wrong.
+    /// The known bad verdicts.
     pub expectations: &'a Expectations,
-    /// Where the bench is written.
+    /// The bench folder.
     pub folder: &'a Path,
-    /// Its first line; its rounds are those of the bench.
+    /// The reports that are removed from a bench which is replaced.
+    pub reports: ReportFiles,
+    /// The header of the bench, with its number of rounds.
     pub header: BenchHeader,
 }
 
-/// What happens during a bench, as it happens.
+/// An event of a bench, reported as it happens.
 #[derive(Clone, Debug)]
 pub enum BenchEvent {
     /// A picture was judged.
     Judged {
-        /// How.
+        /// The picture, with its verdict.
         picture: Picture,
-        /// Whether that speaks against the bench.
+        /// True if that counts against the bench.
         unexpected: bool,
     },
-    /// A case has a round more on an adapter.
+    /// A round of a case on an adapter is complete.
     Timed {
         /// The case.
         case: String,
         /// The adapter.
         adapter: String,
     },
-    /// A case has its last round on an adapter, before its time.
+    /// A case has no more rounds on an adapter, although some are missing.
     Ended {
-        /// Why.
+        /// The reason.
         ended: Ended,
-        /// How many rounds are missing.
+        /// The number of missing rounds.
         missing: u32,
     },
 }
 
-/// How a bench ended.
+/// The counts of a bench.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct BenchOutcome {
+pub struct BenchSummary {
     /// Pictures that were judged.
     pub pictures: u64,
-    /// Pictures of which frames were timed.
+    /// Pictures whose frames were timed.
     pub timed: u64,
-    /// Bad verdicts: of pictures that are not selftests' and of rounds that broke.
+    /// Unexpected verdicts of pictures, and rounds that failed.
     pub unexpected: u64,
 }
 
@@ -91,12 +91,12 @@ pub enum BenchError {
     /// The bench folder cannot be begun; nothing was timed.
     #[error(transparent)]
     Folder(RecordError),
-    /// The bench folder can no longer be written to; what was written is readable.
+    /// The bench folder can no longer be written to; the lines written before are readable.
     #[error("the bench is incomplete: {0}")]
     Write(RecordError),
 }
 
-/// What the ruler of this version does: for [`BenchHeader::ruler`].
+/// A description of this version's ruler, for [`BenchHeader::ruler`].
 pub fn ruler() -> &'static str {
     ruler::RULER
 }
@@ -108,17 +108,15 @@ pub fn ruler() -> &'static str {
 pub fn bench(
     plan: BenchPlan<'_>,
     events: &mut dyn FnMut(BenchEvent),
-) -> Result<BenchOutcome, BenchError> {
-    let writer = BenchWriter::create(plan.folder, &plan.header).map_err(BenchError::Folder)?;
+) -> Result<BenchSummary, BenchError> {
+    let writer = BenchWriter::replace(plan.folder, &plan.header, plan.reports)
+        .map_err(BenchError::Folder)?;
     let adapters = plan
         .adapters
         .into_iter()
         .map(|(launch, worker)| Adapter {
-            record: adapter_record(&worker),
-            launch,
-            link: Some(worker.link),
-            vain_starts: 0,
-            last_words: String::new(),
+            record: AdapterRecord::from(&worker),
+            supervisor: Supervisor::new(launch, None, FailedStarts::default(), Some(worker)),
         })
         .collect();
     let mut bench = Bench {
@@ -127,7 +125,7 @@ pub fn bench(
         expectations: plan.expectations,
         writer,
         events,
-        outcome: BenchOutcome::default(),
+        summary: BenchSummary::default(),
         start: Instant::now(),
         rounds: plan.header.rounds,
         budget: plan.budget,
@@ -140,76 +138,16 @@ pub fn bench(
         Ok(())
     };
     run(&mut bench).map_err(BenchError::Write)?;
-    Ok(bench.outcome)
+    Ok(bench.summary)
 }
 
-/// An adapter and its worker, where it has one.
+/// An adapter and its worker.
 struct Adapter {
-    launch: Launch,
     record: AdapterRecord,
-    link: Option<Link>,
-    vain_starts: u32,
-    last_words: String,
+    supervisor: Supervisor,
 }
 
-impl Adapter {
-    /// The worker; a new one where there is none.
-    fn link(&mut self) -> Option<&mut Link> {
-        while self.link.is_none() && self.vain_starts < MAX_VAIN_STARTS {
-            match Worker::start(&self.launch) {
-                Ok(worker) => {
-                    self.vain_starts = 0;
-                    self.link = Some(worker.link);
-                }
-                Err(error) => {
-                    self.vain_starts += 1;
-                    self.last_words = restart_words(&error);
-                }
-            }
-        }
-        self.link.as_mut()
-    }
-
-    /// Takes note of how a worker stumbled: the verdict and the message.
-    fn stumbled(&mut self, stopped: Stopped) -> (Verdict, String) {
-        match stopped {
-            Stopped::Backend(error) => {
-                let broken = matches!(
-                    error,
-                    BackendError::DeviceLost(_) | BackendError::Internal(_)
-                );
-                if broken {
-                    // After a panic, too, nobody knows in what state the worker is.
-                    self.link = None;
-                }
-                (verdict(&error), error.to_string())
-            }
-            Stopped::Lost(loss) => {
-                let verdict = loss.verdict();
-                let message = match self.link.take() {
-                    Some(mut link) => link.obituary(loss).message,
-                    None => self.last_words.clone(),
-                };
-                (verdict, message)
-            }
-        }
-    }
-}
-
-fn restart_words(error: &StartError) -> String {
-    format!("the worker could not be started again: {error}")
-}
-
-fn verdict(error: &BackendError) -> Verdict {
-    match error {
-        BackendError::NotSupported(_) => Verdict::NotSupported,
-        BackendError::DeviceLost(_) => Verdict::DeviceLost,
-        BackendError::Resource { .. } => Verdict::ResourceError,
-        BackendError::Shader { .. } | BackendError::Internal(_) => Verdict::InternalError,
-    }
-}
-
-/// A case on an adapter whose picture is right: its numbers, and what its picture is told by.
+/// A case on an adapter whose picture is right: its numbers, and the fingerprint of the picture.
 struct Pair {
     case: usize,
     adapter: usize,
@@ -222,14 +160,14 @@ struct Bench<'a, 'e> {
     expectations: &'a Expectations,
     writer: BenchWriter,
     events: &'e mut dyn FnMut(BenchEvent),
-    outcome: BenchOutcome,
+    summary: BenchSummary,
     start: Instant,
     rounds: u32,
     budget: Duration,
 }
 
 impl Bench<'_, '_> {
-    /// Judges all pictures; those that may be timed, in the order in which they will be.
+    /// Judges all pictures. Returns those that may be timed, in the order of timing.
     fn judge(&mut self) -> Result<Vec<Pair>, RecordError> {
         let judge = Judge::default();
         let mut pairs = Vec::new();
@@ -247,12 +185,12 @@ impl Bench<'_, '_> {
                     message: message(&record),
                 };
                 self.writer.append(&BenchLine::Picture(judged.clone()))?;
-                self.outcome.pictures += 1;
-                self.outcome.unexpected += u64::from(record.unexpected());
+                self.summary.pictures += 1;
+                self.summary.unexpected += u64::from(record.unexpected());
                 if let Some(picture) = picture
                     && judged.may_be_timed()
                 {
-                    self.outcome.timed += 1;
+                    self.summary.timed += 1;
                     pairs.push(Pair {
                         case: number,
                         adapter: index,
@@ -268,7 +206,7 @@ impl Bench<'_, '_> {
         Ok(pairs)
     }
 
-    /// Draws a case once and judges it: the record, and the fingerprint of the picture.
+    /// Draws a case once and judges it. Returns the record and the fingerprint of the picture.
     fn draw(
         &mut self,
         judge: &Judge,
@@ -288,35 +226,31 @@ impl Bench<'_, '_> {
         if let Some(missing) = limits.missing(&case.requirements()) {
             return failed(Verdict::NotSupported, missing.to_string());
         }
-        let Some(link) = adapter.link() else {
-            return failed(Verdict::Crash, adapter.last_words.clone());
+        let drawing = match adapter.supervisor.worker() {
+            Ok(worker) => worker.draw_case(0, case, Wait::of(DRAW_TIMEOUT)),
+            Err(loss) => Drawing::failed(loss.into()),
         };
-        let asked = Instant::now();
-        for scene in case.scenes() {
-            link.draw(0, scene);
-        }
-        let patience = Patience::of(DRAW_TIMEOUT);
-        let drawing = link.drawn(0, case.scene_count(), asked, patience);
-        let stopped = match drawing.drawn {
-            Drawn::Frames(frames) => {
+        match drawing.frames {
+            Ok(frames) => {
                 let judged = judge.judge(number, case, &name, &limits, &frames);
-                return (judged.record, frames.first().map(fingerprint));
+                (judged.record, frames.first().map(fingerprint))
             }
-            Drawn::Error(error) => Stopped::Backend(error),
-            Drawn::Lost(loss) => Stopped::Lost(loss),
-        };
-        let (verdict, message) = adapter.stumbled(stopped);
-        failed(verdict, message)
+            Err(failure) => {
+                let report = adapter.supervisor.report(failure);
+                failed(report.verdict, report.message)
+            }
+        }
     }
 
-    /// One round of all cases that still have rounds; those that break are taken out.
+    /// Times one round of all cases that still have rounds, and removes those that fail.
     fn round(&mut self, number: u32, pairs: &mut Vec<Pair>) -> Result<(), RecordError> {
         for adapter in &mut self.adapters {
-            adapter.link = None;
+            adapter.supervisor.stop();
         }
         for index in 0..self.adapters.len() {
             if pairs.iter().any(|p| p.adapter == index) {
-                self.adapters[index].link();
+                // A start that fails is reported by the adapter's first case.
+                let _ = self.adapters[index].supervisor.worker();
             }
         }
         let mut kept = Vec::new();
@@ -326,9 +260,9 @@ impl Bench<'_, '_> {
             let case = &self.cases[pair.case];
             let adapter = &mut self.adapters[pair.adapter];
             let name = adapter.record.name.clone();
-            let measured = match adapter.link() {
-                Some(link) => link.round(&case.scene, self.budget),
-                None => Err(Stopped::Lost(Loss::Died)),
+            let measured = match adapter.supervisor.worker() {
+                Ok(worker) => worker.round(&case.scene, self.budget),
+                Err(loss) => Err(Failure::Lost(loss)),
             };
             let after = ruler::measure();
             let mut ended = match measured {
@@ -364,9 +298,9 @@ impl Bench<'_, '_> {
                         .flatten()
                         .map(|message| (number + 1, Verdict::Flaky, message))
                 }
-                Err(stopped) => {
-                    let (verdict, message) = adapter.stumbled(stopped);
-                    Some((number, verdict, message))
+                Err(failure) => {
+                    let report = adapter.supervisor.report(failure);
+                    Some((number, report.verdict, report.message))
                 }
             };
             before = after;
@@ -381,7 +315,7 @@ impl Bench<'_, '_> {
                 message,
             };
             self.writer.append(&BenchLine::Ended(ended.clone()))?;
-            self.outcome.unexpected += u64::from(verdict.is_bad());
+            self.summary.unexpected += u64::from(verdict.is_bad());
             (self.events)(BenchEvent::Ended {
                 ended,
                 missing: self.rounds - had,
@@ -392,7 +326,7 @@ impl Bench<'_, '_> {
     }
 }
 
-/// What it means that a frame differs from the one that was judged; `None` where the API lets it.
+/// The message about a frame that differs from the judged one; `None` where the API permits that.
 fn changed(api: etalon_frame::Api) -> Option<String> {
     let promise = Rules::invariance(api, Invariance::Repeat);
     promise.value.map(|_| {
@@ -403,7 +337,7 @@ fn changed(api: etalon_frame::Api) -> Option<String> {
     })
 }
 
-/// What is wrong with a picture: the record's message, and where it is wrong first.
+/// The record's message and the position of the first wrong sample.
 fn message(record: &Record) -> String {
     let first = record.wrong.first().map(|wrong: &WrongTexel| {
         let count = record.texels.wrong + record.texels.imprecise;

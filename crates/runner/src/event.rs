@@ -1,16 +1,16 @@
-//! What happens during a run, as it happens.
+//! The events of a run.
 
 use etalon_record::Record;
 use std::time::Duration;
 
-/// One thing that happened.
+/// An event of a run, reported as it happens.
 #[derive(Clone, Debug)]
 pub enum Event {
     /// An adapter's first case is about to be drawn.
     AdapterStarted {
         /// The adapter.
         adapter: String,
-        /// How many cases it will draw.
+        /// The number of cases that it will draw.
         cases: u64,
     },
     /// A record was written.

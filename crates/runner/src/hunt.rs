@@ -1,6 +1,6 @@
 //! The hunt for planted bugs: every case drawn by every mutant, in this process, on all cores.
 
-use crate::verdict::Judge;
+use crate::judge::Judge;
 use etalon_backend::{Backend, BackendError};
 use etalon_case::Case;
 use etalon_frame::{Frame, WrongTexel};
@@ -9,25 +9,24 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::channel;
 use std::thread;
 
-/// What is hunted, and with which cases.
+/// The planted bugs of a hunt, and the cases that must catch them.
 #[derive(Clone, Copy, Debug)]
 pub struct HuntPlan<'a> {
-    /// The cases. Selftests are left out: they fail whatever draws them.
+    /// The cases. Selftests are left out: they fail on every backend.
     pub cases: &'a [Case],
     /// The planted bugs.
     pub mutants: &'a [MutantInfo],
     /// Draw every case with every bug, instead of ending an area at a bug's first Fail there.
     pub full: bool,
-    /// How many threads.
+    /// The number of threads.
     pub jobs: usize,
 }
 
-/// Draws and judges the cases with every bug planted, and tells what became of each, in the order
-/// of the plan. `open` gives the backend with the bug of a name in it; `drawn` is told after each
-/// case by each thread.
+/// Draws and judges the cases with every bug planted. Returns a record of each bug, in the order of the
+/// plan. `open` returns the backend with the named bug in it; each thread calls `drawn` after each case.
 ///
-/// Every thread holds its own share of the bugs and goes through the cases in order, so that state
-/// which sticks from one case to the next does so in the same way every time.
+/// Every thread holds its own share of the bugs and draws the cases in order, so that state which a bug
+/// carries from one case to the next is the same every time.
 pub fn hunt(
     plan: HuntPlan<'_>,
     open: &(dyn Fn(&str) -> Option<Box<dyn Backend>> + Sync),
@@ -40,13 +39,13 @@ pub fn hunt(
         for job in 0..jobs {
             let (sender, judge) = (sender.clone(), &judge);
             scope.spawn(move || {
-                let mut share: Vec<Suspect> = plan
+                let mut share: Vec<Mutant> = plan
                     .mutants
                     .iter()
                     .enumerate()
                     .skip(job)
                     .step_by(jobs)
-                    .map(|(at, info)| Suspect::new(at, info, open(&info.name)))
+                    .map(|(at, info)| Mutant::new(at, info, open(&info.name)))
                     .collect();
                 for (number, case) in plan.cases.iter().enumerate() {
                     if case.judged_as.is_none() {
@@ -54,9 +53,9 @@ pub fn hunt(
                     }
                     drawn();
                 }
-                for suspect in share {
+                for mutant in share {
                     // The receiver lives until all threads have ended.
-                    let _ = sender.send((suspect.at, suspect.finish()));
+                    let _ = sender.send((mutant.at, mutant.finish()));
                 }
             });
         }
@@ -69,15 +68,15 @@ pub fn hunt(
 
 /// Draws one case with each of a thread's bugs. Most of them give the same few frames, which are
 /// judged once.
-fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Suspect], full: bool) {
+fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], full: bool) {
     let mut seen: Vec<(Vec<Frame>, Sighting)> = Vec::new();
-    for suspect in share {
-        let area = suspect.area(case.area());
-        let tally = &suspect.record.areas[area];
+    for mutant in share {
+        let area = mutant.area(case.area());
+        let tally = &mutant.record.areas[area];
         if !full && tally.fail > 0 {
             continue;
         }
-        let Some(backend) = &suspect.backend else {
+        let Some(backend) = &mutant.backend else {
             continue;
         };
         let sighting = match draw(backend.as_ref(), case) {
@@ -86,7 +85,7 @@ fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Suspect], fu
                 Some((_, sighting)) => sighting.clone(),
                 None => {
                     let limits = backend.limits();
-                    let sighting = match judge.glance(number, case, limits, &frames) {
+                    let sighting = match judge.verdict(number, case, limits, &frames) {
                         Err(message) => broken(case, message),
                         Ok((verdict, texel)) => sighting(case, verdict, texel),
                     };
@@ -95,7 +94,7 @@ fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Suspect], fu
                 }
             },
         };
-        suspect.note(area, sighting);
+        mutant.note(area, sighting);
     }
 }
 
@@ -132,13 +131,13 @@ fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
 }
 
 /// One planted bug while it is hunted.
-struct Suspect {
+struct Mutant {
     at: usize,
     backend: Option<Box<dyn Backend>>,
     record: MutantRecord,
 }
 
-impl Suspect {
+impl Mutant {
     fn new(at: usize, info: &MutantInfo, backend: Option<Box<dyn Backend>>) -> Self {
         Self {
             at,

@@ -1,30 +1,42 @@
-//! Selects, isolates, runs and judges; emits one event stream.
+//! Selection, isolation, drawing and judging of cases, reported as one stream of events.
 //!
 //! Workers only draw: [`serve`] answers requests in a process of its own. The parent judges: [`run`]
-//! drives one worker per adapter, holds every frame against its legal set, writes one record per
-//! case and adapter, and tells [`Event`]s as they happen. [`hunt`] draws cases with bugs planted, and
-//! tells which of them are seen.
+//! drives workers of every adapter, compares every frame with its legal set and writes one record per
+//! case and adapter; [`bench`] times frames; both start and replace workers through one supervisor.
+//! [`hunt`] draws cases with planted bugs in this process, and reports which of them are caught.
 
+mod adapter_record;
 mod bench;
+mod drawing;
 mod event;
+mod exit_report;
+mod expected_values;
+mod frame_file;
 mod hunt;
-mod link;
+mod judge;
+mod judgement_cache;
+mod launch;
 mod loss;
 mod measure;
+mod memory;
 mod process;
 mod protocol;
 mod relation;
 mod run;
 mod select;
-mod verdict;
+mod serve;
+mod stderr_tail;
+mod supervisor;
+mod sync;
 mod worker;
 
-pub use bench::{BenchError, BenchEvent, BenchOutcome, BenchPlan, bench, ruler};
+pub use bench::{BenchError, BenchEvent, BenchPlan, BenchSummary, bench, ruler};
 pub use event::Event;
 pub use hunt::{HuntPlan, hunt};
-pub use process::{DrawError, Launch, StartError, Worker};
+pub use judge::{Judge, Judged};
+pub use launch::{Launch, StartError};
 pub use protocol::Hello;
-pub use run::{Options, Outcome, Plan, RunError, run};
+pub use run::{Options, Plan, RunError, RunSummary, run};
 pub use select::{Globs, SelectError, Selection, select};
-pub use verdict::{Judge, Judged};
-pub use worker::serve;
+pub use serve::serve;
+pub use worker::{DrawError, Worker};

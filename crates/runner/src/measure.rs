@@ -1,9 +1,8 @@
-//! Method cases: how far a picture lies from the truth, and what it costs.
+//! The measurements of a method case: the distance of its picture from the truth, and its costs.
 
-use crate::link::{Link, Patience};
-use crate::loss::Loss;
-use crate::process::Drawn;
-use crate::protocol::{Payload, Request, Response};
+use crate::loss::{Failure, Loss};
+use crate::process::{Wait, WorkerProcess};
+use crate::protocol::Request;
 use etalon_backend::FrameTime;
 use etalon_case::Case;
 use etalon_case::Method;
@@ -18,7 +17,7 @@ use std::time::{Duration, Instant};
 /// Frames that are drawn after the first and before any is timed: drivers compile and allocate at the
 /// first, and some once more at the second. A frame as long as the budget needs none of it.
 const WARM_UP: u32 = 2;
-/// How long the timed frames of a case take together, as far as their number allows.
+/// The time that the timed frames of a case take together, as far as their number allows.
 const BUDGET: Duration = Duration::from_millis(40);
 /// The fewest and the most frames that are timed.
 const FRAMES: [u32; 2] = [3, 31];
@@ -30,11 +29,11 @@ pub(crate) struct Truths {
     scenes: Mutex<HashMap<(String, String), Vec<Known>>>,
 }
 
-/// What is asked for, and what comes of it once it has been computed.
+/// A truth, and its picture once it has been computed.
 type Known = (Truth, Arc<OnceLock<Arc<TruthPicture>>>);
 
 impl Truths {
-    /// What a method's picture should be. Methods that should show the same share it.
+    /// The exact picture of a method. Methods that should show the same picture share it.
     pub(crate) fn get(&self, method: &Method) -> Arc<TruthPicture> {
         let entry = {
             let mut scenes = self.scenes.lock().unwrap_or_else(PoisonError::into_inner);
@@ -54,8 +53,8 @@ impl Truths {
     }
 }
 
-/// What a case's picture is worth: its distance from the truth and the costs that need no device.
-/// `None` where the frame has no picture to compare.
+/// The distance of a case's picture from the truth, and the costs that need no device. `None` where the
+/// frame has no picture to compare.
 pub(crate) fn measured(case: &Case, truth: &TruthPicture, frame: &Frame) -> Option<Measured> {
     let method = case.method.as_ref()?;
     let distance = distance(truth, frame.images.first()?)?;
@@ -79,85 +78,74 @@ pub(crate) fn measured(case: &Case, truth: &TruthPicture, frame: &Frame) -> Opti
     })
 }
 
-/// What timing a scene came to.
-pub(crate) enum Timed {
-    Times(Option<Times>, Option<u64>),
-    Lost(Loss),
-}
-
-impl Link {
-    /// Times frames of a scene, and where the adapter has statistics counts its fragments in a frame
-    /// of their own, since counting costs time. Nothing may be in flight.
+impl WorkerProcess {
+    /// Times frames of a scene, and counts its fragments where the adapter has statistics. They are
+    /// counted in a frame of their own, since counting costs time. Nothing may be in flight.
     pub(crate) fn time(
         &mut self,
         slot: u32,
         scene: &Scene,
         limits: &Limits,
         timeout: Duration,
-    ) -> Timed {
-        let times = match self.frames(slot, scene, timeout) {
-            Ok(times) => times,
-            Err(loss) => return Timed::Lost(loss),
-        };
+    ) -> Result<(Option<Times>, Option<u64>), Loss> {
+        let times = self.time_frames(slot, scene, timeout)?;
         if !limits.features.contains(&Feature::FragmentInvocations) {
-            return Timed::Times(times, None);
+            return Ok((times, None));
         }
         let asked = Instant::now();
-        self.draw(slot, &scene.counting(CounterKind::FragmentInvocations));
-        match self.drawn(slot, 1, asked, Patience::of(timeout)).drawn {
-            Drawn::Frames(frames) => {
+        self.request_frame(slot, &scene.counting(CounterKind::FragmentInvocations));
+        match self
+            .receive_frames(slot, 1, asked, Wait::of(timeout))
+            .frames
+        {
+            Ok(frames) => {
                 let count = frames.first().and_then(|f| f.counters.first().copied());
-                Timed::Times(times, count)
+                Ok((times, count))
             }
             // The picture was drawn and timed: a count that fails takes nothing from that.
-            Drawn::Error(_) => Timed::Times(times, None),
-            Drawn::Lost(loss) => Timed::Lost(loss),
+            Err(Failure::Backend(_)) => Ok((times, None)),
+            Err(Failure::Lost(loss)) => Err(loss),
         }
     }
 
-    fn frames(
+    /// Times frames of a scene; `None` where the backend reports an error.
+    fn time_frames(
         &mut self,
         slot: u32,
         scene: &Scene,
         timeout: Duration,
     ) -> Result<Option<Times>, Loss> {
-        self.request(&Request::Prepare {
-            slot,
-            scene: Box::new(scene.clone()),
-        });
-        let prepared = self.answer(timeout)?.is_some();
-        let mut times = None;
-        if prepared {
-            let mut warm = self.submit(slot, 1, timeout)?;
-            if warm.first().is_some_and(|first| first.wall < BUDGET) {
-                warm = self.submit(slot, WARM_UP, timeout)?;
-            }
-            if let Some(last) = warm.last() {
-                let one = last.wall.as_secs_f64().max(1e-6);
-                let [fewest, most] = FRAMES;
-                let fit = (BUDGET.as_secs_f64() / one) as u32;
-                times = Some(self.submit(slot, fit.clamp(fewest, most), timeout)?);
-            }
+        let timed = self.prepare_and_time(slot, scene, timeout);
+        let dropped = match timed {
+            Err(Failure::Lost(loss)) => return Err(loss),
+            _ => self.ask(&Request::Drop { slot }, timeout),
+        };
+        match (timed, dropped) {
+            (_, Err(Failure::Lost(loss))) => Err(loss),
+            (Ok(times), _) => Ok(medians(&times)),
+            (Err(_), _) => Ok(None),
         }
-        self.request(&Request::Drop { slot });
-        self.answer(timeout)?;
-        Ok(times.and_then(|all| medians(&all)))
     }
 
-    fn submit(&mut self, slot: u32, times: u32, timeout: Duration) -> Result<Vec<FrameTime>, Loss> {
-        self.request(&Request::Submit { slot, times });
-        Ok(match self.answer(timeout)? {
-            Some(Payload::Submitted(times)) => times,
-            _ => Vec::new(),
-        })
-    }
-
-    /// The next answer; `None` where the backend could not do what was asked.
-    fn answer(&mut self, timeout: Duration) -> Result<Option<Payload>, Loss> {
-        match self.response(timeout)? {
-            Response::Done { outcome, .. } => Ok(outcome.ok()),
-            Response::Hello(_) => Err(Loss::Garbage("a second greeting".to_owned())),
+    fn prepare_and_time(
+        &mut self,
+        slot: u32,
+        scene: &Scene,
+        timeout: Duration,
+    ) -> Result<Vec<FrameTime>, Failure> {
+        let scene = Box::new(scene.clone());
+        self.ask(&Request::Prepare { slot, scene }, timeout)?;
+        let mut warm = self.submit(slot, 1, timeout)?;
+        if warm.first().is_some_and(|first| first.wall < BUDGET) {
+            warm = self.submit(slot, WARM_UP, timeout)?;
         }
+        let Some(last) = warm.last() else {
+            return Ok(Vec::new());
+        };
+        let one = last.wall.as_secs_f64().max(1e-6);
+        let [fewest, most] = FRAMES;
+        let fit = (BUDGET.as_secs_f64() / one) as u32;
+        self.submit(slot, fit.clamp(fewest, most), timeout)
     }
 }
 

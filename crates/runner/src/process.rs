@@ -1,109 +1,234 @@
-//! A worker process as the parent holds it.
+//! A worker's process and its pipes.
+//!
+//! Each pipe has a thread of its own, so that a worker which stops reading or writing never stops the
+//! parent: the parent waits with a limit, and kills.
 
-use crate::link::{Link, Patience};
+use crate::exit_report::ExitReport;
+use crate::launch::{Launch, StartError};
 use crate::loss::Loss;
-use crate::protocol::{Hello, Response};
-use etalon_backend::{BackendError, Unavailable};
-use etalon_case::Case;
-use etalon_frame::Frame;
-use std::path::PathBuf;
+use crate::memory::MemoryLimit;
+use crate::protocol::{Request, Response, encode, receive};
+use crate::stderr_tail::StderrTail;
+use crate::sync::lock;
+use std::io::{self, BufReader, Write};
+use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex};
+use std::thread;
 use std::time::{Duration, Instant};
-use thiserror::Error;
 
-/// How long a driver may take to start.
-const START_TIMEOUT: Duration = Duration::from_secs(60);
-/// How long a case may take before its worker is given up, where nobody says otherwise.
-pub(crate) const DRAW_TIMEOUT: Duration = Duration::from_secs(60);
+/// The interval at which a waiting parent checks whether the run is being stopped.
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
+/// The time that a worker may take to exit after its pipe broke.
+const EXIT_TIMEOUT: Duration = Duration::from_secs(5);
+/// The time that a worker which is no longer needed may take to exit.
+const CLOSE_TIMEOUT: Duration = Duration::from_secs(2);
 
-/// How to start a worker.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Launch {
-    /// The adapter's name.
-    pub adapter: String,
-    /// The program.
-    pub program: PathBuf,
-    /// Its arguments.
-    pub arguments: Vec<String>,
-    /// Environment variables on top of the parent's; `None` removes one.
-    pub environment: Vec<(String, Option<String>)>,
+/// The limits of waiting for an answer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wait<'a> {
+    /// The time that one case may take.
+    pub(crate) timeout: Duration,
+    /// Set when the run is being stopped and the answer is no longer needed.
+    pub(crate) stop: Option<&'a AtomicBool>,
 }
 
-/// Why a worker did not start.
-#[derive(Debug, Error)]
-pub enum StartError {
-    /// It says so itself.
-    #[error("{0}")]
-    Unavailable(Unavailable),
-    /// It died, hung or talked nonsense.
-    #[error("{0}")]
-    Broken(String),
-}
-
-/// A running worker whose adapter is open.
-pub struct Worker {
-    /// Who it said it is.
-    pub hello: Hello,
-    pub(crate) link: Link,
-}
-
-impl Worker {
-    /// Starts a worker and waits for its first words.
-    ///
-    /// # Errors
-    /// When the program cannot be started, says that its adapter is unavailable, or does not answer.
-    pub fn start(launch: &Launch) -> Result<Self, StartError> {
-        let mut link = Link::start(launch)?;
-        match link.response(START_TIMEOUT) {
-            Ok(Response::Hello(Ok(hello))) => Ok(Self {
-                hello: *hello,
-                link,
-            }),
-            Ok(Response::Hello(Err(unavailable))) => Err(StartError::Unavailable(unavailable)),
-            Ok(Response::Done { .. }) => Err(StartError::Broken(
-                "the worker's first message is not a greeting".to_owned(),
-            )),
-            Err(loss) => Err(StartError::Broken(format!(
-                "the driver did not start: {}",
-                link.obituary(loss).message
-            ))),
+impl Wait<'_> {
+    /// A timeout alone.
+    pub(crate) fn of(timeout: Duration) -> Self {
+        Self {
+            timeout,
+            stop: None,
         }
     }
 }
 
-impl Worker {
-    /// Draws the scenes of a case and reads each back.
-    ///
-    /// # Errors
-    /// What the backend says, or how the worker was lost.
-    pub fn draw(&mut self, case: &Case) -> Result<Vec<Frame>, DrawError> {
-        let asked = Instant::now();
-        for scene in case.scenes() {
-            self.link.draw(0, scene);
+/// A worker's process and its pipes.
+pub(crate) struct WorkerProcess {
+    child: Arc<Mutex<Child>>,
+    /// To the thread that writes requests.
+    requests: Option<Sender<Vec<u8>>>,
+    responses: Receiver<(Instant, io::Result<Response>)>,
+    stderr: StderrTail,
+    memory: Option<MemoryLimit>,
+    /// The time of the last answer, or of the start.
+    answered: Instant,
+    /// Set when the process has ended, or is to.
+    ended: Arc<AtomicBool>,
+}
+
+impl WorkerProcess {
+    pub(crate) fn spawn(launch: &Launch) -> Result<Self, StartError> {
+        let mut command = Command::new(&launch.program);
+        command.args(&launch.arguments);
+        for (name, value) in &launch.environment {
+            match value {
+                Some(value) => command.env(name, value),
+                None => command.env_remove(name),
+            };
         }
-        let patience = Patience::of(DRAW_TIMEOUT);
-        let drawing = self.link.drawn(0, case.scene_count(), asked, patience);
-        match drawing.drawn {
-            Drawn::Frames(frames) => Ok(frames),
-            Drawn::Error(error) => Err(DrawError::Backend(error)),
-            Drawn::Lost(loss) => Err(DrawError::Lost(self.link.obituary(loss).message)),
+        // Ctrl-C is meant for the parent, which then ends its workers in good order.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut child = command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .map_err(|e| StartError::Broken(format!("the worker cannot be started: {e}")))?;
+        let no_pipe = || StartError::Broken("the worker has no pipes".to_owned());
+        let input = child.stdin.take().ok_or_else(no_pipe)?;
+        let output = child.stdout.take().ok_or_else(no_pipe)?;
+        let errors = child.stderr.take().ok_or_else(no_pipe)?;
+
+        let (requests, to_write) = channel();
+        thread::spawn(move || write_all(input, &to_write));
+        let (sender, responses) = channel();
+        thread::spawn(move || {
+            let mut output = BufReader::new(output);
+            loop {
+                let message = receive::<Response>(&mut output).transpose();
+                let Some(message) = message else { break };
+                let failed = message.is_err();
+                if sender.send((Instant::now(), message)).is_err() || failed {
+                    break;
+                }
+            }
+        });
+        Ok(Self {
+            child: Arc::new(Mutex::new(child)),
+            requests: Some(requests),
+            responses,
+            stderr: StderrTail::of(errors),
+            memory: None,
+            answered: Instant::now(),
+            ended: Arc::default(),
+        })
+    }
+
+    /// Kills the worker as soon as it holds more than `limit` MiB of memory.
+    pub(crate) fn limit_memory(&mut self, limit: u64) {
+        let (child, ended) = (Arc::clone(&self.child), Arc::clone(&self.ended));
+        self.memory = Some(MemoryLimit::watch(child, limit, ended));
+    }
+
+    /// The time of the last answer, or of the start.
+    pub(crate) fn answered(&self) -> Instant {
+        self.answered
+    }
+
+    /// Sends a request. A broken pipe shows when the answer is awaited.
+    pub(crate) fn request(&mut self, request: &Request) {
+        let sent = encode(request).map(|bytes| match &self.requests {
+            Some(requests) => requests.send(bytes).is_ok(),
+            None => false,
+        });
+        if !matches!(sent, Ok(true)) {
+            self.requests = None;
         }
+    }
+
+    /// The next answer, if it comes before `until`.
+    pub(crate) fn response_until(
+        &mut self,
+        until: Instant,
+        wait: Wait<'_>,
+    ) -> Result<Response, Loss> {
+        let stopped = || wait.stop.is_some_and(|s| s.load(Ordering::Relaxed));
+        loop {
+            let left = until.saturating_duration_since(Instant::now());
+            match self.responses.recv_timeout(left.min(POLL_INTERVAL)) {
+                Ok((at, Ok(response))) => {
+                    self.answered = at;
+                    return Ok(response);
+                }
+                Ok((_, Err(e))) => return Err(self.cause(Loss::Garbage(e.to_string()))),
+                Err(RecvTimeoutError::Timeout) if stopped() => return Err(Loss::Cancelled),
+                Err(RecvTimeoutError::Timeout) if left > POLL_INTERVAL => {}
+                Err(RecvTimeoutError::Timeout) => {
+                    return Err(self.cause(Loss::Timeout(wait.timeout)));
+                }
+                Err(RecvTimeoutError::Disconnected) => return Err(self.cause(Loss::Died)),
+            }
+        }
+    }
+
+    /// The next answer.
+    pub(crate) fn response(&mut self, timeout: Duration) -> Result<Response, Loss> {
+        self.response_until(Instant::now() + timeout, Wait::of(timeout))
+    }
+
+    /// The memory limit if that is why the worker was killed, else the loss as it shows.
+    fn cause(&self, shown: Loss) -> Loss {
+        match self.memory.as_ref().and_then(MemoryLimit::exceeded) {
+            Some((held, limit)) => Loss::Memory { held, limit },
+            None => shown,
+        }
+    }
+
+    /// Ends the worker and reports how it ended.
+    pub(crate) fn exit_report(&mut self, loss: Loss) -> ExitReport {
+        let status = match loss {
+            Loss::Died => {
+                let status = self.wait(EXIT_TIMEOUT);
+                if status.is_none() {
+                    self.kill();
+                }
+                status
+            }
+            _ => {
+                self.kill();
+                None
+            }
+        };
+        // The reader of stderr may still be a moment behind.
+        thread::sleep(Duration::from_millis(20));
+        ExitReport::new(loss, status, self.stderr.text())
+    }
+
+    fn wait(&mut self, limit: Duration) -> Option<ExitStatus> {
+        let step = Duration::from_millis(10);
+        let start = Instant::now();
+        loop {
+            let status = lock(&self.child).try_wait();
+            match status {
+                Ok(Some(status)) => return Some(status),
+                Ok(None) if start.elapsed() < limit => thread::sleep(step),
+                _ => return None,
+            }
+        }
+    }
+
+    fn kill(&mut self) {
+        self.ended.store(true, Ordering::Relaxed);
+        let mut child = lock(&self.child);
+        // It may have ended by itself; then there is nothing to kill.
+        let _ = child.kill();
+        let _ = child.wait();
     }
 }
 
-/// Why a scene could not be drawn.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum DrawError {
-    /// The backend's word.
-    #[error(transparent)]
-    Backend(BackendError),
-    /// The worker died, hung or talked nonsense.
-    #[error("{0}")]
-    Lost(String),
+impl Drop for WorkerProcess {
+    /// Closes the pipe, which asks the worker to exit, and kills it if it does not.
+    fn drop(&mut self) {
+        self.requests = None;
+        if self.wait(CLOSE_TIMEOUT).is_none() {
+            self.kill();
+        }
+        self.ended.store(true, Ordering::Relaxed);
+    }
 }
 
-/// What drawing a scene came to.
-pub(crate) enum Drawn {
-    Frames(Vec<Frame>),
-    Error(BackendError),
-    Lost(Loss),
+/// Writes requests until there are no more or the worker does not take them.
+fn write_all(mut input: ChildStdin, requests: &Receiver<Vec<u8>>) {
+    while let Ok(bytes) = requests.recv() {
+        if input
+            .write_all(&bytes)
+            .and_then(|()| input.flush())
+            .is_err()
+        {
+            return;
+        }
+    }
 }

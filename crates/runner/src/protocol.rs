@@ -1,4 +1,4 @@
-//! What parent and worker say to each other: length-prefixed binary messages over two pipes.
+//! The protocol between parent and worker: length-prefixed binary messages over two pipes.
 
 use etalon_backend::{AdapterInfo, BackendError, FrameTime, Unavailable};
 use etalon_frame::{Frame, Limits};
@@ -8,15 +8,15 @@ use serde::{Deserialize, Serialize};
 use std::io::{self, Read, Write};
 use std::time::Duration;
 
-/// The longest message that is taken, in bytes; anything longer is garbage.
+/// The longest message in bytes; anything longer is garbage.
 const MAX_MESSAGE: u32 = 1 << 30;
 
-/// From the parent. `slot` is the parent's number for a prepared scene.
+/// A request of the parent. `slot` is the parent's number for a prepared scene.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Request {
     /// Prepare a scene.
     Prepare { slot: u32, scene: Box<Scene> },
-    /// Draw a prepared scene so many times.
+    /// Draw a prepared scene `times` times.
     Submit { slot: u32, times: u32 },
     /// Read a drawn scene back.
     ReadBack { slot: u32 },
@@ -24,24 +24,24 @@ pub(crate) enum Request {
     Drop { slot: u32 },
 }
 
-/// From the worker, one per request and in their order.
+/// An answer of the worker, one per request and in their order.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Response {
-    /// The first message: who the adapter is, or why there is none.
+    /// The first message: the adapter, or why there is none.
     Hello(Result<Box<Hello>, Unavailable>),
     /// The answer to a request.
     Done {
         /// The request's slot.
         slot: u32,
         outcome: Result<Payload, BackendError>,
-        /// How long the worker took.
+        /// The time that the worker spent.
         elapsed: Duration,
-        /// Messages of validation layers and debug output that came meanwhile.
+        /// Messages of validation layers and debug output since the last answer.
         messages: Vec<String>,
     },
 }
 
-/// What a request brought.
+/// The result of a request.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) enum Payload {
     Prepared,
@@ -50,12 +50,12 @@ pub(crate) enum Payload {
     Dropped,
 }
 
-/// Who an adapter is and what it can do.
+/// An adapter as its worker describes it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Hello {
-    /// Who it is.
+    /// Its names and versions.
     pub info: AdapterInfo,
-    /// What it can do.
+    /// Its limits and features.
     pub limits: Limits,
 }
 
@@ -71,7 +71,7 @@ impl Request {
     }
 }
 
-/// A message as it goes through a pipe.
+/// The bytes of a message in a pipe.
 pub(crate) fn encode<T: Serialize>(message: &T) -> io::Result<Vec<u8>> {
     let bytes = postcard::to_stdvec(message).map_err(io::Error::other)?;
     let length = u32::try_from(bytes.len())

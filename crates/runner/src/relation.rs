@@ -1,26 +1,26 @@
-//! Frames, or attachments of one frame, held against each other.
+//! Comparison of frames, or of attachments of one frame, that a relation ties to each other.
 
 use etalon_case::{Case, Relation};
 use etalon_frame::{Aspect, Band, ChannelMismatch, Frame, Image, WrongTexel};
 use etalon_record::MAX_WRONG_TEXELS;
 
-/// What a comparison found.
+/// The differences between compared frames.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Found {
+pub(crate) struct Differences {
     /// Samples compared.
     pub(crate) compared: u64,
     /// Samples that differ.
-    pub(crate) differences: u64,
-    /// What the first difference is a difference from.
+    pub(crate) differing: u64,
+    /// The frames or attachments between which the first difference was found.
     pub(crate) between: String,
-    /// The first differing samples: the one side as what is due, the other as what came. Their band
-    /// is the worst until someone says otherwise.
+    /// The first differing samples, one side as the legal value and the other as the actual one. Their
+    /// band is Fail; the caller replaces it by that of the permission.
     pub(crate) wrong: Vec<WrongTexel>,
 }
 
-/// Holds a case's frames against each other as its relation asks.
-pub(crate) fn check(relation: &Relation, case: &Case, frames: &[Frame]) -> Found {
-    let mut found = Found::default();
+/// Compares a case's frames as its relation demands.
+pub(crate) fn check(relation: &Relation, case: &Case, frames: &[Frame]) -> Differences {
+    let mut found = Differences::default();
     if relation.attachments.is_empty() {
         let Some((first, others)) = frames.split_first() else {
             return found;
@@ -56,7 +56,7 @@ pub(crate) fn check(relation: &Relation, case: &Case, frames: &[Frame]) -> Found
     found
 }
 
-impl Found {
+impl Differences {
     fn compare(
         &mut self,
         relation: &Relation,
@@ -85,7 +85,7 @@ impl Found {
                     if channels.is_empty() {
                         continue;
                     }
-                    self.differences += 1;
+                    self.differing += 1;
                     if self.between.is_empty() {
                         between.clone_into(&mut self.between);
                     }

@@ -1,4 +1,4 @@
-//! Which cases run.
+//! Selection of cases by globs.
 
 use etalon_case::{CaseRef, Library, Profile};
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
@@ -11,7 +11,7 @@ pub struct Selection<'a> {
     pub cases: Vec<CaseRef<'a>>,
 }
 
-/// Why nothing could be chosen.
+/// Why a selection failed.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum SelectError {
     /// A glob that cannot be read.
@@ -19,7 +19,7 @@ pub enum SelectError {
     Glob {
         /// The glob.
         glob: String,
-        /// What is wrong.
+        /// The error.
         message: String,
     },
 }
@@ -39,7 +39,7 @@ impl Globs {
         Ok(Self((!globs.is_empty()).then_some(set)))
     }
 
-    /// Whether any of them matches.
+    /// True if any of them matches.
     pub fn matches(&self, name: &str) -> bool {
         self.0.as_ref().is_none_or(|set| set.is_match(name))
     }

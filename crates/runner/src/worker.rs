@@ -1,111 +1,69 @@
-//! The worker's side: draws what it is asked to, until the parent closes the pipe.
+//! A worker process whose adapter is open.
 
-use crate::protocol::{Hello, Payload, Request, Response, receive, send};
-use etalon_backend::{Backend, BackendError, Prepared, Unavailable};
-use std::any::Any;
-use std::collections::HashMap;
-use std::io::{self, Read, Write};
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::mpsc::{Sender, channel};
-use std::thread;
-use std::time::{Duration, Instant};
+use crate::drawing::DRAW_TIMEOUT;
+use crate::launch::{Launch, StartError};
+use crate::loss::Failure;
+use crate::process::{Wait, WorkerProcess};
+use crate::protocol::{Hello, Response};
+use etalon_backend::BackendError;
+use etalon_case::Case;
+use etalon_frame::Frame;
+use std::time::Duration;
+use thiserror::Error;
 
-/// How long a worker whose parent has gone may take to end by itself.
-const GRACE: Duration = Duration::from_secs(5);
+/// The time that a driver may take to start.
+const START_TIMEOUT: Duration = Duration::from_secs(60);
 
-/// Opens a backend and answers requests until `input` ends. A driver that hangs does not outlive the
-/// parent: some seconds after the end of `input` the process exits, whatever it is at.
-///
-/// # Errors
-/// When the pipe to the parent breaks.
-pub fn serve(
-    open: impl FnOnce() -> Result<Box<dyn Backend>, Unavailable>,
-    input: impl Read + Send + 'static,
-    output: &mut impl Write,
-) -> io::Result<()> {
-    let backend = match open() {
-        Ok(backend) => backend,
-        Err(unavailable) => return send(output, &Response::Hello(Err(unavailable))),
-    };
-    let hello = Hello {
-        info: backend.adapter().clone(),
-        limits: backend.limits().clone(),
-    };
-    send(output, &Response::Hello(Ok(Box::new(hello))))?;
-    let mut slots: HashMap<u32, Box<dyn Prepared + '_>> = HashMap::new();
-    let (sender, requests) = channel();
-    thread::spawn(move || read(input, sender));
-    while let Ok(request) = requests.recv() {
-        let request: Request = request?;
-        let slot = request.slot();
-        let start = Instant::now();
-        // A panic is the suite's own bug and no crash of the driver. The parent starts another
-        // worker behind it, so that nothing half done is used again.
-        let outcome = catch_unwind(AssertUnwindSafe(|| {
-            answer(backend.as_ref(), &mut slots, request)
-        }))
-        .unwrap_or_else(|panic| Err(BackendError::Internal(words(panic.as_ref()))));
-        let response = Response::Done {
-            slot,
-            outcome,
-            elapsed: start.elapsed(),
-            messages: backend.messages(),
-        };
-        send(output, &response)?;
-    }
-    Ok(())
+/// A running worker whose adapter is open.
+pub struct Worker {
+    /// The adapter as the worker describes it.
+    pub hello: Hello,
+    pub(crate) process: WorkerProcess,
 }
 
-/// Hands requests on until there are no more, and sees to it that the process ends then.
-fn read(mut input: impl Read, requests: Sender<io::Result<Request>>) {
-    loop {
-        let message = receive::<Request>(&mut input).transpose();
-        let Some(message) = message else { break };
-        let failed = message.is_err();
-        if requests.send(message).is_err() || failed {
-            break;
+impl Worker {
+    /// Starts a worker and waits until its adapter is open.
+    ///
+    /// # Errors
+    /// When the program cannot be started, says that its adapter is unavailable, or does not answer.
+    pub fn start(launch: &Launch) -> Result<Self, StartError> {
+        let mut process = WorkerProcess::spawn(launch)?;
+        match process.response(START_TIMEOUT) {
+            Ok(Response::Hello(Ok(hello))) => Ok(Self {
+                hello: *hello,
+                process,
+            }),
+            Ok(Response::Hello(Err(unavailable))) => Err(StartError::Unavailable(unavailable)),
+            Ok(Response::Done { .. }) => Err(StartError::Broken(
+                "the worker's first message is not a greeting".to_owned(),
+            )),
+            Err(loss) => Err(StartError::Broken(format!(
+                "the driver did not start: {}",
+                process.exit_report(loss).message
+            ))),
         }
     }
-    drop(requests);
-    thread::sleep(GRACE);
-    std::process::exit(0);
-}
 
-/// What a panic said.
-fn words(panic: &(dyn Any + Send)) -> String {
-    let text = panic
-        .downcast_ref::<&str>()
-        .copied()
-        .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
-        .unwrap_or("no message");
-    format!("the backend panicked: {text}")
-}
-
-fn answer<'b>(
-    backend: &'b dyn Backend,
-    slots: &mut HashMap<u32, Box<dyn Prepared + 'b>>,
-    request: Request,
-) -> Result<Payload, BackendError> {
-    let missing = || BackendError::Internal("the scene is not prepared".to_owned());
-    match request {
-        Request::Prepare { slot, scene } => {
-            slots.insert(slot, backend.prepare(&scene)?);
-            Ok(Payload::Prepared)
-        }
-        Request::Submit { slot, times } => {
-            let prepared = slots.get_mut(&slot).ok_or_else(missing)?;
-            (0..times)
-                .map(|_| prepared.submit())
-                .collect::<Result<_, _>>()
-                .map(Payload::Submitted)
-        }
-        Request::ReadBack { slot } => {
-            let prepared = slots.get_mut(&slot).ok_or_else(missing)?;
-            prepared.read_back().map(Box::new).map(Payload::Frame)
-        }
-        Request::Drop { slot } => {
-            slots.remove(&slot);
-            Ok(Payload::Dropped)
-        }
+    /// Draws the scenes of a case and reads each back.
+    ///
+    /// # Errors
+    /// The backend's error, or how the worker was lost.
+    pub fn draw(&mut self, case: &Case) -> Result<Vec<Frame>, DrawError> {
+        let drawing = self.process.draw_case(0, case, Wait::of(DRAW_TIMEOUT));
+        drawing.frames.map_err(|failure| match failure {
+            Failure::Backend(error) => DrawError::Backend(error),
+            Failure::Lost(loss) => DrawError::Lost(self.process.exit_report(loss).message),
+        })
     }
+}
+
+/// Why a case could not be drawn.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum DrawError {
+    /// The backend's error.
+    #[error(transparent)]
+    Backend(BackendError),
+    /// The worker died, hung or broke the protocol.
+    #[error("{0}")]
+    Lost(String),
 }

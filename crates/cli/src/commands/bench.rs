@@ -6,7 +6,7 @@ use crate::commands::run::{expectations, machine, progress};
 use crate::commands::{chosen, refuse_absent};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::output::{print, print_json, table_options};
-use etalon_record::{BENCH_FORMAT, Bench, BenchHeader, ShaderCache};
+use etalon_record::{BENCH_FORMAT, Bench, BenchHeader, ReportFiles, ShaderCache};
 use etalon_runner::{BenchError, BenchEvent, BenchPlan};
 use serde_json::json;
 use std::collections::BTreeSet;
@@ -72,6 +72,10 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
         budget: Duration::from_secs_f64(arguments.seconds),
         expectations: &expectations,
         folder: &arguments.out,
+        reports: ReportFiles {
+            files: &etalon_report::BENCH_FILES,
+            folders: &[],
+        },
         header,
     };
     let outcome = etalon_runner::bench(plan, &mut |event| match event {

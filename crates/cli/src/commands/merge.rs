@@ -1,6 +1,7 @@
 //! `etalon merge`.
 
 use crate::args::{Format, MergeArguments};
+use crate::commands::run::RUN_REPORTS;
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::output::{print, print_json, table_options};
 use etalon_record::{FolderKind, FolderLock, MISSING_FILE, Merge, Merged, RecordError, Run};
@@ -30,7 +31,7 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<u8, Failure> {
     if FolderKind::of(out) == Some(FolderKind::Run) && !arguments.force {
         return Err(Failure::usage(occupied(out)));
     }
-    let merged = merge.write(out).map_err(Failure::incomplete)?;
+    let merged = merge.write(out, RUN_REPORTS).map_err(Failure::incomplete)?;
     let written = etalon_report::write(out).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});

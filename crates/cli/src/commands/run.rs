@@ -11,10 +11,10 @@ use etalon_case::Case;
 use etalon_frame::{Api, Limits};
 use etalon_record::{
     AbsentAdapter, AdapterRecord, Expectations, FolderKind, FolderLock, Header, Machine,
-    RecordError, Run, Settings, ShaderCache, Shard, selection_digest, shard_of,
+    RecordError, ReportFiles, Run, Settings, ShaderCache, Shard, selection_digest, shard_of,
 };
 use etalon_report::quoted;
-use etalon_runner::{Event, Options, Outcome, Plan, RunError};
+use etalon_runner::{Event, Options, Plan, RunError, RunSummary};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,6 +23,11 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, SystemTime};
 
+/// The reports that a run replaces with the run.
+pub(crate) const RUN_REPORTS: ReportFiles = ReportFiles {
+    files: &etalon_report::RUN_FILES,
+    folders: &etalon_report::RUN_FOLDERS,
+};
 /// The folder that each run without `--out` replaces.
 const LATEST: &str = "reports/latest";
 
@@ -93,6 +98,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
         },
         expectations: &expectations,
         folder: &arguments.out,
+        reports: RUN_REPORTS,
         header,
         resume,
         stop,
@@ -141,10 +147,10 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
         return Ok(0);
     }
     Ok(match outcome {
-        Outcome {
+        RunSummary {
             unexpected: 1.., ..
         } => UNEXPECTED,
-        Outcome {
+        RunSummary {
             improvements: 1.., ..
         } => IMPROVED,
         _ => 0,
@@ -326,7 +332,7 @@ pub(crate) fn expectations(file: Option<&Path>) -> Result<Expectations, Failure>
     .map_err(Failure::usage)
 }
 
-fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<Outcome, RunError> {
+fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<RunSummary, RunError> {
     let before = if plan.resume {
         Run::read(plan.folder).map_or(0, |run| run.records.len() as u64)
     } else {

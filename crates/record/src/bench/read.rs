@@ -1,13 +1,14 @@
 //! Reading a bench folder.
 
-use super::{BENCH_FILE, BENCH_FORMAT, BenchHeader, BenchLine, BenchRecord, Ended, Picture, Round};
+use super::header::{BENCH_FORMAT, BenchHeader};
+use super::line::{BenchLine, Ended, Picture, Round};
+use super::record::BenchRecord;
 use crate::error::RecordError;
-use crate::expectations::without_position;
-use serde::Deserialize;
-use serde_json::error::Category;
+use crate::folder::BENCH_FILE;
+use crate::json_lines::JsonLines;
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::{BufRead, BufReader, ErrorKind};
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// A recorded bench.
@@ -17,16 +18,12 @@ pub struct Bench {
     pub header: BenchHeader,
     /// Per case and adapter, in the order in which their pictures were judged.
     pub records: Vec<BenchRecord>,
-    /// Whether the last line was cut off, as a killed bench leaves it; the line is dropped.
+    /// True if the last line was cut off, as a killed bench leaves it; the line is dropped.
     pub truncated: bool,
 }
 
+/// The remedy for a damaged line.
 const REMEDY: &str = "remove the line, or record the bench again";
-
-#[derive(Deserialize)]
-struct Format {
-    format: u32,
-}
 
 impl Bench {
     /// Reads `bench.jsonl` in a bench folder. A last line that is not whole JSON is dropped and
@@ -44,62 +41,34 @@ impl Bench {
             },
             _ => RecordError::io("read", &path)(e),
         })?;
-        let mut lines = BufReader::new(file);
-        let mut line = Vec::new();
-        let mut next = |line: &mut Vec<u8>| {
-            line.clear();
-            lines
-                .read_until(b'\n', line)
-                .map_err(RecordError::io("read", &path))
-        };
-        let at = |number: usize, message: String| RecordError::Parse {
-            path: path.clone(),
-            line: number,
-            message,
+        let lines = JsonLines {
+            path: &path,
+            format: BENCH_FORMAT,
+            max_header: u64::MAX,
+            max_line: u64::MAX,
             remedy: REMEDY,
         };
-
-        next(&mut line)?;
-        let mut assembly = Assembly {
-            header: header(&line, &path)?,
+        let begin = |header| Assembly {
+            header,
             records: Vec::new(),
             places: HashMap::new(),
         };
-        let mut number = 2;
-        // A damaged line is an error as soon as another line follows it.
-        let mut damaged: Option<RecordError> = None;
-        while next(&mut line)? > 0 {
-            if let Some(error) = damaged {
-                return Err(error);
-            }
-            match serde_json::from_slice::<BenchLine>(&line) {
-                Ok(line) => assembly.take(line).map_err(|why| at(number, why))?,
-                Err(e) => {
-                    let error = at(number, without_position(&e));
-                    // Whole JSON of the wrong shape was not cut off: another hand wrote it.
-                    if e.classify() == Category::Data {
-                        return Err(error);
-                    }
-                    damaged = Some(error);
-                }
-            }
-            number += 1;
-        }
+        let (assembly, extent) = lines.read(file, begin, Assembly::take)?;
         Ok(Self {
             header: assembly.header,
             records: assembly.records,
-            truncated: damaged.is_some(),
+            truncated: extent.truncated,
         })
     }
 
-    /// What the bench tells of a case on an adapter.
+    /// The record of a case on an adapter.
     pub fn record(&self, case: &str, adapter: &str) -> Option<&BenchRecord> {
         let mut all = self.records.iter();
         all.find(|r| r.picture.case == case && r.picture.adapter == adapter)
     }
 
-    /// How many rounds are missing from a complete bench; a case whose picture may not be timed, or
-    /// whose rounds ended with a reason, lacks none.
+    /// The number of rounds that a complete bench has and this one lacks. A case whose picture may not be
+    /// timed, or whose rounds ended with a reason, lacks none.
     pub fn missing(&self) -> u64 {
         let rounds = u64::from(self.header.rounds);
         let pairs = self
@@ -120,26 +89,7 @@ impl Bench {
     }
 }
 
-fn header(line: &[u8], path: &Path) -> Result<BenchHeader, RecordError> {
-    let wrong = |e: serde_json::Error| RecordError::Parse {
-        path: path.to_owned(),
-        line: 1,
-        message: without_position(&e),
-        remedy: REMEDY,
-    };
-    // The format goes first, since another one may have other fields.
-    let format: Format = serde_json::from_slice(line).map_err(wrong)?;
-    if format.format != BENCH_FORMAT {
-        return Err(RecordError::Format {
-            path: path.to_owned(),
-            found: format.format,
-            expected: BENCH_FORMAT,
-        });
-    }
-    serde_json::from_slice(line).map_err(wrong)
-}
-
-/// A bench as far as it was read.
+/// The part of a bench read so far.
 struct Assembly {
     header: BenchHeader,
     records: Vec<BenchRecord>,
@@ -148,7 +98,7 @@ struct Assembly {
 }
 
 impl Assembly {
-    /// Takes one line, or says why it cannot follow those before it.
+    /// Adds a line, or returns why it cannot follow those before it.
     fn take(&mut self, line: BenchLine) -> Result<(), String> {
         match line {
             BenchLine::Picture(picture) => self.picture(picture),
@@ -200,7 +150,7 @@ impl Assembly {
     }
 
     fn round(&mut self, round: Round) -> Result<(), String> {
-        possible(&round)?;
+        check(&round)?;
         let record = self.open(&round.case, &round.adapter)?;
         let due = record.rounds.len();
         if round.round as usize != due {
@@ -217,8 +167,8 @@ impl Assembly {
     }
 }
 
-/// Whether a round can be one.
-fn possible(round: &Round) -> Result<(), String> {
+/// Checks that the numbers of a round are possible.
+fn check(round: &Round) -> Result<(), String> {
     let frames = round.wall.len();
     if frames == 0 {
         return Err("a round without a sample".to_owned());

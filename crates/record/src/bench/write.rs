@@ -1,16 +1,16 @@
 //! Writing a bench folder.
 
-use super::{BENCH_FILE, BenchHeader, BenchLine, FolderKind};
+use super::header::BenchHeader;
+use super::line::BenchLine;
 use crate::error::RecordError;
-use crate::writer::{gone, json_line};
+use crate::folder::{BENCH_FILE, FolderKind};
+use crate::json::json_line;
+use crate::report_files::ReportFiles;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// What reports put beside a bench.
-const REPORTS: [&str; 3] = ["index.html", "bencher.json", "benchmark-action.json"];
-
-/// Writes a bench folder, line by line. What was appended survives the writer's death.
+/// Writes a bench folder, line by line. Appended lines survive the end of the process.
 #[derive(Debug)]
 pub struct BenchWriter {
     path: PathBuf,
@@ -19,11 +19,23 @@ pub struct BenchWriter {
 
 impl BenchWriter {
     /// Begins a bench in a folder, which is made when it does not exist. A bench that the folder
-    /// already holds is replaced, with its reports.
+    /// already holds is replaced, and its reports stay.
     ///
     /// # Errors
     /// When the folder cannot be written to, or holds a run, whose report would be overwritten.
     pub fn create(folder: &Path, header: &BenchHeader) -> Result<Self, RecordError> {
+        Self::replace(folder, header, ReportFiles::NONE)
+    }
+
+    /// [`BenchWriter::create`], which also removes the reports of the bench before.
+    ///
+    /// # Errors
+    /// When the folder cannot be written to, or holds a run, whose report would be overwritten.
+    pub fn replace(
+        folder: &Path,
+        header: &BenchHeader,
+        reports: ReportFiles,
+    ) -> Result<Self, RecordError> {
         let path = folder.join(BENCH_FILE);
         match FolderKind::of(folder) {
             Some(FolderKind::Run) => {
@@ -31,11 +43,7 @@ impl BenchWriter {
                     path: folder.to_owned(),
                 });
             }
-            Some(FolderKind::Bench) => {
-                for name in REPORTS {
-                    gone(fs::remove_file(folder.join(name)), folder, name)?;
-                }
-            }
+            Some(FolderKind::Bench) => reports.remove(folder)?,
             None => {}
         }
         fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;

@@ -1,9 +1,9 @@
-//! Ways to spoil a text, shared by the tests of all that reads files.
+//! Ways to spoil a text, for the tests of every reader of files.
 
 use proptest::prelude::*;
 use proptest::sample::Index;
 
-/// What is put where something else was.
+/// Replacements of a token.
 const WORDS: [&str; 40] = [
     "",
     "0",
@@ -50,23 +50,23 @@ const WORDS: [&str; 40] = [
 /// One change of a text.
 #[derive(Clone, Debug)]
 enum Change {
-    /// The number, word or string at a place becomes another.
+    /// A number, word or string is replaced.
     Token(Index, Index),
     /// A word is put in.
     Insert(Index, Index),
-    /// A byte becomes another.
+    /// A byte is replaced.
     Byte(Index, u8),
-    /// A piece goes.
+    /// A piece is removed.
     Cut(Index, Index),
-    /// A piece comes twice, somewhere.
+    /// A piece is copied to another place.
     Copy(Index, Index, Index),
-    /// Something is wrapped into many brackets.
+    /// Many nested brackets are put in.
     Nest(Index, u16),
-    /// The rest goes.
+    /// The rest is removed.
     Truncate(Index),
 }
 
-/// Some changes, one after the other; or a text that never was anything.
+/// Some changes, one after the other; or noise.
 #[derive(Clone, Debug)]
 pub(crate) struct Spoiling {
     changes: Vec<Change>,
@@ -90,7 +90,7 @@ pub(crate) fn spoilings() -> impl Strategy<Value = Spoiling> {
         .prop_map(|(changes, noise)| Spoiling { changes, noise })
 }
 
-/// Where tokens begin and end: numbers, words, strings.
+/// The ranges of tokens: numbers, words, strings.
 fn tokens(text: &[u8]) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
     let mut at = 0;

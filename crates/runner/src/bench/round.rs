@@ -1,10 +1,10 @@
 //! One round of frame times of one case on one worker.
 
-use crate::link::Link;
-use crate::loss::Loss;
-use crate::process::DRAW_TIMEOUT;
-use crate::protocol::{Payload, Request, Response};
-use etalon_backend::{BackendError, FrameTime};
+use crate::drawing::{DRAW_TIMEOUT, wrong_answer};
+use crate::loss::Failure;
+use crate::process::WorkerProcess;
+use crate::protocol::{Payload, Request};
+use etalon_backend::FrameTime;
 use etalon_frame::Frame;
 use etalon_scene::Scene;
 use std::hash::{DefaultHasher, Hasher};
@@ -12,9 +12,9 @@ use std::time::{Duration, Instant};
 
 /// The slot in which a round's scene is prepared: one at a time, so that big frames do not add up.
 const SLOT: u32 = 0;
-/// Frames in each of the two stretches that are compared to tell whether a driver has warmed up.
+/// Frames in each of the two stretches that are compared to detect that a driver has warmed up.
 const STRETCH: usize = 5;
-/// How far the medians of the two stretches may lie apart.
+/// The largest relative difference of the medians of the two stretches after the warm-up.
 const STEADY: f64 = 0.05;
 /// The most frames of a warm-up.
 const MOST_WARM_UP: usize = 60;
@@ -23,55 +23,50 @@ const FRAMES: [u32; 2] = [3, 25];
 /// The most times that a frame is read back in a round.
 const MOST_READ_BACKS: usize = 3;
 
-/// What a round came to.
-pub(crate) struct Measured {
+/// The measurements of one round.
+pub(crate) struct RoundTimes {
     pub(crate) prepare: f64,
     pub(crate) first: f64,
     pub(crate) warm_up: u32,
     pub(crate) frames: Vec<FrameTime>,
     pub(crate) read_back: Vec<f64>,
-    /// What tells the picture after the round from others.
+    /// The fingerprint of the picture after the round.
     pub(crate) picture: u64,
 }
 
-/// Why there is no round.
-pub(crate) enum Stopped {
-    /// The backend's word.
-    Backend(BackendError),
-    /// The worker is gone.
-    Lost(Loss),
-}
-
-impl From<Loss> for Stopped {
-    fn from(loss: Loss) -> Self {
-        Self::Lost(loss)
-    }
-}
-
-impl Link {
-    /// Prepares a scene, warms up, times frames for about so long, and reads back.
+impl WorkerProcess {
+    /// Prepares a scene, warms up, times frames for about `budget`, and reads back.
     ///
     /// Warm-up ends when the median of the last five frames lies within 5 % of that of the five before,
     /// after 60 frames, or when it has taken as long as the timed frames may. Drivers compile at the
     /// first frame and some once more at the second, so two frames are never timed.
-    pub(crate) fn round(&mut self, scene: &Scene, budget: Duration) -> Result<Measured, Stopped> {
-        let (_, prepare) = self.ask(&Request::Prepare {
+    pub(crate) fn round(&mut self, scene: &Scene, budget: Duration) -> Result<RoundTimes, Failure> {
+        let request = Request::Prepare {
             slot: SLOT,
             scene: Box::new(scene.clone()),
-        })?;
+        };
+        let (_, prepare) = self.ask(&request, DRAW_TIMEOUT)?;
         let outcome = self.prepared_round(prepare, budget);
-        if !matches!(outcome, Err(Stopped::Lost(_))) {
-            self.ask(&Request::Drop { slot: SLOT })?;
+        if !matches!(outcome, Err(Failure::Lost(_))) {
+            self.ask(&Request::Drop { slot: SLOT }, DRAW_TIMEOUT)?;
         }
         outcome
     }
 
-    fn prepared_round(&mut self, prepare: Duration, budget: Duration) -> Result<Measured, Stopped> {
+    fn prepared_round(
+        &mut self,
+        prepare: Duration,
+        budget: Duration,
+    ) -> Result<RoundTimes, Failure> {
         let warming = Instant::now();
         let mut warm: Vec<Duration> = Vec::new();
         while warm.len() < MOST_WARM_UP && !steady(&warm) {
             let number = if warm.len() < 2 { 1 } else { 2 };
-            warm.extend(self.draw_frames(number)?.iter().map(|t| t.wall));
+            warm.extend(
+                self.submit(SLOT, number, DRAW_TIMEOUT)?
+                    .iter()
+                    .map(|t| t.wall),
+            );
             if warm.len() >= 2 && warming.elapsed() > budget {
                 break;
             }
@@ -79,21 +74,21 @@ impl Link {
         let recent = median(warm.get(warm.len().saturating_sub(3)..).unwrap_or_default());
         let [fewest, most] = FRAMES;
         let fit = (budget.as_secs_f64() / seconds(recent)) as u32;
-        let frames = self.draw_frames(fit.clamp(fewest, most))?;
+        let frames = self.submit(SLOT, fit.clamp(fewest, most), DRAW_TIMEOUT)?;
         let mut read_back = Vec::new();
         let mut picture = 0;
         let reading = Instant::now();
         while read_back.is_empty()
             || (read_back.len() < MOST_READ_BACKS && reading.elapsed() < budget / 4)
         {
-            let (payload, took) = self.ask(&Request::ReadBack { slot: SLOT })?;
+            let (payload, took) = self.ask(&Request::ReadBack { slot: SLOT }, DRAW_TIMEOUT)?;
             let Payload::Frame(frame) = payload else {
-                return Err(unasked());
+                return Err(wrong_answer().into());
             };
             read_back.push(seconds(took));
             picture = fingerprint(&frame);
         }
-        Ok(Measured {
+        Ok(RoundTimes {
             prepare: seconds(prepare),
             first: warm.first().copied().map_or(0.0, seconds),
             warm_up: warm.len() as u32,
@@ -102,34 +97,9 @@ impl Link {
             picture,
         })
     }
-
-    fn draw_frames(&mut self, times: u32) -> Result<Vec<FrameTime>, Stopped> {
-        match self.ask(&Request::Submit { slot: SLOT, times })? {
-            (Payload::Submitted(all), _) if all.len() == times as usize => Ok(all),
-            _ => Err(unasked()),
-        }
-    }
-
-    /// The answer to a request, and how long the worker took over it, without the pipe.
-    fn ask(&mut self, request: &Request) -> Result<(Payload, Duration), Stopped> {
-        self.request(request);
-        match self.response(DRAW_TIMEOUT)? {
-            Response::Done {
-                outcome, elapsed, ..
-            } => match outcome {
-                Ok(payload) => Ok((payload, elapsed)),
-                Err(error) => Err(Stopped::Backend(error)),
-            },
-            Response::Hello(_) => Err(Loss::Garbage("a second greeting".to_owned()).into()),
-        }
-    }
 }
 
-fn unasked() -> Stopped {
-    Loss::Garbage("an answer to another request".to_owned()).into()
-}
-
-/// A duration in seconds. One that no clock could see counts as its finest step.
+/// A duration in seconds, at least the nanosecond that is a clock's finest step.
 pub(crate) fn seconds(time: Duration) -> f64 {
     time.as_secs_f64().max(1e-9)
 }
@@ -140,7 +110,7 @@ fn median(times: &[Duration]) -> Duration {
     sorted.get(sorted.len() / 2).copied().unwrap_or_default()
 }
 
-/// Whether the last frames take as long as those before them.
+/// True if the last frames take as long as those before them.
 fn steady(warm: &[Duration]) -> bool {
     let Some(from) = warm.len().checked_sub(2 * STRETCH) else {
         return false;
@@ -150,8 +120,7 @@ fn steady(warm: &[Duration]) -> bool {
     (last - before).abs() <= STEADY * before
 }
 
-/// What tells a frame's images from others, without keeping them: frames of a whole bench would not fit
-/// into memory.
+/// A hash of a frame's images. The frames of a whole bench would not fit into memory.
 pub(crate) fn fingerprint(frame: &Frame) -> u64 {
     let mut hasher = DefaultHasher::new();
     for image in &frame.images {

@@ -1,30 +1,22 @@
-//! Workers that die, lie or give up: every case gets exactly one record, and the right one.
-//!
-//! A worker is this test's own executable: the ignored test `worker` serves a backend that fails as
-//! its environment says. libtest prints to standard output, so the protocol goes to descriptor 3.
-#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+//! Runs of workers that crash, write garbage or report errors: every case gets exactly one record, and the
+//! right one.
 
+use crate::cases::cases;
+use crate::worker::{FAULT, fail_starts, protocol, serve, starts};
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared, Unavailable};
-use etalon_case::{Case, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Feature, Frame, Limits, Requirement};
-use etalon_record::{Expectations, FORMAT, Header, Machine, Record, Run, Verdict};
-use etalon_runner::{Event, Launch, Options, Outcome, Plan, StartError, Worker};
+use etalon_record::{Expectations, FORMAT, Header, Machine, Record, ReportFiles, Run, Verdict};
+use etalon_runner::{Event, Launch, Options, Plan, RunSummary, StartError, Worker};
 use etalon_scene::Scene;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufReader, Write};
-use std::path::Path;
+use std::io::Write;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// What goes wrong: `<what>@<step>`, or a word for [`worker`] itself.
-const FAULT: &str = "ETALON_TEST_FAULT";
-/// A file that gets one line per start; numbers after it are starts that fail.
-const STARTS: &str = "ETALON_TEST_STARTS";
 /// The height of the scene that goes wrong.
 const MARKED: u32 = 3;
-const CASES: usize = 9;
+const CASES: u32 = 9;
 
 struct Faulty {
     inner: CpuBackend,
@@ -36,14 +28,7 @@ struct FaultyScene<'a> {
     fault: Option<&'a str>,
 }
 
-fn protocol() -> File {
-    OpenOptions::new()
-        .write(true)
-        .open("/proc/self/fd/3")
-        .unwrap()
-}
-
-/// Does what the fault says, if it belongs to this step.
+/// Fails if the fault, `<what>@<step>`, belongs to this step.
 fn stumble(fault: Option<&str>, step: &str) -> Result<(), BackendError> {
     let Some((what, at)) = fault.and_then(|f| f.split_once('@')) else {
         return Ok(());
@@ -126,19 +111,6 @@ fn worker() {
     let Ok(fault) = std::env::var(FAULT) else {
         return;
     };
-    if let Ok(starts) = std::env::var(STARTS) {
-        let (path, failing) = starts.split_once(' ').unwrap();
-        let mut file = OpenOptions::new()
-            .create(true)
-            .append(true)
-            .open(path)
-            .unwrap();
-        file.write_all(b"started\n").unwrap();
-        let number = fs::read_to_string(path).unwrap().lines().count();
-        if failing.split(' ').any(|f| f.parse() == Ok(number)) {
-            std::process::exit(9);
-        }
-    }
     let open = || match fault.as_str() {
         "unavailable" => Err(Unavailable::new("the moon is full", "wait")),
         "panic" => panic!("planted panic"),
@@ -147,23 +119,11 @@ fn worker() {
             fault,
         }) as Box<dyn Backend>),
     };
-    let input = BufReader::new(io::stdin());
-    etalon_runner::serve(open, input, &mut protocol()).unwrap();
+    serve(open);
 }
 
 fn launch(fault: &str) -> Launch {
-    let program = std::env::current_exe().unwrap();
-    let script = r#"exec "$0" worker --exact --ignored --nocapture 3>&1 1>&2"#;
-    Launch {
-        adapter: "faulty".to_owned(),
-        program: "/bin/sh".into(),
-        arguments: vec![
-            "-c".to_owned(),
-            script.to_owned(),
-            program.to_str().unwrap().to_owned(),
-        ],
-        environment: vec![(FAULT.to_owned(), Some(fault.to_owned()))],
-    }
+    crate::worker::launch("faults::worker", "faulty", fault)
 }
 
 fn script(text: &str) -> Launch {
@@ -229,33 +189,10 @@ fn an_adapter_that_is_not_there_says_why() {
     }
 }
 
-/// Cases whose heights count up from 1.
-fn cases(folder: &Path) -> Vec<Case> {
-    let heights: Vec<String> = (1..=CASES).map(|n| n.to_string()).collect();
-    let text = r#"{
-        "about": "An attachment is filled.", "spec": ["none"], "axes": { "height": [HEIGHTS] },
-        "scene": {
-            "attachments": { "color": { "format": "rgba8unorm", "size": [4, "$height"] } },
-            "passes": [{ "color": ["color"], "draws": [
-                { "mesh": { "kind": "full" }, "shader": "uniform_color", "params": { "color": [1, 0, 0, 1] } }
-            ] }],
-            "read": ["color"]
-        }
-    }"#
-    .replace("HEIGHTS", &heights.join(","));
-    fs::create_dir_all(folder.join("cases")).unwrap();
-    fs::write(folder.join("cases/fill.json"), text).unwrap();
-    let library = Library::from_folder(&folder.join("cases")).unwrap();
-    library
-        .cases(Profile::Full)
-        .map(|c| c.build().unwrap())
-        .collect()
-}
-
-/// Runs all cases on one worker; what was recorded, in order.
-fn run(launch: Launch) -> (Vec<Record>, Outcome) {
+/// Runs all cases on one worker. Returns the records, in order.
+fn run(launch: Launch) -> (Vec<Record>, RunSummary) {
     let folder = tempfile::tempdir().unwrap();
-    let cases = cases(folder.path());
+    let cases = cases(&folder.path().join("cases"), CASES);
     let worker = Worker::start(&launch).unwrap_or_else(|e| panic!("{e}"));
     let out = folder.path().join("out");
     let plan = Plan {
@@ -282,12 +219,13 @@ fn run(launch: Launch) -> (Vec<Record>, Outcome) {
         },
         expectations: &Expectations::default(),
         folder: &out,
+        reports: ReportFiles::NONE,
         selection: None,
         resume: false,
         stop: &AtomicBool::new(false),
     };
     let told = Mutex::new(Vec::new());
-    let outcome = etalon_runner::run(plan, &|event| {
+    let summary = etalon_runner::run(plan, &|event| {
         if let Event::Recorded(record) = event {
             told.lock().unwrap().push(*record);
         }
@@ -298,13 +236,13 @@ fn run(launch: Launch) -> (Vec<Record>, Outcome) {
     let ids: Vec<&str> = run.records.iter().map(|r| r.case.as_str()).collect();
     let due: Vec<&str> = cases.iter().map(|c| c.id.as_str()).collect();
     assert_eq!(ids, due, "one record per case");
-    (run.records, outcome.unwrap())
+    (run.records, summary.unwrap())
 }
 
-/// The marked case's record; all others passed.
+/// Runs all cases. Returns the marked case's record; all others pass.
 fn only_marked(launch: Launch, verdict: Verdict) -> Record {
     let fault = format!("{:?}", launch.environment);
-    let (records, outcome) = run(launch);
+    let (records, summary) = run(launch);
     for (i, record) in records.iter().enumerate() {
         let due = match i + 1 == MARKED as usize {
             true => verdict,
@@ -312,8 +250,8 @@ fn only_marked(launch: Launch, verdict: Verdict) -> Record {
         };
         assert_eq!(record.verdict, due, "{fault}: {record:?}");
     }
-    assert_eq!(outcome.records, CASES as u64);
-    assert_eq!(outcome.unexpected, u64::from(verdict.is_bad()), "{fault}");
+    assert_eq!(summary.records, u64::from(CASES));
+    assert_eq!(summary.unexpected, u64::from(verdict.is_bad()), "{fault}");
     records[MARKED as usize - 1].clone()
 }
 
@@ -374,11 +312,9 @@ fn answers_stay_with_their_cases_when_a_start_fails_once_or_twice() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("starts");
         let mut launch = launch("abort@submit");
-        let starts = format!("{} {failing}", file.display());
-        launch.environment.push((STARTS.to_owned(), Some(starts)));
+        fail_starts(&mut launch, &file, failing);
         only_marked(launch, Verdict::Crash);
-        let started = fs::read_to_string(file).unwrap().lines().count();
-        assert_eq!(started, 2 + failing.split(' ').count());
+        assert_eq!(starts(&file), 2 + failing.split(' ').count());
     }
 }
 
@@ -387,9 +323,8 @@ fn a_worker_that_never_comes_back_leaves_a_record_for_every_case() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("starts");
     let mut launch = launch("abort@submit");
-    let starts = format!("{} 2 3 4 5 6 7 8 9", file.display());
-    launch.environment.push((STARTS.to_owned(), Some(starts)));
-    let (records, outcome) = run(launch);
+    fail_starts(&mut launch, &file, "2 3 4 5 6 7 8 9");
+    let (records, summary) = run(launch);
     for (i, record) in records.iter().enumerate() {
         let number = i as u32 + 1;
         let due = if number < MARKED {
@@ -404,7 +339,6 @@ fn a_worker_that_never_comes_back_leaves_a_record_for_every_case() {
             assert!(record.message.contains("exit status: 9"), "{record:?}");
         }
     }
-    assert_eq!(outcome.unexpected, CASES as u64 + 1 - u64::from(MARKED));
-    let started = fs::read_to_string(file).unwrap().lines().count();
-    assert_eq!(started, 4, "three vain starts are enough");
+    assert_eq!(summary.unexpected, u64::from(CASES + 1 - MARKED));
+    assert_eq!(starts(&file), 4, "three failed starts are enough");
 }

@@ -1,5 +1,4 @@
-//! Run folders: what is written is read again, and damage is named or survived.
-#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+//! Run folders: written and read, cut off, resumed and replaced.
 
 use etalon_frame::{
     Accuracy, Api, Aspect, Band, ChannelEncoding, ChannelMismatch, CounterKind, CounterOutcome,
@@ -7,8 +6,8 @@ use etalon_frame::{
 };
 use etalon_record::{
     AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header, LossKind, MAX_LINE,
-    MAX_WRONG_TEXELS, Machine, Measured, Parameter, ProcessEnd, Record, RecordError, Run,
-    RunWriter, Seconds, Settings, Shard, Times, Verdict, read_cases, selection_digest,
+    MAX_WRONG_TEXELS, Machine, Measured, Parameter, ProcessEnd, Record, RecordError, ReportFiles,
+    Run, RunWriter, Seconds, Settings, Shard, Times, Verdict, read_cases, selection_digest,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -77,7 +76,7 @@ fn eighths(n: u64) -> f64 {
     (n % 4096) as f64 / 8.0
 }
 
-/// Something measured, with and without what may be missing.
+/// Measurements, with and without the optional ones.
 fn measured(f: &[u64; 7]) -> Measured {
     let even = |n: u64| n.is_multiple_of(2);
     Measured {
@@ -207,7 +206,7 @@ proptest! {
         let due = fs::read(&path).unwrap();
         let first = due.iter().position(|b| *b == b'\n').unwrap() + 1;
         let end = first + at.index(due.len() - first);
-        // Some file systems leave zeros behind what a power cut took.
+        // Some file systems leave zeros in place of what a power cut took.
         let mut cut = due[..end].to_vec();
         cut.extend(vec![0; zeros]);
         fs::write(&path, cut).unwrap();
@@ -359,6 +358,31 @@ fn a_new_run_replaces_the_old_one_and_nothing_else() {
     written(folder.path(), &[Verdict::Pass]);
     assert!(!frames.exists());
     assert!(folder.path().join("notes.txt").exists());
+}
+
+#[test]
+fn reports_go_with_the_run_that_they_are_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let reports = ReportFiles {
+        files: &["index.html", "never-written"],
+        folders: &["results"],
+    };
+    let put = || {
+        fs::create_dir_all(path("results")).unwrap();
+        for name in ["index.html", "results/a.csv", "notes.txt"] {
+            fs::write(path(name), "").unwrap();
+        }
+    };
+    put();
+    RunWriter::replace(folder.path(), &header(), reports).unwrap();
+    assert!(path("index.html").exists(), "no run was there before");
+    RunWriter::replace(folder.path(), &header(), reports).unwrap();
+    assert!(!path("index.html").exists() && !path("results").exists());
+    assert!(path("notes.txt").exists());
+    put();
+    RunWriter::create(folder.path(), &header()).unwrap();
+    assert!(path("index.html").exists(), "nobody named it");
 }
 
 #[test]

@@ -1,29 +1,19 @@
-//! Benches of workers that are right, wrong, mortal or fickle. No time is asserted, only what is told
-//! of whom and in which order.
-//!
-//! A worker is this test's own executable: the ignored test `worker` serves the rasterizer under a name,
-//! with a fault. libtest prints to standard output, so the protocol goes to descriptor 3.
-#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+//! Benches of workers that draw wrongly, crash or change their picture. No time is asserted, only the events
+//! and their order.
 
+use crate::cases::cases;
+use crate::worker::{FAULT, NAME, fail_starts, launch, serve, starts};
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
-use etalon_case::{Case, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Frame, Limits};
 use etalon_record::{
-    BENCH_FORMAT, Bench, BenchHeader, Expectations, Machine, ShaderCache, Verdict,
+    BENCH_FORMAT, Bench, BenchHeader, Expectations, Machine, ReportFiles, ShaderCache, Verdict,
 };
-use etalon_runner::{BenchEvent, BenchOutcome, BenchPlan, Launch, Worker};
+use etalon_runner::{BenchEvent, BenchPlan, BenchSummary, Launch, Worker};
 use etalon_scene::Scene;
-use std::fs::{self, File, OpenOptions};
-use std::io::BufReader;
-use std::path::Path;
 use std::time::Duration;
 use tempfile::TempDir;
 
-/// The adapter's name.
-const NAME: &str = "ETALON_TEST_NAME";
-/// What goes wrong.
-const FAULT: &str = "ETALON_TEST_FAULT";
 /// The height of the scene that goes wrong.
 const MARKED: u32 = 2;
 const CASES: u32 = 3;
@@ -85,58 +75,23 @@ fn worker() {
     let (Ok(name), Ok(fault)) = (std::env::var(NAME), std::env::var(FAULT)) else {
         return;
     };
-    let protocol = OpenOptions::new().write(true).open("/proc/self/fd/3");
-    let mut protocol: File = protocol.unwrap();
     let inner = CpuBackend::new(&name);
-    let open = || Ok(Box::new(Faulty { inner, fault }) as Box<dyn Backend>);
-    let input = BufReader::new(std::io::stdin());
-    etalon_runner::serve(open, input, &mut protocol).unwrap();
+    serve(|| Ok(Box::new(Faulty { inner, fault }) as Box<dyn Backend>));
 }
 
 fn adapter(name: &str, fault: &str) -> (Launch, Worker) {
-    let program = std::env::current_exe().unwrap();
-    let script = r#"exec "$0" worker --exact --ignored --nocapture 3>&1 1>&2"#;
-    let launch = Launch {
-        adapter: name.to_owned(),
-        program: "/bin/sh".into(),
-        arguments: vec![
-            "-c".to_owned(),
-            script.to_owned(),
-            program.to_str().unwrap().to_owned(),
-        ],
-        environment: [(NAME, name), (FAULT, fault)]
-            .map(|(key, value)| (key.to_owned(), Some(value.to_owned())))
-            .to_vec(),
-    };
+    started(launch("bench::worker", name, fault))
+}
+
+fn started(launch: Launch) -> (Launch, Worker) {
     let worker = Worker::start(&launch).unwrap_or_else(|e| panic!("{e}"));
     (launch, worker)
 }
 
-/// Cases whose heights count up from 1.
-fn cases(folder: &Path) -> Vec<Case> {
-    let text = r#"{
-        "about": "An attachment is filled.", "spec": ["none"],
-        "axes": { "height": { "from": 1, "count": 3 } },
-        "scene": {
-            "attachments": { "color": { "format": "rgba8unorm", "size": [4, "$height"] } },
-            "passes": [{ "color": ["color"], "draws": [
-                { "mesh": { "kind": "full" }, "shader": "uniform_color", "params": { "color": [1, 0, 0, 1] } }
-            ] }],
-            "read": ["color"]
-        }
-    }"#;
-    fs::write(folder.join("fill.json"), text).unwrap();
-    let library = Library::from_folder(folder).unwrap();
-    let built = library.cases(Profile::Full).map(|c| c.build().unwrap());
-    built.collect()
-}
-
-/// Benches all cases; the bench as it was read back, and what was told as `what adapter case` in order.
-fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchOutcome, Vec<String>) {
+/// Benches all cases. Returns the bench as it was read back, and the events as `what adapter case` in order.
+fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchSummary, Vec<String>) {
     let folder: TempDir = tempfile::tempdir().unwrap();
-    fs::create_dir(folder.path().join("cases")).unwrap();
-    let cases = cases(&folder.path().join("cases"));
-    assert_eq!(cases.len() as u32, CASES);
+    let cases = cases(&folder.path().join("cases"), CASES);
     let out = folder.path().join("out");
     let header = BenchHeader {
         format: BENCH_FORMAT,
@@ -159,6 +114,7 @@ fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchOutcome, Vec<String>) 
         budget: Duration::from_millis(2),
         expectations: &Expectations::default(),
         folder: &out,
+        reports: ReportFiles::NONE,
         header,
     };
     let mut told = Vec::new();
@@ -195,7 +151,7 @@ fn adapters_take_turns_case_after_case_and_round_after_round() {
     }
     assert_eq!(told, due);
     let nine = u64::from(CASES) * 3;
-    let all_fine = BenchOutcome {
+    let all_fine = BenchSummary {
         pictures: nine,
         timed: nine,
         unexpected: 0,
@@ -224,9 +180,9 @@ fn adapters_take_turns_case_after_case_and_round_after_round() {
     assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{times:?}");
 }
 
-/// The bench of a faulty adapter beside a good one: the record of the marked case. All others are
+/// Benches a faulty adapter beside a good one. Returns the record of the marked case; all others are
 /// complete.
-fn marked(fault: &str) -> (etalon_record::BenchRecord, BenchOutcome) {
+fn marked(fault: &str) -> (etalon_record::BenchRecord, BenchSummary) {
     let (bench, outcome, _) = bench(vec![adapter("faulty", fault), adapter("good", "")]);
     let mut found = None;
     for record in bench.records {
@@ -277,6 +233,35 @@ fn a_worker_that_dies_while_it_is_timed_costs_one_case() {
 }
 
 #[test]
+fn a_worker_that_never_comes_back_costs_its_adapter_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("starts");
+    let mut launch = launch("bench::worker", "faulty", "dies at once");
+    fail_starts(&mut launch, &file, "2 3 4 5 6 7 8 9");
+    let (bench, outcome, _) = bench(vec![started(launch), adapter("good", "")]);
+    for height in 1..=CASES {
+        let case = format!("fill/height={height}");
+        let good = bench.record(&case, "good").unwrap();
+        assert_eq!((good.rounds.len() as u32, &good.ended), (ROUNDS, &None));
+        let faulty = bench.record(&case, "faulty").unwrap();
+        assert_eq!(faulty.rounds, []);
+        let (verdict, message) = match &faulty.ended {
+            Some(ended) => (ended.verdict, &ended.message),
+            None => (faulty.picture.verdict, &faulty.picture.message),
+        };
+        assert_eq!(verdict, Verdict::Crash);
+        let words = match height {
+            MARKED => "abort",
+            _ => "could not be started again",
+        };
+        assert!(message.contains(words), "{height}: {message}");
+        assert_eq!(faulty.ended.is_some(), height < MARKED);
+    }
+    assert_eq!((outcome.timed, outcome.unexpected), (4, 3));
+    assert_eq!(starts(&file), 4, "three failed starts are enough");
+}
+
+#[test]
 fn a_picture_that_changes_is_flaky() {
     let (record, outcome) = marked("fickle");
     assert_eq!(record.picture.verdict, Verdict::Pass);
@@ -290,7 +275,7 @@ fn a_picture_that_changes_is_flaky() {
 #[test]
 fn a_folder_that_cannot_be_written_to_is_told_before_anything_is_timed() {
     let folder = tempfile::tempdir().unwrap();
-    let cases = cases(folder.path());
+    let cases = cases(folder.path(), CASES);
     let blocked = folder.path().join("fill.json");
     let one = adapter("a", "");
     let plan = BenchPlan {
@@ -298,6 +283,7 @@ fn a_folder_that_cannot_be_written_to_is_told_before_anything_is_timed() {
         budget: Duration::from_millis(1),
         expectations: &Expectations::default(),
         folder: &blocked,
+        reports: ReportFiles::NONE,
         header: BenchHeader {
             format: BENCH_FORMAT,
             etalon: String::new(),

@@ -1,16 +1,13 @@
-//! Whatever stands in a file, reading it ends, with a message where it is damaged.
+//! Damaged files: reading ends with a message, or with the part that is whole.
 //!
-//! `PROPTEST_CASES` says how many inputs each test takes; a million of each take some minutes in a release
-//! build.
-#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+//! `PROPTEST_CASES` sets the number of inputs of each test; a million of each take some minutes in a
+//! release build.
 
-mod spoil;
-
+use crate::spoil::{Spoiling, spoilings};
 use etalon_record::{Bench, Expectations, FolderKind, Merge, Run, RunWriter, read_cases};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use serde_json::{Value, json};
-use spoil::{Spoiling, spoilings};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -64,7 +61,7 @@ fn expectations_text() -> &'static str {
     })
 }
 
-/// A message names what is wrong and is no novel.
+/// Checks that a message is there and short.
 fn told(error: &impl ToString) {
     let text = error.to_string();
     assert!(!text.is_empty() && text.len() < 4000, "{text}");
@@ -95,7 +92,7 @@ proptest! {
                 if let Err(error) = Merge::read(&[folder.path().to_owned()]) {
                     told(&error);
                 }
-                // What can be read can be gone on with, and is not lost by it.
+                // A run that can be read can be resumed, and loses nothing by that.
                 let (_, again) = RunWriter::resume(folder.path(), &run.header).unwrap();
                 prop_assert_eq!(again.records, run.records);
             }
@@ -187,7 +184,7 @@ fn absurdities_are_refused() {
     );
 }
 
-/// The spoilt inputs are not all refused, nor all taken: they reach beyond the first brace.
+/// Some spoilt inputs are refused and some are taken: they reach beyond the first brace.
 #[test]
 fn spoiling_goes_deep_and_not_too_deep() {
     let mut runner = proptest::test_runner::TestRunner::deterministic();

@@ -1,0 +1,50 @@
+//! The first line of a bench.
+
+use crate::adapter::{AbsentAdapter, AdapterRecord};
+use crate::machine::Machine;
+use crate::shader_cache::ShaderCache;
+use serde::{Deserialize, Serialize};
+
+/// The format of `bench.jsonl` that this crate reads and writes.
+pub const BENCH_FORMAT: u32 = 1;
+
+/// The cases, adapters, machine and time of a bench.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BenchHeader {
+    /// The format of the bench folder: [`BENCH_FORMAT`].
+    pub format: u32,
+    /// The suite's version.
+    pub etalon: String,
+    /// The commit that the suite was built from, where it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub commit: Option<String>,
+    /// The machine.
+    pub machine: Machine,
+    /// When the bench began, RFC 3339 in UTC.
+    pub started: String,
+    /// The command line, program first.
+    pub command: Vec<String>,
+    /// The profile of the cases: `quick` or `full`.
+    pub profile: String,
+    /// The number of selected cases.
+    pub cases: u64,
+    /// The number of rounds that each case has on each adapter in a complete bench.
+    pub rounds: u32,
+    /// The contents of the drivers' shader caches on disk.
+    pub shader_cache: ShaderCache,
+    /// A description of the fixed work on the processor that is timed around each round. It changes when the
+    /// work does. Benches with different rulers cannot be corrected by them.
+    pub ruler: String,
+    /// The adapters that were timed.
+    pub adapters: Vec<AdapterRecord>,
+    /// The adapters that were looked for and cannot be used.
+    pub absent: Vec<AbsentAdapter>,
+}
+
+impl BenchHeader {
+    /// The adapter of this name.
+    pub fn adapter(&self, name: &str) -> Option<&AdapterRecord> {
+        self.adapters.iter().find(|a| a.name == name)
+    }
+}

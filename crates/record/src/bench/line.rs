@@ -1,0 +1,112 @@
+//! The lines of a bench after the first.
+
+use super::time::Time;
+use crate::verdict::Verdict;
+use serde::{Deserialize, Serialize};
+use std::slice;
+
+/// Any line of `bench.jsonl` but the first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BenchLine {
+    /// The verdict of a picture, before any frame of it was timed.
+    Picture(Picture),
+    /// A round of frame times.
+    Round(Round),
+    /// The reason why a case has no more rounds on an adapter.
+    Ended(Ended),
+}
+
+/// The verdict of a case's picture on an adapter. It comes once, before the case's rounds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Picture {
+    /// The case's id.
+    pub case: String,
+    /// The adapter's name.
+    pub adapter: String,
+    /// The verdict; see [`Picture::may_be_timed`].
+    pub verdict: Verdict,
+    /// The share of asserted channels among all channels of all samples, 0 to 1.
+    pub asserted: f64,
+    /// The missing requirement, the error, or the first wrong texel.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub message: String,
+}
+
+impl Picture {
+    /// True if the picture was judged and is right. A wrong picture has no frame time, and neither has one
+    /// of which nothing was asserted.
+    pub fn may_be_timed(&self) -> bool {
+        matches!(
+            self.verdict,
+            Verdict::Pass | Verdict::Imprecise | Verdict::Measured
+        )
+    }
+}
+
+/// The frame times of one fresh preparation of a case on an adapter. All times are in seconds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Round {
+    /// The case's id.
+    pub case: String,
+    /// The adapter's name.
+    pub adapter: String,
+    /// The round's number among the case's on this adapter, from 0, without gaps.
+    pub round: u32,
+    /// The start of the round, since that of the bench.
+    pub at: f64,
+    /// The ruler right before and right after the round.
+    pub ruler: [f64; 2],
+    /// Preparing the scene: all that a driver does once, such as creating pipelines.
+    pub prepare: f64,
+    /// The first frame after preparing, until the device was done; part of the warm-up.
+    pub first: f64,
+    /// Frames drawn before the first sample, including the very first; they are discarded.
+    pub warm_up: u32,
+    /// Frames, until the device was done.
+    pub wall: Vec<f64>,
+    /// The same frames, until the last call that submits work returned.
+    pub cpu: Vec<f64>,
+    /// The same frames, between GPU timestamps; empty where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub gpu: Vec<f64>,
+    /// Reading the frame back, if that was timed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub read_back: Vec<f64>,
+}
+
+impl Round {
+    /// The samples of one time in the order of measuring; empty where it was not measured.
+    pub fn samples(&self, time: Time) -> &[f64] {
+        match time {
+            Time::Wall => &self.wall,
+            Time::Cpu => &self.cpu,
+            Time::Gpu => &self.gpu,
+            Time::ReadBack => &self.read_back,
+            Time::Prepare => slice::from_ref(&self.prepare),
+            Time::First => slice::from_ref(&self.first),
+        }
+    }
+
+    /// The ruler's time for this round: the geometric mean of the two.
+    pub fn ruler_time(&self) -> f64 {
+        (self.ruler[0] * self.ruler[1]).sqrt()
+    }
+}
+
+/// The early end of a case's rounds on an adapter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ended {
+    /// The case's id.
+    pub case: String,
+    /// The adapter's name.
+    pub adapter: String,
+    /// Crash, Timeout, DeviceLost, ResourceError, InternalError; Flaky or Fail where a picture after
+    /// a round differs from the judged one.
+    pub verdict: Verdict,
+    /// The cause.
+    pub message: String,
+}

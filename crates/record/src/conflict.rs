@@ -1,0 +1,91 @@
+//! Differences that keep two runs from being one: on resuming, and on merging.
+
+use crate::adapter::AdapterRecord;
+use crate::header::{Header, Settings};
+
+impl Header {
+    /// The first difference that keeps records of this run and of the other from being parts of one run:
+    /// selection, settings or version of the suite. `None` if there is none. Shards, adapters, time and
+    /// memory limits are not compared.
+    pub fn conflict(&self, other: &Self) -> Option<String> {
+        let (a, b) = (&self.settings, &other.settings);
+        let differ = |what: &str, x: String, y: String| {
+            (x != y).then(|| format!("{what} was {x} there and is {y} here"))
+        };
+        let text = |n: Option<u64>| n.map_or_else(|| "none".to_owned(), |n| n.to_string());
+        differ(
+            "the version of etalon",
+            self.etalon.clone(),
+            other.etalon.clone(),
+        )
+        .or_else(|| {
+            differ(
+                "the commit of etalon",
+                self.commit.clone().unwrap_or_default(),
+                other.commit.clone().unwrap_or_default(),
+            )
+        })
+        .or_else(|| {
+            differ(
+                "the selection of cases",
+                a.selection.clone(),
+                b.selection.clone(),
+            )
+        })
+        .or_else(|| differ("--shuffle", text(a.shuffle), text(b.shuffle)))
+        .or_else(|| {
+            let times = |n: Option<u32>| text(n.map(u64::from));
+            differ("--repeat", times(a.repeat), times(b.repeat))
+        })
+        .or_else(|| {
+            let cache = |s: &Settings| s.shader_cache.map_or("warm", |c| c.name());
+            differ("--shader-cache", cache(a).to_owned(), cache(b).to_owned())
+        })
+        .or_else(|| differ("--validate", a.validate.to_string(), b.validate.to_string()))
+    }
+}
+
+impl AdapterRecord {
+    /// The first difference from another adapter of the same name; `None` if it is the same driver.
+    pub fn conflict(&self, other: &Self) -> Option<String> {
+        let who = |a: &Self| format!("{}, {}, {}", a.device, a.driver_text(), a.api_version);
+        if who(self) != who(other) {
+            return Some(format!(
+                "{} was {} there and is {} here",
+                self.name,
+                who(self),
+                who(other)
+            ));
+        }
+        (self.limits != other.limits).then(|| format!("the limits of {} have changed", self.name))
+    }
+}
+
+/// The first difference that keeps the run of one header from going on with the other; `None` if there is
+/// none.
+pub(crate) fn resume_conflict(there: &Header, here: &Header) -> Option<String> {
+    if let Some(conflict) = there.conflict(here) {
+        return Some(conflict);
+    }
+    let shard = |h: &Header| match h.settings.shard {
+        Some(shard) => format!("shard {shard}"),
+        None => "not sharded".to_owned(),
+    };
+    if shard(there) != shard(here) {
+        return Some(format!("it is {} and not {}", shard(there), shard(here)));
+    }
+    for adapter in &there.adapters {
+        match here.adapter(&adapter.name) {
+            None => return Some(format!("{} was there and is not here", adapter.name)),
+            Some(now) => {
+                if let Some(conflict) = adapter.conflict(now) {
+                    return Some(conflict);
+                }
+            }
+        }
+    }
+    let new = here.adapters.iter();
+    new.map(|a| &a.name)
+        .find(|name| there.adapter(name).is_none())
+        .map(|name| format!("{name} is here and was not there"))
+}

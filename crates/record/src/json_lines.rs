@@ -1,0 +1,117 @@
+//! Reading of `run.jsonl` and `bench.jsonl`: a header with a format number, then one value per line.
+//!
+//! A process that is killed leaves a prefix, so a last line that is not whole JSON is dropped and noted.
+//! Any other line must parse: damage in the middle was not done by a kill.
+
+use crate::error::RecordError;
+use crate::json::without_position;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::error::Category;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+
+/// The limits and messages of one kind of file.
+pub(crate) struct JsonLines<'a> {
+    pub(crate) path: &'a Path,
+    /// The newest format that is read; so are all before it.
+    pub(crate) format: u32,
+    /// The most bytes of the header that are read; a longer one does not parse.
+    pub(crate) max_header: u64,
+    /// The most bytes of every other line.
+    pub(crate) max_line: u64,
+    /// The remedy for a damaged line.
+    pub(crate) remedy: &'static str,
+}
+
+/// The end of the readable part of a file.
+pub(crate) struct Extent {
+    /// Bytes of the header and the whole lines.
+    pub(crate) bytes: u64,
+    /// True if the last line was cut off.
+    pub(crate) truncated: bool,
+}
+
+#[derive(Deserialize)]
+struct Format {
+    format: u32,
+}
+
+impl JsonLines<'_> {
+    /// Reads a file. `begin` makes the result of the header, and `take` adds a line to it or says why the
+    /// line cannot follow those before it.
+    pub(crate) fn read<H: DeserializeOwned, L: DeserializeOwned, T>(
+        &self,
+        file: File,
+        begin: impl FnOnce(H) -> T,
+        take: impl Fn(&mut T, L) -> Result<(), String>,
+    ) -> Result<(T, Extent), RecordError> {
+        let mut lines = BufReader::new(file);
+        let mut line = Vec::new();
+        // A file of one endless line may not take the memory.
+        let mut next = |line: &mut Vec<u8>, most: u64| {
+            line.clear();
+            (&mut lines)
+                .take(most.saturating_add(1))
+                .read_until(b'\n', line)
+                .map_err(RecordError::io("read", self.path))
+        };
+
+        next(&mut line, self.max_header)?;
+        let mut result = begin(self.header(&line)?);
+        let mut number = 2;
+        let mut bytes = line.len() as u64;
+        // A damaged line is an error as soon as another line follows it.
+        let mut damaged: Option<RecordError> = None;
+        while next(&mut line, self.max_line)? > 0 {
+            if let Some(error) = damaged {
+                return Err(error);
+            }
+            if line.len() as u64 > self.max_line {
+                let message = format!("the line is longer than {} bytes", self.max_line);
+                return Err(self.error(number, message));
+            }
+            match serde_json::from_slice::<L>(&line) {
+                Ok(value) => {
+                    take(&mut result, value).map_err(|message| self.error(number, message))?;
+                    bytes += line.len() as u64;
+                }
+                Err(e) => {
+                    let error = self.error(number, without_position(&e));
+                    // Whole JSON of the wrong shape was not cut off: another hand wrote it.
+                    if e.classify() == Category::Data {
+                        return Err(error);
+                    }
+                    damaged = Some(error);
+                }
+            }
+            number += 1;
+        }
+        let truncated = damaged.is_some();
+        Ok((result, Extent { bytes, truncated }))
+    }
+
+    fn header<H: DeserializeOwned>(&self, line: &[u8]) -> Result<H, RecordError> {
+        let wrong = |e: serde_json::Error| self.error(1, without_position(&e));
+        // The format goes first, since another one may have other fields.
+        let Format { format } = serde_json::from_slice(line).map_err(wrong)?;
+        if format == 0 || format > self.format {
+            return Err(RecordError::Format {
+                path: self.path.to_owned(),
+                found: format,
+                expected: self.format,
+            });
+        }
+        serde_json::from_slice(line).map_err(wrong)
+    }
+
+    fn error(&self, line: usize, message: String) -> RecordError {
+        RecordError::Parse {
+            path: self.path.to_owned(),
+            line,
+            message,
+            remedy: self.remedy,
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Shortening of a record to one line of limited length.
+
+use crate::error::RecordError;
+use crate::json::json_line;
+use crate::record::{MAX_LINE, MAX_WRONG_TEXELS, Record};
+use etalon_frame::StoryLine;
+
+/// The record's line, shortened until it has at most [`MAX_LINE`] bytes.
+pub(crate) fn fit(record: &Record) -> Result<Vec<u8>, RecordError> {
+    let write = |record: &Record| json_line("a record", record);
+    let mut line = write(record)?;
+    if line.len() <= MAX_LINE && record.wrong.len() <= MAX_WRONG_TEXELS {
+        return Ok(line);
+    }
+    let mut short = record.clone();
+    short.wrong.truncate(MAX_WRONG_TEXELS);
+    line = write(&short)?;
+    while line.len() > MAX_LINE && short.wrong.len() > 1 {
+        short.wrong.truncate(short.wrong.len() * 3 / 4);
+        line = write(&short)?;
+    }
+    while line.len() > MAX_LINE
+        && let Some(story) = &mut short.story
+    {
+        let kept = story.lines.len() / 2;
+        if kept < 3 {
+            short.story = None;
+        } else {
+            story.lines.truncate(kept);
+            story.lines.push(StoryLine {
+                at: "end of the record".to_owned(),
+                operation: "cut".to_owned(),
+                detail: "the rest of the story did not fit".to_owned(),
+                citation: None,
+            });
+        }
+        line = write(&short)?;
+    }
+    while line.len() > MAX_LINE && !short.message.is_empty() {
+        cut(&mut short.message);
+        line = write(&short)?;
+    }
+    if line.len() > MAX_LINE {
+        return Err(RecordError::TooLong {
+            case: record.case.chars().take(200).collect(),
+            adapter: record.adapter.chars().take(200).collect(),
+            limit: MAX_LINE,
+        });
+    }
+    Ok(line)
+}
+
+/// Removes the first quarter of a message: the cause of a crash usually stands at the end.
+fn cut(message: &mut String) {
+    const MARK: &str = "[cut] ";
+    let text = message.strip_prefix(MARK).unwrap_or(message);
+    let mut from = text.len() / 4 + 1;
+    while from < text.len() && !text.is_char_boundary(from) {
+        from += 1;
+    }
+    let rest = text.get(from..).unwrap_or_default();
+    *message = if rest.is_empty() {
+        String::new()
+    } else {
+        format!("{MARK}{rest}")
+    };
+}

@@ -1,0 +1,8 @@
+//! The wire format from outside: folders as they are written, cut off, damaged, resumed and replaced.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+mod bench_folder;
+mod damage;
+mod run_folder;
+#[path = "../spoil/mod.rs"]
+mod spoil;

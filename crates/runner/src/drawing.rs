@@ -1,0 +1,161 @@
+//! Drawing in a worker: the requests for frames, and their answers.
+
+use crate::loss::{Failure, Loss};
+use crate::process::{Wait, WorkerProcess};
+use crate::protocol::{Payload, Request, Response};
+use etalon_backend::{BackendError, FrameTime};
+use etalon_case::Case;
+use etalon_frame::Frame;
+use etalon_scene::Scene;
+use std::time::{Duration, Instant};
+
+/// The default time that a case may take.
+pub(crate) const DRAW_TIMEOUT: Duration = Duration::from_secs(60);
+
+/// The result of drawing scenes.
+pub(crate) struct Drawing {
+    /// One frame per scene.
+    pub(crate) frames: Result<Vec<Frame>, Failure>,
+    /// The time that the worker spent, by its own clock.
+    pub(crate) working: Duration,
+    /// The time since the worker could begin.
+    pub(crate) since: Duration,
+    /// Messages of validation layers and debug output.
+    pub(crate) messages: Vec<String>,
+}
+
+impl Drawing {
+    /// The drawing of a case whose worker could not be asked.
+    pub(crate) fn failed(failure: Failure) -> Self {
+        Self {
+            frames: Err(failure),
+            working: Duration::ZERO,
+            since: Duration::ZERO,
+            messages: Vec::new(),
+        }
+    }
+}
+
+impl WorkerProcess {
+    /// Sends a request and waits for the answer, while nothing else is in flight. Returns it with the time
+    /// that the worker spent.
+    pub(crate) fn ask(
+        &mut self,
+        request: &Request,
+        timeout: Duration,
+    ) -> Result<(Payload, Duration), Failure> {
+        self.request(request);
+        match self.response(timeout)? {
+            Response::Done {
+                outcome: Ok(payload),
+                elapsed,
+                ..
+            } => Ok((payload, elapsed)),
+            Response::Done {
+                outcome: Err(error),
+                ..
+            } => Err(Failure::Backend(error)),
+            Response::Hello(_) => Err(second_greeting().into()),
+        }
+    }
+
+    /// Draws frames of a prepared scene, while nothing else is in flight.
+    pub(crate) fn submit(
+        &mut self,
+        slot: u32,
+        times: u32,
+        timeout: Duration,
+    ) -> Result<Vec<FrameTime>, Failure> {
+        match self.ask(&Request::Submit { slot, times }, timeout)? {
+            (Payload::Submitted(all), _) if all.len() == times as usize => Ok(all),
+            _ => Err(wrong_answer().into()),
+        }
+    }
+
+    /// Draws one frame of each of a case's scenes.
+    pub(crate) fn draw_case(&mut self, slot: u32, case: &Case, wait: Wait<'_>) -> Drawing {
+        let asked = Instant::now();
+        self.request_case(slot, case);
+        self.receive_frames(slot, case.scene_count(), asked, wait)
+    }
+
+    /// Requests one frame of each of a case's scenes.
+    pub(crate) fn request_case(&mut self, slot: u32, case: &Case) {
+        for scene in case.scenes() {
+            self.request_frame(slot, scene);
+        }
+    }
+
+    /// Requests one frame of a scene.
+    pub(crate) fn request_frame(&mut self, slot: u32, scene: &Scene) {
+        self.request(&Request::Prepare {
+            slot,
+            scene: Box::new(scene.clone()),
+        });
+        self.request(&Request::Submit { slot, times: 1 });
+        self.request(&Request::ReadBack { slot });
+        self.request(&Request::Drop { slot });
+    }
+
+    /// Receives `count` frames that were requested of a slot at the time `asked`.
+    pub(crate) fn receive_frames(
+        &mut self,
+        slot: u32,
+        count: usize,
+        asked: Instant,
+        wait: Wait<'_>,
+    ) -> Drawing {
+        // The worker came to this request when it was done with the one before.
+        let begun = asked.max(self.answered());
+        let until = begun + wait.timeout;
+        let mut drawing = Drawing::failed(Failure::Lost(Loss::Died));
+        let mut frames = Vec::new();
+        let mut error = None;
+        for _ in 0..4 * count {
+            let loss = match self.response_until(until, wait) {
+                Ok(Response::Done {
+                    slot: answered,
+                    outcome,
+                    elapsed,
+                    messages,
+                }) if answered == slot => {
+                    drawing.working += elapsed;
+                    drawing.messages.extend(messages);
+                    match outcome {
+                        Ok(Payload::Frame(frame)) => frames.push(*frame),
+                        Ok(_) => {}
+                        Err(e) => {
+                            error.get_or_insert(e);
+                        }
+                    }
+                    continue;
+                }
+                Ok(Response::Done { .. }) => wrong_answer(),
+                Ok(Response::Hello(_)) => second_greeting(),
+                Err(loss) => loss,
+            };
+            drawing.frames = Err(Failure::Lost(loss));
+            drawing.since = begun.elapsed();
+            return drawing;
+        }
+        drawing.frames = match error {
+            Some(error) => Err(Failure::Backend(error)),
+            None if frames.len() == count => Ok(frames),
+            None => {
+                let error = BackendError::Internal("no frame came back".to_owned());
+                Err(Failure::Backend(error))
+            }
+        };
+        drawing.since = begun.elapsed();
+        drawing
+    }
+}
+
+/// The loss of a worker whose answer does not fit the request.
+pub(crate) fn wrong_answer() -> Loss {
+    Loss::Garbage("an answer to another request".to_owned())
+}
+
+fn second_greeting() -> Loss {
+    Loss::Garbage("a second greeting".to_owned())
+}

@@ -1,0 +1,92 @@
+//! The report on a lost worker: exit status, signal and the end of its standard error.
+
+use crate::loss::Loss;
+use etalon_record::{LossKind, ProcessEnd};
+use std::process::ExitStatus;
+
+/// The report on a lost worker.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct ExitReport {
+    /// For people: the cause, and the end of standard error.
+    pub(crate) message: String,
+    /// For programs.
+    pub(crate) end: ProcessEnd,
+}
+
+impl ExitReport {
+    /// The report on a worker lost in this way. `status` is its exit status if it ended by itself.
+    pub(crate) fn new(loss: Loss, status: Option<ExitStatus>, stderr: String) -> Self {
+        let (kind, cause) = match loss {
+            Loss::Timeout(limit) => (
+                LossKind::Timeout,
+                format!("no answer within {} s", limit.as_secs_f64()),
+            ),
+            Loss::Memory { held, limit } => (
+                LossKind::Memory,
+                format!("the worker held {held} MiB of memory, more than {limit} MiB"),
+            ),
+            Loss::Garbage(message) => (
+                LossKind::Garbage,
+                format!("the worker wrote garbage: {message}"),
+            ),
+            Loss::NotStarted(message) => (LossKind::NotStarted, message),
+            Loss::Died | Loss::Cancelled => (
+                LossKind::Died,
+                match status {
+                    Some(status) => describe(status),
+                    None => "the worker closed its pipe".to_owned(),
+                },
+            ),
+        };
+        let own_status = status.filter(|_| kind == LossKind::Died);
+        let message = match stderr.as_str() {
+            "" => cause,
+            text => format!("{cause}; stderr ends with: {text}"),
+        };
+        Self {
+            message,
+            end: ProcessEnd {
+                kind,
+                signal: own_status.and_then(signal),
+                exit: own_status.and_then(|s| s.code()),
+                stderr,
+                seconds: 0.0,
+            },
+        }
+    }
+}
+
+fn signal(status: ExitStatus) -> Option<i32> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::process::ExitStatusExt;
+        status.signal()
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = status;
+        None
+    }
+}
+
+fn describe(status: ExitStatus) -> String {
+    match signal(status) {
+        Some(signal) => format!("the worker died of signal {signal}{}", signal_name(signal)),
+        None => format!("the worker ended with {status}"),
+    }
+}
+
+fn signal_name(signal: i32) -> &'static str {
+    match signal {
+        4 => " (illegal instruction)",
+        5 => " (trap)",
+        6 => " (abort)",
+        7 => " (bus error)",
+        8 => " (arithmetic exception)",
+        9 => " (killed)",
+        11 => " (segmentation fault)",
+        15 => " (terminated)",
+        31 => " (bad system call)",
+        _ => "",
+    }
+}

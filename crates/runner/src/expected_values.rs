@@ -1,0 +1,63 @@
+//! The literal values of a case, compared with frame and legal set.
+
+use etalon_case::Case;
+use etalon_frame::{Aspect, Band, ChannelMismatch, Frame, LegalSet, WrongTexel};
+use etalon_record::{Record, Verdict};
+
+/// Compares the case's literal values with frame and legal set. A literal outside the legal set
+/// is the reference's error; a frame that is legal but not the literal is imprecise.
+pub(crate) fn expected_values(case: &Case, frame: &Frame, legal: &LegalSet, record: &mut Record) {
+    for expect in &case.expect {
+        let name = &case.scene.attachments[expect.attachment].name;
+        let found = legal
+            .images
+            .iter()
+            .position(|i| &i.attachment == name && i.aspect == Aspect::Color);
+        let Some(index) = found else { continue };
+        let info = &legal.images[index];
+        let [x, y] = expect.texel;
+        let set = legal.groups[info.group].sample(x, y, 0);
+        let mut channels = Vec::new();
+        for (c, value) in expect.value.iter().enumerate() {
+            let encoding = info.channels[c];
+            let due = encoding.nearest_code(*value);
+            let at = info.first_channel + c;
+            let legal_here = set
+                .hull(at)
+                .is_none_or(|hull| hull.contains(encoding.order_of_code(due)));
+            if !legal_here {
+                record.verdict = Verdict::InternalError;
+                record.message = format!(
+                    "the literal {value} of channel {c} at ({x}, {y}) is outside the legal set"
+                );
+                return;
+            }
+            let actual = frame.images[index].sample(x, y, 0)[c];
+            if actual != due {
+                channels.push(ChannelMismatch {
+                    attachment: name.clone(),
+                    aspect: Aspect::Color,
+                    channel: c as u8,
+                    encoding,
+                    low: due,
+                    high: due,
+                    actual,
+                });
+            }
+        }
+        if !channels.is_empty() {
+            if record.verdict == Verdict::Pass {
+                record.verdict = Verdict::Imprecise;
+                record.texels.imprecise += 1;
+            }
+            record.message = format!("texel ({x}, {y}) is not the literal value of the case");
+            record.wrong.push(WrongTexel {
+                x,
+                y,
+                sample: 0,
+                band: Band::Imprecise,
+                channels,
+            });
+        }
+    }
+}

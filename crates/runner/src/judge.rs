@@ -1,0 +1,331 @@
+//! The judge: frames are compared with their legal sets, and the result becomes a record.
+
+use crate::expected_values::expected_values;
+use crate::frame_file::frame_file;
+use crate::judgement_cache::{JudgementCache, judged_scene};
+use crate::relation::{self, Differences};
+use etalon_case::{Case, Relation};
+use etalon_frame::{
+    Aspect, AspectStatistics, Band, Comparison, CounterOutcome, Frame, Limits, WrongTexel, compare,
+};
+use etalon_record::{Assertion, FrameFile, MAX_WRONG_TEXELS, Record, Verdict};
+use etalon_reference::{Judgement, Rules, Sample, explain};
+
+/// Judges frames; legal sets are cached by case and limits, so that adapters share them.
+#[derive(Debug, Default)]
+pub struct Judge {
+    cache: JudgementCache,
+}
+
+/// A record without its times, and the frame file that belongs to it.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// The record.
+    pub record: Record,
+    /// The frame, if it failed or is imprecise.
+    pub frame: Option<FrameFile>,
+}
+
+impl Judge {
+    /// Judges the frames of a case, its scene's and its variants', and compares them with each other.
+    /// `number` tells the case from others.
+    pub fn judge(
+        &self,
+        number: usize,
+        case: &Case,
+        adapter: &str,
+        limits: &Limits,
+        frames: &[Frame],
+    ) -> Judged {
+        let mut judged: Option<Judged> = None;
+        for (index, frame) in frames.iter().enumerate() {
+            let one = self.judge_scene(number, case, index, adapter, limits, frame);
+            judged = Some(match judged {
+                None => one,
+                Some(first) => worse(first, one, case, index),
+            });
+        }
+        let Some(mut judged) = judged else {
+            let mut record = Record::new(&case.id, adapter, Verdict::InternalError);
+            record.message = "no frame came back".to_owned();
+            return Judged {
+                record,
+                frame: None,
+            };
+        };
+        if let Some(relation) = &case.relation
+            && judged.record.verdict != Verdict::InternalError
+        {
+            let found = relation::check(relation, case, frames);
+            note_differences(&mut judged.record, relation, limits, found);
+        }
+        judged
+    }
+
+    /// Judges the frame of one of a case's scenes.
+    fn judge_scene(
+        &self,
+        number: usize,
+        case: &Case,
+        index: usize,
+        adapter: &str,
+        limits: &Limits,
+        frame: &Frame,
+    ) -> Judged {
+        let judgements = self.cache.get(number, case, index, limits);
+        let mut record = Record::new(&case.id, adapter, Verdict::Pass);
+        record.due_fail = case.judged_as.is_some();
+        let (comparison, judgement) = match best(&judgements, frame) {
+            Ok(best) => best,
+            Err(message) => {
+                record.verdict = Verdict::InternalError;
+                record.message = message;
+                return Judged {
+                    record,
+                    frame: None,
+                };
+            }
+        };
+        let worst = comparison.worst();
+        record.texels = comparison.texels;
+        record.wrong = comparison.wrong;
+        record.counters = comparison.counters;
+        record.accuracy = comparison.accuracy;
+        record.assertions = assertions(judgement);
+        let texels: u64 = record.assertions.iter().map(|a| a.asserted).sum();
+        let counters = record.counters.iter().filter(|c| c.is_asserted()).count();
+        // Where the rules leave a method's outcome open, only its distance from the truth is reported.
+        let unasserted =
+            record.texels.open > record.texels.total.saturating_sub(judgement.looked_at);
+        record.verdict = match worst {
+            Some(Band::Fail) => Verdict::Fail,
+            _ if case.method.is_some() && (unasserted || texels == 0) => Verdict::Measured,
+            _ if texels == 0 && counters == 0 => Verdict::Open,
+            Some(Band::Imprecise) => Verdict::Imprecise,
+            None => Verdict::Pass,
+        };
+        if let Some(message) = counter_message(&record.counters) {
+            record.message = message;
+        }
+        if index == 0 {
+            expected_values(case, frame, &judgement.legal, &mut record);
+        }
+        let mut file = None;
+        if matches!(record.verdict, Verdict::Fail | Verdict::Imprecise) {
+            if let Some(wrong) = record.wrong.first() {
+                let rules = match wrong.band {
+                    Band::Fail => Rules::of(judgement.limits.api),
+                    Band::Imprecise => Rules::yardstick(&judgement.limits),
+                };
+                if let Some(at) = sample_of(case, wrong) {
+                    let scene = judged_scene(case, index);
+                    record.story = Some(explain(scene, &judgement.limits, &rules, at));
+                }
+            }
+            file = Some(frame_file(case, adapter, frame, judgement, record.verdict));
+        }
+        Judged {
+            record,
+            frame: file,
+        }
+    }
+
+    /// The verdict and the first texel outside: [`Judge::judge`] without story, figures and literal
+    /// values. A case that asserts nothing passes.
+    ///
+    /// # Errors
+    /// When a frame is not one of the case.
+    pub(crate) fn verdict(
+        &self,
+        number: usize,
+        case: &Case,
+        limits: &Limits,
+        frames: &[Frame],
+    ) -> Result<(Verdict, Option<WrongTexel>), String> {
+        let mut worst: Option<Band> = None;
+        let mut first = None;
+        for (index, frame) in frames.iter().enumerate() {
+            let judgements = self.cache.get(number, case, index, limits);
+            let (comparison, _) = best(&judgements, frame)?;
+            if comparison.worst() > worst {
+                worst = comparison.worst();
+                first = comparison.wrong.into_iter().next();
+            }
+        }
+        if let Some(relation) = &case.relation {
+            let found = relation::check(relation, case, frames);
+            let band = Rules::invariance(limits.api, relation.invariance).value;
+            if found.differing > 0 && band > worst {
+                worst = band;
+                first = found.wrong.into_iter().next();
+            }
+        }
+        let verdict = match worst {
+            Some(Band::Fail) => Verdict::Fail,
+            Some(Band::Imprecise) => Verdict::Imprecise,
+            None => Verdict::Pass,
+        };
+        Ok((verdict, first))
+    }
+}
+
+/// The record of the worse of two scenes of one case, with the assertions of both.
+fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
+    // `Verdict::severity` orders what several processes or folders show of a whole case; there an Open is
+    // worse than an Imprecise, and a Fail, as a proof, worst of all. Within one case, an open scene takes
+    // nothing from one that asserts something, and an InternalError makes a Fail beside it no proof.
+    let badness = |judged: &Judged| match judged.record.verdict {
+        Verdict::InternalError => 4,
+        Verdict::Fail => 3,
+        Verdict::Imprecise => 2,
+        Verdict::Pass => 1,
+        _ => 0,
+    };
+    let takes_second = badness(&second) > badness(&first) && badness(&second) > 1;
+    let (mut kept, other) = if takes_second {
+        let mut second = second;
+        let name = case.variants.get(index - 1).map_or("", |v| v.name.as_str());
+        let message = format!("variant {name}: {}", second.record.message);
+        second.record.message = message.trim_end_matches([':', ' ']).to_owned();
+        (second, first)
+    } else {
+        (first, second)
+    };
+    let record = &mut kept.record;
+    if record.verdict == Verdict::Open {
+        record.verdict = other.record.verdict;
+    }
+    record.texels.total += other.record.texels.total;
+    record.texels.wrong += other.record.texels.wrong;
+    record.texels.imprecise += other.record.texels.imprecise;
+    record.texels.open += other.record.texels.open;
+    for assertion in &other.record.assertions {
+        match record
+            .assertions
+            .iter_mut()
+            .find(|a| a.aspect == assertion.aspect)
+        {
+            Some(own) => own.add(assertion),
+            None => record.assertions.push(*assertion),
+        }
+    }
+    for accuracy in &other.record.accuracy {
+        match record
+            .accuracy
+            .iter_mut()
+            .find(|a| a.aspect == accuracy.aspect)
+        {
+            Some(own) => own.add(accuracy),
+            None => record.accuracy.push(*accuracy),
+        }
+    }
+    kept
+}
+
+/// The message about counters outside their legal range.
+fn counter_message(counters: &[CounterOutcome]) -> Option<String> {
+    let wrong: Vec<String> = counters
+        .iter()
+        .filter(|c| c.band.is_some())
+        .map(|c| {
+            let legal = c.range();
+            let due = match c.band {
+                Some(Band::Fail) => format!("{legal} is legal"),
+                _ => format!("{legal} is legal, but the yardstick wants another"),
+            };
+            format!(
+                "counter {} ({}) is {}, {due}",
+                c.name,
+                c.kind.name(),
+                c.actual
+            )
+        })
+        .collect();
+    (!wrong.is_empty()).then(|| wrong.join("; "))
+}
+
+/// Adds the differences that a relation forbids to a record.
+fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, found: Differences) {
+    let permission = Rules::invariance(limits.api, relation.invariance);
+    let Some(band) = permission.value else { return };
+    if record.verdict == Verdict::Open && found.compared > 0 {
+        record.verdict = Verdict::Pass;
+    }
+    if found.differing == 0 {
+        return;
+    }
+    let message = format!(
+        "{} samples differ from {}: {}",
+        found.differing, found.between, permission.citation
+    );
+    let fails = band == Band::Fail;
+    if fails {
+        record.texels.wrong += found.differing;
+        record.verdict = Verdict::Fail;
+    } else {
+        record.texels.imprecise += found.differing;
+        if record.verdict == Verdict::Pass {
+            record.verdict = Verdict::Imprecise;
+        }
+    }
+    record.message = match record.message.as_str() {
+        "" => message,
+        before => format!("{before}; {message}"),
+    };
+    let room = MAX_WRONG_TEXELS.saturating_sub(record.wrong.len());
+    let wrong = found.wrong.into_iter().take(room);
+    record
+        .wrong
+        .extend(wrong.map(|texel| WrongTexel { band, ..texel }));
+}
+
+/// The judgement under which the fewest samples are wrong. An API may hide which of several encodings a
+/// format has, but it is the same one for the whole frame.
+fn best<'a>(
+    judgements: &'a [Judgement],
+    frame: &Frame,
+) -> Result<(Comparison, &'a Judgement), String> {
+    let mut best: Option<(Comparison, &Judgement)> = None;
+    for judgement in judgements {
+        let (legal, yardstick) = (&judgement.legal, &judgement.yardstick);
+        let comparison =
+            compare(frame, legal, yardstick, MAX_WRONG_TEXELS).map_err(|e| e.to_string())?;
+        let badness = |c: &Comparison| (c.texels.wrong, c.texels.imprecise);
+        if best
+            .as_ref()
+            .is_none_or(|(b, _)| badness(&comparison) < badness(b))
+        {
+            best = Some((comparison, judgement));
+        }
+    }
+    best.ok_or_else(|| "the limits leave no encoding to judge by".to_owned())
+}
+
+fn assertions(judgement: &Judgement) -> Vec<Assertion> {
+    let tight = judgement.yardstick.statistics();
+    let of = |aspect: Aspect| -> AspectStatistics {
+        tight
+            .iter()
+            .find(|(a, _)| *a == aspect)
+            .map(|(_, figures)| *figures)
+            .unwrap_or_default()
+    };
+    judgement
+        .legal
+        .statistics()
+        .into_iter()
+        .map(|(aspect, legal)| Assertion::new(aspect, legal, of(aspect)))
+        .collect()
+}
+
+fn sample_of(case: &Case, wrong: &WrongTexel) -> Option<Sample> {
+    let name = &wrong.channels.first()?.attachment;
+    let attachment = case.scene.attachments.iter().find(|a| &a.name == name)?;
+    Some(Sample {
+        size: attachment.size,
+        samples: attachment.samples,
+        x: wrong.x,
+        y: wrong.y,
+        sample: wrong.sample,
+    })
+}

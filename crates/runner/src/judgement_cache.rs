@@ -1,0 +1,101 @@
+//! The cache of judgements, which adapters with the same limits share.
+
+use crate::sync::lock;
+use etalon_case::Case;
+use etalon_frame::Limits;
+use etalon_reference::{Judgement, Texels, judgements_of};
+use etalon_scene::Scene;
+use std::collections::{HashMap, VecDeque};
+use std::sync::{Arc, Mutex, OnceLock};
+
+/// The most bytes of cached legal sets.
+const CACHE_BYTES: usize = 512 << 20;
+
+/// The most texels of an image that are judged, on a lattice that meets every row and column. Large
+/// frames exist to be measured, and judging all their texels would take longer than drawing them. The
+/// texels left out count as not asserted.
+const MOST_TEXELS: u64 = 4096;
+
+/// A case, one of its scenes, and the limits it is judged by.
+type Key = (usize, usize, Limits);
+type Entry = Arc<OnceLock<Arc<Vec<Judgement>>>>;
+
+/// Judgements by case, scene and limits.
+#[derive(Debug, Default)]
+pub(crate) struct JudgementCache(Mutex<Cache>);
+
+#[derive(Debug, Default)]
+struct Cache {
+    entries: HashMap<Key, Entry>,
+    order: VecDeque<Key>,
+    bytes: usize,
+}
+
+impl JudgementCache {
+    /// The judgements of one of a case's scenes; `number` tells the case from others.
+    pub(crate) fn get(
+        &self,
+        number: usize,
+        case: &Case,
+        index: usize,
+        limits: &Limits,
+    ) -> Arc<Vec<Judgement>> {
+        let key = (number, index, limits_that_matter(limits));
+        let entry = {
+            let mut cache = lock(&self.0);
+            match cache.entries.get(&key) {
+                Some(entry) => Arc::clone(entry),
+                None => {
+                    let entry = Entry::default();
+                    cache.entries.insert(key.clone(), Arc::clone(&entry));
+                    entry
+                }
+            }
+        };
+        let mut fresh = false;
+        let sets = Arc::clone(entry.get_or_init(|| {
+            fresh = true;
+            let scene = judged_scene(case, index);
+            Arc::new(judgements_of(scene, limits, Texels::AtMost(MOST_TEXELS)))
+        }));
+        if fresh {
+            let weight = |all: &[Judgement]| -> usize {
+                all.iter()
+                    .map(|j| j.legal.weight() + j.yardstick.weight())
+                    .sum()
+            };
+            let mut cache = lock(&self.0);
+            cache.bytes += weight(&sets);
+            cache.order.push_back(key);
+            while cache.bytes > CACHE_BYTES {
+                let Some(oldest) = cache.order.pop_front() else {
+                    break;
+                };
+                if let Some(old) = cache.entries.remove(&oldest) {
+                    let freed = old.get().map_or(0, |sets| weight(sets));
+                    cache.bytes = cache.bytes.saturating_sub(freed);
+                }
+            }
+        }
+        sets
+    }
+}
+
+/// The scene that a frame is judged by: the case's own, or that of a variant.
+pub(crate) fn judged_scene(case: &Case, index: usize) -> &Scene {
+    match index.checked_sub(1).and_then(|v| case.variants.get(v)) {
+        Some(variant) => &variant.scene,
+        None => case.judged_scene(),
+    }
+}
+
+/// The limits that legal sets depend on; without the others, more adapters share one set.
+fn limits_that_matter(limits: &Limits) -> Limits {
+    let mut key = limits.clone();
+    key.features.clear();
+    key.max_size = 0;
+    for support in key.formats.values_mut() {
+        support.samples.clear();
+    }
+    key
+}

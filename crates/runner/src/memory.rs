@@ -1,0 +1,63 @@
+//! The memory that a process holds, and a limit on it.
+//!
+//! The parent polls instead of setting `RLIMIT_AS`, since drivers reserve address space that they never
+//! touch.
+
+use crate::sync::lock;
+use std::fs;
+use std::process::Child;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::Duration;
+
+/// The interval between two readings of a worker's memory.
+const INTERVAL: Duration = Duration::from_millis(50);
+
+/// A limit on the memory of a process, which is killed when it holds more.
+#[derive(Debug)]
+pub(crate) struct MemoryLimit {
+    /// The limit in MiB.
+    limit: u64,
+    /// MiB held when the process was killed; 0 before that.
+    held: Arc<AtomicU64>,
+}
+
+impl MemoryLimit {
+    /// Watches a process until `ended` is set. Where the system does not report what a process holds,
+    /// nothing happens.
+    pub(crate) fn watch(child: Arc<Mutex<Child>>, limit: u64, ended: Arc<AtomicBool>) -> Self {
+        let held = Arc::<AtomicU64>::default();
+        let exceeded = Arc::clone(&held);
+        let id = lock(&child).id();
+        thread::spawn(move || {
+            while !ended.load(Ordering::Relaxed) {
+                let Some(now) = held_by(id) else { return };
+                if now > limit {
+                    exceeded.store(now, Ordering::Relaxed);
+                    // It may have ended by itself; then there is nothing to kill.
+                    let _ = lock(&child).kill();
+                    return;
+                }
+                thread::sleep(INTERVAL);
+            }
+        });
+        Self { limit, held }
+    }
+
+    /// The MiB held and the limit, if the process was killed for it.
+    pub(crate) fn exceeded(&self) -> Option<(u64, u64)> {
+        let held = self.held.load(Ordering::Relaxed);
+        (held > 0).then_some((held, self.limit))
+    }
+}
+
+/// The MiB of memory that a process holds, resident and swapped; `None` where the system does not tell.
+fn held_by(process: u32) -> Option<u64> {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
+    let field = |name: &str| -> Option<u64> {
+        let line = status.lines().find_map(|l| l.strip_prefix(name))?;
+        line.trim_end_matches("kB").trim().parse().ok()
+    };
+    Some((field("VmRSS:")? + field("VmSwap:").unwrap_or(0)) / 1024)
+}

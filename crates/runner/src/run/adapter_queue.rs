@@ -1,0 +1,169 @@
+//! The queue of one adapter's cases, and the state that its workers share.
+
+use crate::launch::Launch;
+use crate::supervisor::FailedStarts;
+use crate::sync::lock;
+use crate::worker::Worker;
+use etalon_record::{AdapterRecord, Verdict};
+use std::collections::{HashMap, VecDeque};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard};
+use std::time::{Duration, Instant};
+
+/// The most cases that a thread takes at a time. Neighbours share states that drivers cache, so they
+/// should reach the same worker.
+const CHUNK: usize = 16;
+/// The most cases of an adapter that are checked again.
+const MAX_RECHECKS: u32 = 256;
+/// The most of these that timed out.
+const MAX_TIMEOUT_RECHECKS: u32 = 8;
+/// The most cases of an adapter for which the cases that must precede them are searched.
+const MAX_SEARCHES: u32 = 8;
+
+/// The queue of one adapter's cases.
+pub(super) struct AdapterQueue {
+    pub(super) launch: Launch,
+    pub(super) adapter: AdapterRecord,
+    /// Why the driver does not start; nothing is drawn then.
+    pub(super) start_error: Option<String>,
+    pub(super) failed_starts: FailedStarts,
+    /// Numbers of the cases that have no record, in drawing order.
+    numbers: Vec<usize>,
+    taken: Mutex<usize>,
+    /// Threads that take from it.
+    threads: AtomicUsize,
+    /// The worker that discovery left running.
+    running: Mutex<Option<Worker>>,
+    state: Mutex<State>,
+    written: AtomicU64,
+}
+
+/// The state that the workers of an adapter share.
+#[derive(Debug, Default)]
+pub(super) struct State {
+    /// Frame files of imprecise cases, by case file.
+    pub(super) imprecise_frames: HashMap<String, u32>,
+    rechecks: u32,
+    timeout_rechecks: u32,
+    searches: u32,
+    begun: Option<Instant>,
+}
+
+impl AdapterQueue {
+    pub(super) fn new(numbers: Vec<usize>, launch: Launch, worker: Worker) -> Self {
+        let adapter = AdapterRecord::from(&worker);
+        Self {
+            running: Mutex::new(Some(worker)),
+            ..Self::with(numbers, adapter, launch)
+        }
+    }
+
+    /// The queue of an adapter whose driver does not start.
+    pub(super) fn not_started(numbers: Vec<usize>, adapter: AdapterRecord, error: String) -> Self {
+        let launch = Launch {
+            adapter: adapter.name.clone(),
+            program: PathBuf::new(),
+            arguments: Vec::new(),
+            environment: Vec::new(),
+        };
+        Self {
+            start_error: Some(error),
+            ..Self::with(numbers, adapter, launch)
+        }
+    }
+
+    fn with(numbers: Vec<usize>, adapter: AdapterRecord, launch: Launch) -> Self {
+        Self {
+            launch,
+            adapter,
+            start_error: None,
+            failed_starts: FailedStarts::default(),
+            numbers,
+            taken: Mutex::default(),
+            threads: AtomicUsize::new(0),
+            running: Mutex::default(),
+            state: Mutex::default(),
+            written: AtomicU64::new(0),
+        }
+    }
+
+    /// Takes the next cases; empty when all are taken. The share shrinks with what is left, so that all
+    /// workers end at the same time.
+    pub(super) fn take(&self) -> VecDeque<usize> {
+        let mut taken = lock(&self.taken);
+        let left = self.numbers.len() - *taken;
+        let share = left / (4 * self.threads.load(Ordering::Relaxed).max(1));
+        let most = share.clamp(1, CHUNK).min(left);
+        let numbers = self.numbers[*taken..*taken + most].iter().copied();
+        *taken += most;
+        numbers.collect()
+    }
+
+    /// The number of cases in the queue at its beginning.
+    pub(super) fn cases(&self) -> u64 {
+        self.numbers.len() as u64
+    }
+
+    /// Takes the worker that discovery left running.
+    pub(super) fn take_running(&self) -> Option<Worker> {
+        lock(&self.running).take()
+    }
+
+    pub(super) fn state(&self) -> MutexGuard<'_, State> {
+        lock(&self.state)
+    }
+
+    /// True for the first thread.
+    pub(super) fn begin(&self) -> bool {
+        let mut state = self.state();
+        let first = state.begun.is_none();
+        state.begun.get_or_insert_with(Instant::now);
+        first
+    }
+
+    /// Counts a record; after the last one, the time that all took.
+    pub(super) fn written(&self) -> Option<Duration> {
+        let written = self.written.fetch_add(1, Ordering::Relaxed) + 1;
+        let begun = self.state().begun;
+        (written == self.cases()).then(|| begun.map_or(Duration::ZERO, |b| b.elapsed()))
+    }
+
+    pub(super) fn is_unfinished(&self) -> bool {
+        self.written.load(Ordering::Relaxed) < self.cases()
+    }
+
+    pub(super) fn leave(&self) {
+        self.threads.fetch_sub(1, Ordering::Relaxed);
+    }
+
+    /// True if a bad verdict may be checked again. The number of checks is limited, so that a broken driver
+    /// does not double a run.
+    pub(super) fn may_recheck(&self, verdict: Verdict) -> bool {
+        let mut state = self.state();
+        let timeouts = u32::from(verdict == Verdict::Timeout);
+        let fits = state.rechecks < MAX_RECHECKS
+            && state.timeout_rechecks + timeouts <= MAX_TIMEOUT_RECHECKS;
+        if fits {
+            state.rechecks += 1;
+            state.timeout_rechecks += timeouts;
+        }
+        fits
+    }
+
+    /// True if the cases that must precede a case may be searched.
+    pub(super) fn may_search(&self) -> bool {
+        let mut state = self.state();
+        state.searches += 1;
+        state.searches <= MAX_SEARCHES
+    }
+}
+
+/// The queue that a free thread takes from: one that has cases left, and the fewest threads.
+pub(super) fn next(queues: &[AdapterQueue]) -> Option<&AdapterQueue> {
+    // Two threads may choose the same queue at the same time; then both take from it.
+    let open = queues.iter().filter(|q| *lock(&q.taken) < q.numbers.len());
+    let queue = open.min_by_key(|q| q.threads.load(Ordering::Relaxed))?;
+    queue.threads.fetch_add(1, Ordering::Relaxed);
+    Some(queue)
+}

@@ -1,0 +1,273 @@
+//! One adapter's part of a run, without its workers: judging drawings and writing records.
+
+use super::adapter_queue::AdapterQueue;
+use super::shared::Shared;
+use crate::drawing::Drawing;
+use crate::event::Event;
+use crate::judge::Judged;
+use crate::loss::Failure;
+use crate::loss::Loss;
+use crate::measure::measured;
+use crate::process::Wait;
+use crate::supervisor::FailureReport;
+use crate::sync::lock;
+use etalon_case::Case;
+use etalon_frame::Frame;
+use etalon_record::{Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Seconds, Verdict};
+use etalon_truth::TruthPicture;
+use std::time::{Duration, Instant};
+
+/// Frame files and stories of imprecise cases per adapter and case file; failures keep all of theirs.
+const IMPRECISE_FRAMES: u32 = 3;
+/// The factor by which a case that is measured may take longer than others.
+const MEASURING: u32 = 4;
+/// The most bytes of one validation message that a record keeps.
+const MESSAGE_BYTES: usize = 1000;
+
+/// A judged drawing, of which nothing is written yet.
+pub(super) struct Observation {
+    pub(super) record: Record,
+    pub(super) frame: Option<FrameFile>,
+    /// The frames themselves; empty if drawing failed.
+    pub(super) frames: Vec<Frame>,
+}
+
+/// One adapter's part of a run.
+#[derive(Clone, Copy)]
+pub(super) struct AdapterRun<'s, 'a> {
+    pub(super) shared: &'s Shared<'a>,
+    pub(super) queue: &'s AdapterQueue,
+}
+
+impl<'s> AdapterRun<'s, '_> {
+    pub(super) fn case(&self, number: usize) -> &'s Case {
+        &self.shared.cases[number]
+    }
+
+    /// The limits of waiting for a case.
+    pub(super) fn wait(&self, case: &Case) -> Wait<'s> {
+        let measuring = case.method.is_some() || case.area() == "perf";
+        Wait {
+            timeout: if measuring {
+                self.measuring_timeout()
+            } else {
+                self.shared.options.timeout
+            },
+            stop: Some(self.shared.stop),
+        }
+    }
+
+    /// The time that a case which is measured may take.
+    pub(super) fn measuring_timeout(&self) -> Duration {
+        self.shared.options.timeout * MEASURING
+    }
+
+    /// Records every case as a Crash, since the driver does not start.
+    pub(super) fn record_not_started(&self, error: &str) {
+        loop {
+            let numbers = self.queue.take();
+            if numbers.is_empty() || self.shared.stopped() {
+                return;
+            }
+            for number in numbers {
+                let case = self.case(number);
+                let failure = Failure::Lost(Loss::NotStarted(error.to_owned()));
+                let report = FailureReport::new(failure, None);
+                let mut record = Record::new(&case.id, &self.queue.adapter.name, report.verdict);
+                record.due_fail = case.judged_as.is_some();
+                record.message = report.message;
+                record.process = report.process;
+                self.record(record);
+            }
+        }
+    }
+
+    /// Records a case that is not drawn on this adapter; false if it is to be drawn.
+    pub(super) fn record_undrawn(&self, number: usize) -> bool {
+        let case = self.case(number);
+        let adapter = &self.queue.adapter;
+        let mut record = if let Some(entry) = self.shared.expectations.skips(adapter, &case.id) {
+            let mut record = Record::new(&case.id, &adapter.name, Verdict::Skipped);
+            record.expected = Some(Expected {
+                reason: entry.reason.clone(),
+            });
+            record.message = format!("not drawn: {}", entry.reason);
+            record
+        } else if let Some(missing) = adapter.limits.missing(&case.requirements()) {
+            let mut record = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
+            record.message = missing.to_string();
+            record
+        } else {
+            return false;
+        };
+        record.due_fail = case.judged_as.is_some();
+        self.record(record);
+        true
+    }
+
+    /// Judges a drawing. `report` makes the report on a failed one.
+    pub(super) fn observe(
+        &self,
+        number: usize,
+        drawing: Drawing,
+        report: impl FnOnce(Failure) -> FailureReport,
+    ) -> Observation {
+        let case = self.case(number);
+        let adapter = &self.queue.adapter;
+        let mut judging = Duration::ZERO;
+        let mut observed = match drawing.frames {
+            Ok(frames) => {
+                let start = Instant::now();
+                let judge = &self.shared.judge;
+                let Judged { record, frame } =
+                    judge.judge(number, case, &adapter.name, &adapter.limits, &frames);
+                judging = start.elapsed();
+                Observation {
+                    record,
+                    frame,
+                    frames,
+                }
+            }
+            Err(failure) => {
+                let report = report(failure);
+                let mut record = Record::new(&case.id, &adapter.name, report.verdict);
+                record.message = report.message;
+                record.process = report.process;
+                if let Some(end) = &mut record.process {
+                    end.seconds = drawing.since.as_secs_f64();
+                }
+                Observation {
+                    record,
+                    frame: None,
+                    frames: Vec::new(),
+                }
+            }
+        };
+        let record = &mut observed.record;
+        record.due_fail = case.judged_as.is_some();
+        let lost = record.process.is_some();
+        record.seconds = Seconds {
+            draw: if lost { drawing.since } else { drawing.working }.as_secs_f64(),
+            judge: judging.as_secs_f64(),
+        };
+        note_validation(record, drawing.messages);
+        observed
+    }
+
+    /// Writes the frame and the pictures that are worth keeping, and shortens the rest.
+    pub(super) fn keep(
+        &self,
+        number: usize,
+        observed: &mut Observation,
+    ) -> Result<(), RecordError> {
+        let record = &mut observed.record;
+        let kept = observed.frame.take().filter(|_| self.keeps_frame(record));
+        if record.due_fail && record.verdict == Verdict::Fail {
+            // The frame file shows the rest of a failure that is due.
+            record.wrong.truncate(4);
+        }
+        if record.verdict == Verdict::Imprecise {
+            // Legal deviations come by the hundred, and one texel shows of which kind they are.
+            record.wrong.truncate(if kept.is_some() { 16 } else { 1 });
+            if kept.is_none() {
+                record.story = None;
+            }
+        }
+        if let Some(file) = kept {
+            record.frame = Some(lock(&self.shared.writer).write_frame(&file)?);
+        }
+        let case = self.case(number);
+        if let (Some(method), Some(frame)) = (&case.method, observed.frames.first()) {
+            let truth = self.shared.truths.get(method);
+            record.measured = measured(case, &truth, frame);
+            self.keep_picture(number, record, &truth, frame)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the pictures of a method and of the truth, if this case and adapter are chosen for it.
+    fn keep_picture(
+        &self,
+        number: usize,
+        record: &mut Record,
+        truth: &TruthPicture,
+        frame: &Frame,
+    ) -> Result<(), RecordError> {
+        let shared = self.shared;
+        if !shared.pictures.contains(&number) || shared.picture_adapter != self.queue.launch.adapter
+        {
+            return Ok(());
+        }
+        let Some(measured) = &mut record.measured else {
+            return Ok(());
+        };
+        let Some(image) = frame.images.first() else {
+            return Ok(());
+        };
+        let writer = lock(&shared.writer);
+        let drawn = etalon_truth::rgb8(image);
+        measured.picture = Some(writer.write_picture(&record.case, image.size, &drawn)?);
+        let due = truth.rgb8();
+        measured.truth =
+            Some(writer.write_picture(&format!("truth/{}", record.case), truth.size, &due)?);
+        Ok(())
+    }
+
+    fn keeps_frame(&self, record: &Record) -> bool {
+        if matches!(record.verdict, Verdict::Fail | Verdict::Flaky) {
+            return true;
+        }
+        let mut state = self.queue.state();
+        let kept = state
+            .imprecise_frames
+            .entry(record.case_file().to_owned())
+            .or_default();
+        *kept += 1;
+        *kept <= IMPRECISE_FRAMES
+    }
+
+    /// Writes a record. An error ends the run.
+    pub(super) fn record(&self, mut record: Record) {
+        if record.verdict != Verdict::Skipped {
+            record.expect(self.shared.expectations, &self.queue.adapter);
+        }
+        let appended = lock(&self.shared.writer).append(&record);
+        if let Err(error) = appended {
+            return self.shared.fail(error);
+        }
+        lock(&self.shared.summary).count(&record);
+        (self.shared.events)(Event::Recorded(Box::new(record)));
+        if let Some(wall) = self.queue.written() {
+            (self.shared.events)(Event::AdapterFinished {
+                adapter: self.queue.adapter.name.clone(),
+                wall,
+            });
+        }
+    }
+}
+
+/// Notes the messages of validation. Calls that break the API's rules are the suite's error: their result
+/// says nothing about the driver.
+fn note_validation(record: &mut Record, messages: Vec<String>) {
+    let Some(first) = messages.first() else {
+        return;
+    };
+    if record.verdict.is_judged() || record.verdict == Verdict::Measured {
+        record.message = format!(
+            "validation, {} messages (the picture would be {}): {first}",
+            messages.len(),
+            record.verdict
+        );
+        record.verdict = Verdict::InternalError;
+    }
+    let short = |mut text: String| {
+        let end = text.floor_char_boundary(MESSAGE_BYTES);
+        text.truncate(end);
+        text
+    };
+    record.validation = messages
+        .into_iter()
+        .take(MAX_VALIDATION)
+        .map(short)
+        .collect();
+}

@@ -1,0 +1,96 @@
+//! The input of a run and its result.
+
+use crate::drawing::DRAW_TIMEOUT;
+use crate::launch::Launch;
+use crate::worker::Worker;
+use etalon_case::Case;
+use etalon_record::{AdapterRecord, Expectations, Header, Record, RecordError, ReportFiles};
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+use thiserror::Error;
+
+/// The cases and adapters of a run, and the folder it is written to.
+pub struct Plan<'a> {
+    /// The cases, each once, in drawing order.
+    pub cases: &'a [Case],
+    /// All ids selected before sharding, if they are to be written to the folder.
+    pub selection: Option<&'a [String]>,
+    /// Each adapter's launch command, and the worker that is already running.
+    pub adapters: Vec<(Launch, Worker)>,
+    /// Adapters whose driver does not start, with the error: each of their cases is a Crash.
+    pub dead: Vec<(AdapterRecord, String)>,
+    /// The limits and repetitions of drawing.
+    pub options: Options,
+    /// The known bad verdicts.
+    pub expectations: &'a Expectations,
+    /// The run folder.
+    pub folder: &'a Path,
+    /// The reports that are removed from a run which is replaced.
+    pub reports: ReportFiles,
+    /// The header of the run.
+    pub header: Header,
+    /// True to resume the run that the folder holds, false to replace it.
+    pub resume: bool,
+    /// Set by the caller to stop the run early.
+    pub stop: &'a AtomicBool,
+}
+
+/// The limits and repetitions of drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// The number of workers that draw at the same time; at least one.
+    pub jobs: usize,
+    /// The time that a case may take; four times that for methods and frame times.
+    pub timeout: Duration,
+    /// MiB of memory that one worker may hold.
+    pub memory: Option<u64>,
+    /// The number of times that each case is drawn, each but the first in a fresh process; at least one.
+    pub repeat: u32,
+    /// True if a bad and unexpected verdict is checked again in a fresh process.
+    pub look_again: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            jobs: 1,
+            timeout: DRAW_TIMEOUT,
+            memory: None,
+            repeat: 1,
+            look_again: true,
+        }
+    }
+}
+
+/// The counts of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RunSummary {
+    /// Records in the run, including those from before it was resumed.
+    pub records: u64,
+    /// Records that count against the run.
+    pub unexpected: u64,
+    /// Verdicts better than the expectations.
+    pub improvements: u64,
+    /// True if the run was stopped before it was complete.
+    pub interrupted: bool,
+}
+
+impl RunSummary {
+    pub(super) fn count(&mut self, record: &Record) {
+        self.records += 1;
+        self.unexpected += u64::from(record.unexpected());
+        self.improvements += u64::from(record.improvement());
+    }
+}
+
+/// Why a run could not be completed.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// The run folder cannot be begun; nothing was drawn.
+    #[error(transparent)]
+    Folder(RecordError),
+    /// The run folder can no longer be written to; the records written before are readable.
+    #[error("the run is incomplete: {0}")]
+    Write(RecordError),
+}

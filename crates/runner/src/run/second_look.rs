@@ -1,0 +1,178 @@
+//! The second look at a bad verdict: a fresh process confirms it, or shows what it depends on.
+
+use super::adapter_run::{AdapterRun, Observation};
+use crate::drawing::Drawing;
+use crate::loss::{Failure, Loss};
+use crate::process::WorkerProcess;
+use crate::supervisor::{FailureReport, start};
+use crate::sync::lock;
+use etalon_record::{LossKind, Verdict};
+use std::time::{Duration, Instant};
+
+/// The time after which a search for the preceding cases is not narrowed further.
+const SEARCH_TIME: Duration = Duration::from_secs(120);
+/// The number of times that a cause found must be confirmed.
+const CONFIRMATIONS: u32 = 5;
+/// The most cases that a record names.
+const MAX_NAMED: usize = 8;
+
+/// Draws a case again in fresh processes, if `--repeat` says so or its verdict is bad and unexpected. The
+/// result is Flaky where verdicts differ, unless the case goes wrong reproducibly after certain others,
+/// which the record then names. `None` when the run is stopped.
+pub(super) fn confirm(
+    run: &AdapterRun<'_, '_>,
+    number: usize,
+    mut first: Observation,
+    before: &[usize],
+) -> Option<Observation> {
+    let options = run.shared.options;
+    let more = match options.repeat.max(1) - 1 {
+        0 if options.look_again && needs_confirmation(run, &first) => 1,
+        more if first.record.verdict != Verdict::NotSupported => more,
+        _ => 0,
+    };
+    let mut others = Vec::new();
+    for _ in 0..more {
+        match draw_alone(run, &[], number) {
+            Redrawn::Observed(observed) => others.push(*observed),
+            Redrawn::Unable => break,
+            Redrawn::Stopped => return None,
+        }
+    }
+    let verdict = first.record.verdict;
+    let repeats: Vec<Verdict> = others.iter().map(|s| s.record.verdict).collect();
+    if repeats.iter().all(|v| *v == verdict) {
+        first.record.repeats = repeats;
+        return Some(first);
+    }
+    let only_after_others = verdict.is_bad() && repeats.iter().all(|v| !v.is_bad());
+    if only_after_others && !before.is_empty() && run.queue.may_search() {
+        match search(run, number, verdict, before) {
+            Cause::Cases(cases) => {
+                let named = cases.iter().take(MAX_NAMED);
+                first.record.after = named.map(|n| run.case(*n).id.clone()).collect();
+                first.record.message = format!(
+                    "only after {} in the same process: {}",
+                    match cases.len() {
+                        1 => "another case".to_owned(),
+                        n => format!("{n} other cases"),
+                    },
+                    first.record.message
+                )
+                .trim_end_matches([':', ' '])
+                .to_owned();
+                first.record.repeats = repeats;
+                return Some(first);
+            }
+            Cause::Unknown => {}
+            Cause::Stopped => return None,
+        }
+    }
+    let mut verdicts = vec![verdict.name()];
+    verdicts.extend(repeats.iter().map(|v| v.name()));
+    let note = format!("{}, each in a fresh process", verdicts.join(", then "));
+    let all = std::iter::once(first).chain(others);
+    let mut worst = all.max_by_key(|s| s.record.verdict.severity())?;
+    worst.record.verdict = Verdict::Flaky;
+    worst.record.repeats = repeats;
+    worst.record.message = match worst.record.message.as_str() {
+        "" => note,
+        message => format!("{note}; {message}"),
+    };
+    Some(worst)
+}
+
+/// True if a verdict is bad, not expected, and a fresh process may change it.
+fn needs_confirmation(run: &AdapterRun<'_, '_>, observed: &Observation) -> bool {
+    let mut record = observed.record.clone();
+    record.expect(run.shared.expectations, &run.queue.adapter);
+    let started = record
+        .process
+        .as_ref()
+        .is_none_or(|p| p.kind != LossKind::NotStarted);
+    let due = record.due_fail && record.verdict == Verdict::Fail;
+    record.unexpected()
+        && record.verdict.is_bad()
+        && started
+        && !due
+        && run.queue.may_recheck(record.verdict)
+}
+
+/// The result of drawing a case in a fresh process.
+enum Redrawn {
+    Observed(Box<Observation>),
+    /// No worker could be started, or it was lost before it came to the case.
+    Unable,
+    Stopped,
+}
+
+/// Draws a case in a fresh process, after other cases that are not judged.
+fn draw_alone(run: &AdapterRun<'_, '_>, before: &[usize], number: usize) -> Redrawn {
+    let Ok(mut worker) = start(&run.queue.launch, run.shared.options.memory) else {
+        return Redrawn::Unable;
+    };
+    for other in before {
+        if run.shared.stopped() {
+            return Redrawn::Stopped;
+        }
+        if let Err(Failure::Lost(_)) = draw(run, &mut worker, *other).frames {
+            return Redrawn::Unable;
+        }
+    }
+    let drawing = draw(run, &mut worker, number);
+    if matches!(drawing.frames, Err(Failure::Lost(Loss::Cancelled))) {
+        return Redrawn::Stopped;
+    }
+    let report = |failure| FailureReport::new(failure, Some(&mut worker));
+    Redrawn::Observed(Box::new(run.observe(number, drawing, report)))
+}
+
+fn draw(run: &AdapterRun<'_, '_>, worker: &mut WorkerProcess, number: usize) -> Drawing {
+    let case = run.case(number);
+    worker.draw_case(number as u32, case, run.wait(case))
+}
+
+/// The cause of a verdict that a case does not get alone.
+enum Cause {
+    /// These cases, drawn before it in this order.
+    Cases(Vec<usize>),
+    Unknown,
+    Stopped,
+}
+
+/// Searches the cases that must precede a case for its verdict, by halving those drawn before it.
+fn search(run: &AdapterRun<'_, '_>, number: usize, verdict: Verdict, before: &[usize]) -> Cause {
+    let start = Instant::now();
+    let mut stopped = false;
+    let mut reproduces = |cases: &[usize]| match draw_alone(run, cases, number) {
+        Redrawn::Observed(observed) => observed.record.verdict == verdict,
+        Redrawn::Unable => false,
+        Redrawn::Stopped => {
+            stopped = true;
+            false
+        }
+    };
+    let mut cause = before.to_vec();
+    let mut found = reproduces(&cause);
+    while found && cause.len() > 1 && start.elapsed() < SEARCH_TIME {
+        let middle = cause.len() / 2;
+        // The later half first: state left by a recent case is the likelier cause.
+        if reproduces(&cause[middle..]) {
+            cause.drain(..middle);
+        } else if reproduces(&cause[..middle]) {
+            cause.truncate(middle);
+        } else {
+            break;
+        }
+    }
+    // A flaky case may have gone wrong just then: it must go wrong after those cases and not without them,
+    // repeatedly.
+    found = found && (0..CONFIRMATIONS).all(|_| reproduces(&cause) && !reproduces(&[]));
+    if stopped || lock(&run.shared.error).is_some() {
+        Cause::Stopped
+    } else if found {
+        Cause::Cases(cause)
+    } else {
+        Cause::Unknown
+    }
+}

@@ -1,0 +1,47 @@
+//! The state that all threads of a run share.
+
+use super::plan::{Options, RunSummary};
+use crate::event::Event;
+use crate::judge::Judge;
+use crate::measure::Truths;
+use crate::sync::lock;
+use etalon_case::Case;
+use etalon_record::{Expectations, RecordError, RunWriter};
+use std::collections::HashSet;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, RwLock};
+
+/// The state that all threads of a run share.
+pub(super) struct Shared<'a> {
+    pub(super) cases: &'a [Case],
+    pub(super) options: Options,
+    pub(super) expectations: &'a Expectations,
+    pub(super) judge: Judge,
+    pub(super) writer: Mutex<RunWriter>,
+    /// The error that ended the run.
+    pub(super) error: Mutex<Option<RecordError>>,
+    /// Set by the caller to stop the run.
+    pub(super) stop: &'a AtomicBool,
+    pub(super) summary: Mutex<RunSummary>,
+    pub(super) truths: Truths,
+    /// Held for reading while a thread draws or judges, for writing while one times frames: nothing else
+    /// may load the machine then.
+    pub(super) quiet: RwLock<()>,
+    /// Numbers of the method cases whose pictures are kept.
+    pub(super) pictures: HashSet<usize>,
+    /// The adapter whose pictures are kept.
+    pub(super) picture_adapter: String,
+    pub(super) events: &'a (dyn Fn(Event) + Sync),
+}
+
+impl Shared<'_> {
+    /// True if no more cases are to be drawn.
+    pub(super) fn stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed) || lock(&self.error).is_some()
+    }
+
+    /// Ends the run with an error; the first one counts.
+    pub(super) fn fail(&self, error: RecordError) {
+        lock(&self.error).get_or_insert(error);
+    }
+}

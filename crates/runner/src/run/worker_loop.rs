@@ -1,0 +1,195 @@
+//! The loop of one thread: it has a worker draw cases of an adapter, judges and records them.
+//!
+//! Requests are pipelined: while the worker draws the next cases, the thread judges the last one.
+
+use super::adapter_queue::AdapterQueue;
+use super::adapter_run::{AdapterRun, Observation};
+use super::second_look::confirm;
+use super::shared::Shared;
+use crate::drawing::Drawing;
+use crate::event::Event;
+use crate::loss::{Failure, Loss};
+use crate::supervisor::Supervisor;
+use etalon_record::Record;
+use std::collections::VecDeque;
+use std::sync::PoisonError;
+use std::time::Instant;
+
+/// The number of cases that are requested ahead.
+const IN_FLIGHT: usize = 4;
+
+/// A case that was requested.
+struct Requested {
+    number: usize,
+    at: Instant,
+}
+
+/// One thread with its worker.
+pub(super) struct WorkerLoop<'s, 'a> {
+    run: AdapterRun<'s, 'a>,
+    supervisor: Supervisor,
+    /// The cases requested of the present worker, in order.
+    history: Vec<usize>,
+    /// The supervisor's generation that `history` belongs to.
+    generation: u32,
+}
+
+impl<'s, 'a> WorkerLoop<'s, 'a> {
+    pub(super) fn new(shared: &'s Shared<'a>, queue: &'s AdapterQueue) -> Self {
+        let supervisor = Supervisor::new(
+            queue.launch.clone(),
+            shared.options.memory,
+            queue.failed_starts.clone(),
+            queue.take_running(),
+        );
+        Self {
+            run: AdapterRun { shared, queue },
+            generation: supervisor.generation(),
+            supervisor,
+            history: Vec::new(),
+        }
+    }
+
+    /// Draws and records cases until the queue is empty or the run is stopped.
+    pub(super) fn run(&mut self) {
+        let run = self.run;
+        let (shared, queue) = (run.shared, run.queue);
+        if queue.begin() {
+            (shared.events)(Event::AdapterStarted {
+                adapter: queue.adapter.name.clone(),
+                cases: queue.cases(),
+            });
+        }
+        if let Some(error) = &queue.start_error {
+            return run.record_not_started(error);
+        }
+        let mut taken: VecDeque<usize> = VecDeque::new();
+        let mut requested: VecDeque<Requested> = VecDeque::new();
+        while !shared.stopped() {
+            // Timing needs the machine to itself: it waits for this lock and keeps others from taking it.
+            let busy = shared.quiet.read().unwrap_or_else(PoisonError::into_inner);
+            loop {
+                if taken.is_empty() {
+                    taken = queue.take();
+                }
+                let Some(number) = taken.front().copied() else {
+                    break;
+                };
+                let timed = |number: usize| run.case(number).method.is_some();
+                // Nothing may be in flight while frames are timed.
+                let alone = timed(number) || requested.front().is_some_and(|r| timed(r.number));
+                if requested.len() >= if alone { 1 } else { IN_FLIGHT } {
+                    break;
+                }
+                taken.pop_front();
+                if !run.record_undrawn(number) {
+                    self.request(number);
+                    requested.push_back(Requested {
+                        number,
+                        at: Instant::now(),
+                    });
+                }
+            }
+            let Some(Requested { number, at }) = requested.pop_front() else {
+                break;
+            };
+            let drawing = self.receive(number, at);
+            let before = self.before(number);
+            let Some(observed) = self.observe(number, drawing) else {
+                break;
+            };
+            if !self.supervisor.is_running() {
+                self.request_again(&mut requested);
+            }
+            let Some(mut observed) = confirm(&run, number, observed, &before) else {
+                break;
+            };
+            if let Err(error) = run.keep(number, &mut observed) {
+                shared.fail(error);
+                break;
+            }
+            if observed.record.measured.is_some() {
+                drop(busy);
+                self.time(number, &mut observed.record);
+            }
+            run.record(observed.record);
+        }
+    }
+
+    fn request(&mut self, number: usize) {
+        let Ok(worker) = self.supervisor.worker() else {
+            return;
+        };
+        worker.request_case(number as u32, self.run.case(number));
+        if self.supervisor.generation() != self.generation {
+            self.generation = self.supervisor.generation();
+            self.history.clear();
+        }
+        self.history.push(number);
+    }
+
+    /// Requests the cases that were in flight behind one that cost the worker.
+    fn request_again(&mut self, requested: &mut VecDeque<Requested>) {
+        for case in requested {
+            self.request(case.number);
+            case.at = Instant::now();
+        }
+    }
+
+    /// The cases that the worker drew before this one.
+    fn before(&self, number: usize) -> Vec<usize> {
+        let at = self.history.iter().rposition(|n| *n == number);
+        self.history[..at.unwrap_or(0)].to_vec()
+    }
+
+    fn receive(&mut self, number: usize, asked: Instant) -> Drawing {
+        let case = self.run.case(number);
+        let wait = self.run.wait(case);
+        match self.supervisor.running() {
+            Ok(worker) => worker.receive_frames(number as u32, case.scene_count(), asked, wait),
+            Err(loss) => Drawing::failed(Failure::Lost(loss)),
+        }
+    }
+
+    /// Judges a drawing; `None` when the run is stopped.
+    fn observe(&mut self, number: usize, drawing: Drawing) -> Option<Observation> {
+        if matches!(drawing.frames, Err(Failure::Lost(Loss::Cancelled))) {
+            return None;
+        }
+        let supervisor = &mut self.supervisor;
+        let report = |failure| supervisor.report(failure);
+        Some(self.run.observe(number, drawing, report))
+    }
+
+    /// Times a method case. A wrong picture has no time.
+    fn time(&mut self, number: usize, record: &mut Record) {
+        let run = self.run;
+        let Ok(worker) = self.supervisor.running() else {
+            return;
+        };
+        if record.verdict.is_bad() {
+            return;
+        }
+        let scene = &run.case(number).scene;
+        let timed = {
+            let quiet = &run.shared.quiet;
+            let _alone = quiet.write().unwrap_or_else(PoisonError::into_inner);
+            let timeout = run.measuring_timeout();
+            worker.time(number as u32, scene, &run.queue.adapter.limits, timeout)
+        };
+        match timed {
+            Ok((times, fragments)) => {
+                if let Some(measured) = &mut record.measured {
+                    measured.time = times;
+                    measured.fragments = fragments;
+                }
+            }
+            Err(loss) => {
+                let report = self.supervisor.report(loss.into());
+                record.verdict = report.verdict;
+                record.message = format!("while its frames were timed: {}", report.message);
+                record.process = report.process;
+            }
+        }
+    }
+}

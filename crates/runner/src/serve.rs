@@ -1,0 +1,111 @@
+//! The worker's side of the protocol: requests are answered until the parent closes the pipe.
+
+use crate::protocol::{Hello, Payload, Request, Response, receive, send};
+use etalon_backend::{Backend, BackendError, Prepared, Unavailable};
+use std::any::Any;
+use std::collections::HashMap;
+use std::io::{self, Read, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{Sender, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// The time that a worker may take to end by itself after its parent has gone.
+const GRACE: Duration = Duration::from_secs(5);
+
+/// Opens a backend and answers requests until `input` ends. A driver that hangs does not outlive the
+/// parent: some seconds after the end of `input` the process exits in any case.
+///
+/// # Errors
+/// When the pipe to the parent breaks.
+pub fn serve(
+    open: impl FnOnce() -> Result<Box<dyn Backend>, Unavailable>,
+    input: impl Read + Send + 'static,
+    output: &mut impl Write,
+) -> io::Result<()> {
+    let backend = match open() {
+        Ok(backend) => backend,
+        Err(unavailable) => return send(output, &Response::Hello(Err(unavailable))),
+    };
+    let hello = Hello {
+        info: backend.adapter().clone(),
+        limits: backend.limits().clone(),
+    };
+    send(output, &Response::Hello(Ok(Box::new(hello))))?;
+    let mut slots: HashMap<u32, Box<dyn Prepared + '_>> = HashMap::new();
+    let (sender, requests) = channel();
+    thread::spawn(move || read(input, sender));
+    while let Ok(request) = requests.recv() {
+        let request: Request = request?;
+        let slot = request.slot();
+        let start = Instant::now();
+        // A panic is the suite's own bug and no crash of the driver. The parent starts another
+        // worker after it, so that no half-done state is used again.
+        let outcome = catch_unwind(AssertUnwindSafe(|| {
+            answer(backend.as_ref(), &mut slots, request)
+        }))
+        .unwrap_or_else(|panic| Err(BackendError::Internal(panic_message(panic.as_ref()))));
+        let response = Response::Done {
+            slot,
+            outcome,
+            elapsed: start.elapsed(),
+            messages: backend.messages(),
+        };
+        send(output, &response)?;
+    }
+    Ok(())
+}
+
+/// Passes requests on until there are no more, then makes sure that the process ends.
+fn read(mut input: impl Read, requests: Sender<io::Result<Request>>) {
+    loop {
+        let message = receive::<Request>(&mut input).transpose();
+        let Some(message) = message else { break };
+        let failed = message.is_err();
+        if requests.send(message).is_err() || failed {
+            break;
+        }
+    }
+    drop(requests);
+    thread::sleep(GRACE);
+    std::process::exit(0);
+}
+
+/// The message of a panic.
+fn panic_message(panic: &(dyn Any + Send)) -> String {
+    let text = panic
+        .downcast_ref::<&str>()
+        .copied()
+        .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("no message");
+    format!("the backend panicked: {text}")
+}
+
+fn answer<'b>(
+    backend: &'b dyn Backend,
+    slots: &mut HashMap<u32, Box<dyn Prepared + 'b>>,
+    request: Request,
+) -> Result<Payload, BackendError> {
+    let missing = || BackendError::Internal("the scene is not prepared".to_owned());
+    match request {
+        Request::Prepare { slot, scene } => {
+            slots.insert(slot, backend.prepare(&scene)?);
+            Ok(Payload::Prepared)
+        }
+        Request::Submit { slot, times } => {
+            let prepared = slots.get_mut(&slot).ok_or_else(missing)?;
+            (0..times)
+                .map(|_| prepared.submit())
+                .collect::<Result<_, _>>()
+                .map(Payload::Submitted)
+        }
+        Request::ReadBack { slot } => {
+            let prepared = slots.get_mut(&slot).ok_or_else(missing)?;
+            prepared.read_back().map(Box::new).map(Payload::Frame)
+        }
+        Request::Drop { slot } => {
+            slots.remove(&slot);
+            Ok(Payload::Dropped)
+        }
+    }
+}
