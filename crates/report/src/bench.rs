@@ -2,19 +2,16 @@
 //! benches. All of it is computed anew from the recorded samples.
 
 mod data;
-mod diff;
-mod diff_page;
-mod files;
 mod page;
 mod picture;
 mod terminal;
 
-pub use diff::{Change, Diff, Gone, Side, diff};
-pub use diff_page::write_diff;
+pub(crate) use data::{Figures, samples};
+pub(crate) use page::frame;
 pub use terminal::{bench_table, diff_table};
 
+use crate::export::dashboards;
 use crate::{ReportError, replace};
-use data::Figures;
 use etalon_record::{AdapterRecord, Bench};
 use std::path::{Path, PathBuf};
 
@@ -38,8 +35,8 @@ pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
     let bench = Bench::read(folder)?;
     let figures = Figures::new(&bench);
     let html = page::page(&bench, &figures);
-    let bencher = files::bencher(&figures)?;
-    let action = files::action(&figures)?;
+    let bencher = dashboards::bencher(&figures)?;
+    let action = dashboards::action(&figures)?;
     Ok(WrittenBench {
         html: replace(folder, "index.html", html.as_bytes())?,
         bencher: replace(folder, "bencher.json", &bencher)?,
@@ -48,11 +45,11 @@ pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
 }
 
 /// The two kinds of adapters, which never share a ranking.
-const KINDS: [(bool, &str); 2] = [(true, "Software"), (false, "Hardware")];
+pub(crate) const KINDS: [(bool, &str); 2] = [(true, "Software"), (false, "Hardware")];
 
 /// Whether an adapter is the processor. One that no header names counts as hardware, which is
 /// compared with no ruler.
-fn software(adapter: Option<&AdapterRecord>) -> bool {
+pub(crate) fn software(adapter: Option<&AdapterRecord>) -> bool {
     adapter.is_some_and(|a| a.software)
 }
 

@@ -12,29 +12,27 @@
 )]
 
 mod bench;
-mod ctrf;
-mod deqp;
-mod formats;
-mod grid;
-mod html;
+mod chart;
+mod diff;
+mod export;
 mod hunt;
-mod junit;
-mod markdown;
 mod methods;
 mod picture;
-pub mod runs;
-mod table;
+mod run;
 mod words;
 
-pub use bench::{
-    Change, Diff, Gone, Side, WrittenBench, bench_table, diff, diff_table, write_bench, write_diff,
-};
-pub use html::quoted;
+pub use bench::{WrittenBench, bench_table, diff_table, write_bench};
+pub use diff::benches::compare::{Change, Diff, Gone, Side, diff};
+pub use diff::benches::page::write_diff;
+pub use diff::runs;
 pub use hunt::{WrittenHunt, hunt_table, write_hunt};
-pub use table::{TableOptions, table};
+pub use run::index::quoted;
+pub use run::table::{TableOptions, table};
 
 use etalon_record::{RecordError, Run};
-use grid::Grid;
+use export::{ctrf, deqp, junit, markdown};
+use run::grid::Grid;
+use run::index;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -131,7 +129,7 @@ pub enum ReportError {
 pub fn write(folder: &Path) -> Result<Written, ReportError> {
     let run = Run::read(folder)?;
     let found = methods::Methods::of(&run);
-    let page = html::page(folder, &run, found.as_ref());
+    let page = index::page(folder, &run, found.as_ref());
     let html = replace(folder, "index.html", page.as_bytes())?;
     let methods = match &found {
         Some(found) => {

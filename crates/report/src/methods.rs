@@ -12,7 +12,6 @@ mod page;
 mod scatter;
 mod stability;
 mod summary;
-mod svg;
 
 pub(crate) use data::Methods;
 pub(crate) use driver::section as driver_section;
@@ -22,11 +21,11 @@ pub(crate) use summary::{lines, section};
 /// The name of the page of methods in a run folder.
 pub(crate) const PAGE: &str = "methods.html";
 /// How charts look; for pages that have some.
-pub(crate) const CHART_STYLE: &str = include_str!("methods/chart.css");
+pub(crate) const CHART_STYLE: &str = include_str!("chart/chart.css");
 
 /// A parameter's value.
 fn value_text(value: f64) -> String {
-    svg::digits(value, 3)
+    crate::chart::kit::digits(value, 3)
 }
 
 /// The name of the element that a scene's charts are in: letters, digits and dashes, so that no name

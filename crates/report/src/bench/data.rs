@@ -6,25 +6,25 @@ use etalon_stats::{Outcome, Samples, Summary, compare, summarize};
 use std::collections::BTreeMap;
 
 /// The figures of a whole bench.
-pub(super) struct Figures<'a> {
+pub(crate) struct Figures<'a> {
     /// By case, in the bench's order.
-    pub(super) cases: Vec<CaseFigures<'a>>,
+    pub(crate) cases: Vec<CaseFigures<'a>>,
 }
 
 /// The figures of one case.
-pub(super) struct CaseFigures<'a> {
-    pub(super) case: &'a str,
+pub(crate) struct CaseFigures<'a> {
+    pub(crate) case: &'a str,
     /// Timed on the processor, fastest first.
-    pub(super) software: Vec<Timed<'a>>,
+    pub(crate) software: Vec<Timed<'a>>,
     /// Timed on other devices, fastest first.
-    pub(super) hardware: Vec<Timed<'a>>,
+    pub(crate) hardware: Vec<Timed<'a>>,
     /// Not timed: the picture is wrong, or could not be drawn, or there is no round yet.
-    pub(super) untimed: Vec<&'a BenchRecord>,
+    pub(crate) untimed: Vec<&'a BenchRecord>,
 }
 
 impl<'a> CaseFigures<'a> {
     /// The adapters of a kind.
-    pub(super) fn of_kind(&self, software: bool) -> &[Timed<'a>] {
+    pub(crate) fn of_kind(&self, software: bool) -> &[Timed<'a>] {
         if software {
             &self.software
         } else {
@@ -34,29 +34,29 @@ impl<'a> CaseFigures<'a> {
 }
 
 /// One case on one adapter.
-pub(super) struct Timed<'a> {
-    pub(super) record: &'a BenchRecord,
+pub(crate) struct Timed<'a> {
+    pub(crate) record: &'a BenchRecord,
     /// Among adapters of its kind, from 1; adapters that cannot be told apart share one.
-    pub(super) rank: usize,
-    pub(super) wall: Summary,
+    pub(crate) rank: usize,
+    pub(crate) wall: Summary,
     /// Other times, as far as they were measured.
-    pub(super) others: BTreeMap<Time, Summary>,
+    pub(crate) others: BTreeMap<Time, Summary>,
     samples: Samples,
 }
 
 impl Timed<'_> {
-    pub(super) fn adapter(&self) -> &str {
+    pub(crate) fn adapter(&self) -> &str {
         &self.record.picture.adapter
     }
 
     /// The median wall time of each round.
-    pub(super) fn medians(&self) -> Vec<f64> {
+    pub(crate) fn medians(&self) -> Vec<f64> {
         self.samples.medians()
     }
 }
 
 impl<'a> Figures<'a> {
-    pub(super) fn new(bench: &'a Bench) -> Self {
+    pub(crate) fn new(bench: &'a Bench) -> Self {
         let mut cases: Vec<CaseFigures<'a>> = Vec::new();
         let mut places: BTreeMap<&str, usize> = BTreeMap::new();
         for record in &bench.records {
@@ -86,7 +86,7 @@ impl<'a> Figures<'a> {
     }
 
     /// Everything that was timed.
-    pub(super) fn timed(&self) -> impl Iterator<Item = (&'a str, &Timed<'a>)> {
+    pub(crate) fn timed(&self) -> impl Iterator<Item = (&'a str, &Timed<'a>)> {
         let both = |c: &'_ CaseFigures<'a>| c.case;
         self.cases.iter().flat_map(move |c| {
             let name = both(c);
@@ -96,7 +96,7 @@ impl<'a> Figures<'a> {
 }
 
 /// The samples of one time, with their ruler; `None` where it was not measured.
-pub(super) fn samples(record: &BenchRecord, time: Time) -> Option<Samples> {
+pub(crate) fn samples(record: &BenchRecord, time: Time) -> Option<Samples> {
     // The reader lets no record through whose times are no samples.
     let samples = Samples::new(&record.samples(time)).ok()?;
     samples.with_ruler(&record.rulers(time)).ok()

@@ -3,8 +3,8 @@
 use super::data::{CaseFigures, Figures, Timed};
 use super::picture::{Scale, drift, strip};
 use super::{KINDS, change, duration};
-use crate::html::adapters::{breakable, details};
-use crate::html::{POLICY, STYLE};
+use crate::run::index::adapters::{breakable, details};
+use crate::run::index::{POLICY, STYLE};
 use crate::words::{self, count};
 use etalon_record::{Bench, BenchRecord, Time};
 use etalon_stats::{CONFIDENCE, MIN_ROUNDS, POWER, Summary};
@@ -13,7 +13,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 const OWN_STYLE: &str = include_str!("bench.css");
 
 /// The frame of a page.
-pub(super) fn frame(title: &str, body: Markup) -> String {
+pub(crate) fn frame(title: &str, body: Markup) -> String {
     html! {
         (DOCTYPE)
         html lang="en" {

@@ -1,9 +1,9 @@
 //! Benches for a terminal.
 
 use super::data::{Figures, Timed};
-use super::{Change, Diff, KINDS, change, duration};
-use crate::TableOptions;
+use super::{KINDS, change, duration};
 use crate::words::{count, plain};
+use crate::{Change, Diff, TableOptions};
 use etalon_record::{Bench, Time};
 use tabled::Table;
 use tabled::builder::Builder;

@@ -1,7 +1,7 @@
 //! `mutants.html`: one self-contained page that works offline.
 
 use super::{areas, elsewhere};
-use crate::html::{POLICY, STYLE};
+use crate::run::index::{POLICY, STYLE};
 use crate::words::count;
 use etalon_record::{AreaTally, Catch, Hunt, MutantRecord, Sighting};
 use maud::{DOCTYPE, Markup, PreEscaped, html};

@@ -1,6 +1,6 @@
 //! Where along its parameter a method leaves an error of one percent.
 
-use super::svg;
+use crate::chart::kit as svg;
 
 /// The error that counts as broken: one percent of full brightness.
 pub(super) const LIMIT: f64 = 0.01;

@@ -1,8 +1,8 @@
 //! How accurate drivers are: how far their codes lie from the ideal ones, beside their speed.
 
-use super::svg::{self, LEFT, RIGHT, Scale, TOP, n};
-use crate::grid::Grid;
-use crate::html::breakable;
+use crate::chart::kit::{self as svg, LEFT, RIGHT, Scale, TOP, n};
+use crate::run::grid::Grid;
+use crate::run::index::breakable;
 use etalon_frame::{Accuracy, Aspect};
 use etalon_record::{Record, Verdict};
 use maud::{Markup, html};

@@ -1,9 +1,9 @@
 //! `methods.html`: one self-contained page that works offline and needs no script.
 
 use super::data::{Methods, Point, Question, Scene, Series};
-use super::svg;
 use super::{CHART_STYLE, anchor, claims, scatter, stability, value_text};
-use crate::html::{POLICY, STYLE, breakable, quoted};
+use crate::chart::kit as svg;
+use crate::run::index::{POLICY, STYLE, breakable, quoted};
 use crate::words::{self, count};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

@@ -2,8 +2,8 @@
 
 use super::data::{Kind, Methods, Point, Question, Scene};
 use super::front::front;
-use super::svg::{self, BOTTOM, LEFT, Labels, Plot, RIGHT, Scale, TOP, n};
 use super::value_text;
+use crate::chart::kit::{self as svg, BOTTOM, LEFT, Labels, Plot, RIGHT, Scale, TOP, n};
 use maud::{Markup, html};
 
 /// What rounding to 8 bits alone costs where values lie anywhere between two codes: the standard

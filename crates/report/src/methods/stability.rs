@@ -3,8 +3,8 @@
 use super::breaks::{self, Break, LIMIT};
 use super::data::{Methods, Question, Scene, Series};
 use super::scatter::{ROUNDING, line_at};
-use super::svg::{self, Labels, Plot, Scale, n};
 use super::value_text;
+use crate::chart::kit::{self as svg, Labels, Plot, Scale, n};
 use maud::{Markup, html};
 
 /// Where one method breaks on some adapters.

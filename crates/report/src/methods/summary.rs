@@ -2,8 +2,8 @@
 
 use super::breaks::LIMIT;
 use super::data::{Kind, Methods, Point, Scene, Series};
-use super::svg;
 use super::{PAGE, anchor};
+use crate::chart::kit as svg;
 use crate::words::{count, plain};
 use maud::{Markup, html};
 

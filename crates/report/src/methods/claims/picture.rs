@@ -1,9 +1,9 @@
 //! Claims of what methods show.
 
 use super::{Claim, Figure, Place, pairs};
+use crate::chart::kit::{digits, share};
 use crate::methods::breaks::{self, Break, LIMIT};
 use crate::methods::data::{Methods, Point, Scene, Series, usable};
-use crate::methods::svg::{digits, share};
 
 /// Half a step between two codes of 8 bits.
 const HALF_CODE: f64 = 0.5 / 255.0;

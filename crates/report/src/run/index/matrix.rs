@@ -1,7 +1,7 @@
 //! Areas against adapters.
 
 use super::{class, mark};
-use crate::grid::{Grid, Tally};
+use crate::run::grid::{Grid, Tally};
 use crate::words::Tone;
 use etalon_record::Verdict;
 use maud::{Markup, html};

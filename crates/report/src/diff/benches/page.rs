@@ -1,8 +1,8 @@
 //! A comparison of two benches as a page.
 
-use super::page::frame;
-use super::{Change, Diff, KINDS, Side, change, duration};
-use crate::html::adapters::breakable;
+use super::compare::{Change, Diff, Side};
+use crate::bench::{KINDS, change, duration, frame};
+use crate::run::index::adapters::breakable;
 use crate::{ReportError, replace};
 use maud::{Markup, html};
 use std::path::{Path, PathBuf};

@@ -21,8 +21,8 @@
 //! | `Skip` | NotSupported, Skipped, and Measured, which judges nothing |
 //! | `Missing` | selected and not recorded, where the folder keeps the ids that were selected |
 
-use crate::formats::seconds;
-use crate::grid::Grid;
+use crate::export::status::seconds;
+use crate::run::grid::Grid;
 use crate::words::count;
 use etalon_record::{Record, Run, Verdict, read_cases, shard_of};
 use std::collections::BTreeSet;

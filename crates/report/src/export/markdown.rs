@@ -4,9 +4,9 @@
 //! below [`LIMIT`] bytes whatever the run holds, and says what it leaves out. What a run holds may be
 //! hostile: text goes through [`escaped`], names and commands through [`code`].
 
-use crate::formats::{incomplete, particulars};
-use crate::grid::Tally;
-use crate::html::quoted;
+use crate::export::status::{incomplete, particulars};
+use crate::run::grid::Tally;
+use crate::run::index::quoted;
 use crate::words::{Tone, count, headline, name, plain, symbol};
 use etalon_frame::Aspect;
 use etalon_record::{Assertion, Record, Run, Verdict};

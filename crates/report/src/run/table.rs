@@ -1,7 +1,7 @@
 //! The summary for a terminal.
 
-use crate::grid::{Grid, Tally};
 use crate::methods;
+use crate::run::grid::{Grid, Tally};
 use crate::words::{Tone, count, headline, name, plain, symbol};
 use etalon_record::{Record, Run, Verdict};
 use std::cmp::Reverse;

@@ -3,17 +3,17 @@
 use maud::{Markup, html};
 
 /// Width and height of a chart in its own units, which are pixels at full size.
-pub(super) const WIDTH: f64 = 400.0;
-pub(super) const HEIGHT: f64 = 300.0;
+pub(crate) const WIDTH: f64 = 400.0;
+pub(crate) const HEIGHT: f64 = 300.0;
 /// The plot's place within.
-pub(super) const LEFT: f64 = 58.0;
-pub(super) const RIGHT: f64 = WIDTH - 12.0;
-pub(super) const TOP: f64 = 30.0;
-pub(super) const BOTTOM: f64 = HEIGHT - 42.0;
+pub(crate) const LEFT: f64 = 58.0;
+pub(crate) const RIGHT: f64 = WIDTH - 12.0;
+pub(crate) const TOP: f64 = 30.0;
+pub(crate) const BOTTOM: f64 = HEIGHT - 42.0;
 
 /// From values to a place between 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Scale {
+pub(crate) enum Scale {
     /// Between two values.
     Linear { low: f64, high: f64 },
     /// Between the decimal logarithms of two values.
@@ -22,7 +22,7 @@ pub(super) enum Scale {
 
 impl Scale {
     /// A linear scale with all values inside.
-    pub(super) fn linear(values: impl IntoIterator<Item = f64>) -> Self {
+    pub(crate) fn linear(values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = ends(values).unwrap_or((0.0, 1.0));
         let pad = match high - low {
             0.0 => low.abs().max(1.0) * 0.5,
@@ -36,7 +36,7 @@ impl Scale {
 
     /// A logarithmic scale with all values, which must be positive, inside, over a factor of two at
     /// least.
-    pub(super) fn log(values: impl IntoIterator<Item = f64>) -> Self {
+    pub(crate) fn log(values: impl IntoIterator<Item = f64>) -> Self {
         let logs = values.into_iter().map(f64::log10);
         let (low, high) = ends(logs).unwrap_or((0.0, 1.0));
         let pad = ((high - low) * 0.06)
@@ -49,7 +49,7 @@ impl Scale {
     }
 
     /// Logarithmic where positive values lie far apart, else linear.
-    pub(super) fn fitting(values: &[f64]) -> Self {
+    pub(crate) fn fitting(values: &[f64]) -> Self {
         match ends(values.iter().copied()) {
             Some((low, high)) if low > 0.0 && high / low >= 20.0 => {
                 Self::log(values.iter().copied())
@@ -59,7 +59,7 @@ impl Scale {
     }
 
     /// Where a value lies.
-    pub(super) fn at(self, value: f64) -> f64 {
+    pub(crate) fn at(self, value: f64) -> f64 {
         let (low, high, value) = match self {
             Self::Linear { low, high } => (low, high, value),
             Self::Log { low, high } => (low, high, value.log10()),
@@ -68,7 +68,7 @@ impl Scale {
     }
 
     /// Round values inside, about as many as asked for and never more than twice as many.
-    pub(super) fn ticks(self, wanted: usize) -> Vec<f64> {
+    pub(crate) fn ticks(self, wanted: usize) -> Vec<f64> {
         match self {
             Self::Linear { low, high } => linear_ticks(low, high, wanted),
             Self::Log { low, high } => {
@@ -127,25 +127,25 @@ fn linear_ticks(low: f64, high: f64, wanted: usize) -> Vec<f64> {
 }
 
 /// Height of the band for pictures that are exactly right: none where there are no such pictures.
-pub(super) fn zero_band(mut errors: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn zero_band(mut errors: impl Iterator<Item = f64>) -> f64 {
     if errors.any(|e| e == 0.0) { 20.0 } else { 0.0 }
 }
 
 /// The two scales of a plot, in chart units.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plot {
-    pub(super) x: Scale,
-    pub(super) y: Scale,
+pub(crate) struct Plot {
+    pub(crate) x: Scale,
+    pub(crate) y: Scale,
     /// Height of a band below the scale for what is exactly zero.
-    pub(super) zero: f64,
+    pub(crate) zero: f64,
 }
 
 impl Plot {
-    pub(super) fn x(&self, value: f64) -> f64 {
+    pub(crate) fn x(&self, value: f64) -> f64 {
         LEFT + self.x.at(value) * (RIGHT - LEFT)
     }
 
-    pub(super) fn y(&self, value: f64) -> f64 {
+    pub(crate) fn y(&self, value: f64) -> f64 {
         if self.zero > 0.0 && value <= 0.0 {
             return BOTTOM - self.zero / 2.0;
         }
@@ -154,7 +154,7 @@ impl Plot {
     }
 
     /// The box, the grid lines and the tick labels.
-    pub(super) fn frame(
+    pub(crate) fn frame(
         &self,
         x_label: impl Fn(f64) -> String,
         y_label: impl Fn(f64) -> String,
@@ -185,7 +185,7 @@ impl Plot {
 }
 
 /// One chart: an image with a title and a description for whoever does not see it.
-pub(super) fn chart(height: f64, title: &str, about: &str, body: &Markup) -> Markup {
+pub(crate) fn chart(height: f64, title: &str, about: &str, body: &Markup) -> Markup {
     let view = format!("0 0 {WIDTH} {height}");
     html! {
         svg.chart viewBox=(view) width=(WIDTH) height=(height) role="img" {
@@ -197,7 +197,7 @@ pub(super) fn chart(height: f64, title: &str, about: &str, body: &Markup) -> Mar
 }
 
 /// A coordinate with one decimal at most.
-pub(super) fn n(value: f64) -> String {
+pub(crate) fn n(value: f64) -> String {
     let text = format!("{value:.1}");
     match text.strip_suffix(".0") {
         Some("-0") => "0".to_owned(),
@@ -223,12 +223,12 @@ const SHAPES: [&str; 8] = [
 ];
 
 /// The class that colours the `index`-th method.
-pub(super) fn color(index: usize) -> String {
+pub(crate) fn color(index: usize) -> String {
     format!("k{}", index % COLORS)
 }
 
 /// The marker of the `index`-th method, with a text to hover over.
-pub(super) fn marker(index: usize, (x, y): (f64, f64), faint: bool, hover: &str) -> Markup {
+pub(crate) fn marker(index: usize, (x, y): (f64, f64), faint: bool, hover: &str) -> Markup {
     let shape = SHAPES[index % SHAPES.len()];
     let place = if faint {
         format!("translate({} {}) scale(.6)", n(x), n(y))
@@ -244,7 +244,7 @@ pub(super) fn marker(index: usize, (x, y): (f64, f64), faint: bool, hover: &str)
 }
 
 /// The marker alone, for legends.
-pub(super) fn key(index: usize) -> Markup {
+pub(crate) fn key(index: usize) -> Markup {
     html! {
         svg.keymark viewBox="-7 -7 14 14" width="14" height="14" aria-hidden="true" {
             (marker(index, (0.0, 0.0), false, ""))
@@ -254,13 +254,13 @@ pub(super) fn key(index: usize) -> Markup {
 
 /// Texts beside points, each where it covers neither a point nor another text; a text that finds no
 /// such place is left out, since hover text and table have it too.
-pub(super) struct Labels {
+pub(crate) struct Labels {
     taken: Vec<[f64; 4]>,
 }
 
 impl Labels {
     /// Labels of a chart with points at these places.
-    pub(super) fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+    pub(crate) fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let around = |(x, y): (f64, f64)| [x - 5.0, y - 5.0, x + 5.0, y + 5.0];
         Self {
             taken: points.into_iter().map(around).collect(),
@@ -268,7 +268,7 @@ impl Labels {
     }
 
     /// Where to write a text that belongs to a point: the text's left end and its base line.
-    pub(super) fn place(&mut self, text: &str, (x, y): (f64, f64)) -> Option<(f64, f64)> {
+    pub(crate) fn place(&mut self, text: &str, (x, y): (f64, f64)) -> Option<(f64, f64)> {
         let width = 5.6 * text.chars().count() as f64;
         let places = [
             (x + 6.0, y - 7.0),
@@ -298,7 +298,7 @@ impl Labels {
 }
 
 /// A time with its unit: `3.4 ms`.
-pub(super) fn seconds(value: f64) -> String {
+pub(crate) fn seconds(value: f64) -> String {
     let (scaled, unit) = match value {
         v if v < 1e-6 => (v * 1e9, "ns"),
         v if v < 1e-3 => (v * 1e6, "µs"),
@@ -309,7 +309,7 @@ pub(super) fn seconds(value: f64) -> String {
 }
 
 /// A share of full brightness in percent: `0.25 %`.
-pub(super) fn share(value: f64) -> String {
+pub(crate) fn share(value: f64) -> String {
     match value * 100.0 {
         0.0 => "0".to_owned(),
         v if v < 9.5e-5 => format!("{v:.0e}\u{a0}%"),
@@ -318,7 +318,7 @@ pub(super) fn share(value: f64) -> String {
 }
 
 /// A number with so many significant digits, without zeros at its end.
-pub(super) fn digits(value: f64, significant: i32) -> String {
+pub(crate) fn digits(value: f64, significant: i32) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
     }

@@ -3,7 +3,7 @@
 use super::consensus::Consensus;
 use super::detail::{self, Budget};
 use super::{class, link, mark};
-use crate::grid::{Area, CaseFile, Grid, Tally};
+use crate::run::grid::{Area, CaseFile, Grid, Tally};
 use crate::words::{self, Tone, count};
 use etalon_record::{Record, Verdict};
 use maud::{Markup, html};

@@ -1,7 +1,7 @@
 //! Every case on every adapter, to be searched, and the view of one case. The script fills both.
 
 use super::consensus::{Consensus, Votes};
-use crate::grid::{Grid, Tally};
+use crate::run::grid::{Grid, Tally};
 use crate::words::{self, count};
 use etalon_record::Verdict;
 use maud::{Markup, html};

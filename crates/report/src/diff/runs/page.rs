@@ -4,7 +4,7 @@ use super::data::{Change, Direction, Fact, Pair, RunDiff, both_names};
 use super::times::STATEMENT;
 use super::{phrases, pixels};
 use crate::bench::duration;
-use crate::html::{POLICY, STYLE, breakable, quoted};
+use crate::run::index::{POLICY, STYLE, breakable, quoted};
 use crate::words::{count, name, plain};
 use crate::{ReportError, replace};
 use maud::{DOCTYPE, Markup, PreEscaped, html};

@@ -8,8 +8,8 @@
 //! `system-out` where there is none; what a lost process wrote is `system-err`. A last suite, `etalon`,
 //! holds one case that fails when the run is empty or incomplete: what was not run must not look green.
 
-use crate::formats::{Outcome, account, incomplete, note, particulars, seconds};
-use crate::grid::Grid;
+use crate::export::status::{Outcome, account, incomplete, note, particulars, seconds};
+use crate::run::grid::Grid;
 use crate::words::{headline, name};
 use etalon_record::{Record, Run};
 use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite};

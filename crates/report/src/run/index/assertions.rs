@@ -1,7 +1,7 @@
 //! How much the legal sets and the yardstick asserted.
 
 use super::percent;
-use crate::grid::Grid;
+use crate::run::grid::Grid;
 use etalon_frame::{Aspect, CounterKind};
 use etalon_record::Assertion;
 use maud::{Markup, html};

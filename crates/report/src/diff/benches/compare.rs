@@ -1,6 +1,6 @@
 //! Two benches held against each other.
 
-use super::{data, software};
+use crate::bench::{self, software};
 use etalon_record::{Bench, BenchHeader, BenchRecord, Time};
 use etalon_stats::{LEVEL, MINIMUM, Outcome, Samples, Why, compare, smallest_visible, summarize};
 use serde::Serialize;
@@ -158,7 +158,7 @@ pub fn diff(before: &Bench, after: &Bench, time: Time) -> Diff {
 
 fn samples(record: &BenchRecord, time: Time, ruled: bool) -> Option<Samples> {
     if ruled {
-        data::samples(record, time)
+        bench::samples(record, time)
     } else {
         Samples::new(&record.samples(time)).ok()
     }

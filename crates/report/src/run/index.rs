@@ -18,8 +18,8 @@ mod matrix;
 pub(crate) use adapters::breakable;
 pub use detail::quoted;
 
-use crate::grid::{Grid, Tally};
 use crate::methods::{self, Methods};
+use crate::run::grid::{Grid, Tally};
 use crate::words::{self, Tone, count};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -28,17 +28,17 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
-pub(crate) const STYLE: &str = include_str!("html/style.css");
-const CASES_STYLE: &str = include_str!("html/cases.css");
+pub(crate) const STYLE: &str = include_str!("../page/style.css");
+const CASES_STYLE: &str = include_str!("index/cases.css");
 /// In one function, so that the page has no global names but the browser's.
 const SCRIPT: &str = concat!(
     "(() => {\n\"use strict\";\n",
-    include_str!("html/script/data.js"),
-    include_str!("html/script/state.js"),
-    include_str!("html/script/table.js"),
-    include_str!("html/script/case.js"),
-    include_str!("html/script/keys.js"),
-    include_str!("html/script/route.js"),
+    include_str!("index/script/data.js"),
+    include_str!("index/script/state.js"),
+    include_str!("index/script/table.js"),
+    include_str!("index/script/case.js"),
+    include_str!("index/script/keys.js"),
+    include_str!("index/script/route.js"),
     "})();\n"
 );
 /// Nothing may be fetched, whatever a hostile name should manage to smuggle in.

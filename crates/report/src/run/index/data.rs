@@ -8,7 +8,7 @@ use super::class;
 use super::consensus::Consensus;
 use super::facts::{self, LABELS};
 use super::findings::{Plan, kind};
-use crate::grid::{Grid, Tally};
+use crate::run::grid::{Grid, Tally};
 use crate::words::{self, Tone};
 use etalon_record::Verdict;
 use maud::{Markup, PreEscaped, html};

@@ -15,8 +15,8 @@
 //! same time.
 
 use crate::ReportError;
-use crate::formats::{Outcome, account, incomplete, note, particulars, seconds};
-use crate::grid::Grid;
+use crate::export::status::{Outcome, account, incomplete, note, particulars, seconds};
+use crate::run::grid::Grid;
 use crate::words::headline;
 use etalon_record::{Record, Run, Verdict};
 use serde::Serialize;

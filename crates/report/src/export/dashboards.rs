@@ -1,7 +1,7 @@
 //! Files for dashboards.
 
-use super::data::Figures;
 use crate::ReportError;
+use crate::bench::Figures;
 use etalon_record::Time;
 use etalon_stats::Summary;
 use serde::Serialize;
@@ -43,7 +43,7 @@ fn measure(time: Time) -> String {
 }
 
 /// `bencher.json`: benchmark to measure to metric, medians in nanoseconds with their intervals.
-pub(super) fn bencher(figures: &Figures<'_>) -> Result<Vec<u8>, ReportError> {
+pub(crate) fn bencher(figures: &Figures<'_>) -> Result<Vec<u8>, ReportError> {
     let mut all: BTreeMap<String, BTreeMap<String, Metric>> = BTreeMap::new();
     for (case, timed) in figures.timed() {
         let measures = all.entry(name(case, timed.adapter())).or_default();
@@ -69,13 +69,13 @@ struct ActionResult {
 
 /// `benchmark-action.json`: wall medians in nanoseconds. The file has one direction; every time is
 /// better when smaller.
-pub(super) fn action(figures: &Figures<'_>) -> Result<Vec<u8>, ReportError> {
+pub(crate) fn action(figures: &Figures<'_>) -> Result<Vec<u8>, ReportError> {
     let each = figures.timed().map(|(case, timed)| {
         let s = &timed.wall;
         let reach = |[low, high]: [f64; 2]| (s.median - low).max(high - s.median);
         let visible = s.visible.map_or_else(
             || "no change is visible with so few rounds".to_owned(),
-            |v| format!("smallest visible change {}", super::change(v)),
+            |v| format!("smallest visible change {}", crate::bench::change(v)),
         );
         ActionResult {
             name: name(case, timed.adapter()),

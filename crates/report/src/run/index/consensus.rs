@@ -8,7 +8,7 @@
 //! More than half of the votes are the consensus; the adapters of the other side are odd. With as many
 //! right as wrong ones nobody is odd. A single vote agrees with nobody, so it makes no consensus.
 
-use crate::grid::{CaseRow, Grid};
+use crate::run::grid::{CaseRow, Grid};
 use crate::words;
 use etalon_record::Verdict;
 use std::cmp::Reverse;

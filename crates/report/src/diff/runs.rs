@@ -33,7 +33,7 @@ pub use page::write_page;
 pub use terminal::table;
 
 use crate::ReportError;
-use crate::formats::incomplete;
+use crate::export::status::incomplete;
 use crate::words::count;
 use etalon_record::{Record, Run};
 use pairs::{Folder, Matched};

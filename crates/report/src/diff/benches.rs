@@ -1,0 +1,4 @@
+//! Two benches compared: as data, and as a page.
+
+pub(crate) mod compare;
+pub(crate) mod page;
