@@ -6,6 +6,7 @@ use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_record::FrameImage;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
+use maud::{Markup, Render, html};
 
 /// The most texels a side that a picture shows; more are cut around the first wrong one.
 const WINDOW: u32 = 128;
@@ -32,6 +33,30 @@ pub(crate) struct Strip {
     pub(crate) title: String,
     pub(crate) pictures: Vec<Picture>,
     pub(crate) caption: String,
+}
+
+impl Strip {
+    /// The bytes that the pictures take in a page.
+    pub(crate) fn bytes(&self) -> usize {
+        self.pictures.iter().map(|p| p.uri.len()).sum()
+    }
+}
+
+impl Render for Strip {
+    fn render(&self) -> Markup {
+        html! {
+            div.strip {
+                h5 { (self.title) }
+                @for p in &self.pictures {
+                    figure {
+                        img src=(p.uri) width=(p.size[0]) height=(p.size[1]) alt={ (p.label) " of " (self.title) };
+                        figcaption { (p.label) }
+                    }
+                }
+                p.cap { (self.caption) }
+            }
+        }
+    }
 }
 
 /// The part of an image that is shown.

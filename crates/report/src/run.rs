@@ -1,5 +1,10 @@
-//! Reports of one run: `index.html` and the summary for a terminal.
+//! One run: `index.html` and the summary for a terminal.
 
 pub(crate) mod grid;
-pub(crate) mod index;
-pub(crate) mod table;
+mod index;
+mod table;
+pub(crate) mod unexpected;
+mod write;
+
+pub use table::table;
+pub use write::{RUN_FILES, RUN_FOLDERS, Written, write};

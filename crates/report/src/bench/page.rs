@@ -1,39 +1,22 @@
 //! `index.html` of a bench: one self-contained page that works offline and has no script.
 
-use super::data::{CaseFigures, Figures, Timed};
-use super::picture::{Scale, drift, strip};
-use super::{KINDS, change, duration};
-use crate::run::index::adapters::{breakable, details};
-use crate::run::index::{POLICY, STYLE};
-use crate::words::{self, count};
-use etalon_record::{Bench, BenchRecord, Time};
+use super::figures::{CaseFigures, Figures, Timed};
+use super::kind::KINDS;
+use super::ruler::drift;
+use super::spread::{Times, strip};
+use crate::numbers::{change, count, duration, percent};
+use crate::page::Page;
+use crate::page::adapter::{breakable, details};
+use crate::words;
+use etalon_record::{Bench, BenchRecord, Time, Verdict};
 use etalon_stats::{CONFIDENCE, MIN_ROUNDS, POWER, Summary};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 const OWN_STYLE: &str = include_str!("bench.css");
 
-/// The frame of a page.
-pub(crate) fn frame(title: &str, body: Markup) -> String {
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { (title) }
-                style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) }
-            }
-            body { (body) }
-        }
-    }
-    .into_string()
-}
-
-/// The whole page.
+/// The page.
 pub(super) fn page(bench: &Bench, figures: &Figures<'_>) -> String {
-    let body = html! {
+    let main = html! {
         (head(bench, figures))
         (explanation())
         @if figures.cases.is_empty() {
@@ -54,9 +37,15 @@ pub(super) fn page(bench: &Bench, figures: &Figures<'_>) -> String {
                 p.soft { (absent.name) ": " (absent.reason) "; " (absent.remedy) }
             }
         }
-        footer { "Made by etalon from bench.jsonl in this folder." }
     };
-    frame(&format!("etalon bench {}", bench.header.started), body)
+    Page {
+        title: &format!("etalon bench {}", bench.header.started),
+        styles: &[OWN_STYLE],
+        script: None,
+        main,
+        source: "bench.jsonl in this folder",
+    }
+    .html()
 }
 
 fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
@@ -79,7 +68,7 @@ fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
             dl.facts {
                 dt { "Started" } dd { (h.started) }
                 dt { "Command" } dd { code { (h.command.join(" ")) } }
-                dt { "Machine" } dd { (h.machine.cpu) ", " (count(u64::from(h.machine.cores), "core")) ", " (h.machine.os) }
+                dt { "Machine" } dd { (words::machine(&h.machine)) }
                 dt { "Suite" } dd {
                     "etalon " (h.etalon)
                     @if let Some(commit) = &h.commit { ", commit " code { (commit) } }
@@ -192,7 +181,7 @@ fn of_case(case: &CaseFigures<'_>, number: usize) -> Markup {
 }
 
 fn table(rows: &[Timed<'_>], title: &str) -> Markup {
-    let scale = Scale::of(rows);
+    let scale = Times::of(rows);
     let shown: Vec<Time> = Time::ALL
         .into_iter()
         .filter(|t| rows.iter().any(|r| r.others.contains_key(t)))
@@ -240,7 +229,7 @@ fn figures_of(s: &Summary) -> Markup {
 
 /// How much of the picture was asserted.
 fn share(record: &BenchRecord) -> String {
-    format!("{:.1} % asserted", record.picture.asserted * 100.0)
+    format!("{} asserted", percent(record.picture.asserted, 1))
 }
 
 fn ended(record: &BenchRecord) -> Markup {
@@ -251,7 +240,7 @@ fn ended(record: &BenchRecord) -> Markup {
     }
 }
 
-fn verdict(record: &BenchRecord) -> etalon_record::Verdict {
+fn verdict(record: &BenchRecord) -> Verdict {
     let ended = record.ended.as_ref().map(|e| e.verdict);
     ended.unwrap_or(record.picture.verdict)
 }

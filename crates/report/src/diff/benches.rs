@@ -1,4 +1,9 @@
-//! Two benches compared: as data, and as a page.
+//! The comparison of two benches: as data, for a terminal, and as a page.
 
-pub(crate) mod compare;
-pub(crate) mod page;
+mod compare;
+mod page;
+mod table;
+
+pub use compare::{Change, Diff, Gone, Side, diff};
+pub use page::write_diff;
+pub use table::diff_table;

@@ -22,7 +22,7 @@ mod page;
 mod pairs;
 mod phrases;
 mod pixels;
-mod terminal;
+mod table;
 mod times;
 
 pub use data::{
@@ -30,11 +30,11 @@ pub use data::{
     RunDiff, Side, Transition, Unpaired,
 };
 pub use page::write_page;
-pub use terminal::table;
+pub use table::table;
 
-use crate::ReportError;
+use crate::error::ReportError;
 use crate::export::status::incomplete;
-use crate::words::count;
+use crate::numbers::count;
 use etalon_record::{Record, Run};
 use pairs::{Folder, Matched};
 use std::cmp::Reverse;

@@ -14,8 +14,8 @@
 //! run's end is its start and the sum of those, which is too late where several adapters drew at the
 //! same time.
 
-use crate::ReportError;
-use crate::export::status::{Outcome, account, incomplete, note, particulars, seconds};
+use crate::error::ReportError;
+use crate::export::status::{Conclusion, account, incomplete, note, particulars, seconds};
 use crate::run::grid::Grid;
 use crate::words::headline;
 use etalon_record::{Record, Run, Verdict};
@@ -186,15 +186,15 @@ pub(crate) fn json(run: &Run, grid: &Grid<'_>) -> Result<Vec<u8>, ReportError> {
 }
 
 fn test(record: &Record) -> Test<'_> {
-    let outcome = Outcome::of(record);
-    let status = match outcome {
-        Outcome::Passed | Outcome::Due => Status::Passed,
-        Outcome::Measured | Outcome::Excused => Status::Other,
-        Outcome::Skipped => Status::Skipped,
-        Outcome::Failed | Outcome::Broken => Status::Failed,
+    let conclusion = Conclusion::of(record);
+    let status = match conclusion {
+        Conclusion::Passed | Conclusion::Due => Status::Passed,
+        Conclusion::Measured | Conclusion::Excused => Status::Other,
+        Conclusion::Skipped => Status::Skipped,
+        Conclusion::Failed | Conclusion::Broken => Status::Failed,
     };
     let against = status == Status::Failed;
-    let plain_pass = outcome == Outcome::Passed && note(record).is_none();
+    let plain_pass = conclusion == Conclusion::Passed && note(record).is_none();
     let stderr = record.process.as_ref().map(|end| end.stderr.lines());
     Test {
         name: named(&record.case),

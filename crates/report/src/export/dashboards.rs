@@ -1,7 +1,8 @@
 //! Files for dashboards.
 
-use crate::ReportError;
-use crate::bench::Figures;
+use crate::bench::figures::Figures;
+use crate::error::ReportError;
+use crate::numbers::change;
 use etalon_record::Time;
 use etalon_stats::Summary;
 use serde::Serialize;
@@ -75,7 +76,7 @@ pub(crate) fn action(figures: &Figures<'_>) -> Result<Vec<u8>, ReportError> {
         let reach = |[low, high]: [f64; 2]| (s.median - low).max(high - s.median);
         let visible = s.visible.map_or_else(
             || "no change is visible with so few rounds".to_owned(),
-            |v| format!("smallest visible change {}", crate::bench::change(v)),
+            |v| format!("smallest visible change {}", change(v)),
         );
         ActionResult {
             name: name(case, timed.adapter()),

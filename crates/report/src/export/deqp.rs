@@ -22,8 +22,8 @@
 //! | `Missing` | selected and not recorded, where the folder keeps the ids that were selected |
 
 use crate::export::status::seconds;
+use crate::numbers::count;
 use crate::run::grid::Grid;
-use crate::words::count;
 use etalon_record::{Record, Run, Verdict, read_cases, shard_of};
 use std::collections::BTreeSet;
 use std::path::Path;

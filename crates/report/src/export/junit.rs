@@ -8,7 +8,7 @@
 //! `system-out` where there is none; what a lost process wrote is `system-err`. A last suite, `etalon`,
 //! holds one case that fails when the run is empty or incomplete: what was not run must not look green.
 
-use crate::export::status::{Outcome, account, incomplete, note, particulars, seconds};
+use crate::export::status::{Conclusion, account, incomplete, note, particulars, seconds};
 use crate::run::grid::Grid;
 use crate::words::{headline, name};
 use etalon_record::{Record, Run};
@@ -37,11 +37,11 @@ pub(crate) fn xml(run: &Run, grid: &Grid<'_>) -> Result<String, SerializeError> 
 }
 
 fn test_case(record: &Record) -> TestCase {
-    let outcome = Outcome::of(record);
-    let mut case = TestCase::new(record.case.as_str(), status(record, outcome));
+    let conclusion = Conclusion::of(record);
+    let mut case = TestCase::new(record.case.as_str(), status(record, conclusion));
     case.set_classname(record.case_file());
     case.set_time(Duration::try_from_secs_f64(seconds(record)).unwrap_or_default());
-    let against = matches!(outcome, Outcome::Failed | Outcome::Broken);
+    let against = matches!(conclusion, Conclusion::Failed | Conclusion::Broken);
     let mut lines = Vec::new();
     if let Some(note) = note(record) {
         lines.push(format!("{}; {note}", name(record.verdict)));
@@ -60,17 +60,17 @@ fn test_case(record: &Record) -> TestCase {
     case
 }
 
-fn status(record: &Record, outcome: Outcome) -> TestCaseStatus {
-    let kind = match outcome {
-        Outcome::Broken => NonSuccessKind::Error,
-        Outcome::Failed => NonSuccessKind::Failure,
-        Outcome::Skipped => {
+fn status(record: &Record, conclusion: Conclusion) -> TestCaseStatus {
+    let kind = match conclusion {
+        Conclusion::Broken => NonSuccessKind::Error,
+        Conclusion::Failed => NonSuccessKind::Failure,
+        Conclusion::Skipped => {
             let mut status = TestCaseStatus::skipped();
             status.set_type(record.verdict.name());
             status.set_message(headline(record));
             return status;
         }
-        Outcome::Passed | Outcome::Due | Outcome::Excused | Outcome::Measured => {
+        Conclusion::Passed | Conclusion::Due | Conclusion::Excused | Conclusion::Measured => {
             return TestCaseStatus::success();
         }
     };

@@ -4,14 +4,15 @@
 //! below [`LIMIT`] bytes whatever the run holds, and says what it leaves out. What a run holds may be
 //! hostile: text goes through [`escaped`], names and commands through [`code`].
 
+use crate::command;
 use crate::export::status::{incomplete, particulars};
+use crate::numbers::{count, percent_of};
 use crate::run::grid::Tally;
-use crate::run::index::quoted;
-use crate::words::{Tone, count, headline, name, plain, symbol};
+use crate::run::unexpected::unexpected_records;
+use crate::words::{Tone, headline, name, plain, symbol};
 use etalon_frame::Aspect;
 use etalon_record::{Assertion, Record, Run, Verdict};
-use std::cmp::Reverse;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 /// The file has fewer bytes than this.
 pub(crate) const LIMIT: usize = 1_000_000;
@@ -178,20 +179,10 @@ fn adapters(text: &mut Text, run: &Run) {
 }
 
 fn unexpected(text: &mut Text, run: &Run) {
-    let mut bad: Vec<&Record> = run.records.iter().filter(|r| r.unexpected()).collect();
+    let bad = unexpected_records(run);
     if bad.is_empty() {
         return;
     }
-    bad.sort_by_key(|r| (Reverse(r.verdict.severity()), &r.case, &r.adapter));
-    // One of each kind before the second of any: a list of one driver's one bug says little.
-    let mut seen: HashMap<(&str, &str, Verdict), usize> = HashMap::new();
-    bad.sort_by_cached_key(|r| {
-        let rank = seen
-            .entry((r.case_file(), &r.adapter, r.verdict))
-            .or_default();
-        *rank += 1;
-        *rank
-    });
     text.line("## Unexpected\n");
     text.lines(&bad, LISTED, |record| {
         let sign = match Tone::of(record) {
@@ -208,22 +199,10 @@ fn unexpected(text: &mut Text, run: &Run) {
         for line in particulars(record).iter().take(6) {
             entry.push_str(&format!("\\\n  {}", escaped(line, 300)));
         }
-        entry.push_str(&format!("\\\n  {}", code(&again(record), 800)));
+        entry.push_str(&format!("\\\n  {}", code(&command::explain(record), 800)));
         entry
     });
     text.line("");
-}
-
-/// The command that tells more about a record.
-fn again(record: &Record) -> String {
-    let (case, adapter) = (quoted(&record.case), quoted(&record.adapter));
-    match record.wrong.first() {
-        Some(texel) => format!(
-            "etalon explain {case} --texel {},{} --adapter {adapter}",
-            texel.x, texel.y
-        ),
-        None => format!("etalon run {case} --adapter {adapter}"),
-    }
 }
 
 fn improvements(text: &mut Text, run: &Run) {
@@ -267,8 +246,8 @@ fn asserted(text: &mut Text, run: &Run) {
             "| {} | {aspect} | {} | {} | {} |",
             code(area, 100),
             sum.channels,
-            percent(sum.asserted, sum.channels),
-            percent(sum.exact, sum.channels)
+            percent_of(sum.asserted, sum.channels),
+            percent_of(sum.exact, sum.channels)
         )
     });
     text.line("");
@@ -288,18 +267,6 @@ fn absent(text: &mut Text, run: &Run) {
             escaped(&a.remedy, 300)
         )
     });
-}
-
-/// `12.3 %`, told from 0 and 100 as long as it is neither.
-fn percent(part: u64, whole: u64) -> String {
-    match part {
-        0 => "0 %".to_owned(),
-        part if part == whole => "100 %".to_owned(),
-        part => {
-            let share = part as f64 / whole.max(1) as f64 * 100.0;
-            format!("{:.1} %", share.clamp(0.1, 99.9))
-        }
-    }
 }
 
 /// Text that means nothing in Markdown, in HTML or to the filters that GitHub lays over both: references
@@ -340,12 +307,5 @@ mod tests {
         assert_eq!(code("gl:es:x", 99), "`gl:es:x`");
         assert_eq!(code("a`b", 99), "a&#96;b");
         assert_eq!(code("", 99), "");
-    }
-
-    #[test]
-    fn shares_are_told_from_all_and_nothing() {
-        let all = [(0, 9), (9, 9), (1, 1_000_000), (999_999, 1_000_000)];
-        let told = all.map(|(part, whole)| percent(part, whole));
-        assert_eq!(told, ["0 %", "100 %", "0.1 %", "99.9 %"]);
     }
 }

@@ -1,12 +1,12 @@
-//! What the files for other programs share: how a record counts there, and what is told beside its
-//! verdict.
+//! The conclusion of a record in files for other programs, and the texts beside its verdict.
 
-use crate::words::{count, name, plain, process_end, repetitions};
+use crate::numbers::count;
+use crate::words::{name, plain, process_end, repetitions};
 use etalon_record::{Record, Run, Verdict};
 
-/// How a record counts for continuous integration.
+/// The conclusion that continuous integration draws from a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Outcome {
+pub(crate) enum Conclusion {
     /// Right by what the API's text allows.
     Passed,
     /// A selftest that was due to fail, and failed.
@@ -23,7 +23,7 @@ pub(crate) enum Outcome {
     Broken,
 }
 
-impl Outcome {
+impl Conclusion {
     pub(crate) fn of(record: &Record) -> Self {
         let verdict = record.verdict;
         if record.unexpected() {
@@ -82,7 +82,7 @@ pub(crate) fn note(record: &Record) -> Option<String> {
             "better than expected: {} is no longer due",
             name(verdict)
         )),
-        _ if Outcome::of(record) == Outcome::Due => Some("due to fail, and fails".to_owned()),
+        _ if Conclusion::of(record) == Conclusion::Due => Some("due to fail, and fails".to_owned()),
         _ if record.verdict == Verdict::Imprecise => Some("legal, not precise".to_owned()),
         _ => None,
     }
@@ -150,10 +150,10 @@ mod tests {
                 record.expected = expected.then(|| Expected {
                     reason: "known".to_owned(),
                 });
-                let outcome = Outcome::of(&record);
-                let against = matches!(outcome, Outcome::Failed | Outcome::Broken);
+                let conclusion = Conclusion::of(&record);
+                let against = matches!(conclusion, Conclusion::Failed | Conclusion::Broken);
                 assert_eq!(against, record.unexpected(), "{record:?}");
-                if matches!(outcome, Outcome::Passed) {
+                if matches!(conclusion, Conclusion::Passed) {
                     assert!(matches!(verdict, Verdict::Pass | Verdict::Imprecise));
                 }
             }

@@ -1,34 +1,28 @@
 //! `mutants.html`: one self-contained page that works offline.
 
-use super::{areas, elsewhere};
-use crate::run::index::{POLICY, STYLE};
-use crate::words::count;
+use super::summary::{areas, elsewhere};
+use crate::numbers::{count, duration};
+use crate::page::Page;
+use crate::words::machine;
 use etalon_record::{AreaTally, Catch, Hunt, MutantRecord, Sighting};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 
-/// The whole page.
+/// The page.
 pub(super) fn page(hunt: &Hunt) -> String {
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { "etalon mutants " (hunt.started) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                (head(hunt))
-                (by_area(hunt))
-                (noted(hunt))
-                (all(hunt))
-                footer { "Made by etalon from mutants.json in this folder." }
-            }
-        }
+    let main = html! {
+        (head(hunt))
+        (by_area(hunt))
+        (noted(hunt))
+        (all(hunt))
+    };
+    Page {
+        title: &format!("etalon mutants {}", hunt.started),
+        styles: &[],
+        script: None,
+        main,
+        source: "mutants.json in this folder",
     }
-    .into_string()
+    .html()
 }
 
 fn head(hunt: &Hunt) -> Markup {
@@ -51,8 +45,7 @@ fn head(hunt: &Hunt) -> Markup {
                 dt { "Started" } dd { (hunt.started) }
                 dt { "Command" } dd { code { (hunt.command.join(" ")) } }
                 dt { "Machine" } dd {
-                    (hunt.machine.cpu) ", " (count(u64::from(hunt.machine.cores), "core")) ", "
-                    (hunt.machine.os)
+                    (machine(&hunt.machine))
                 }
                 dt { "Suite" } dd {
                     "etalon " (hunt.etalon)
@@ -60,7 +53,7 @@ fn head(hunt: &Hunt) -> Markup {
                 }
                 dt { "Scope" } dd {
                     (count(hunt.mutants.len() as u64, "planted bug")) ", "
-                    (count(hunt.cases, "case")) ", " (format!("{:.1} s", hunt.seconds))
+                    (count(hunt.cases, "case")) ", " (duration(hunt.seconds))
                     @if !hunt.full { "; an area ends at a bug's first Fail" }
                 }
             }

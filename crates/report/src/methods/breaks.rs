@@ -1,6 +1,6 @@
 //! Where along its parameter a method leaves an error of one percent.
 
-use crate::chart::kit as svg;
+use crate::numbers::digits;
 
 /// The error that counts as broken: one percent of full brightness.
 pub(super) const LIMIT: f64 = 0.01;
@@ -30,7 +30,7 @@ pub(super) struct Crossing {
 impl Crossing {
     /// The value in as many digits as an interpolation is good for.
     pub(super) fn text(self) -> String {
-        svg::digits(self.value, 2)
+        digits(self.value, 2)
     }
 }
 

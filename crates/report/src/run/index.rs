@@ -4,7 +4,7 @@
 //! search and filters, and the view of one case. Whatever is looked at has its address:
 //! `index.html#q=less&on=cpu`, `index.html#case=depth/compare/compare=less`.
 
-pub(crate) mod adapters;
+mod adapters;
 mod assertions;
 mod cases;
 mod consensus;
@@ -13,22 +13,20 @@ mod detail;
 mod facts;
 mod findings;
 mod link;
+mod mark;
 mod matrix;
 
-pub(crate) use adapters::breakable;
-pub use detail::quoted;
-
+use crate::chart;
 use crate::methods::{self, Methods};
+use crate::numbers::count;
+use crate::page::{self, Page};
 use crate::run::grid::{Grid, Tally};
-use crate::words::{self, Tone, count};
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
+use crate::words::{self, Tone};
 use etalon_record::{Run, Verdict};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
-use sha2::{Digest, Sha256};
+use mark::{class, mark};
+use maud::{Markup, html};
 use std::path::Path;
 
-pub(crate) const STYLE: &str = include_str!("../page/style.css");
 const CASES_STYLE: &str = include_str!("index/cases.css");
 /// In one function, so that the page has no global names but the browser's.
 const SCRIPT: &str = concat!(
@@ -41,68 +39,46 @@ const SCRIPT: &str = concat!(
     include_str!("index/script/route.js"),
     "})();\n"
 );
-/// Nothing may be fetched, whatever a hostile name should manage to smuggle in.
-pub(crate) const POLICY: &str =
-    "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
-
-/// As [`POLICY`], and no script runs but the page's own.
-fn policy() -> String {
-    let digest = STANDARD.encode(Sha256::digest(SCRIPT));
-    format!(
-        "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{digest}'; \
-         base-uri 'none'; form-action 'none'"
-    )
-}
-
-/// The whole page. Frame files are read from the folder as they are needed.
+/// The page. Frame files are read from the folder as they are needed.
 pub(crate) fn page(folder: &Path, run: &Run, methods: Option<&Methods<'_>>) -> String {
     let grid = Grid::new(run);
     let plan = findings::Plan::new(&grid);
     let drivers = methods::driver_section(&grid);
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(policy());
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { (title(run)) }
-                style {
-                    (PreEscaped(STYLE)) (PreEscaped(CASES_STYLE))
-                    @if drivers.is_some() { (PreEscaped(methods::CHART_STYLE)) }
-                }
-            }
-            body {
-                a.skip href="#main" { "Skip to the content" }
-                main id="main" tabindex="-1" {
-                    (cases::view())
-                    div id="report" {
-                        (head(run, methods.is_some(), drivers.is_some()))
-                        @if run.records.is_empty() {
-                            p { "No case was run, so there is nothing to report." }
-                        } @else {
-                            (totals(run))
-                            (matrix::section(&grid))
-                            @if let Some(methods) = methods { (methods::section(methods)) }
-                            @if let Some(drivers) = drivers { (drivers) }
-                            (cases::section(&grid))
-                        }
-                        // Before what is long, so that the table can be used while the rest is read.
-                        (data::block(&grid, &plan))
-                        script { (PreEscaped(SCRIPT)) }
-                        @if !run.records.is_empty() {
-                            (findings::section(folder, &grid, &plan))
-                            (assertions::section(&grid))
-                        }
-                        (adapters::section(&run.header))
-                        footer { "Made by etalon from run.jsonl and frames/ in this folder." }
-                    }
-                }
-            }
-        }
+    let mut styles = vec![CASES_STYLE];
+    if drivers.is_some() {
+        styles.push(chart::STYLE);
     }
-    .into_string()
+    let main = html! {
+        (cases::view())
+        div id="report" {
+            (head(run, methods.is_some(), drivers.is_some()))
+            @if run.records.is_empty() {
+                p { "No case was run." }
+            } @else {
+                (totals(run))
+                (matrix::section(&grid))
+                @if let Some(methods) = methods { (methods::section(methods)) }
+                @if let Some(drivers) = drivers { (drivers) }
+                (cases::section(&grid))
+            }
+            // Before the long sections, so that the table works while the rest is still read.
+            (data::block(&grid, &plan))
+            (page::script(SCRIPT))
+            @if !run.records.is_empty() {
+                (findings::section(folder, &grid, &plan))
+                (assertions::section(&grid))
+            }
+            (adapters::section(&run.header))
+        }
+    };
+    Page {
+        title: &title(run),
+        styles: &styles,
+        script: Some(SCRIPT),
+        main,
+        source: "run.jsonl and frames/ in this folder",
+    }
+    .html()
 }
 
 fn title(run: &Run) -> String {
@@ -123,7 +99,7 @@ fn head(run: &Run, methods: bool, drivers: bool) -> Markup {
             dl.facts {
                 dt { "Started" } dd { (h.started) }
                 dt { "Command" } dd { code { (h.command.join(" ")) } }
-                dt { "Machine" } dd { (h.machine.cpu) ", " (count(u64::from(h.machine.cores), "core")) ", " (h.machine.os) }
+                dt { "Machine" } dd { (words::machine(&h.machine)) }
                 dt { "Suite" } dd {
                     "etalon " (h.etalon)
                     @if let Some(commit) = &h.commit { ", commit " code { (commit) } }
@@ -205,37 +181,5 @@ fn sentence(verdict: Verdict, tone: Tone) -> &'static str {
         Tone::Plain => words::meaning(verdict),
         Tone::Excused => "Named by the expectations, or a selftest that is due to fail.",
         Tone::Missed => "A selftest that is due to fail, and did not: the suite missed a bug.",
-    }
-}
-
-/// A verdict as symbol and word.
-fn mark(verdict: Verdict, tone: Tone) -> Markup {
-    html! { span.m { i { (words::symbol(verdict)) } " " (words::name(verdict)) (tone.suffix()) } }
-}
-
-/// The class that colours a verdict: a fixed letter, never taken from a record.
-fn class(verdict: Verdict, tone: Tone) -> &'static str {
-    match (verdict, tone) {
-        (_, Tone::Missed) => "f",
-        (Verdict::Fail, Tone::Excused) => "f x",
-        (Verdict::Open, Tone::Excused) => "o x",
-        (_, Tone::Excused) => "b x",
-        (Verdict::Pass, Tone::Plain) => "p",
-        (Verdict::Imprecise, Tone::Plain) => "i",
-        (Verdict::Fail, Tone::Plain) => "f",
-        (Verdict::Open, Tone::Plain) => "o",
-        (Verdict::Measured, Tone::Plain) => "n",
-        (Verdict::NotSupported | Verdict::Skipped, Tone::Plain) => "u",
-        (_, Tone::Plain) => "b",
-    }
-}
-
-/// `12.3 %`, with as many digits as tell it from 0 and 100.
-fn percent(share: f64) -> String {
-    let value = share * 100.0;
-    if value == 0.0 || value == 100.0 {
-        format!("{value} %")
-    } else {
-        format!("{:.1} %", value.clamp(0.1, 99.9))
     }
 }

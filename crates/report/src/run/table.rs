@@ -1,33 +1,15 @@
 //! The summary for a terminal.
 
 use crate::methods;
+use crate::numbers::count;
 use crate::run::grid::{Grid, Tally};
-use crate::words::{Tone, count, headline, name, plain, symbol};
+use crate::run::unexpected::unexpected_records;
+use crate::terminal::{self, TableOptions, dotted, wrapped};
+use crate::words::{Tone, headline, name, plain, symbol};
 use etalon_record::{Record, Run, Verdict};
-use std::cmp::Reverse;
-use std::collections::HashMap;
 use tabled::builder::Builder;
-use tabled::settings::object::{Cell, Columns, Rows};
-use tabled::settings::peaker::Priority;
-use tabled::settings::{Alignment, Color, Style, Width};
-
-/// How wide and colourful [`table()`] may be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TableOptions {
-    /// Columns of the terminal; long lines are cut, and the table's cells wrapped.
-    pub width: usize,
-    /// Whether ANSI colours may be used. The caller knows `NO_COLOR` and whether this is a terminal.
-    pub color: bool,
-}
-
-impl Default for TableOptions {
-    fn default() -> Self {
-        Self {
-            width: 100,
-            color: false,
-        }
-    }
-}
+use tabled::settings::Color;
+use tabled::settings::object::Cell;
 
 /// The most unexpected records that are listed.
 const LISTED: usize = 20;
@@ -114,38 +96,22 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
         let mut row = vec![plain(adapter, 60)];
         for (i, (_, verdicts, color)) in columns.iter().enumerate() {
             let n: u64 = verdicts.iter().map(|v| tally.plain(*v)).sum();
-            row.push(blank_zero(n));
+            row.push(dotted(n));
             if n > 0 {
                 painted.push((Cell::new(at + 1, i + 1), color.clone()));
             }
         }
-        row.push(blank_zero(tally.excused()));
+        row.push(dotted(tally.excused()));
         row.push(rate(records));
         builder.push_record(row);
     }
-    let mut table = builder.build();
-    table
-        .with(Style::rounded())
-        .modify(Columns::new(1..), Alignment::right());
+    let mut table = terminal::table(builder, options, 1);
     if options.color {
-        table.modify(Rows::first(), Color::BOLD);
         for (cell, color) in painted {
             table.modify(cell, color);
         }
     }
-    table.with(
-        Width::wrap(options.width)
-            .keep_words(true)
-            .priority(Priority::max(true)),
-    );
-    table.to_string()
-}
-
-fn blank_zero(n: u64) -> String {
-    match n {
-        0 => "·".to_owned(),
-        n => n.to_string(),
-    }
+    wrapped(table, options)
 }
 
 fn rate(records: &[&Record]) -> String {
@@ -161,39 +127,24 @@ fn rate(records: &[&Record]) -> String {
 }
 
 fn unexpected(run: &Run, options: TableOptions) -> String {
-    let mut bad: Vec<&Record> = run.records.iter().filter(|r| r.unexpected()).collect();
+    let bad = unexpected_records(run);
     if bad.is_empty() {
         return String::new();
     }
-    bad.sort_by_key(|r| (Reverse(r.verdict.severity()), &r.case, &r.adapter));
-    // One of each kind before the second of any: a list of one driver's one bug says little.
-    let mut seen: HashMap<(&str, &str, Verdict), usize> = HashMap::new();
-    bad.sort_by_cached_key(|r| {
-        let rank = seen
-            .entry((r.case_file(), &r.adapter, r.verdict))
-            .or_default();
-        *rank += 1;
-        *rank
-    });
     let mut text = format!("\n{}\n", count(bad.len() as u64, "unexpected record"));
     for record in bad.iter().take(LISTED) {
         let sign = match Tone::of(record) {
             Tone::Missed => symbol(Verdict::Fail),
             _ => symbol(record.verdict),
         };
-        let head = format!("{sign} {}", name(record.verdict));
-        let head = if options.color {
-            format!("\u{1b}[31m{head}\u{1b}[0m")
-        } else {
-            head
-        };
+        let head = options.paint(&format!("{sign} {}", name(record.verdict)), "31");
         let adapter = plain(&record.adapter, 60);
         text.push_str(&format!(
             "{head}  {adapter}  {}\n",
             plain(&record.case, 300)
         ));
-        let room = options.width.saturating_sub(5).max(20);
-        text.push_str(&format!("    {}\n", plain(&headline(record), room)));
+        let line = plain(&headline(record), options.room(4));
+        text.push_str(&format!("    {line}\n"));
     }
     match bad.len().saturating_sub(LISTED) {
         0 => {}

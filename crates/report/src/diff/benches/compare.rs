@@ -1,6 +1,8 @@
 //! Two benches held against each other.
 
-use crate::bench::{self, software};
+use crate::bench::figures;
+use crate::bench::kind::software;
+use crate::words::machine;
 use etalon_record::{Bench, BenchHeader, BenchRecord, Time};
 use etalon_stats::{LEVEL, MINIMUM, Outcome, Samples, Why, compare, smallest_visible, summarize};
 use serde::Serialize;
@@ -158,7 +160,7 @@ pub fn diff(before: &Bench, after: &Bench, time: Time) -> Diff {
 
 fn samples(record: &BenchRecord, time: Time, ruled: bool) -> Option<Samples> {
     if ruled {
-        bench::samples(record, time)
+        figures::samples(record, time)
     } else {
         Samples::new(&record.samples(time)).ok()
     }
@@ -218,17 +220,11 @@ fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time
 }
 
 fn side(header: &BenchHeader) -> Side {
-    let m = &header.machine;
     Side {
         started: header.started.clone(),
         etalon: header.etalon.clone(),
         commit: header.commit.clone(),
-        machine: format!(
-            "{}, {}, {}",
-            m.cpu,
-            crate::words::count(u64::from(m.cores), "core"),
-            m.os
-        ),
+        machine: machine(&header.machine),
         command: header.command.join(" "),
     }
 }

@@ -1,29 +1,27 @@
 //! A comparison of two benches as a page.
 
 use super::compare::{Change, Diff, Side};
-use crate::bench::{KINDS, change, duration, frame};
-use crate::run::index::adapters::breakable;
-use crate::{ReportError, replace};
+use crate::bench::kind::KINDS;
+use crate::error::ReportError;
+use crate::files::replace_at;
+use crate::numbers::{change, duration};
+use crate::page::Page;
+use crate::page::adapter::breakable;
 use maud::{Markup, html};
 use std::path::{Path, PathBuf};
 
-/// Writes a comparison as one self-contained page.
+const BENCH_STYLE: &str = include_str!("../../bench/bench.css");
+
+/// Writes a comparison of two benches as one page.
 ///
 /// # Errors
 /// When the path names no file, or it cannot be written.
 pub fn write_diff(path: &Path, diff: &Diff) -> Result<PathBuf, ReportError> {
-    let name = path.file_name().and_then(|n| n.to_str());
-    let folder = path.parent().unwrap_or(Path::new(""));
-    match name {
-        Some(name) => replace(folder, name, page(diff).as_bytes()),
-        None => Err(ReportError::NoFile {
-            path: path.to_owned(),
-        }),
-    }
+    replace_at(path, page(diff).as_bytes())
 }
 
 fn page(diff: &Diff) -> String {
-    let body = html! {
+    let main = html! {
         header {
             h1 { "etalon diff" }
             p.lead { "What became faster or slower from one bench to another: " (diff.time) " times." }
@@ -67,9 +65,15 @@ fn page(diff: &Diff) -> String {
                 "probability of 0.9."
             }
         }
-        footer { "Made by etalon from two recorded benches." }
     };
-    frame("etalon diff", body)
+    Page {
+        title: "etalon diff",
+        styles: &[BENCH_STYLE],
+        script: None,
+        main,
+        source: "two recorded benches",
+    }
+    .html()
 }
 
 fn side(name: &str, side: &Side) -> Markup {

@@ -2,7 +2,8 @@
 
 use super::data::Fact;
 use super::pairs::Folder;
-use crate::words::{self, count};
+use crate::numbers::count;
+use crate::words;
 use etalon_record::{AdapterRecord, Header};
 
 /// Whether two runs were to draw the same cases. Runs that do not tell are taken to be of the same

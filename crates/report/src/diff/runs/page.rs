@@ -3,11 +3,15 @@
 use super::data::{Change, Direction, Fact, Pair, RunDiff, both_names};
 use super::times::STATEMENT;
 use super::{phrases, pixels};
-use crate::bench::duration;
-use crate::run::index::{POLICY, STYLE, breakable, quoted};
-use crate::words::{count, name, plain};
-use crate::{ReportError, replace};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use crate::command;
+use crate::error::ReportError;
+use crate::files::replace_at;
+use crate::numbers::{count, duration, percent};
+use crate::page::Page;
+use crate::page::adapter::breakable;
+use crate::picture::Strip;
+use crate::words::{name, plain};
+use maud::{Markup, html};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
@@ -21,8 +25,8 @@ const PICTURE_BYTES: usize = 4 << 20;
 /// The most rows of a table of cases.
 const ROWS: usize = 500;
 
-/// Writes a comparison of two runs as one page. The folders are those of the runs, in which the frames
-/// for its pictures lie.
+/// Writes a comparison of two runs as one page. The folders are those of the runs, which hold the frames
+/// for its pictures.
 ///
 /// # Errors
 /// When the path names no file, or it cannot be written.
@@ -31,44 +35,28 @@ pub fn write_page(
     diff: &RunDiff,
     folders: [&Path; 2],
 ) -> Result<PathBuf, ReportError> {
-    let name = path.file_name().and_then(|n| n.to_str());
-    let folder = path.parent().unwrap_or(Path::new(""));
-    match name {
-        Some(name) => replace(folder, name, page(diff, &folders).as_bytes()),
-        None => Err(ReportError::NoFile {
-            path: path.to_owned(),
-        }),
-    }
+    replace_at(path, page(diff, &folders).as_bytes())
 }
 
 fn page(diff: &RunDiff, folders: &[&Path; 2]) -> String {
     let mut budget = PICTURE_BYTES;
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { "etalon diff: " (headline(diff)) }
-                style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) }
-            }
-            body {
-                (head(diff))
-                main {
-                    (pairs(diff))
-                    @for direction in Direction::ALL { (section(diff, direction, folders, &mut budget)) }
-                    (only(diff))
-                    (times(diff))
-                    (methods(diff))
-                    (reading())
-                }
-                footer { "Made by etalon from the records and frames of two runs." }
-            }
-        }
+    let main = html! {
+        (head(diff))
+        (pairs(diff))
+        @for direction in Direction::ALL { (section(diff, direction, folders, &mut budget)) }
+        (only(diff))
+        (times(diff))
+        (methods(diff))
+        (reading())
+    };
+    Page {
+        title: &format!("etalon diff: {}", headline(diff)),
+        styles: &[OWN_STYLE],
+        script: None,
+        main,
+        source: "the records and frames of two runs",
     }
-    .into_string()
+    .html()
 }
 
 fn headline(diff: &RunDiff) -> String {
@@ -172,7 +160,7 @@ fn pairs(diff: &RunDiff) -> Markup {
 }
 
 fn pair_row(pair: &Pair) -> Markup {
-    let [before, after] = pair.asserted.map(phrases::percent);
+    let [before, after] = pair.asserted.map(|share| percent(share, 2));
     html! {
         tr {
             th scope="row" { (breakable(&pair.name())) }
@@ -251,13 +239,7 @@ fn line(change: &Change) -> Markup {
 
 fn body(change: &Change, folders: &[&Path; 2], budget: &mut usize) -> Markup {
     let [old, new] = &change.adapter;
-    let run = |adapter: &str| {
-        format!(
-            "etalon run {} --adapter {}",
-            quoted(&change.case),
-            quoted(adapter)
-        )
-    };
+    let run = |adapter: &str| command::run(&change.case, adapter);
     html! {
         div.wide { table.two {
             thead { tr { th { "" } th { "Before" } th { "After" } } }
@@ -299,21 +281,10 @@ fn pictures(folders: &[&Path; 2], frame: &super::data::FrameChange, budget: &mut
         return html! { p.note { "The page has no room left for these pictures." } };
     }
     let strips = pixels::strips(folders, frame);
-    let pictures = strips.iter().flat_map(|s| &s.pictures);
-    let bytes: usize = pictures.map(|p| p.uri.len()).sum();
-    *budget = budget.saturating_sub(bytes);
+    *budget = budget.saturating_sub(strips.iter().map(Strip::bytes).sum());
     html! {
         @for strip in &strips {
-            div.strip {
-                h5 { (strip.title) }
-                @for p in &strip.pictures {
-                    figure {
-                        img src=(p.uri) width=(p.size[0]) height=(p.size[1]) alt={ (p.label) " of " (strip.title) };
-                        figcaption { (p.label) }
-                    }
-                }
-                p.cap { (strip.caption) }
-            }
+            (strip)
         }
         p.cap {
             "Difference: " span.cross { "✗" } " another code; the brighter, the farther, in codes (for floats "

@@ -1,7 +1,7 @@
 //! Which adapters and which records of two runs are held against each other.
 
 use super::data::{Side, Unpaired};
-use crate::ReportError;
+use crate::error::ReportError;
 use etalon_record::{Record, Run};
 use std::collections::HashMap;
 use std::path::Path;

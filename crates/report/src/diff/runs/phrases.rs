@@ -1,7 +1,8 @@
 //! How differences of runs are put in words; shared by terminal and page.
 
 use super::data::{Change, Detail, Direction, FrameChange, Only, Side};
-use crate::words::{count, name};
+use crate::numbers::{change, count, trimmed};
+use crate::words::name;
 use etalon_record::Verdict;
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
@@ -80,11 +81,7 @@ fn short(value: f64) -> String {
         format!("{value:.3e}")
     } else {
         let digits = (3.0 - size.log10().floor()).clamp(0.0, 6.0) as usize;
-        let text = format!("{value:.digits$}");
-        match text.contains('.') {
-            true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-            false => text,
-        }
+        trimmed(format!("{value:.digits$}"))
     }
 }
 
@@ -176,18 +173,9 @@ pub(super) fn side(side: Side) -> &'static str {
     }
 }
 
-/// `99.3 %`.
-pub(super) fn percent(share: f64) -> String {
-    match share {
-        s if s <= 0.0 => "0 %".to_owned(),
-        s if s >= 1.0 => "100 %".to_owned(),
-        s => format!("{:.2} %", (s * 100.0).clamp(0.01, 99.99)),
-    }
-}
-
 /// After over before, as a signed change.
 pub(super) fn ratio([before, after]: [f64; 2]) -> String {
-    crate::bench::change(after / before)
+    change(after / before)
 }
 
 #[cfg(test)]

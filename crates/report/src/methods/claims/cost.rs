@@ -1,9 +1,10 @@
 //! Claims of what methods cost.
 
-use super::{Claim, Figure, Pair, Place, fragments, medians, pairs, time};
-use crate::chart::kit::digits;
+use super::claim::{Claim, Figure, Place};
+use super::pair::{Pair, fragments, medians, pairs, time};
 use crate::methods::breaks::LIMIT;
 use crate::methods::data::Methods;
+use crate::numbers::digits;
 
 /// The claims, in the order in which they are shown.
 pub(super) const CLAIMS: &[Claim] = &[

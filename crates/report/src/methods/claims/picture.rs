@@ -1,9 +1,10 @@
 //! Claims of what methods show.
 
-use super::{Claim, Figure, Place, pairs};
-use crate::chart::kit::{digits, share};
+use super::claim::{Claim, Figure, Place};
+use super::pair::pairs;
 use crate::methods::breaks::{self, Break, LIMIT};
-use crate::methods::data::{Methods, Point, Scene, Series, usable};
+use crate::methods::data::{Methods, Point, SceneSeries, Series, usable};
+use crate::numbers::{digits, share};
 
 /// Half a step between two codes of 8 bits.
 const HALF_CODE: f64 = 0.5 / 255.0;
@@ -106,7 +107,7 @@ fn reversed_depth(methods: &Methods<'_>) -> Vec<Figure> {
     figures
 }
 
-fn scene_name(scene: &Scene<'_>, series: &Series<'_>) -> String {
+fn scene_name(scene: &SceneSeries<'_>, series: &Series<'_>) -> String {
     match series.variant.as_str() {
         "" => scene.name.to_owned(),
         variant => format!("{} ({variant})", scene.name),

@@ -1,6 +1,6 @@
 //! How much the legal sets and the yardstick asserted.
 
-use super::percent;
+use crate::numbers::{percent, percent_of, thousands};
 use crate::run::grid::Grid;
 use etalon_frame::{Aspect, CounterKind};
 use etalon_record::Assertion;
@@ -82,8 +82,8 @@ fn counters(grid: &Grid<'_>) -> Markup {
                             th scope="row" { (grid.areas[*area].name) }
                             td { (kind.name()) }
                             td.num { (thousands(*all)) }
-                            td.num { (percent(*asserted as f64 / (*all).max(1) as f64)) }
-                            td.num { (percent(*exact as f64 / (*all).max(1) as f64)) }
+                            td.num { (percent_of(*asserted, *all)) }
+                            td.num { (percent_of(*exact, *all)) }
                         }
                     }
                 }
@@ -140,12 +140,12 @@ fn figures<'a>(grid: &Grid<'a>, area: usize) -> Vec<(Aspect, Vec<Figures<'a>>)> 
 }
 
 fn shown(sum: &Assertion) -> [String; 6] {
-    let exact = |n: u64| percent(n as f64 / sum.channels.max(1) as f64);
+    let exact = |n: u64| percent_of(n, sum.channels);
     [
-        percent(sum.share()),
+        percent(sum.share(), 1),
         exact(sum.exact),
         sharpness(sum.sharpness()),
-        percent(sum.yardstick_share()),
+        percent(sum.yardstick_share(), 1),
         exact(sum.yardstick_exact),
         sharpness(sum.yardstick_sharpness()),
     ]
@@ -181,27 +181,5 @@ fn sharpness(value: Option<f64>) -> String {
         Some(v) if v < 1000.0 => format!("{v:.2}"),
         Some(v) if v < 1e6 => thousands(v.round() as u64),
         Some(v) => format!("{v:.1e}"),
-    }
-}
-
-/// Digits in groups of three, with narrow spaces.
-fn thousands(n: u64) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push('\u{202f}');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn digits_are_grouped_from_the_right() {
-        assert_eq!(super::thousands(1_234_567), "1\u{202f}234\u{202f}567");
-        assert_eq!(super::thousands(123), "123");
     }
 }

@@ -1,8 +1,10 @@
 //! Every case on every adapter, to be searched, and the view of one case. The script fills both.
 
 use super::consensus::{Consensus, Votes};
+use crate::numbers::count;
+use crate::page::adapter::breakable;
 use crate::run::grid::{Grid, Tally};
-use crate::words::{self, count};
+use crate::words;
 use etalon_record::Verdict;
 use maud::{Markup, html};
 
@@ -37,7 +39,7 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
                         th scope="col" aria-sort="ascending" { button type="button" data-sort="case" { "Case" } }
                         th scope="col" aria-sort="none" { button type="button" data-sort="consensus" { "Consensus" } }
                         @for adapter in &grid.adapters {
-                            th scope="col" { (super::adapters::breakable(adapter)) }
+                            th scope="col" { (breakable(adapter)) }
                         }
                     } }
                 }

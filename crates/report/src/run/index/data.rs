@@ -4,10 +4,10 @@
 //! the file system read its neighbours. Names and texts are strings of JSON, in which `<` is escaped, so
 //! none of them can end the block.
 
-use super::class;
 use super::consensus::Consensus;
 use super::facts::{self, LABELS};
 use super::findings::{Plan, kind};
+use super::mark::class;
 use crate::run::grid::{Grid, Tally};
 use crate::words::{self, Tone};
 use etalon_record::Verdict;

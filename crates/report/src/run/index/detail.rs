@@ -1,10 +1,12 @@
 //! Everything known about one record.
 
 use super::{facts, link};
+use crate::command;
+use crate::numbers::count;
 use crate::picture;
 use crate::words::{
-    allowed, channel_of, code_and_value, code_text, count, multisampled, place, process_end,
-    repetitions, value_text,
+    allowed, channel_of, code_and_value, code_text, multisampled, place, process_end, repetitions,
+    value_text,
 };
 use etalon_frame::{Band, ChannelMismatch, Story, WrongTexel};
 use etalon_record::{FrameFile, Record, Run};
@@ -46,7 +48,7 @@ pub(crate) fn body(folder: &Path, record: &Record, budget: &mut Budget) -> Marku
         @if let Some(story) = &record.story { (tell(story, record)) }
         p.again {
             "Draw it again: "
-            code { "etalon run " (quoted(&record.case)) " --adapter " (quoted(&record.adapter)) }
+            code { (command::run(&record.case, &record.adapter)) }
             @if let Some((path, _)) = &frame { ", frame: " code { (path) } }
             span.all { ". " a href=(link::case(&record.case)) { "This case on all adapters" } "." }
         }
@@ -129,26 +131,11 @@ fn pictures(frame: &FrameFile, budget: &mut Budget) -> Markup {
         return html! { p.note { "The page has no room left for these pictures." } };
     }
     let strips: Vec<_> = frame.images.iter().map(picture::strip).collect();
-    budget.bytes += strips
-        .iter()
-        .flatten()
-        .flat_map(|s| &s.pictures)
-        .map(|p| p.uri.len())
-        .sum::<usize>();
+    budget.bytes += strips.iter().flatten().map(|s| s.bytes()).sum::<usize>();
     html! {
         @for strip in strips {
             @if let Some(strip) = strip {
-                div.strip {
-                    h5 { (strip.title) }
-                    @for p in &strip.pictures {
-                        figure {
-                            img src=(p.uri) width=(p.size[0]) height=(p.size[1])
-                                alt={ (p.label) " of " (strip.title) };
-                            figcaption { (p.label) }
-                        }
-                    }
-                    p.cap { (strip.caption) }
-                }
+                (strip)
             } @else {
                 p.note { "An image of this frame does not have the codes that its size calls for." }
             }
@@ -231,25 +218,5 @@ fn tell(story: &Story, record: &Record) -> Markup {
                 }
             }
         }
-    }
-}
-
-/// A word as a shell takes it.
-pub fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "/._=+-:,@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn words_are_quoted_for_a_shell() {
-        assert_eq!(super::quoted("gl:es/a=1"), "gl:es/a=1");
-        assert_eq!(super::quoted("a'; rm b"), "'a'\\''; rm b'");
-        assert_eq!(super::quoted(""), "''");
     }
 }

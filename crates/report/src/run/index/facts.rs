@@ -1,7 +1,8 @@
 //! What a case's view tells of one record, as labels and texts.
 
 use super::detail::counts;
-use crate::words::{self, count};
+use crate::numbers::{count, duration, percent};
+use crate::words;
 use etalon_frame::CounterOutcome;
 use etalon_record::{Assertion, Record};
 
@@ -104,10 +105,10 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
         add(Label::Counter, counted(counter));
     }
     if let Some(m) = &record.measured {
-        let rmse = super::percent(m.distance.rmse);
+        let rmse = percent(m.distance.rmse, 1);
         let mut text = format!("{} of {}: RMSE {rmse}", m.method, m.scene);
         if let Some(time) = &m.time {
-            text.push_str(&format!(", {} per frame", words::seconds(time.wall)));
+            text.push_str(&format!(", {} per frame", duration(time.wall)));
         }
         add(Label::Measured, text);
     }

@@ -2,9 +2,11 @@
 
 use super::consensus::Consensus;
 use super::detail::{self, Budget};
-use super::{class, link, mark};
+use super::link;
+use super::mark::{class, mark};
+use crate::numbers::count;
 use crate::run::grid::{Area, CaseFile, Grid, Tally};
-use crate::words::{self, Tone, count};
+use crate::words::{self, Tone};
 use etalon_record::{Record, Verdict};
 use maud::{Markup, html};
 use std::collections::{BTreeMap, HashMap, HashSet};

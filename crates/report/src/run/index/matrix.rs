@@ -1,6 +1,7 @@
 //! Areas against adapters.
 
-use super::{class, mark};
+use super::mark::{class, mark};
+use crate::page::adapter::breakable;
 use crate::run::grid::{Grid, Tally};
 use crate::words::Tone;
 use etalon_record::Verdict;
@@ -18,7 +19,7 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
                 caption.vh { "Verdicts by area and adapter" }
                 thead { tr {
                     th scope="col" { "Area" }
-                    @for adapter in &grid.adapters { th scope="col" { (super::adapters::breakable(adapter)) } }
+                    @for adapter in &grid.adapters { th scope="col" { (breakable(adapter)) } }
                 } }
                 tbody {
                     @for (a, area) in grid.areas.iter().enumerate() {

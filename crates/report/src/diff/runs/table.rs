@@ -3,13 +3,10 @@
 use super::data::{AreaTime, Direction, MethodTime, Pair, RunDiff, both_names};
 use super::phrases;
 use super::times::STATEMENT;
-use crate::TableOptions;
-use crate::bench::duration;
-use crate::words::{count, name, plain};
+use crate::numbers::{count, duration, percent};
+use crate::terminal::{self, TableOptions, dotted, wrapped};
+use crate::words::{name, plain};
 use tabled::builder::Builder;
-use tabled::settings::object::{Columns, Rows};
-use tabled::settings::peaker::Priority;
-use tabled::settings::{Alignment, Color, Style, Width};
 
 /// The most changes of a direction that are listed.
 const LISTED: [(Direction, usize); 3] = [
@@ -28,7 +25,7 @@ const FIGURES: usize = 4;
 pub fn table(diff: &RunDiff, options: TableOptions) -> String {
     let mut text = String::new();
     for warning in &diff.warnings {
-        text.push_str(&paint(&format!("! {}", plain(warning, 400)), "33", options));
+        text.push_str(&options.paint(&format!("! {}", plain(warning, 400)), "33"));
         text.push('\n');
     }
     for fact in diff.facts.iter().filter(|f| f.differs()) {
@@ -77,35 +74,11 @@ fn fact_line(of: &str, what: &str, before: &str, after: &str) -> String {
     format!("{of}{what}: {} → {}\n", shown(before), shown(after))
 }
 
-fn paint(text: &str, color: &str, options: TableOptions) -> String {
-    if options.color {
-        format!("\u{1b}[{color}m{text}\u{1b}[0m")
-    } else {
-        text.to_owned()
-    }
-}
-
-fn finish(builder: Builder, options: TableOptions, text_columns: usize) -> String {
-    let mut table = builder.build();
-    table
-        .with(Style::rounded())
-        .modify(Columns::new(text_columns..), Alignment::right());
-    if options.color {
-        table.modify(Rows::first(), Color::BOLD);
-    }
-    table.with(
-        Width::wrap(options.width)
-            .keep_words(true)
-            .priority(Priority::max(true)),
-    );
-    format!("{table}\n")
-}
-
-fn number(n: u64) -> String {
-    match n {
-        0 => "·".to_owned(),
-        n => n.to_string(),
-    }
+fn text_of(builder: Builder, options: TableOptions, text_columns: usize) -> String {
+    format!(
+        "{}\n",
+        wrapped(terminal::table(builder, options, text_columns), options)
+    )
 }
 
 fn pairs(pairs: &[Pair], options: TableOptions) -> String {
@@ -122,23 +95,23 @@ fn pairs(pairs: &[Pair], options: TableOptions) -> String {
         "asserted",
     ]);
     for pair in pairs {
-        let [before, after] = pair.asserted.map(phrases::percent);
+        let [before, after] = pair.asserted.map(|share| percent(share, 2));
         builder.push_record([
             plain(&pair.name(), 120),
-            number(pair.compared),
-            number(pair.same),
-            number(pair.worse),
-            number(pair.better),
-            number(pair.other),
-            number(pair.only[0]),
-            number(pair.only[1]),
+            dotted(pair.compared),
+            dotted(pair.same),
+            dotted(pair.worse),
+            dotted(pair.better),
+            dotted(pair.other),
+            dotted(pair.only[0]),
+            dotted(pair.only[1]),
             match before == after {
                 true => after,
                 false => format!("{before} → {after}"),
             },
         ]);
     }
-    finish(builder, options, 1)
+    text_of(builder, options, 1)
 }
 
 fn transitions(text: &mut String, pairs: &[Pair]) {
@@ -167,14 +140,14 @@ fn changes(
         Direction::Other => "36",
     };
     text.push_str(&format!("\n{} {}\n", these.len(), direction.name()));
-    let room = options.width.saturating_sub(5).max(20);
+    let room = options.room(4);
     for change in these.iter().take(most) {
         let head = format!("{} {}", phrases::sign(direction), phrases::verdicts(change));
         let adapter = plain(&both_names(&change.adapter), 120);
         let case = plain(&change.case, 300);
         text.push_str(&format!(
             "{}  {adapter}  {case}\n",
-            paint(&head, color, options)
+            options.paint(&head, color)
         ));
         let mut lines: Vec<String> = Vec::new();
         if change.verdict[0] != change.verdict[1] {
@@ -275,7 +248,7 @@ fn areas(times: &[AreaTime], options: TableOptions) -> String {
             phrases::ratio(time.median),
         ]);
     }
-    finish(builder, options, 2)
+    text_of(builder, options, 2)
 }
 
 fn methods(times: &[MethodTime], options: TableOptions) -> String {
@@ -294,7 +267,7 @@ fn methods(times: &[MethodTime], options: TableOptions) -> String {
             phrases::ratio(time.wall),
         ]);
     }
-    let table = finish(builder, options, 2);
+    let table = text_of(builder, options, 2);
     match times.len().saturating_sub(LINES) {
         0 => table,
         rest => format!(

@@ -1,12 +1,10 @@
 //! The summary of a hunt for a terminal.
 
-use super::{areas, elsewhere, totals};
-use crate::TableOptions;
+use super::summary::{areas, elsewhere, totals};
+use crate::terminal::{self, TableOptions, wrapped};
 use crate::words::plain;
 use etalon_record::{Catch, Hunt, MutantRecord};
 use tabled::builder::Builder;
-use tabled::settings::object::{Columns, Rows};
-use tabled::settings::{Alignment, Color, Style};
 
 /// Totals, a table with a row per area, and the bugs that were only noticed, survived, or were
 /// seen by another area alone. Always ends in a newline.
@@ -23,13 +21,7 @@ pub fn hunt_table(hunt: &Hunt, options: TableOptions) -> String {
             format!("{} of {}", row.own_reached, row.own),
         ]);
     }
-    let mut table = builder.build();
-    table
-        .with(Style::rounded())
-        .modify(Columns::new(1..), Alignment::right());
-    if options.color {
-        table.modify(Rows::first(), Color::BOLD);
-    }
+    let table = wrapped(terminal::table(builder, options, 1), options);
     let mut text = format!("{table}\n\n{}\n", totals(hunt));
     let of = |outcome| hunt.mutants.iter().filter(move |m| m.outcome == outcome);
     let proven = |m: &MutantRecord| m.mutant.legal.clone().unwrap_or_default();
@@ -45,12 +37,7 @@ pub fn hunt_table(hunt: &Hunt, options: TableOptions) -> String {
     );
     let complaints: Vec<_> = hunt.complaints().collect();
     if !complaints.is_empty() {
-        let head = if options.color {
-            "\n\u{1b}[31mWrong\u{1b}[0m\n"
-        } else {
-            "\nWrong\n"
-        };
-        text.push_str(head);
+        text.push_str(&format!("\n{}\n", options.paint("Wrong", "31")));
         for (mutant, why) in complaints {
             let name = plain(&mutant.mutant.name, 100);
             text.push_str(&format!("  {name}: {why}\n"));
@@ -72,11 +59,10 @@ fn list<'a>(
             text.push_str(&format!("\n{title}\n"));
             empty = false;
         }
-        let room = options.width.saturating_sub(6).max(20);
         text.push_str(&format!("  {}\n", plain(&mutant.mutant.name, 100)));
         let reason = why(mutant);
         if !reason.is_empty() {
-            text.push_str(&format!("      {}\n", plain(&reason, room)));
+            text.push_str(&format!("      {}\n", plain(&reason, options.room(5))));
         }
     }
 }

@@ -1,6 +1,6 @@
-//! A bench in figures.
+//! The figures of a bench.
 
-use super::software;
+use super::kind::software;
 use etalon_record::{Bench, BenchRecord, Time};
 use etalon_stats::{Outcome, Samples, Summary, compare, summarize};
 use std::collections::BTreeMap;
