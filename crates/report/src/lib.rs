@@ -28,7 +28,7 @@ mod words;
 
 pub use bench::{BENCH_FILES, WrittenBench, bench_table, write_bench};
 pub use command::quoted;
-pub use diff::benches::{Change, Diff, Gone, Side, diff, diff_table, write_diff};
+pub use diff::benches::{BenchDiff, BenchFacts, TimeChange, Untimed, diff, diff_table, write_diff};
 pub use diff::runs;
 pub use error::ReportError;
 pub use hunt::{WrittenHunt, hunt_table, write_hunt};

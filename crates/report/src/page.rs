@@ -1,5 +1,5 @@
 //! The shell of every page: one self-contained file that works offline. Its content security policy
-//! forbids all requests, whatever a hostile name in a record should try, and all scripts but the page's
+//! forbids all requests, also those of a hostile name in a record, and all scripts but the page's
 //! own, which it names by digest.
 
 pub(crate) mod adapter;

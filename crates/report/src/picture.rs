@@ -1,4 +1,4 @@
-//! Images of frames as PNG data URIs: what was allowed, what came back, and where they differ.
+//! Images of frames as PNG data URIs: the allowed codes, the actual ones, and their difference.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -201,7 +201,7 @@ fn alpha(image: &FrameImage) -> Alpha {
     }
 }
 
-/// What a picture shows of a texel.
+/// The channels of a texel that a picture shows.
 #[derive(Clone, Copy)]
 enum Look {
     Rgb,
@@ -260,7 +260,7 @@ impl View<'_> {
         })
     }
 
-    /// How far a sample lies outside the allowed range, in codes on a log scale from 0 to 1.
+    /// The distance of a sample from the allowed range, in codes on a logarithmic scale from 0 to 1.
     fn distance(&self, sample: usize) -> f64 {
         let n = self.image.channels.len();
         let channel = |(i, e): (usize, &ChannelEncoding)| {
@@ -315,9 +315,7 @@ impl View<'_> {
         let image = self.image;
         let [low, high] = self.range;
         let mut text = match image.aspect {
-            Aspect::Color => {
-                "Colours are shown opaque, 0 to 1, without a transfer function.".to_owned()
-            }
+            Aspect::Color => "Colours are opaque, 0 to 1, without a transfer function.".to_owned(),
             Aspect::Depth => "Black is depth 0, white is depth 1.".to_owned(),
             Aspect::Stencil => format!("Black is {low}, white is {high}."),
         };

@@ -36,7 +36,7 @@ impl<'a> CaseFigures<'a> {
 /// One case on one adapter.
 pub(crate) struct Timed<'a> {
     pub(crate) record: &'a BenchRecord,
-    /// Among adapters of its kind, from 1; adapters that cannot be told apart share one.
+    /// Among adapters of its kind, from 1; adapters that do not differ provably share one.
     pub(crate) rank: usize,
     pub(crate) wall: Summary,
     /// Other times, as far as they were measured.
@@ -116,7 +116,7 @@ fn timed(record: &BenchRecord) -> Option<Timed<'_>> {
 }
 
 /// Sorts by median, and gives a rank of its own only to what is slower than the first of the rank
-/// before, as a comparison of their samples tells.
+/// before by a comparison of their samples.
 fn rank(all: &mut [Timed<'_>]) {
     all.sort_by(|a, b| a.wall.median.total_cmp(&b.wall.median));
     let mut leader = 0;

@@ -1,4 +1,4 @@
-//! `index.html` of a bench: one self-contained page that works offline and has no script.
+//! `index.html` of a bench.
 
 use super::figures::{CaseFigures, Figures, Timed};
 use super::kind::KINDS;
@@ -55,7 +55,7 @@ fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
     html! {
         header {
             h1 { "etalon bench" }
-            p.lead { "How long graphics drivers take for frames that were found to be right." }
+            p.lead { "Frame times of graphics drivers, of frames that were judged right." }
             @if bench.truncated || bench.missing() > 0 {
                 p.state.bad { b { "! Incomplete. " } (count(bench.missing(), "round")) " missing." }
             }
@@ -87,11 +87,11 @@ fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
 fn explanation() -> Markup {
     html! {
         details {
-            summary { "How to read this" }
+            summary { "Reading this page" }
             p {
-                "A round is one fresh preparation of a scene, some frames of warm-up, which are "
-                "discarded and counted, and some timed frames, none of which is discarded. Rounds of all "
-                "cases and adapters interleave, so that whatever drifts hits all alike."
+                "A round prepares the scene anew, draws some frames of warm-up, which are counted and discarded, and "
+                "some timed frames, all of which count. Rounds of all cases and adapters interleave, so that drift "
+                "affects all alike."
             }
             p {
                 b { "Median" } " is the median of the rounds' medians; the " b { "interval" }
@@ -104,7 +104,7 @@ fn explanation() -> Markup {
                 b { "Wall" } " lasts until the device is done, " b { "cpu" }
                 " until the last call that submits work has returned, " b { "gpu" }
                 " is between timestamps of the device. " b { "Prepare" } " and " b { "first" }
-                " are what a scene costs once. Adapters with the same rank cannot be told apart. Software "
+                " are what a scene costs once. Adapters with the same rank do not differ provably. Software "
                 "and hardware have tables of their own."
             }
         }
@@ -156,8 +156,8 @@ fn ruler(bench: &Bench) -> Markup {
             @match drift(bench) {
                 Some(chart) => {
                     p {
-                        "Fixed work on the processor, timed right before and after each round. Where the line "
-                        "moves, the machine itself has changed its pace."
+                        "Fixed work on the processor, timed before and after each round. Where the line moves, the speed of "
+                        "the machine itself changed."
                     }
                     (chart)
                 }
@@ -227,7 +227,7 @@ fn figures_of(s: &Summary) -> Markup {
     }
 }
 
-/// How much of the picture was asserted.
+/// The share of the picture that was asserted.
 fn share(record: &BenchRecord) -> String {
     format!("{} asserted", percent(record.picture.asserted, 1))
 }

@@ -52,7 +52,7 @@ pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
         text.push_str(&format!("Incomplete: {rounds} missing.\n"));
     }
     text.push_str(
-        "Median of the rounds' medians with its 99 % interval; equal numbers (#) cannot be told apart;\n\
+        "Median of the rounds' medians with its 99 % interval; adapters with equal ranks (#) do not differ provably;\n\
          visible: the smallest change that a diff with another bench like this one would find.\n",
     );
     text

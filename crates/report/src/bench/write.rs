@@ -29,7 +29,7 @@ pub struct WrittenBench {
 /// written beside its place and then renamed, so that a reader never sees half a report.
 ///
 /// # Errors
-/// When the folder holds no readable bench, or cannot be written to.
+/// Returns an error if the folder holds no readable bench, or cannot be written to.
 pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
     let bench = Bench::read(folder)?;
     let figures = Figures::new(&bench);

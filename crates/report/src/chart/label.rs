@@ -17,7 +17,7 @@ impl Labels {
         }
     }
 
-    /// Where to write a text that belongs to a point: the text's left end and its base line.
+    /// The place of a text that belongs to a point: its left end and its base line.
     pub(crate) fn place(&mut self, text: &str, (x, y): (f64, f64)) -> Option<(f64, f64)> {
         let width = 5.6 * text.chars().count() as f64;
         let places = [

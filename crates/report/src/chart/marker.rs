@@ -3,7 +3,7 @@
 use super::number::n;
 use maud::{Markup, html};
 
-/// How many colours there are.
+/// The number of colours.
 const COLORS: usize = 7;
 
 /// Outlines around the origin, about as heavy as each other. Their number and that of colours have

@@ -71,7 +71,7 @@ impl Plot {
     }
 }
 
-/// One chart: an image with a title and a description for whoever does not see it.
+/// One chart: an image with a title and a description for screen readers.
 pub(crate) fn chart(height: f64, title: &str, about: &str, body: &Markup) -> Markup {
     let view = format!("0 0 {WIDTH} {height}");
     html! {

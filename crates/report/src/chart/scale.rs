@@ -65,24 +65,24 @@ impl Scale {
     }
 
     /// Round values inside, about as many as asked for and never more than twice as many.
-    pub(crate) fn ticks(self, wanted: usize) -> Vec<f64> {
+    pub(crate) fn ticks(self, count: usize) -> Vec<f64> {
         match self {
-            Self::Linear { low, high } => linear_ticks(low, high, wanted),
+            Self::Linear { low, high } => linear_ticks(low, high, count),
             Self::Log { low, high } => {
                 let decades = high - low;
                 if decades < 0.7 {
-                    let ticks = linear_ticks(10_f64.powf(low), 10_f64.powf(high), wanted);
+                    let ticks = linear_ticks(10_f64.powf(low), 10_f64.powf(high), count);
                     return ticks.into_iter().filter(|t| *t > 0.0).collect();
                 }
-                let step = (decades / wanted as f64).ceil().max(1.0);
+                let step = (decades / count as f64).ceil().max(1.0);
                 let parts: &[f64] = match () {
-                    () if decades * 3.0 <= wanted as f64 * 1.6 => &[1.0, 2.0, 5.0],
-                    () if decades * 2.0 <= wanted as f64 * 1.6 => &[1.0, 3.0],
+                    () if decades * 3.0 <= count as f64 * 1.6 => &[1.0, 2.0, 5.0],
+                    () if decades * 2.0 <= count as f64 * 1.6 => &[1.0, 3.0],
                     () => &[1.0],
                 };
                 let first = (low / step).floor() * step;
-                let count = ((high - first) / step).ceil() as usize + 1;
-                (0..count)
+                let powers = ((high - first) / step).ceil() as usize + 1;
+                (0..powers)
                     .map(|i| first + i as f64 * step)
                     .flat_map(|e| parts.iter().map(move |p| (e + p.log10(), *p, e)))
                     .filter(|(at, _, _)| (low..=high).contains(at))
@@ -108,8 +108,8 @@ fn ends(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-fn linear_ticks(low: f64, high: f64, wanted: usize) -> Vec<f64> {
-    let raw = (high - low) / wanted.max(1) as f64;
+fn linear_ticks(low: f64, high: f64, count: usize) -> Vec<f64> {
+    let raw = (high - low) / count.max(1) as f64;
     let magnitude = 10_f64.powf(raw.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0]
         .into_iter()
@@ -117,7 +117,7 @@ fn linear_ticks(low: f64, high: f64, wanted: usize) -> Vec<f64> {
         .find(|s| *s >= raw * 0.999)
         .unwrap_or(raw);
     let first = (low / step).ceil();
-    (0..=2 * wanted)
+    (0..=2 * count)
         .map(|i| (first + i as f64) * step)
         .take_while(|t| *t <= high)
         .collect()

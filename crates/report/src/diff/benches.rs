@@ -4,6 +4,6 @@ mod compare;
 mod page;
 mod table;
 
-pub use compare::{Change, Diff, Gone, Side, diff};
+pub use compare::{BenchDiff, BenchFacts, TimeChange, Untimed, diff};
 pub use page::write_diff;
 pub use table::diff_table;

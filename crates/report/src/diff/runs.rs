@@ -1,9 +1,9 @@
-//! Two runs held against each other: two drivers, two versions of one, two commits. What changed of
-//! verdicts, pixels and times, as data, for a terminal, and as a page.
+//! The comparison of two runs: of two drivers, two versions of one, two commits. Changes of verdicts, pixels
+//! and times as data, for a terminal, and as a page.
 //!
 //! Records are matched by case and adapter. *Worse*, which `etalon diff` exits with 1 for, is
 //!
-//! - a record that speaks against the second run where its partner did not speak against the first;
+//! - a record that is unexpected and whose partner in the first run is not;
 //! - a right verdict (Pass, Imprecise, Measured; for a selftest that is due to fail: Fail) that became a
 //!   wrong one (all bad verdicts, Open among them), and a wrong one that became one of a greater
 //!   [`Verdict::severity`](etalon_record::Verdict::severity), expected or not;
@@ -11,8 +11,8 @@
 //! - a case that the second run was to draw, being of the same selection, and holds no record of.
 //!
 //! *Better* is the way back: wrong to right or to a smaller severity, not supported to right. All else is
-//! neither: Pass to Imprecise, which is legal; wrong to not supported; right to skipped, which somebody
-//! wanted; a case of another selection; and other pixels, counters or distances under the same verdict.
+//! neither: Pass to Imprecise, which is legal; wrong to not supported; right to skipped, which is
+//! intended; a case of another selection; and other pixels, counters or distances under the same verdict.
 //! Times decide nothing, since a run's are taken once and beside other work.
 
 mod compare;
@@ -40,12 +40,12 @@ use pairs::{Folder, Matched};
 use std::cmp::Reverse;
 use std::path::Path;
 
-/// Holds the run in the second folder against the one in the first. With `adapters`, the records of the
-/// one in the first run against those of the other in the second; else, where each run has one adapter,
-/// those two; else those of the same name.
+/// Compares the run in the second folder with the one in the first. With `adapters`, compares the records of
+/// the one in the first run with those of the other in the second; else, if each run has one adapter, those
+/// two; else those of the same name.
 ///
 /// # Errors
-/// When a folder holds no readable run, an adapter that was named is in no record or header, or the runs
+/// Returns an error if a folder holds no readable run, a named adapter is in no record or header, or the runs
 /// have no adapter of the same name.
 pub fn diff(
     before: &Path,
@@ -74,7 +74,7 @@ pub fn diff(
     let unreadable = found.changes.iter().filter_map(|c| c.frame_error.as_ref());
     if let Some(first) = unreadable.clone().next() {
         found.warnings.push(format!(
-            "{} of frames of changed cases could not be held against each other: {first}",
+            "{} of frames of changed cases could not be compared: {first}",
             count(unreadable.count() as u64, "pair")
         ));
     }
@@ -137,7 +137,7 @@ fn of_pair(
     found.pairs.push(pair);
 }
 
-/// What a reader has to know before anything else.
+/// Reasons for which the comparison may mislead.
 fn warnings(runs: &[Run; 2], same_selection: bool) -> Vec<String> {
     let mut warnings = Vec::new();
     for (run, which) in runs.iter().zip(["first", "second"]) {
@@ -147,13 +147,13 @@ fn warnings(runs: &[Run; 2], same_selection: bool) -> Vec<String> {
     }
     if !same_selection {
         warnings.push(
-            "The runs are of different selections of cases: cases in one of them only are no finding."
+            "The runs are of different selections of cases: cases in one run only are no finding."
                 .to_owned(),
         );
     }
     let [before, after] = [&runs[0].header, &runs[1].header];
     if before.machine != after.machine {
-        warnings.push("The machines differ, so times say nothing of the drivers.".to_owned());
+        warnings.push("The machines differ, so times do not compare the drivers.".to_owned());
     }
     warnings
 }

@@ -5,7 +5,7 @@
 //!
 //! | status | records |
 //! |---|---|
-//! | `failed` | what speaks against the run: a bad verdict that no expectation names, and a selftest that did not fail |
+//! | `failed` | unexpected records: a bad verdict that no expectation names, and a selftest that did not fail |
 //! | `passed` | Pass, Imprecise, and selftests that failed as they should |
 //! | `other` | Measured, which is no judgement, and bad verdicts that the expectations name |
 //! | `skipped` | NotSupported and Skipped |
@@ -229,7 +229,7 @@ fn test(record: &Record) -> Test<'_> {
     }
 }
 
-/// What the format has no place for; nothing for a record without peculiarities but what it asserted.
+/// The facts of a record that the format has no field for.
 fn extra(record: &Record) -> Map<String, Value> {
     let mut extra = Map::new();
     let mut put = |key: &str, value: Value| {
@@ -301,7 +301,7 @@ fn milliseconds(seconds: f64) -> u64 {
     ((seconds * 1e3).round() as u64).min(1 << 53)
 }
 
-/// When a run began, since 1970; 0 where the header does not tell.
+/// The start of a run in milliseconds since 1970; 0 if the header has none.
 fn milliseconds_of(started: &str) -> u64 {
     let time = humantime::parse_rfc3339(started).ok();
     let since = time.and_then(|t| t.duration_since(UNIX_EPOCH).ok());

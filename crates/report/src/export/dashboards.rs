@@ -35,7 +35,7 @@ fn nanoseconds(seconds: f64) -> f64 {
     (seconds * 1e12).round() / 1e3
 }
 
-/// What a time is called there: `latency` is Bencher's own, the others are made by their first use.
+/// Bencher's name of a time: `latency` is built in, the others are created by their first use.
 fn measure(time: Time) -> String {
     match time {
         Time::Wall => "latency".to_owned(),

@@ -17,7 +17,7 @@
 //! | `Flake` | Flaky. deqp-runner lets flakes pass; here an unexpected one fails the run |
 //! | `KnownFlake` | Flaky, and expected |
 //! | `ExpectedFail` | any other bad verdict that is expected, and a selftest that fails as it should |
-//! | `UnexpectedImprovement(…)` | better than expected, with the status that it came to |
+//! | `UnexpectedImprovement(…)` | better than expected, with its status |
 //! | `Skip` | NotSupported, Skipped, and Measured, which judges nothing |
 //! | `Missing` | selected and not recorded, where the folder keeps the ids that were selected |
 
@@ -90,7 +90,7 @@ fn list(run: &Run, grid: &Grid<'_>, column: usize, selected: &[String]) -> Strin
     text
 }
 
-/// Whether deqp-runner takes the id for what it is.
+/// True if deqp-runner reads the id unchanged.
 fn readable(case: &str) -> bool {
     !case.is_empty()
         && !case.starts_with('#')
@@ -109,7 +109,7 @@ fn status(record: &Record) -> String {
         Verdict::NotSupported | Verdict::Skipped | Verdict::Measured => "Skip",
     };
     if record.unexpected() {
-        // A selftest that was due to fail has a good verdict and speaks against the run all the same.
+        // A selftest that was due to fail has a good verdict and is unexpected all the same.
         return if record.verdict.is_bad() {
             plain
         } else {
@@ -130,7 +130,7 @@ fn selected(folder: &Path, run: &Run) -> Vec<String> {
     if run.missing() == 0 {
         return Vec::new();
     }
-    // A list that is damaged or another run's tells nothing; the comment then says how many are missing.
+    // A list that is damaged or another run's is of no use; the comment then counts the missing records.
     let mut ids = read_cases(folder, &run.header)
         .ok()
         .flatten()

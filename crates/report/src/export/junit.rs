@@ -1,11 +1,11 @@
 //! `junit.xml`, for continuous integration.
 //!
-//! One suite per adapter, one test case per case. What speaks against the run is a failure (Fail,
-//! Open, Flaky and a selftest that did not fail) or an error (Crash and its kin); NotSupported and
+//! One suite per adapter, one test case per case. Unexpected records are failures (Fail,
+//! Open, Flaky and a selftest that did not fail) or errors (Crash and the like); NotSupported and
 //! Skipped are skipped. A bad verdict that was expected or due is a success with a note, since a viewer
-//! shows skipped cases as not run, and these did run. How a process was lost, what repetitions came to,
-//! which cases must be drawn before and what validation said stands with the failure, or in
-//! `system-out` where there is none; what a lost process wrote is `system-err`. A last suite, `etalon`,
+//! shows skipped cases as not run, and these did run. The loss of a process, the verdicts of repetitions,
+//! the cases that must be drawn before and validation messages are part of the failure, or of
+//! `system-out` without one; the standard error of a lost process is `system-err`. A last suite, `etalon`,
 //! holds one case that fails when the run is empty or incomplete: what was not run must not look green.
 
 use crate::export::status::{Conclusion, account, incomplete, note, particulars, seconds};

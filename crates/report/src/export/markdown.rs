@@ -1,7 +1,7 @@
 //! `summary.md`, for the job page of a continuous integration.
 //!
 //! GitHub takes at most one MiB for a step's summary and throws away what is longer, so the file stays
-//! below [`LIMIT`] bytes whatever the run holds, and says what it leaves out. What a run holds may be
+//! below [`LIMIT`] bytes for every run, and states what it leaves out. Texts of a run may be
 //! hostile: text goes through [`escaped`], names and commands through [`code`].
 
 use crate::command;
@@ -22,7 +22,7 @@ const LISTED: usize = 500;
 /// A text that grows up to a limit.
 struct Text {
     text: String,
-    /// Where the present section must end.
+    /// The length of the text at which the current section must end.
     until: usize,
 }
 
@@ -95,7 +95,7 @@ fn head(text: &mut Text, run: &Run) {
     let better = run.records.iter().filter(|r| r.improvement()).count() as u64;
     if better > 0 {
         text.line(&format!(
-            "**{}**: entries of the expectations may go.\n",
+            "**{}**: their expectations can be removed.\n",
             count(better, "improvement")
         ));
     }
@@ -146,7 +146,7 @@ fn adapters(text: &mut Text, run: &Run) {
             .map(|v| format!("{} {}", symbol(*v), name(*v))),
     );
     if excused {
-        titles.push("bad, but expected".to_owned());
+        titles.push("expected".to_owned());
     }
     titles.push("unexpected".to_owned());
     if some_missing {
@@ -214,7 +214,7 @@ fn improvements(text: &mut Text, run: &Run) {
     text.lines(&better, LISTED, |record| {
         let due = record.improves.map_or("", name);
         format!(
-            "- {} on {}: {} is due, {} came",
+            "- {} on {}: {} expected, {} recorded",
             code(&record.case, 400),
             code(&record.adapter, 100),
             due,
@@ -224,7 +224,7 @@ fn improvements(text: &mut Text, run: &Run) {
     text.line("");
 }
 
-/// What was asserted, over all adapters, by area and aspect.
+/// The asserted channels over all adapters, by area and aspect.
 fn asserted(text: &mut Text, run: &Run) {
     let mut sums: BTreeMap<(&str, Aspect), Assertion> = BTreeMap::new();
     for record in &run.records {
@@ -258,7 +258,7 @@ fn absent(text: &mut Text, run: &Run) {
     if absent.is_empty() {
         return;
     }
-    text.line("## Not here\n");
+    text.line("## Absent adapters\n");
     text.lines(absent, LISTED, |a| {
         format!(
             "- {}: {}; {}",

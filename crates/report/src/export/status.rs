@@ -17,9 +17,9 @@ pub(crate) enum Conclusion {
     Measured,
     /// Not drawn.
     Skipped,
-    /// Speaks against the run: a wrong frame, or a selftest that did not fail.
+    /// Unexpected: a wrong frame, or a selftest that did not fail.
     Failed,
-    /// Speaks against the run: there is no frame.
+    /// Unexpected: there is no frame.
     Broken,
 }
 
@@ -46,8 +46,7 @@ impl Conclusion {
     }
 }
 
-/// Seconds that a case took, drawing and judging; never less than nothing and never endless, whatever
-/// a damaged record states.
+/// The seconds of drawing and judging a case, from 0 to a year, also of a damaged record.
 pub(crate) fn seconds(record: &Record) -> f64 {
     const YEAR: f64 = 366.0 * 86_400.0;
     let both = record.seconds.draw + record.seconds.judge;
@@ -55,7 +54,8 @@ pub(crate) fn seconds(record: &Record) -> f64 {
     if both > 0.0 { both.min(YEAR) } else { 0.0 }
 }
 
-/// Why the run is not complete, or `None` when it is: what was not run must not look green.
+/// The reason why the run is incomplete, or `None` if it is complete: a case that was not run must not look
+/// green.
 pub(crate) fn incomplete(run: &Run) -> Option<String> {
     let missing = run.missing();
     // A shard may have no case: others have them.
@@ -74,7 +74,7 @@ pub(crate) fn incomplete(run: &Run) -> Option<String> {
     }
 }
 
-/// What is to be said of a record that does not speak against the run, where it is no plain pass.
+/// A remark on an expected record that is no plain pass.
 pub(crate) fn note(record: &Record) -> Option<String> {
     match (&record.expected, record.improves) {
         (Some(expected), _) => Some(format!("expected: {}", expected.reason)),
@@ -88,8 +88,8 @@ pub(crate) fn note(record: &Record) -> Option<String> {
     }
 }
 
-/// What a record tells beside its verdict, message and texels, one line each: how its process was lost,
-/// what repetitions came to, which cases must be drawn before, what validation said.
+/// The facts of a record beside its verdict, message and texels, one line each: the loss of its process,
+/// the verdicts of repetitions, the cases that must be drawn before, validation messages.
 pub(crate) fn particulars(record: &Record) -> Vec<String> {
     let mut lines = Vec::new();
     if let Some(end) = &record.process {
@@ -110,7 +110,7 @@ pub(crate) fn particulars(record: &Record) -> Vec<String> {
     lines
 }
 
-/// Everything about a record that speaks against the run, for people.
+/// All facts of an unexpected record, for people.
 pub(crate) fn account(record: &Record) -> String {
     let mut parts = Vec::new();
     if !record.message.is_empty() {

@@ -1,4 +1,4 @@
-//! `mutants.html`: one self-contained page that works offline.
+//! `mutants.html`.
 
 use super::summary::{areas, elsewhere};
 use crate::numbers::{count, duration};
@@ -30,12 +30,12 @@ fn head(hunt: &Hunt) -> Markup {
     html! {
         header {
             h1 { "etalon mutants" }
-            p.lead { "Whether the suite sees bugs that were planted in a rasterizer which passes it." }
+            p.lead { "Bugs planted in a rasterizer that passes the suite, and the cases that catch them." }
             @if complaints.is_empty() {
                 p.state.good { b { "✓ Every planted bug is caught, or proven to be legal." } }
             } @else {
                 p.state.bad {
-                    b { "✗ " (count(complaints.len() as u64, "planted bug")) " came out wrong." }
+                    b { "✗ " (count(complaints.len() as u64, "planted bug")) " with a wrong outcome." }
                 }
                 ul { @for (mutant, why) in &complaints {
                     li { a href={ "#" (mutant.mutant.name) } { (mutant.mutant.name) } ": " (why) }
@@ -95,7 +95,7 @@ fn by_area(hunt: &Hunt) -> Markup {
             h2 { "By area" }
             p {
                 "Which area's cases see which bugs. A bug has one area that must see it alone; the last "
-                "column tells how many do."
+                "column counts those that it does."
             }
             div.wide { table {
                 thead { tr {
@@ -116,7 +116,7 @@ fn noted(hunt: &Hunt) -> Markup {
     html! {
         (noted_list("Noticed", of(Catch::Noticed).collect()))
         (noted_list("Survived", of(Catch::Survived).collect()))
-        (noted_list("Seen by other areas than their own alone", elsewhere(hunt)))
+        (noted_list("Caught by other areas only", elsewhere(hunt)))
     }
 }
 
@@ -141,7 +141,7 @@ fn all(hunt: &Hunt) -> Markup {
             h2 { "All planted bugs" }
             div.wide { table.figures {
                 thead { tr {
-                    th { "Name" } th { "What it does" } th { "Source" } th { "Outcome" }
+                    th { "Name" } th { "Effect" } th { "Source" } th { "Outcome" }
                     th { "Cases that failed / were imprecise / passed" } th { "First seen" }
                 } }
                 tbody { @for m in &hunt.mutants { (row(m)) } }

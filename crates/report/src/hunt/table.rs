@@ -31,7 +31,7 @@ pub fn hunt_table(hunt: &Hunt, options: TableOptions) -> String {
     list(
         &mut text,
         options,
-        "Seen by other areas than their own alone",
+        "Caught by other areas only",
         others.into_iter(),
         |m| m.first.as_ref().map(|s| s.case.clone()).unwrap_or_default(),
     );

@@ -18,7 +18,7 @@ pub struct WrittenHunt {
 /// Writes `mutants.json` and `mutants.html` into a folder, which is made when it does not exist.
 ///
 /// # Errors
-/// When the folder cannot be written to.
+/// Returns an error if the folder cannot be written to.
 pub fn write_hunt(folder: &Path, hunt: &Hunt) -> Result<WrittenHunt, ReportError> {
     let json = hunt.write(folder)?;
     let html = replace(folder, "mutants.html", page::page(hunt).as_bytes())?;

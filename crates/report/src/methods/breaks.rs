@@ -1,4 +1,4 @@
-//! Where along its parameter a method leaves an error of one percent.
+//! The value of its parameter at which a method leaves an error of one percent.
 
 use crate::numbers::digits;
 
@@ -7,7 +7,7 @@ pub(super) const LIMIT: f64 = 0.01;
 /// Stands for an error of zero, which has no logarithm.
 const LEAST: f64 = 1e-6;
 
-/// How an error along a parameter lies to [`LIMIT`].
+/// The position of an error along a parameter relative to [`LIMIT`].
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Break {
     /// At or below it everywhere.
@@ -23,7 +23,7 @@ pub(super) enum Break {
 pub(super) struct Crossing {
     /// The parameter's value, interpolated between the logarithms of the errors on both sides.
     pub(super) value: f64,
-    /// Whether the error is above the limit behind it.
+    /// True if the error is above the limit behind it.
     pub(super) leaves: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Headline claims of the literature, held against what was measured.
+//! Claims of the literature, compared with the measurements of a run.
 
 mod claim;
 mod cost;
@@ -18,11 +18,11 @@ pub(super) fn section(methods: &Methods<'_>) -> Markup {
     let checked: Vec<(&Claim, Vec<Figure>)> = all().map(|c| (c, (c.check)(methods))).collect();
     html! {
         p {
-            "What is said of methods, and what this run measured of it. A claim holds in a place when the figure there "
-            "meets the condition beside it; whether it was reproduced is decided by all places together."
+            "Claims of publications, and this run's measurements of them. A claim holds in a scene on an adapter if the figure "
+            "there meets the condition beside it; it is reproduced if it holds everywhere."
         }
         div.wide { table.text {
-            thead { tr { th { "Claim" } th { "How it is checked" } th { "Measured" } th { "Outcome" } } }
+            thead { tr { th { "Claim" } th { "Condition" } th { "Measured" } th { "Outcome" } } }
             tbody {
                 @for (claim, figures) in &checked {
                     @let found = Reproduction::of(figures);

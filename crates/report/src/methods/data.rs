@@ -3,7 +3,7 @@
 use etalon_record::{Measured, Record, Run};
 use std::collections::BTreeMap;
 
-/// Everything that the records tell of methods.
+/// The records of methods.
 pub(crate) struct Methods<'a> {
     /// Adapters that drew some method, in the header's order.
     pub(crate) adapters: Vec<Adapter<'a>>,
@@ -17,14 +17,14 @@ pub(crate) struct Adapter<'a> {
     pub(crate) kind: Kind,
 }
 
-/// What an adapter draws with: these never share a ranking.
+/// The device that an adapter draws with; kinds never share a ranking.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     /// The processor.
     Software,
     /// A device of its own.
     Hardware,
-    /// The run does not tell.
+    /// The run has no facts of the adapter.
     Unknown,
 }
 
@@ -230,7 +230,7 @@ fn scene<'a>(
     records: &[(&'a Record, &'a Measured)],
     adapters: &[Adapter<'a>],
 ) -> SceneSeries<'a> {
-    // An axis that has one value in the whole scene tells nothing.
+    // An axis with one value in the whole scene is no variant.
     let mut values: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for (record, m) in records {
         for (axis, value) in settings(record, m) {

@@ -1,4 +1,4 @@
-//! How accurate drivers are: how far their codes lie from the ideal ones, beside their speed.
+//! The accuracy of drivers: the distance of their codes from the ideal ones, beside their speed.
 
 use crate::chart::{LEFT, RIGHT, Scale, TOP, chart, key, marker, n};
 use crate::numbers::{digits, duration};
@@ -10,7 +10,7 @@ use etalon_record::{Record, Verdict};
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 
-/// What one adapter's frames of one area and aspect come to.
+/// The accuracy of one adapter's frames of one area and aspect.
 #[derive(Clone, Copy, Default)]
 struct Figures<'a> {
     /// Of frames that are legal.
@@ -47,7 +47,7 @@ fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
         for column in 0..grid.adapters.len() {
             for index in area.on(column) {
                 let record = grid.record(index);
-                // A selftest's frame is held against something wrong on purpose.
+                // A selftest's frame is compared with a wrong expectation on purpose.
                 if record.due_fail {
                     continue;
                 }
@@ -68,13 +68,13 @@ fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
     rows
 }
 
-/// Whether the numbers of a record make sense; a run folder may hold any.
+/// True if a chart can show the numbers of a record; a run folder may hold any.
 fn drawable(a: &Accuracy) -> bool {
     let fine = |v: f64| v.is_finite() && (0.0..=1e12).contains(&v);
     a.channels > 0 && fine(a.mean) && fine(a.max)
 }
 
-/// How fast an adapter went through the run.
+/// The speed of an adapter in the run.
 struct Speed {
     cases_per_second: Option<f64>,
     /// Median of drawing and reading back over all cases that were judged.

@@ -1,4 +1,4 @@
-//! `methods.html`: one self-contained page that works offline and needs no script.
+//! `methods.html`.
 
 use super::data::{Methods, Point, Question, SceneSeries, Series};
 use super::name::{anchor, value_text};
@@ -39,7 +39,7 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
         }
         (breaks(methods))
         section id="reading" {
-            h2 { "How to read the charts" }
+            h2 { "Reading the charts" }
             h3 { "Accuracy against speed" }
             (scatter::caption())
             h3 { "Stability" }
@@ -69,7 +69,7 @@ fn head(run: &Run, methods: &Methods<'_>) -> Markup {
         header {
             h1 { "Methods: accuracy against speed" }
             p.lead {
-                "What rendering methods cost, how far their pictures lie from the truth, and where each breaks."
+                "Cost and error of rendering methods, and the parameter at which each breaks."
             }
             dl.facts {
                 dt { "Run" } dd { a href="index.html" { "verdicts and findings" } ", " (h.started) }
@@ -85,8 +85,8 @@ fn head(run: &Run, methods: &Methods<'_>) -> Markup {
             }
             nav {
                 a href="#claims" { "Claims" } " "
-                a href="#breaks" { "Where methods break" } " "
-                a href="#reading" { "How to read the charts" } " "
+                a href="#breaks" { "Break points" } " "
+                a href="#reading" { "Reading the charts" } " "
                 @for (q, question) in methods.questions.iter().enumerate() {
                     a href={ "#q" (q) } { (title(question.name)) } " "
                 }
@@ -108,7 +108,7 @@ pub(super) fn title(name: &str) -> String {
     }
 }
 
-/// Every break point in one table; curves that never cross are told beside their charts.
+/// Every break point in one table; curves that never cross are listed beside their charts.
 fn breaks(methods: &Methods<'_>) -> Markup {
     let mut rows = Vec::new();
     for (q, question) in methods.questions.iter().enumerate() {
@@ -121,9 +121,9 @@ fn breaks(methods: &Methods<'_>) -> Markup {
     let (broken, steady): (Vec<_>, Vec<_>) = rows.into_iter().partition(|(_, _, _, f)| f.crosses());
     html! {
         section id="breaks" {
-            h2 { "Where methods break" }
+            h2 { "Break points" }
             p {
-                "The value of a scene's parameter at which a method's RMSE crosses 1 % of full brightness."
+                "The parameter at which a method's RMSE crosses 1 % of full brightness."
             }
             @if broken.is_empty() { p { "No method crosses it." } }
             @else {
@@ -142,7 +142,7 @@ fn breaks(methods: &Methods<'_>) -> Markup {
                 } }
             }
             @if !steady.is_empty() {
-                p.note { (count(steady.len() as u64, "curve")) " along a parameter never cross it, one way or the other; they are listed beside their charts." }
+                p.note { (count(steady.len() as u64, "curve")) " along a parameter never cross it; they are listed beside their charts." }
             }
         }
     }
@@ -209,7 +209,7 @@ fn in_scene(
     }
 }
 
-/// Which values stand for methods with a parameter in the charts of accuracy against speed.
+/// The values that stand for methods with a parameter in the charts of accuracy against speed.
 fn middles(scene: &SceneSeries<'_>) -> Option<String> {
     let mut shown: Vec<(String, Vec<&str>)> = Vec::new();
     for series in &scene.series {

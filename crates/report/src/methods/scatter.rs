@@ -9,7 +9,7 @@ use crate::chart::{
 use crate::numbers::{duration, round_duration, share};
 use maud::{Markup, html};
 
-/// What rounding to 8 bits alone costs where values lie anywhere between two codes: the standard
+/// The error of rounding to 8 bits alone where values lie anywhere between two codes: the standard
 /// deviation of a uniform distribution one code wide.
 pub(super) const ROUNDING: f64 = 1.0 / (255.0 * 3.464_101_615_137_754_4);
 
@@ -19,7 +19,7 @@ struct Dot<'s, 'a> {
     /// Position of the method in its question.
     style: usize,
     name: String,
-    /// Whether it stands for its series, being the only one or that of the middle value.
+    /// True if it stands for its series: the only point, or that of the middle value.
     main: bool,
     time: f64,
     error: f64,
@@ -63,7 +63,7 @@ fn heading(kind: Kind) -> &'static str {
     match kind {
         Kind::Software => "Software adapters, which draw with the processor",
         Kind::Hardware => "Hardware adapters",
-        Kind::Unknown => "Adapters of which the run does not tell what they draw with",
+        Kind::Unknown => "Adapters of unknown kind",
     }
 }
 
@@ -162,7 +162,7 @@ fn steps(plot: &Plot, points: &[(f64, f64)], class: &str) -> Markup {
     html! { @if !path.is_empty() { path class=(class) d=(path) {} } }
 }
 
-/// What the charts of accuracy against speed show, in words.
+/// The explanation of the charts of accuracy against speed.
 pub(super) fn caption() -> Markup {
     html! {
         p {

@@ -8,7 +8,7 @@ use crate::chart::{HEIGHT, Labels, Plot, Scale, chart, color, marker, n, zero_ba
 use crate::numbers::share;
 use maud::{Markup, html};
 
-/// Where one method breaks on some adapters.
+/// The break of one method's curve, and the adapters that share it.
 pub(super) struct CurveBreak<'a> {
     pub(super) method: &'a str,
     pub(super) series: String,
@@ -20,7 +20,7 @@ pub(super) struct CurveBreak<'a> {
 }
 
 impl CurveBreak<'_> {
-    /// Whether the error crosses the limit within the parameter's range.
+    /// True if the error crosses the limit within the parameter's range.
     pub(super) fn crosses(&self) -> bool {
         matches!(self.found, Break::Crossings(_))
     }
@@ -140,7 +140,7 @@ fn list(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
     }
 }
 
-/// On which adapters it was found.
+/// The adapters that a break was found on.
 pub(super) fn who(methods: &Methods<'_>, found: &CurveBreak<'_>) -> String {
     if found.adapters.len() == methods.adapters.len() {
         "all adapters".to_owned()
@@ -262,7 +262,7 @@ fn line(places: &[(f64, f64)]) -> String {
     path
 }
 
-/// What the charts of stability show, in words.
+/// The explanation of the charts of stability.
 pub(super) fn caption() -> Markup {
     html! {
         p {

@@ -116,12 +116,12 @@ impl CaseFile<'_> {
     }
 }
 
-/// How many records came to which verdict.
+/// Counts of records by verdict.
 #[derive(Default)]
 pub(crate) struct Tally {
     /// Counts, the gravest first: what was not expected before what was.
     counts: BTreeMap<(u8, u8, Verdict, Tone), u64>,
-    /// Records that speak against the run.
+    /// The number of unexpected records.
     pub(crate) unexpected: u64,
     /// The gravest of those; a selftest that was missed counts as a Fail.
     pub(crate) worst: Option<Verdict>,

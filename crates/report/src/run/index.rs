@@ -1,7 +1,7 @@
-//! `index.html`: one self-contained page that works from the file system.
+//! `index.html` of a run.
 //!
-//! What a reader must know stands in the page as it is; its script adds the table of all cases, with
-//! search and filters, and the view of one case. Whatever is looked at has its address:
+//! The totals, the matrix and the findings need no script; the script adds the table of all cases, with
+//! search and filters, and the view of one case. Every view has an address:
 //! `index.html#q=less&on=cpu`, `index.html#case=depth/compare/compare=less`.
 
 mod adapters;
@@ -94,7 +94,7 @@ fn head(run: &Run, methods: bool, drivers: bool) -> Markup {
     html! {
         header {
             h1 { "etalon" }
-            p.lead { "Whether graphics drivers do per-fragment operations right." }
+            p.lead { "Conformance of graphics drivers' per-fragment operations." }
             (state(run))
             dl.facts {
                 dt { "Started" } dd { (h.started) }
@@ -126,7 +126,7 @@ fn head(run: &Run, methods: bool, drivers: bool) -> Markup {
     }
 }
 
-/// What a reader must know first.
+/// The state of the run: incomplete, unexpected records, improvements.
 fn state(run: &Run) -> Markup {
     let tally = Tally::of(&run.records);
     let improvements = run.records.iter().filter(|r| r.improvement()).count() as u64;
@@ -152,7 +152,7 @@ fn state(run: &Run) -> Markup {
         @if improvements > 0 {
             p.state.good {
                 b { (count(improvements, "improvement")) }
-                ": entries of the expectations may go."
+                ": their expectations can be removed."
             }
         }
     }

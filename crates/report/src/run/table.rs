@@ -14,7 +14,7 @@ use tabled::settings::object::Cell;
 /// The most unexpected records that are listed.
 const LISTED: usize = 20;
 
-/// Verdicts that say that a case could not be drawn; one column together.
+/// Verdicts of cases without a frame to judge; one column together.
 const BROKEN: [Verdict; 6] = [
     Verdict::Flaky,
     Verdict::Crash,
@@ -47,7 +47,7 @@ pub fn table(run: &Run, options: TableOptions) -> String {
     let improvements = run.records.iter().filter(|r| r.improvement()).count();
     if improvements > 0 {
         text.push_str(&format!(
-            "{}: entries of the expectations may go\n",
+            "{}: their expectations can be removed\n",
             count(improvements as u64, "improvement")
         ));
     }
@@ -69,9 +69,9 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
             &[Verdict::NotSupported],
             Color::FG_BRIGHT_BLACK,
         ),
-        ("crash & co", &BROKEN, Color::FG_MAGENTA | Color::BOLD),
+        ("broken", &BROKEN, Color::FG_MAGENTA | Color::BOLD),
     ];
-    // Adapters that lack something and cases that were not to be drawn stand apart.
+    // Not supported is the adapter's word, skipped is the user's.
     let skipped = rows
         .iter()
         .any(|(_, r)| r.iter().any(|r| r.verdict == Verdict::Skipped));

@@ -56,8 +56,8 @@ impl Written {
 /// its place and then renamed, so that a reader never sees half a report.
 ///
 /// # Errors
-/// When the folder holds no readable run, or cannot be written to. A frame file that is missing or
-/// damaged is no error: the page says so in its place.
+/// Returns an error if the folder holds no readable run, or cannot be written to. A frame file that is missing or
+/// damaged is no error: the page names it.
 pub fn write(folder: &Path) -> Result<Written, ReportError> {
     let run = Run::read(folder)?;
     let found = Methods::of(&run);

@@ -13,7 +13,7 @@ pub(crate) fn machine(machine: &Machine) -> String {
     )
 }
 
-/// How a run was drawn, one text per setting that is not as it is by itself.
+/// The settings of a run that differ from the defaults, one text each.
 pub(crate) fn settings(settings: &Settings) -> Vec<String> {
     let mut texts = Vec::new();
     let mut add = |text: Option<String>| texts.extend(text);
@@ -21,13 +21,13 @@ pub(crate) fn settings(settings: &Settings) -> Vec<String> {
     add(settings.shuffle.map(|s| format!("shuffled with seed {s}")));
     add(settings
         .repeat
-        .map(|n| count(u64::from(n), "drawing") + " of each case"));
+        .map(|n| format!("each case drawn {}", count(u64::from(n), "time"))));
     add(settings
         .shader_cache
         .map(|c| format!("shader cache {}", c.name())));
     add(settings
         .validate
-        .then(|| "validation layers listened".to_owned()));
+        .then(|| "validation layers enabled".to_owned()));
     add(settings
         .timeout
         .map(|s| format!("at most {} per case", round_duration(s))));
@@ -51,8 +51,8 @@ mod tests {
             ..Settings::default()
         };
         let texts = [
-            "3 drawings of each case",
-            "validation layers listened",
+            "each case drawn 3 times",
+            "validation layers enabled",
             "at most 20 s per case",
         ];
         assert_eq!(settings(&some), texts);

@@ -6,13 +6,13 @@ use super::verdict::{Tone, meaning, name};
 use crate::numbers::duration;
 use etalon_record::{LossKind, ProcessEnd, Record};
 
-/// How a process was lost, in one sentence.
+/// The loss of a process in one sentence.
 pub(crate) fn process_end(end: &ProcessEnd) -> String {
     let what = match end.kind {
         LossKind::Died => "The process died",
         LossKind::Timeout => "The process did not answer in time",
-        LossKind::Memory => "The process held more memory than it may",
-        LossKind::Garbage => "The process wrote what is no message",
+        LossKind::Memory => "The process exceeded its memory limit",
+        LossKind::Garbage => "The process wrote an invalid message",
         LossKind::NotStarted => "The process could not be started again",
     };
     let mut text = what.to_owned();
@@ -53,7 +53,7 @@ fn signal_name(signal: i32) -> Option<&'static str> {
 }
 
 /// The one line that says most about a record: its first wrong texel, or the last line of its
-/// message, where the reason of a death usually stands.
+/// message, which usually names the cause of a crash.
 pub(crate) fn headline(record: &Record) -> String {
     let last = record.message.lines().rev().find(|l| !l.trim().is_empty());
     let text = match (record.wrong.first(), last) {
@@ -85,7 +85,7 @@ mod tests {
         assert_eq!(process_end(&end), text);
         (end.kind, end.signal) = (LossKind::Garbage, Some(-7));
         (end.exit, end.seconds) = (Some(3), 20.0);
-        let text = "The process wrote what is no message, ended by signal -7, exit status 3, after 20.00 s.";
+        let text = "The process wrote an invalid message, ended by signal -7, exit status 3, after 20.00 s.";
         assert_eq!(process_end(&end), text);
         end.seconds = 1e300;
         assert!(process_end(&end).len() < 120);

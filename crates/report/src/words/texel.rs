@@ -72,7 +72,7 @@ pub(crate) fn allowed(m: &ChannelMismatch, text: fn(ChannelEncoding, u32) -> Str
     }
 }
 
-/// Where a texel lies: `texel (3, 4)`, with its sample where there are several.
+/// The place of a texel: `texel (3, 4)`, with its sample if there are several.
 pub(crate) fn place(texel: &WrongTexel, multisampled: bool) -> String {
     let at = format!("texel ({}, {})", texel.x, texel.y);
     if multisampled {
@@ -82,7 +82,7 @@ pub(crate) fn place(texel: &WrongTexel, multisampled: bool) -> String {
     }
 }
 
-/// Whether the wrong texels tell that there are several samples.
+/// True if a wrong texel has a sample beyond the first.
 pub(crate) fn multisampled(record: &Record) -> bool {
     record.wrong.iter().any(|t| t.sample > 0)
 }
@@ -90,7 +90,7 @@ pub(crate) fn multisampled(record: &Record) -> bool {
 /// A wrong texel in one line.
 pub(super) fn texel_line(texel: &WrongTexel, multisampled: bool) -> String {
     const SHOWN: usize = 2;
-    // An imprecise texel is told against the yardstick, which it left, not against what is legal.
+    // The bounds of an imprecise texel are the yardstick's, not the legal ones.
     let (bound, legal) = match texel.band {
         Band::Imprecise => ("yardstick", " (legal)"),
         Band::Fail => ("allowed", ""),

@@ -2,7 +2,7 @@
 
 use etalon_record::{Record, Verdict};
 
-/// How a record's verdict is to be taken.
+/// The weight of a record's verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Tone {
     /// As the verdict says.
@@ -24,7 +24,7 @@ impl Tone {
         }
     }
 
-    /// What is said behind the verdict.
+    /// The text behind the verdict.
     pub(crate) fn suffix(self) -> &'static str {
         match self {
             Self::Plain => "",
@@ -34,7 +34,7 @@ impl Tone {
     }
 }
 
-/// A sign that tells verdicts apart without colour. The variation selector keeps browsers from
+/// A sign that distinguishes verdicts without colour. The variation selector keeps browsers from
 /// drawing a coloured picture.
 pub(crate) fn symbol(verdict: Verdict) -> &'static str {
     match verdict {
@@ -65,22 +65,22 @@ pub(crate) fn name(verdict: Verdict) -> &'static str {
     }
 }
 
-/// What the verdict means, in one sentence.
+/// The meaning of a verdict in one sentence.
 pub(crate) fn meaning(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Pass => "Every texel lies inside the yardstick, and something was asserted.",
         Verdict::Imprecise => "Every texel is legal; some lie outside the yardstick.",
         Verdict::Fail => "A texel lies outside what the API's text allows.",
         Verdict::Open => "Nothing could be asserted.",
-        Verdict::Measured => "Numbers without judgement.",
+        Verdict::Measured => "Measured, not judged.",
         Verdict::NotSupported => "The adapter lacks something that the scene needs.",
-        Verdict::Skipped => "The expectations forbid drawing the case here.",
+        Verdict::Skipped => "The expectations skip the case on this adapter.",
         Verdict::Flaky => "The same case gave different frames.",
         Verdict::Crash => "The process that drew the case died.",
-        Verdict::Timeout => "The case took longer than it may.",
+        Verdict::Timeout => "The case exceeded its time limit.",
         Verdict::DeviceLost => "The API reported the device lost.",
         Verdict::ResourceError => "The driver refused an allocation or an object.",
-        Verdict::InternalError => "The suite's own logic failed; the driver is not to blame.",
+        Verdict::InternalError => "The suite itself failed, not the driver.",
     }
 }
 

@@ -1,4 +1,4 @@
-//! Two benches held against each other.
+//! Two benches compared, from their recorded samples.
 
 use crate::bench::figures;
 use crate::bench::kind::software;
@@ -7,31 +7,31 @@ use etalon_record::{Bench, BenchHeader, BenchRecord, Time};
 use etalon_stats::{LEVEL, MINIMUM, Outcome, Samples, Why, compare, smallest_visible, summarize};
 use serde::Serialize;
 
-/// What changed from one bench to another. Its serialised form is what `--format json` prints.
+/// The comparison of two benches. `--format json` prints its serialised form.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Diff {
-    /// Which time was compared.
+pub struct BenchDiff {
+    /// The time that was compared.
     pub time: Time,
-    /// How often at most two benches of the same thing are called different, per comparison.
+    /// The highest rate at which two benches of the same thing are called different, per comparison.
     pub level: f64,
     /// Changes up to this ratio are not reported.
     pub minimum: f64,
     /// The first bench.
-    pub before: Side,
+    pub before: BenchFacts,
     /// The second bench.
-    pub after: Side,
-    /// What makes the two hard to compare: other machines, drivers, rulers, profiles, lost rounds.
+    pub after: BenchFacts,
+    /// Facts that make the two hard to compare: other machines, drivers, rulers, profiles, lost rounds.
     pub notes: Vec<String>,
-    /// What was timed in both.
-    pub changes: Vec<Change>,
-    /// What was timed in one of them only.
-    pub gone: Vec<Gone>,
+    /// Cases that were timed in both benches.
+    pub changes: Vec<TimeChange>,
+    /// Cases that were timed in one bench only.
+    pub gone: Vec<Untimed>,
 }
 
-/// Who one of the benches is.
+/// The identity of one of the benches.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Side {
-    /// When it began.
+pub struct BenchFacts {
+    /// The start, RFC 3339.
     pub started: String,
     /// The suite's version.
     pub etalon: String,
@@ -46,16 +46,16 @@ pub struct Side {
 /// A case on an adapter that was timed in both benches. Times are in seconds, ratios are after over
 /// before.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Change {
+pub struct TimeChange {
     /// The case.
     pub case: String,
     /// The adapter.
     pub adapter: String,
-    /// Whether the adapter is the processor.
+    /// True if the adapter draws with the processor.
     pub software: bool,
     /// `faster`, `slower` or `cannot tell`.
     pub outcome: &'static str,
-    /// Why nothing can be told.
+    /// The reason why the samples decide nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<&'static str>,
     /// The median before.
@@ -83,35 +83,35 @@ pub struct Change {
 
 /// A case on an adapter that has times in one bench only.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Gone {
+pub struct Untimed {
     /// The case.
     pub case: String,
     /// The adapter.
     pub adapter: String,
-    /// Whether the times are missing in the second bench; else in the first.
+    /// True if the times are missing in the second bench, false if in the first.
     pub from_after: bool,
-    /// Why there are none.
+    /// The reason.
     pub why: String,
-    /// Whether this is worse than before: what was right and had a time is now wrong or broken.
+    /// True if this is worse than before: a right picture with a time is now wrong or broken.
     pub worse: bool,
 }
 
-impl Diff {
-    /// How many changes have this outcome.
+impl BenchDiff {
+    /// The number of changes with this outcome.
     pub fn count(&self, outcome: &str) -> usize {
         self.changes.iter().filter(|c| c.outcome == outcome).count()
     }
 
-    /// Whether anything is worse: slower, or no longer right.
+    /// True if anything is worse: slower, or no longer right.
     pub fn worse(&self) -> bool {
         self.count(Outcome::Slower.name()) > 0 || self.gone.iter().any(|g| g.worse)
     }
 }
 
-/// Holds the second bench against the first.
-pub fn diff(before: &Bench, after: &Bench, time: Time) -> Diff {
+/// Compares the second bench with the first.
+pub fn diff(before: &Bench, after: &Bench, time: Time) -> BenchDiff {
     let same_ruler = before.header.ruler == after.header.ruler;
-    let mut found = Diff {
+    let mut found = BenchDiff {
         time,
         level: LEVEL,
         minimum: MINIMUM,
@@ -134,7 +134,7 @@ pub fn diff(before: &Bench, after: &Bench, time: Time) -> Diff {
         let ruled = same_ruler && (kind || time != Time::Gpu);
         let of = |record: &BenchRecord| samples(record, time, ruled);
         match (of(old), new.and_then(of)) {
-            (Some(b), Some(a)) => found.changes.push(Change {
+            (Some(b), Some(a)) => found.changes.push(TimeChange {
                 case: case.clone(),
                 adapter: adapter.clone(),
                 software: kind,
@@ -166,11 +166,11 @@ fn samples(record: &BenchRecord, time: Time, ruled: bool) -> Option<Samples> {
     }
 }
 
-fn changed(before: &Samples, after: &Samples) -> Change {
+fn changed(before: &Samples, after: &Samples) -> TimeChange {
     let comparison = compare(before, after);
     let finite = |low: f64, high: f64| (low > 0.0 && high.is_finite()).then_some([low, high]);
     let ratio = comparison.ratio;
-    Change {
+    TimeChange {
         case: String::new(),
         adapter: String::new(),
         software: false,
@@ -191,7 +191,7 @@ fn changed(before: &Samples, after: &Samples) -> Change {
 }
 
 /// Times that only one bench has: `there` has them, `other` is the same of the other bench.
-fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time: Time) -> Gone {
+fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time: Time) -> Untimed {
     let (why, bad) = match other {
         None => ("it took no part".to_owned(), false),
         Some(other) => match &other.ended {
@@ -210,7 +210,7 @@ fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time
             None => (format!("it has no {time} times"), false),
         },
     };
-    Gone {
+    Untimed {
         case: there.picture.case.clone(),
         adapter: there.picture.adapter.clone(),
         from_after,
@@ -219,8 +219,8 @@ fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time
     }
 }
 
-fn side(header: &BenchHeader) -> Side {
-    Side {
+fn side(header: &BenchHeader) -> BenchFacts {
+    BenchFacts {
         started: header.started.clone(),
         etalon: header.etalon.clone(),
         commit: header.commit.clone(),
@@ -234,13 +234,12 @@ fn notes(before: &Bench, after: &Bench) -> Vec<String> {
     let mut notes = Vec::new();
     if b.machine != a.machine {
         notes.push(
-            "The machines differ: a change tells of them at least as much as of the drivers."
-                .to_owned(),
+            "The machines differ, so a change may be theirs and not the driver's.".to_owned(),
         );
     }
     if b.ruler != a.ruler {
         notes.push(format!(
-            "The rulers differ ({}; {}), so nothing guards against a machine that changed its pace.",
+            "The rulers differ ({}; {}), so a change of the machine's speed stays unnoticed.",
             b.ruler, a.ruler
         ));
     }
@@ -277,7 +276,7 @@ fn notes(before: &Bench, after: &Bench) -> Vec<String> {
         if bench.missing() > 0 || bench.truncated {
             let n = bench.missing();
             notes.push(format!(
-                "The {name} bench did not come to its end: {n} rounds are missing."
+                "The {name} bench is incomplete: {n} rounds are missing."
             ));
         }
     }

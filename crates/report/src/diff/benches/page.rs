@@ -1,6 +1,6 @@
-//! A comparison of two benches as a page.
+//! The comparison of two benches as a page.
 
-use super::compare::{Change, Diff, Side};
+use super::compare::{BenchDiff, BenchFacts, TimeChange};
 use crate::bench::kind::KINDS;
 use crate::error::ReportError;
 use crate::files::replace_at;
@@ -15,16 +15,16 @@ const BENCH_STYLE: &str = include_str!("../../bench/bench.css");
 /// Writes a comparison of two benches as one page.
 ///
 /// # Errors
-/// When the path names no file, or it cannot be written.
-pub fn write_diff(path: &Path, diff: &Diff) -> Result<PathBuf, ReportError> {
+/// Returns an error if the path names no file, or it cannot be written.
+pub fn write_diff(path: &Path, diff: &BenchDiff) -> Result<PathBuf, ReportError> {
     replace_at(path, page(diff).as_bytes())
 }
 
-fn page(diff: &Diff) -> String {
+fn page(diff: &BenchDiff) -> String {
     let main = html! {
         header {
             h1 { "etalon diff" }
-            p.lead { "What became faster or slower from one bench to another: " (diff.time) " times." }
+            p.lead { "Changes of " (diff.time) " times between two benches." }
             @if diff.worse() {
                 p.state.bad { b {
                     "✗ " (diff.count("slower")) " slower, "
@@ -37,7 +37,7 @@ fn page(diff: &Diff) -> String {
             @for note in &diff.notes { p.state.bad { "! " (note) } }
         }
         @for (kind, title) in KINDS {
-            @let changes: Vec<&Change> = diff.changes.iter().filter(|c| c.software == kind).collect();
+            @let changes: Vec<&TimeChange> = diff.changes.iter().filter(|c| c.software == kind).collect();
             @if !changes.is_empty() {
                 section { h2 { (title) " adapters" } (table(&changes)) }
             }
@@ -55,7 +55,7 @@ fn page(diff: &Diff) -> String {
             }
         }
         section {
-            h2 { "How this was found" }
+            h2 { "Comparison" }
             p {
                 "The medians of rounds are compared by the Wilcoxon–Mann–Whitney test turned around into "
                 "the interval of their ratio, as measured and in units of the ruler. Faster or slower is "
@@ -76,7 +76,7 @@ fn page(diff: &Diff) -> String {
     .html()
 }
 
-fn side(name: &str, side: &Side) -> Markup {
+fn side(name: &str, side: &BenchFacts) -> Markup {
     html! {
         dt { (name) }
         dd {
@@ -87,7 +87,7 @@ fn side(name: &str, side: &Side) -> Markup {
     }
 }
 
-fn table(changes: &[&Change]) -> Markup {
+fn table(changes: &[&TimeChange]) -> Markup {
     let interval = |i: Option<[f64; 2]>| match i {
         Some([low, high]) => format!("{} to {}", change(low), change(high)),
         None => "–".to_owned(),

@@ -1,6 +1,6 @@
 //! The comparison of two benches for a terminal.
 
-use super::compare::{Change, Diff};
+use super::compare::{BenchDiff, TimeChange};
 use crate::bench::kind::KINDS;
 use crate::numbers::{change, duration};
 use crate::terminal::{self, TableOptions, wrapped};
@@ -8,9 +8,9 @@ use crate::words::plain;
 use tabled::builder::Builder;
 use tabled::settings::Color;
 
-/// What makes the benches hard to compare, a table of changes per kind of adapter, what was timed in
-/// one of them only, and the sum. Always ends in a newline.
-pub fn diff_table(diff: &Diff, options: TableOptions) -> String {
+/// Facts that make the benches hard to compare, a table of changes per kind of adapter, cases that were timed
+/// in one bench only, and the sum. Always ends in a newline.
+pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
     let mut text = String::new();
     for (name, side) in [("before", &diff.before), ("after", &diff.after)] {
         let commit = side
@@ -28,7 +28,8 @@ pub fn diff_table(diff: &Diff, options: TableOptions) -> String {
     }
     text.push('\n');
     for (kind, title) in KINDS {
-        let changes: Vec<&Change> = diff.changes.iter().filter(|c| c.software == kind).collect();
+        let changes: Vec<&TimeChange> =
+            diff.changes.iter().filter(|c| c.software == kind).collect();
         if !changes.is_empty() {
             text.push_str(&format!("{title}, {} times\n", diff.time));
             text.push_str(&changes_table(&changes, options));
@@ -47,8 +48,8 @@ pub fn diff_table(diff: &Diff, options: TableOptions) -> String {
     }
     let n = diff.changes.len();
     text.push_str(&format!(
-        "{} slower, {} faster, {} cannot be told. Of {n} comparisons of unchanged things at most {:.3} \
-         would be called a change on average ({} each).\n",
+        "{} slower, {} faster, {} undecided. Of {n} comparisons of unchanged things, at most {:.3} \
+         are called a change on average ({} each).\n",
         diff.count("slower"),
         diff.count("faster"),
         diff.count("cannot tell"),
@@ -58,7 +59,7 @@ pub fn diff_table(diff: &Diff, options: TableOptions) -> String {
     text
 }
 
-fn changes_table(changes: &[&Change], options: TableOptions) -> String {
+fn changes_table(changes: &[&TimeChange], options: TableOptions) -> String {
     let mut builder = Builder::default();
     builder.push_record([
         "case", "adapter", "outcome", "before", "after", "change", "interval", "visible",

@@ -1,4 +1,4 @@
-//! Two records of a case held against each other.
+//! Two records of a case compared.
 
 use super::data::{Change, Detail, Direction};
 use super::pairs::Folder;
@@ -34,7 +34,7 @@ impl Standing {
     }
 }
 
-/// Which way it goes from one record to the other; see the module's documentation.
+/// The direction from one record to the other; see the documentation of [`runs`](super).
 fn direction(before: &Record, after: &Record) -> Direction {
     if after.unexpected() && !before.unexpected() {
         return Direction::Worse;
@@ -49,7 +49,7 @@ fn direction(before: &Record, after: &Record) -> Direction {
     }
 }
 
-/// What differs between two records of a case, or `None` where nothing but times does.
+/// The differences of two records of a case, or `None` if nothing but times differs.
 pub(super) fn change(
     folders: &[Folder<'_>; 2],
     adapter: [&str; 2],
@@ -120,7 +120,7 @@ impl Details {
 
 fn details(before: &Record, after: &Record) -> Vec<Detail> {
     let mut found = Details::default();
-    // A frame that is not there has no texels; that it is not there is told by the verdict.
+    // A missing frame has no texels; the verdict already shows that it is missing.
     let both_read = before.texels.total > 0 && after.texels.total > 0;
     if both_read {
         let [b, a] = [&before.texels, &after.texels];
@@ -175,7 +175,7 @@ fn details(before: &Record, after: &Record) -> Vec<Detail> {
     found.0
 }
 
-/// Which of the listed wrong texels are others.
+/// The differences of the listed wrong texels.
 fn wrong(found: &mut Details, before: &Record, after: &Record) {
     let [b, a] = [before, after].map(|r| {
         let place = |t: &WrongTexel| (t.y, t.x, t.sample);
@@ -185,7 +185,7 @@ fn wrong(found: &mut Details, before: &Record, after: &Record) {
     let gone = b.keys().filter(|place| !a.contains_key(place)).count();
     let come = a.keys().filter(|place| !b.contains_key(place)).count();
     if gone + come > 0 {
-        // Figures of two lists, so that even equal ones tell of a difference.
+        // Counts of two lists: equal ones are a difference too.
         found.0.push(Detail {
             what: "wrong",
             name: "listed there only".to_owned(),

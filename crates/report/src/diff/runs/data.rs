@@ -1,4 +1,4 @@
-//! What a comparison of two runs holds. Its serialised form is what `etalon diff --format json` prints.
+//! The data of a comparison of two runs, which `etalon diff --format json` prints in its serialised form.
 //! Pairs in lists of two are always before and after.
 
 use etalon_frame::Aspect;
@@ -6,20 +6,20 @@ use etalon_record::{Record, Verdict};
 use serde::Serialize;
 use serde_json::Value;
 
-/// What changed from one run to another.
+/// The comparison of two runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RunDiff {
-    /// `runs`, which tells it from a comparison of benches.
+    /// `runs`, which distinguishes it from a comparison of benches.
     pub kind: &'static str,
-    /// What has to be known first: runs that are incomplete, other selections, other machines.
+    /// Reasons for which the comparison may mislead: incomplete runs, other selections, other machines.
     pub warnings: Vec<String>,
     /// The headers side by side.
     pub facts: Vec<Fact>,
-    /// Adapters of one run that nothing of the other is held against.
+    /// Adapters that are compared with none.
     pub unpaired: Vec<Unpaired>,
-    /// The adapters that are held against each other.
+    /// The adapters that are compared.
     pub pairs: Vec<Pair>,
-    /// What changed: worse, better, other; of each the gravest first.
+    /// Cases that changed: worse, better, other; of each the gravest first.
     pub changes: Vec<Change>,
     /// Cases of paired adapters that only one run has.
     pub only: Vec<Only>,
@@ -30,17 +30,17 @@ pub struct RunDiff {
 }
 
 impl RunDiff {
-    /// Whether anything is worse.
+    /// True if anything is worse.
     pub fn worse(&self) -> bool {
         self.count(Direction::Worse) > 0 || self.lost() > 0
     }
 
-    /// Whether something is better and nothing worse.
+    /// True if something is better and nothing worse.
     pub fn only_better(&self) -> bool {
         !self.worse() && self.count(Direction::Better) > 0
     }
 
-    /// How many changes go this way.
+    /// The number of changes in this direction.
     pub fn count(&self, direction: Direction) -> u64 {
         let these = self.changes.iter().filter(|c| c.direction == direction);
         these.count() as u64
@@ -51,13 +51,13 @@ impl RunDiff {
         self.only.iter().filter(|o| o.worse).count() as u64
     }
 
-    /// How many records were held against each other.
+    /// The number of record pairs that were compared.
     pub fn compared(&self) -> u64 {
         self.pairs.iter().map(|p| p.compared).sum()
     }
 }
 
-/// Which way a change goes.
+/// The direction of a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
@@ -96,7 +96,7 @@ pub enum Side {
 /// Something that both runs state.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Fact {
-    /// What it is: `driver`, `commit`.
+    /// The name: `driver`, `commit`.
     pub name: &'static str,
     /// In the first run.
     pub before: String,
@@ -105,7 +105,7 @@ pub struct Fact {
 }
 
 impl Fact {
-    /// Whether the runs differ in it.
+    /// True if the runs differ in it.
     pub fn differs(&self) -> bool {
         self.before != self.after
     }
@@ -118,30 +118,30 @@ pub struct Unpaired {
     pub side: Side,
     /// Its name.
     pub adapter: String,
-    /// How many records it has.
+    /// The number of its records.
     pub records: u64,
 }
 
-/// Two adapters that are held against each other.
+/// Two adapters that are compared.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Pair {
     /// Their names.
     pub adapter: [String; 2],
-    /// Who they are, side by side.
+    /// Their facts side by side.
     pub facts: Vec<Fact>,
-    /// Records that were held against each other.
+    /// Record pairs that were compared.
     pub compared: u64,
     /// Of those, how many are the same but for times.
     pub same: u64,
-    /// How many are worse.
+    /// The number of worse records.
     pub worse: u64,
-    /// How many are better.
+    /// The number of better records.
     pub better: u64,
-    /// How many differ and are neither.
+    /// The number of records that differ and are neither.
     pub other: u64,
-    /// How many cases only one of them has a record of.
+    /// The number of cases that only one of them has a record of.
     pub only: [u64; 2],
-    /// Verdicts that became others, the most frequent first.
+    /// Changes of verdicts, the most frequent first.
     pub transitions: Vec<Transition>,
     /// The share of channels of which something was asserted, over the records of both; 0 to 1.
     pub asserted: [f64; 2],
@@ -216,12 +216,12 @@ pub(super) fn both_names([before, after]: &[String; 2]) -> String {
     }
 }
 
-/// Records whose verdict became another.
+/// Records with the same change of verdict.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Transition {
-    /// Which, and which it became.
+    /// The verdict before and after.
     pub verdict: [Verdict; 2],
-    /// How many.
+    /// The number of records.
     pub records: u64,
 }
 
@@ -234,13 +234,13 @@ pub struct Change {
     pub case_file: String,
     /// The adapters.
     pub adapter: [String; 2],
-    /// Which way it goes.
+    /// The direction.
     pub direction: Direction,
-    /// What differs: `verdict`, `expectation`, `frame`, and the kinds of [`Detail::what`].
+    /// The parts that differ: `verdict`, `expectation`, `frame`, and the kinds of [`Detail::what`].
     pub what: Vec<&'static str>,
     /// The verdicts.
     pub verdict: [Verdict; 2],
-    /// Whether the records speak against their runs.
+    /// True for each record that is unexpected.
     pub unexpected: [bool; 2],
     /// The line that says most about each record.
     pub headline: [String; 2],
@@ -249,7 +249,7 @@ pub struct Change {
     /// The frames, where both runs keep one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frame: Option<FrameChange>,
-    /// Why the frames could not be held against each other, where both runs name one.
+    /// The reason why the frames could not be compared, if both runs name one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frame_error: Option<String>,
 }
@@ -261,11 +261,11 @@ pub struct Detail {
     /// from the yardstick's middle in codes), `counters`, `distance` (from the truth), `cost` (passes,
     /// draws, fragments, bytes), `process`, `repeats`, `order`, `validation`.
     pub what: &'static str,
-    /// What of it: `wrong`, `color mean`.
+    /// The figure within the kind: `wrong`, `color mean`.
     pub name: String,
-    /// Before; nothing where the record does not tell.
+    /// The value before; null if the record has none.
     pub before: Value,
-    /// After; likewise.
+    /// The value after; null if the record has none.
     pub after: Value,
 }
 
@@ -274,14 +274,14 @@ pub struct Detail {
 pub struct FrameChange {
     /// The frame files below their run folders.
     pub files: [String; 2],
-    /// What was read back in both.
+    /// Images that both frames have.
     pub images: Vec<ImageChange>,
-    /// What was read back in one only, or with another size or format.
+    /// Images that only one frame has, or with another size or format.
     pub unlike: Vec<String>,
 }
 
 impl FrameChange {
-    /// Whether all codes are equal.
+    /// True if all codes are equal.
     pub fn equal(&self) -> bool {
         self.unlike.is_empty() && self.images.iter().all(|i| i.differ == 0)
     }
@@ -294,9 +294,9 @@ pub struct ImageChange {
     pub attachment: String,
     /// The aspect of it.
     pub aspect: Aspect,
-    /// How many samples there are.
+    /// The number of samples.
     pub samples: u64,
-    /// How many of them differ.
+    /// The number of samples that differ.
     pub differ: u64,
     /// The largest distance in any channel, in codes (for floats units in the last place).
     pub largest: u64,
@@ -315,7 +315,7 @@ pub struct Only {
     pub side: Side,
     /// Its verdict.
     pub verdict: Verdict,
-    /// Whether the other run was to have one too, and came after.
+    /// True if the second run lacks a record that it was to hold.
     pub worse: bool,
 }
 
@@ -326,7 +326,7 @@ pub struct AreaTime {
     pub adapter: [String; 2],
     /// The area.
     pub area: String,
-    /// How many cases were drawn in both runs.
+    /// The number of cases that were drawn in both runs.
     pub cases: u64,
     /// Their seconds together.
     pub sum: [f64; 2],
@@ -346,6 +346,6 @@ pub struct MethodTime {
     /// Between GPU timestamps, where both runs have some.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gpu: Option<[f64; 2]>,
-    /// How many frames were timed.
+    /// The number of frames that were timed.
     pub samples: [u32; 2],
 }

@@ -1,4 +1,4 @@
-//! Headers side by side.
+//! The headers of two runs side by side.
 
 use super::data::Fact;
 use super::pairs::Folder;
@@ -6,15 +6,15 @@ use crate::numbers::count;
 use crate::words;
 use etalon_record::{AdapterRecord, Header};
 
-/// Whether two runs were to draw the same cases. Runs that do not tell are taken to be of the same
-/// selection when they have as many.
+/// True if two runs were to draw the same cases. Runs without a digest of their selection count as the same
+/// selection if they have as many cases.
 pub(super) fn same_selection(before: &Header, after: &Header) -> bool {
     let (b, a) = (&before.settings, &after.settings);
     let told = !b.selection.is_empty() && !a.selection.is_empty();
     before.cases == after.cases && b.shard == a.shard && (!told || b.selection == a.selection)
 }
 
-/// What the headers state of the runs.
+/// The facts of the runs.
 pub(super) fn of_headers(before: &Header, after: &Header) -> Vec<Fact> {
     facts([before, after], |h| {
         let machine = &h.machine;
@@ -32,7 +32,7 @@ pub(super) fn of_headers(before: &Header, after: &Header) -> Vec<Fact> {
     })
 }
 
-/// What the headers state of two adapters.
+/// The facts of two adapters.
 pub(super) fn of_adapters(folders: &[Folder<'_>; 2], adapter: [&str; 2]) -> Vec<Fact> {
     let found = [0, 1].map(|i| folders[i].run.header.adapter(adapter[i]));
     let [Some(before), Some(after)] = found else {

@@ -1,4 +1,4 @@
-//! Two runs as one self-contained page that works offline and has no script.
+//! The comparison of two runs as a page.
 
 use super::data::{Change, Direction, Fact, Pair, RunDiff, both_names};
 use super::times::STATEMENT;
@@ -29,7 +29,7 @@ const ROWS: usize = 500;
 /// for its pictures.
 ///
 /// # Errors
-/// When the path names no file, or it cannot be written.
+/// Returns an error if the path names no file, or it cannot be written.
 pub fn write_page(
     path: &Path,
     diff: &RunDiff,
@@ -73,7 +73,7 @@ fn head(diff: &RunDiff) -> Markup {
     html! {
         header {
             h1 { "etalon diff" }
-            p.lead { "What changed from one run to another: verdicts, pixels and times." }
+            p.lead { "Changes of verdicts, pixels and times between two runs." }
             @for warning in &diff.warnings { p.state.bad { b { "! " } (warning) } }
             @if diff.pairs.is_empty() {
                 p.state.bad { b { "! Nothing was compared." } }
@@ -135,7 +135,7 @@ fn pairs(diff: &RunDiff) -> Markup {
                 div.wide { table {
                     thead { tr {
                         th { "Adapter" } th { "Compared" } th { "Same" } th { "Worse" } th { "Better" } th { "Other" }
-                        th { "Only before" } th { "Only after" } th { "Asserted" } th { "Verdicts that became others" }
+                        th { "Only before" } th { "Only after" } th { "Asserted" } th { "Changed verdicts" }
                     } }
                     tbody { @for pair in &diff.pairs { (pair_row(pair)) } }
                 } }
@@ -152,7 +152,7 @@ fn pairs(diff: &RunDiff) -> Markup {
             @for unpaired in &diff.unpaired {
                 p.soft {
                     code { (unpaired.adapter) } " " (phrases::side(unpaired.side)) ": "
-                    (count(unpaired.records, "record")) ", held against nothing."
+                    (count(unpaired.records, "record")) ", not compared."
                 }
             }
         }
@@ -278,7 +278,7 @@ fn body(change: &Change, folders: &[&Path; 2], budget: &mut usize) -> Markup {
 
 fn pictures(folders: &[&Path; 2], frame: &super::data::FrameChange, budget: &mut usize) -> Markup {
     if *budget == 0 {
-        return html! { p.note { "The page has no room left for these pictures." } };
+        return html! { p.note { "These pictures were left out to keep the page small." } };
     }
     let strips = pixels::strips(folders, frame);
     *budget = budget.saturating_sub(strips.iter().map(Strip::bytes).sum());
@@ -376,10 +376,9 @@ fn methods(diff: &RunDiff) -> Markup {
 fn reading() -> Markup {
     html! {
         section {
-            h2 { "What worse and better mean" }
+            h2 { "Worse and better" }
             p {
-                b { "Worse" } " is a record that speaks against the second run and whose partner did not speak "
-                "against the first; a right verdict (pass, imprecise, measured) that became a wrong one; a wrong "
+                b { "Worse" } " is a record that is unexpected and whose partner in the first run is not; a right verdict (pass, imprecise, measured) that became a wrong one; a wrong "
                 "one that became a graver one; a case that was right and is not supported any more; and a case "
                 "of the same selection that the second run holds no record of. " b { "Better" } " is the way "
                 "back. Other pixels, counters and distances under the same verdict are " b { "other" }

@@ -1,4 +1,4 @@
-//! Which adapters and which records of two runs are held against each other.
+//! The pairs of adapters and records of two runs that are compared.
 
 use super::data::{Side, Unpaired};
 use crate::error::ReportError;

@@ -1,4 +1,4 @@
-//! How differences of runs are put in words; shared by terminal and page.
+//! Differences of runs in words, shared by terminal and page.
 
 use super::data::{Change, Detail, Direction, FrameChange, Only, Side};
 use crate::numbers::{change, count, trimmed};
@@ -7,7 +7,7 @@ use etalon_record::Verdict;
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
 
-/// A sign that tells directions apart without colour.
+/// A sign that distinguishes directions without colour.
 pub(super) fn sign(direction: Direction) -> &'static str {
     match direction {
         Direction::Worse => "✗",
@@ -39,7 +39,7 @@ pub(super) fn transition([before, after]: [Verdict; 2]) -> String {
     format!("{} → {}", name(before), name(after))
 }
 
-/// What became of the expectations, where that alone says which way a change goes.
+/// The change of the expectations, where it alone decides the direction.
 pub(super) fn expectation(change: &Change) -> Option<&'static str> {
     match change.unexpected {
         [false, true] if !change.verdict[0].is_bad() => None,
@@ -95,7 +95,7 @@ pub(super) fn detail(detail: &Detail) -> String {
     )
 }
 
-/// What a figure is.
+/// The name of a figure.
 pub(super) fn title(detail: &Detail) -> String {
     let kind = match detail.what {
         "texels" => "samples",
@@ -109,7 +109,7 @@ pub(super) fn title(detail: &Detail) -> String {
     format!("{kind}, {}", detail.name)
 }
 
-/// What is to be said of two frames, image by image.
+/// The differences of two frames, image by image.
 pub(super) fn frame(frame: &FrameChange) -> Vec<String> {
     let images = frame.images.iter().map(|image| {
         let thing = if image.attachment == image.aspect.name() {

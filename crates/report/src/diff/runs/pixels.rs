@@ -1,4 +1,4 @@
-//! Frames of two runs held against each other, code by code.
+//! Frames of two runs compared code by code.
 
 use super::data::{FrameChange, ImageChange};
 use super::pairs::Folder;

@@ -1,4 +1,4 @@
-//! Two runs for a terminal.
+//! The comparison of two runs for a terminal.
 
 use super::data::{AreaTime, Direction, MethodTime, Pair, RunDiff, both_names};
 use super::phrases;
@@ -19,7 +19,7 @@ const LINES: usize = 10;
 /// The most figures of a change.
 const FIGURES: usize = 4;
 
-/// What has to be known first, what the headers differ in, a table of adapters, what changed, the gravest
+/// Warnings, differences of the headers, a table of adapters, changes, the gravest
 /// first (at most 20 that are worse, 10 that are better, 10 others; one of each kind before the second of
 /// any), cases in one run only, times, and the sum. Always ends in a newline.
 pub fn table(diff: &RunDiff, options: TableOptions) -> String {
@@ -39,7 +39,7 @@ pub fn table(diff: &RunDiff, options: TableOptions) -> String {
     }
     for unpaired in &diff.unpaired {
         let line = format!(
-            "{} {}: {}, held against nothing",
+            "{} {}: {}, not compared",
             unpaired.adapter,
             phrases::side(unpaired.side),
             count(unpaired.records, "record")

@@ -1,13 +1,13 @@
-//! Times of two runs, as far as a run has any.
+//! Times of two runs.
 
 use super::data::{AreaTime, MethodTime};
 use etalon_record::{Record, Verdict};
 use etalon_stats::quantile;
 use std::collections::BTreeMap;
 
-/// What is to be said of the times of runs.
-pub(super) const STATEMENT: &str = "A run takes each time once, beside whatever else is drawn and judged: \
-    these are an indication. Only `etalon bench` and the diff of two benches prove a change.";
+/// The caveat on the times of runs.
+pub(super) const STATEMENT: &str = "A run takes each time once, beside other work: these times are an indication. Only \
+    `etalon bench` and the diff of two benches prove a change.";
 
 /// Seconds of drawing by area, over the cases that were drawn in both runs.
 pub(super) fn areas(adapter: [&str; 2], both: &[[&Record; 2]]) -> Vec<AreaTime> {

@@ -54,7 +54,7 @@ pub(super) const CLAIMS: &[Claim] = &[
     },
 ];
 
-/// What one peeling method does at one value of its scene's parameter.
+/// One peeling method at one value of its scene's parameter.
 #[derive(Clone, Copy)]
 struct Peeled {
     value: Option<f64>,
@@ -93,7 +93,7 @@ fn dual_peeling(methods: &Methods<'_>) -> Vec<Figure> {
     figures
 }
 
-/// How much worse a picture may be and still count as the same.
+/// The factor by which an error may be larger and still count as the same.
 const ALIKE: f64 = 1.5;
 
 fn halves(one: u32, dual: u32) -> bool {

@@ -68,13 +68,13 @@ pub(super) fn medians<'s, 'a>(
     groups.into_iter().map(|(p, v)| (p, middle(v))).collect()
 }
 
-/// How many fragments the other method shaded for each of the one's.
+/// The fragments of the other method over those of the one.
 pub(super) fn fragments(pair: &Pair<'_, '_>) -> Option<f64> {
     let (one, other) = (pair.one.measured.fragments?, pair.other.measured.fragments?);
     (one > 0).then(|| other as f64 / one as f64)
 }
 
-/// How many times as long the other method took.
+/// The frame time of the other method over that of the one.
 pub(super) fn time(pair: &Pair<'_, '_>) -> Option<f64> {
     Some(pair.other.wall()? / pair.one.wall()?)
 }

@@ -64,7 +64,7 @@ fn early_tests(methods: &Methods<'_>) -> Vec<Figure> {
     figures
 }
 
-/// Where a curve comes within the limit for good; its start where it is within from there on.
+/// The value from which on a curve stays within the limit; its start if it always does.
 fn resolved(series: &Series<'_>, adapter: usize) -> Option<Option<f64>> {
     let curve = series.curve(adapter);
     let ratio = curve.last()?.0 / curve.first()?.0;

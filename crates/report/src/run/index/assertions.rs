@@ -1,4 +1,4 @@
-//! How much the legal sets and the yardstick asserted.
+//! The share that the legal sets and the yardstick asserted.
 
 use crate::numbers::{percent, percent_of, thousands};
 use crate::run::grid::Grid;
@@ -25,7 +25,7 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
                 "A channel is one channel of one sample. It is asserted when the rules forbid some of "
                 "its codes. Sharpness is the mean number of codes left to an asserted channel: 1 is "
                 "the sharpest. Fail means outside the legal band, Imprecise outside the yardstick. "
-                "Adapters stand apart where their figures differ."
+                "Adapters have rows of their own where their figures differ."
             }
             @if rows.is_empty() {
                 p { "No frame was judged." }
@@ -55,8 +55,8 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
     }
 }
 
-/// How many counters were read back, of how many something was asserted, and of how many exactly one
-/// value was legal: per area and kind, over all adapters.
+/// The counters that were read back, that were asserted, and that had exactly one legal value: per area and
+/// kind, over all adapters.
 fn counters(grid: &Grid<'_>) -> Markup {
     let mut rows: BTreeMap<(usize, CounterKind), [u64; 3]> = BTreeMap::new();
     for area in 0..grid.areas.len() {

@@ -26,8 +26,8 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
             }
             noscript {
                 p.note {
-                    "The table of all cases, its search and the view of each case want scripts, which are "
-                    "switched off here. All the rest of this page does without."
+                    "The table of all cases, its search and the view of a case need scripts, which are disabled here. "
+                    "The rest of this page does not."
                 }
             }
             (controls(grid))
@@ -58,7 +58,7 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
     }
 }
 
-/// Where the script shows one case.
+/// The place in which the script shows one case.
 pub(crate) fn view() -> Markup {
     html! { article id="case" aria-labelledby="case-title" hidden {} }
 }
@@ -75,7 +75,7 @@ fn controls(grid: &Grid<'_>) -> Markup {
                 label for="f-q" { "Search" }
                 input id="f-q" type="search" autocomplete="off" spellcheck="false"
                     aria-describedby="f-q-help" aria-keyshortcuts="/" enterkeyhint="search";
-                small id="f-q-help" { "All words must occur in the id; * stands for anything between." }
+                small id="f-q-help" { "The id contains all words; * matches anything." }
             }
             label.check { input id="f-messages" type="checkbox"; "search messages too" }
             div {
@@ -121,7 +121,7 @@ fn controls(grid: &Grid<'_>) -> Markup {
     }
 }
 
-/// How many cases differ only on each adapter, and on how many the adapters do not agree.
+/// The number of cases that differ on each adapter only, and the number that the adapters disagree on.
 fn odd(grid: &Grid<'_>) -> (Vec<u64>, u64) {
     let mut odd = vec![0; grid.adapters.len()];
     let mut apart = 0;

@@ -1,9 +1,9 @@
-//! What the adapters that drew a case agree on, and who stands apart.
+//! The verdict that the adapters which drew a case agree on, and the adapters that differ.
 //!
 //! Every adapter that drew the case has a vote: *right* for Pass, Imprecise and Measured, *wrong* for
 //! every bad verdict, whether it was expected or not, since an expectation changes nothing in what the
 //! driver does. NotSupported, Skipped and a missing record are no votes: nothing was drawn. A selftest
-//! that is due to fail has none either, since its judge was told otherwise than its drivers.
+//! that is due to fail has none either, since its judge sees another scene than its drivers.
 //!
 //! More than half of the votes are the consensus; the adapters of the other side are odd. With as many
 //! right as wrong ones nobody is odd. A single vote agrees with nobody, so it makes no consensus.
@@ -13,7 +13,7 @@ use crate::words;
 use etalon_record::Verdict;
 use std::cmp::Reverse;
 
-/// How the votes on one case lie.
+/// The distribution of the votes on one case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Votes {
     /// Nobody voted.
@@ -41,10 +41,10 @@ impl Votes {
     }
 }
 
-/// What the adapters agree on.
+/// The verdict that the adapters agree on.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Consensus {
-    /// How the votes lie.
+    /// The distribution of the votes.
     pub(crate) votes: Votes,
     /// The columns of the smaller side; empty where both are as large.
     pub(crate) odd: Vec<usize>,
@@ -86,7 +86,7 @@ impl Consensus {
         };
         let name = |column: usize| names.get(column).copied().unwrap_or_default();
         let (votes, text) = match (most.as_slice(), least.as_slice()) {
-            ([], _) => (Votes::Nobody, "nobody drew it".to_owned()),
+            ([], _) => (Votes::Nobody, "not drawn".to_owned()),
             ([(column, verdict)], []) => {
                 let text = format!("only {} drew it: {}", name(*column), words::name(*verdict));
                 (Votes::Alone, text)
@@ -99,7 +99,7 @@ impl Consensus {
                 let (odd, verdict) = (name(*column), words::name(*verdict));
                 let others = in_detail(&most, names);
                 let mut text = format!("only {odd} differs: {verdict}");
-                // That the others pass goes without saying.
+                // Others that pass need no mention.
                 if others != words::name(Verdict::Pass) {
                     text.push_str(&format!("; others {others}"));
                 }
@@ -179,13 +179,8 @@ mod tests {
 
     #[test]
     fn nobody_and_one_voter_make_no_consensus() {
-        lies(&[], Votes::Nobody, &[], "nobody drew it");
-        lies(
-            &[NotSupported, Skipped],
-            Votes::Nobody,
-            &[],
-            "nobody drew it",
-        );
+        lies(&[], Votes::Nobody, &[], "not drawn");
+        lies(&[NotSupported, Skipped], Votes::Nobody, &[], "not drawn");
         lies(
             &[NotSupported, Fail, Skipped],
             Votes::Alone,

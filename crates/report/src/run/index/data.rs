@@ -1,4 +1,4 @@
-//! What the page's script works on: one JSON block with every case on every adapter.
+//! The data of the page's script: one JSON block with every case on every adapter.
 //!
 //! A block in the page rather than a file beside it, since a browser lets no page that was opened from
 //! the file system read its neighbours. Names and texts are strings of JSON, in which `<` is escaped, so
@@ -25,14 +25,14 @@ const NO_RECORD: char = '.';
 #[derive(Serialize)]
 struct Data<'a> {
     adapters: &'a [&'a str],
-    /// What each sign stands for, the gravest first.
+    /// The meaning of each sign, the gravest first.
     cells: Vec<Cell>,
     /// Text, how the votes lie, odd adapters.
     consensus: Vec<(String, &'static str, Vec<usize>)>,
-    /// The labels of facts: words, form, and whether an entry under Findings tells the same.
+    /// The labels of facts: words, form, and true if an entry under Findings has the same.
     labels: Vec<(&'static str, &'static str, bool)>,
     texts: Vec<String>,
-    /// What is known about a record: label, text, label, text, …; the first is about nothing.
+    /// The facts of a record: label, text, label, text, …; the first list is empty.
     facts: Vec<Vec<usize>>,
     files: Vec<File<'a>>,
     /// Case, adapter and record of what stands under Findings with everything known about it.
@@ -67,7 +67,7 @@ struct Case<'a>(&'a str, String, usize, Vec<u64>, Vec<usize>);
 /// The block, ready to be put into a page.
 pub(crate) fn block(grid: &Grid<'_>, plan: &Plan) -> Markup {
     let json = serde_json::to_string(&data(grid, plan));
-    // Nothing in the data can fail to become JSON; the script says so when it finds nothing.
+    // All data has a JSON form; the script reports an empty block.
     let json = json.unwrap_or_else(|_| "null".to_owned());
     let json = json.replace('<', "\\u003c");
     html! { script type="application/json" id="data" { (PreEscaped(json)) } }
@@ -186,7 +186,7 @@ fn facts_of_all(grid: &Grid<'_>) -> (Vec<Vec<usize>>, Vec<usize>, Vec<String>) {
     (lists.values, of, texts.values)
 }
 
-/// How many bytes a text takes in the block.
+/// The bytes that a text takes in the block.
 fn escaped(text: &str) -> usize {
     let one = |c: char| match c {
         '<' => 6,
@@ -291,7 +291,7 @@ mod tests {
         assert!(block.len() < TEXT_BYTES + (1 << 20), "{}", block.len());
         assert!(block.contains("\"3999 \\u003c"));
         assert!(block.contains("\"0 \\u003c") && !block.contains("\"3998 \\u003c"));
-        assert!(block.contains("no room"));
+        assert!(block.contains("left out to keep the page small"));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Everything known about one record.
+//! All facts of one record.
 
 use super::{facts, link};
 use crate::command;
@@ -18,7 +18,7 @@ const TEXELS: usize = 6;
 /// The most bytes that all pictures of a page take together.
 const PICTURE_BYTES: usize = 3 << 20;
 
-/// How much room is taken by pictures.
+/// The room that pictures take.
 #[derive(Default)]
 pub(crate) struct Budget {
     bytes: usize,
@@ -33,11 +33,11 @@ pub(crate) fn body(folder: &Path, record: &Record, budget: &mut Budget) -> Marku
         @if let Some((_, Ok(frame))) = &frame { (about(frame)) }
         @if let Some(expected) = &record.expected { p { b { "Expected: " } (expected.reason) } }
         @if record.due_fail {
-            p { b { "Selftest: " } "the judge was told otherwise than the driver, so this is due to fail." }
+            p { b { "Selftest: " } "the judge sees another scene than the driver, so this is due to fail." }
         }
         @if !record.message.is_empty() { pre { (facts::end(&record.message)) } }
         (circumstances(record))
-        @if record.texels.total > 0 { p { (counts(record)) } }
+        @if record.texels.total > 0 { p { (facts::counts(record)) } }
         @match &frame {
             Some((_, Ok(frame))) => (pictures(frame, budget)),
             Some((path, Err(error))) => p.note { "No pictures: " (path) ": " (error) },
@@ -45,7 +45,7 @@ pub(crate) fn body(folder: &Path, record: &Record, budget: &mut Budget) -> Marku
         }
         @if !record.counters.is_empty() { (counters(record)) }
         @if !record.wrong.is_empty() { (texels(record)) }
-        @if let Some(story) = &record.story { (tell(story, record)) }
+        @if let Some(story) = &record.story { (operations(story, record)) }
         p.again {
             "Draw it again: "
             code { (command::run(&record.case, &record.adapter)) }
@@ -62,7 +62,7 @@ fn about(frame: &FrameFile) -> Markup {
     }
 }
 
-/// How the process ended, what layers said, and what other drawings came to.
+/// The end of the process, validation messages, and the verdicts of repetitions.
 fn circumstances(record: &Record) -> Markup {
     html! {
         @if let Some(process) = &record.process {
@@ -82,17 +82,6 @@ fn circumstances(record: &Record) -> Markup {
             ul { @for case in &record.after { li { a href=(link::case(case)) { code { (case) } } } } }
         }
     }
-}
-
-pub(super) fn counts(record: &Record) -> String {
-    let t = &record.texels;
-    format!(
-        "Of {}, {} outside the legal set, {} legal and outside the yardstick, {} open.",
-        count(t.total, "sample"),
-        t.wrong,
-        t.imprecise,
-        t.open
-    )
 }
 
 fn counters(record: &Record) -> Markup {
@@ -128,7 +117,7 @@ fn counters(record: &Record) -> Markup {
 fn pictures(frame: &FrameFile, budget: &mut Budget) -> Markup {
     if budget.bytes > PICTURE_BYTES {
         budget.cut += 1;
-        return html! { p.note { "The page has no room left for these pictures." } };
+        return html! { p.note { "These pictures were left out to keep the page small." } };
     }
     let strips: Vec<_> = frame.images.iter().map(picture::strip).collect();
     budget.bytes += strips.iter().flatten().map(|s| s.bytes()).sum::<usize>();
@@ -137,7 +126,7 @@ fn pictures(frame: &FrameFile, budget: &mut Budget) -> Markup {
             @if let Some(strip) = strip {
                 (strip)
             } @else {
-                p.note { "An image of this frame does not have the codes that its size calls for." }
+                p.note { "An image of this frame has more or fewer codes than its size needs." }
             }
         }
         p.cap {
@@ -205,10 +194,10 @@ fn texel_row(place: &str, texel: &WrongTexel, i: usize, m: &ChannelMismatch) -> 
     }
 }
 
-fn tell(story: &Story, record: &Record) -> Markup {
+fn operations(story: &Story, record: &Record) -> Markup {
     let mut at = "";
     html! {
-        h5 { "What should have happened" @if let Some(texel) = record.wrong.first() { " at " (place(texel, multisampled(record))) } }
+        h5 { "Expected operations" @if let Some(texel) = record.wrong.first() { " at " (place(texel, multisampled(record))) } }
         ol.story {
             @for line in &story.lines {
                 @if line.at != at { li.at { ({ at = &line.at; at }) } }

@@ -1,6 +1,5 @@
-//! What a case's view tells of one record, as labels and texts.
+//! The facts of one record in a case's view, as labels and texts.
 
-use super::detail::counts;
 use crate::numbers::{count, duration, percent};
 use crate::words;
 use etalon_frame::CounterOutcome;
@@ -9,7 +8,7 @@ use etalon_record::{Assertion, Record};
 /// The most characters of a message that the page keeps; the end of it, where the reason usually stands.
 const LONGEST: usize = 4000;
 
-/// What a text is about; the position in [`LABELS`].
+/// The label of a text, by its position in [`LABELS`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Label {
     Headline,
@@ -30,7 +29,7 @@ pub(crate) enum Label {
     Note,
 }
 
-/// Words, form and whether an entry under Findings tells the same. Forms: `text`, `pre` for what came
+/// Words, form and true if an entry under Findings has the same. Forms: `text`, `pre` for what came
 /// from a driver, `case` for an id that can be followed, `code`.
 pub(crate) const LABELS: [(&str, &str, bool); 16] = [
     ("In short", "text", true),
@@ -53,8 +52,7 @@ pub(crate) const LABELS: [(&str, &str, bool); 16] = [
 
 /// Stands for all facts of a record when there is no room for them.
 pub(crate) fn no_room() -> (Label, String) {
-    let text =
-        "The page has no room left for what is known about this record; it stands in run.jsonl.";
+    let text = "The facts of this record were left out to keep the page small; run.jsonl has them.";
     (Label::Note, text.to_owned())
 }
 
@@ -77,7 +75,7 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
         add(Label::Improves, text);
     }
     if record.due_fail {
-        let text = "The judge was told otherwise than the driver, so this is due to fail.";
+        let text = "The judge sees another scene than the driver, so this is due to fail.";
         add(Label::Selftest, text.to_owned());
     }
     if let Some(process) = &record.process {
@@ -116,6 +114,18 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
         add(Label::Frame, frame.clone());
     }
     facts
+}
+
+/// The counts of samples by outcome.
+pub(super) fn counts(record: &Record) -> String {
+    let t = &record.texels;
+    format!(
+        "Of {}, {} outside the legal set, {} legal and outside the yardstick, {} open.",
+        count(t.total, "sample"),
+        t.wrong,
+        t.imprecise,
+        t.open
+    )
 }
 
 fn asserted(a: &Assertion) -> String {

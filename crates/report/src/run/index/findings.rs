@@ -1,4 +1,4 @@
-//! What is worth reading, by area and adapter: everything that is not a plain pass.
+//! The findings by area and adapter: everything that is not a plain pass.
 
 use super::consensus::Consensus;
 use super::detail::{self, Budget};
@@ -22,7 +22,7 @@ const LINES: usize = 20;
 /// "All cases", which costs a browser less.
 const ALL_LINES: usize = 5000;
 
-/// Which records are listed, and which of those with everything known about them.
+/// The records that are listed, and those of them that are shown with all facts.
 pub(crate) struct Plan {
     bodies: HashMap<usize, bool>,
     /// Records whose adapter alone stands against all others that drew the case.
@@ -36,7 +36,7 @@ impl Plan {
         // The first of every case file and adapter go before any second one, and what is
         // unexpected before what is not.
         let mut lines = Vec::new();
-        let mut wanted = Vec::new();
+        let mut whole = Vec::new();
         for area in &grid.areas {
             for file in &area.files {
                 for column in 0..grid.adapters.len() {
@@ -49,7 +49,7 @@ impl Plan {
                         }
                         let most = if kind == 2 { IMPRECISE_BODIES } else { LINES };
                         if *rank < most {
-                            wanted.push((kind, *rank, index));
+                            whole.push((kind, *rank, index));
                         }
                         *rank += 1;
                     }
@@ -57,10 +57,10 @@ impl Plan {
             }
         }
         lines.sort_unstable();
-        wanted.sort_unstable();
+        whole.sort_unstable();
         let shown = lines.iter().take(ALL_LINES);
         let mut bodies: HashMap<usize, bool> = shown.map(|(_, _, i)| (*i, false)).collect();
-        for (_, _, index) in wanted.iter().take(BODIES) {
+        for (_, _, index) in whole.iter().take(BODIES) {
             bodies.insert(*index, true);
         }
         let files = grid.areas.iter().flat_map(|a| &a.files);
@@ -71,16 +71,16 @@ impl Plan {
         Self {
             bodies,
             odd: odd.collect(),
-            cut: wanted.len().saturating_sub(BODIES),
+            cut: whole.len().saturating_sub(BODIES),
         }
     }
 
-    /// Whether the record has an entry that can be linked to.
+    /// True if the record has an entry that can be linked to.
     pub(crate) fn lists(&self, index: usize) -> bool {
         self.bodies.contains_key(&index)
     }
 
-    /// Whether the record's entry has everything known about it.
+    /// True if the record's entry has all facts.
     pub(crate) fn whole(&self, index: usize) -> bool {
         self.bodies.get(&index).copied().unwrap_or(false)
     }
@@ -120,17 +120,17 @@ pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> Markup {
         section id="findings" {
             h2 { "Findings" }
             p {
-                "Everything that is not a plain pass, by area and adapter. Open an entry for the "
-                "pictures, the wrong texels and the story of the first of them."
+                "Everything that is not a plain pass, by area and adapter. An entry opens to its pictures, its "
+                "wrong texels, and the operations at the first of them."
             }
             @if plan.cut > 0 {
                 p.note {
-                    "The page holds pictures and stories of " (BODIES) " records; " (plan.cut)
-                    " more have a line only. Their frames lie under frames/."
+                    "The page shows " (BODIES) " records with pictures; " (plan.cut)
+                    " more have a line only. Their frames are under frames/."
                 }
             }
             @if budget.cut > 0 {
-                p.note { (count(budget.cut, "frame")) " had no room for pictures." }
+                p.note { (count(budget.cut, "frame")) " were left out to keep the page small." }
             }
             @for area in areas { (area) }
         }

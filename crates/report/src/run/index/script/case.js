@@ -52,7 +52,7 @@ function neighbours(one) {
   return nav;
 }
 
-// The adapters, those that stand apart first, then those with a bad verdict.
+// The adapters, odd ones first, then those with a bad verdict.
 function byWeight(one) {
   const weight = i => one.consensus.odd.includes(i) ? 0 : signs.get(one.cells[i])?.bad ? 1 : 2;
   return data.adapters.map((_, i) => i).sort((a, b) => weight(a) - weight(b) || a - b);
@@ -87,7 +87,7 @@ function onAdapter(one, i) {
   const section = make("section", { class: "record" },
     make("h2", {}, make("code", {}, data.adapters[i]), " ",
       make("span", { class: "chip " + record.cell.class }, ...symbolAndWord(record.cell))));
-  // What Findings tells with pictures is shown as it stands there.
+  // An entry under Findings with pictures is shown as it is there.
   const found = record.body === undefined ? null : $("r" + record.body);
   const facts = record.facts.filter(fact => !found || !fact.inBody);
   if (facts.length) section.append(listed(facts));

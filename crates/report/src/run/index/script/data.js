@@ -1,4 +1,4 @@
-// What the page holds, unpacked. Texts of the run become text nodes and nothing else: no line of this
+// The data of the page, unpacked. Texts of the run become text nodes and nothing else: no line of this
 // script makes HTML or an address out of one.
 const $ = id => document.getElementById(id);
 

@@ -1,4 +1,4 @@
-// What the controls, the table and the keyboard do.
+// The handlers of the controls, the table and the keyboard.
 function typing(target) {
   return target.closest("input:not([type=checkbox]), textarea, select");
 }

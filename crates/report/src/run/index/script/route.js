@@ -1,4 +1,4 @@
-// What the address shows: an element of the page, a filter of its cases, or one case.
+// The view of an address: an element of the page, a filter of its cases, or one case.
 let routed = false;
 let fromReport = false;
 let afterRoute = null;
@@ -45,7 +45,7 @@ function placeOf(id) {
   return items.findIndex(item => one && (item.one ? item.one === one : item.group === one.file && !isOpen(item.group)));
 }
 
-// Back to where the reader came from, or to all cases after following a link from outside.
+// Back to the view before, or to all cases after following a link from outside.
 function leaveCase() {
   if (fromReport) history.back();
   else location.hash = hashOf(state);
@@ -70,7 +70,7 @@ document.querySelector(".skip").addEventListener("click", event => {
 addEventListener("keydown", onKey);
 addEventListener("hashchange", route);
 route();
-// What lies behind the script is there later; then a view shows it, and a link to it leads there.
+// Elements behind the script exist later; then views and links use them.
 addEventListener("DOMContentLoaded", () => {
   if (current === null) reveal(location.hash.slice(1));
   else if (data && data.bodies.some(([number]) => number === numberOf.get(current))) showCase(current);

@@ -74,7 +74,7 @@ function filtered(state) {
   return ["q", "verdict", "on", "area", "odd", "unexpected", "disagree"].some(key => state[key]);
 }
 
-// Whether all words of a search occur in a case's id, or in what is known about it.
+// True if a case's id, or its facts, contain all words of a search.
 function searcher(q, messages) {
   const tests = q.toLowerCase().split(/\s+/).filter(Boolean).map(word => {
     const pieces = word.split("*");

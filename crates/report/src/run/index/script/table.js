@@ -1,6 +1,6 @@
 // The table of all cases: a page of rows at a time, in groups that open and close.
 const ROWS = 100;
-// What the filter left, in the order of the table; the rows of all pages.
+// The filtered cases in the order of the table; the rows of all pages.
 let shown = [];
 let items = [];
 let cursor = null;

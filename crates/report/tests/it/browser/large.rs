@@ -1,17 +1,16 @@
 //! A run of the size that a night of work leaves.
 
-use crate::driver::Chromium;
-use crate::synthetic_large;
+use super::driver::Chromium;
+use crate::synthetic::large;
 use std::time::Instant;
 
 /// The most bytes of a page that people still send each other.
 const MOST: u64 = 20_000_000;
 
-#[test]
-fn eighty_thousand_records_open_and_are_searched() {
+pub(super) fn eighty_thousand_records_open_and_are_searched(chromium: &Chromium) {
     let folder = tempfile::tempdir().unwrap();
     let start = Instant::now();
-    assert_eq!(synthetic_large::write(folder.path()), 80_000);
+    assert_eq!(large::write(folder.path()), 80_000);
     let written = start.elapsed();
     let path = etalon_report::write(folder.path()).unwrap().html;
     let size = std::fs::metadata(&path).unwrap().len();
@@ -22,7 +21,6 @@ fn eighty_thousand_records_open_and_are_searched() {
     );
     assert!(size < MOST, "{size}");
 
-    let chromium = Chromium::start();
     for _ in 0..2 {
         let page = chromium.open(&path, "#q=compare");
         page.wait("document.querySelector('#case-table tbody th a')");

@@ -1,27 +1,38 @@
 //! The page in a browser: opened from the file system, used by clicks and keys.
-#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-mod driver;
-mod hostile;
-mod large;
-mod made;
-#[path = "../synthetic/mod.rs"]
-#[expect(dead_code, reason = "runs of other shapes are for other tests")]
-mod synthetic;
-#[path = "../synthetic/large.rs"]
-mod synthetic_large;
+use super::driver::{Chromium, Page};
+use super::made::{self, CASES, CRASH, ODD};
+use std::path::Path;
 
-use driver::{Chromium, Page};
-use made::{CASES, CRASH, ODD};
+/// A check of the page at a path.
+type Check = fn(&Chromium, &Path);
+
+/// Every check, with its name.
+pub(super) const CHECKS: [(&str, Check); 6] = [
+    (
+        "search and filters narrow the cases",
+        search_and_filters_narrow_the_cases,
+    ),
+    (
+        "what differs on one adapter only is found",
+        what_differs_on_one_adapter_only_is_found,
+    ),
+    ("a link leads to a case", a_link_leads_to_a_case),
+    ("the keyboard suffices", the_keyboard_suffices),
+    (
+        "a screen reader is told what everything is",
+        a_screen_reader_is_told_what_everything_is,
+    ),
+    (
+        "without scripts the page says what is missing",
+        without_scripts_the_page_says_what_is_missing,
+    ),
+];
 
 const MASKS: &str = "stencil/masks/read=2";
 
-#[test]
-fn search_and_filters_narrow_the_cases() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = made::write(folder.path());
-    let chromium = Chromium::start();
-    let page = chromium.open(&path, "");
+fn search_and_filters_narrow_the_cases(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
     page.wait_count("13 of 13 cases");
     assert_eq!(page.rows().len(), CASES);
 
@@ -73,12 +84,8 @@ fn search_and_filters_narrow_the_cases() {
     assert!(page.rows().iter().all(|id| id.starts_with("stencil/")));
 }
 
-#[test]
-fn what_differs_on_one_adapter_only_is_found() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = made::write(folder.path());
-    let chromium = Chromium::start();
-    let page = chromium.open(&path, "");
+fn what_differs_on_one_adapter_only_is_found(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
     page.wait_count("13 of 13");
     page.choose("#f-odd", "gl:softpipe (1)");
     page.wait_count("1 of 13 cases");
@@ -130,12 +137,8 @@ fn what_differs_on_one_adapter_only_is_found() {
     assert!(only.iter().any(|l| l.contains(ODD)), "{only:?}");
 }
 
-#[test]
-fn a_link_leads_to_a_case() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = made::write(folder.path());
-    let chromium = Chromium::start();
-    let page = chromium.open(&path, &format!("#case={CRASH}"));
+fn a_link_leads_to_a_case(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, &format!("#case={CRASH}"));
     page.wait("!document.querySelector('#case').hidden");
     assert_eq!(page.text("#case-title"), CRASH);
     assert_eq!(
@@ -183,37 +186,33 @@ fn a_link_leads_to_a_case() {
         "3 unexpected – etalon 2026-01-02T03:04:05Z"
     );
 
-    let reason = chromium.open(&path, &format!("#case={MASKS}"));
+    let reason = chromium.open(path, &format!("#case={MASKS}"));
     assert_eq!(reason.text("#case").matches("bug 99").count(), 4);
     // No text that was encoded, so it is taken as it stands.
-    let unknown = chromium.open(&path, "#case=depth/no%2Fsuch%ZZ%3Cb%3E");
+    let unknown = chromium.open(path, "#case=depth/no%2Fsuch%ZZ%3Cb%3E");
     assert_eq!(
         unknown.text("#case [role=alert]"),
         "This run has no case of this name."
     );
     assert_eq!(unknown.text("#case-title"), "depth/no%2Fsuch%ZZ%3Cb%3E");
 
-    let filter = chromium.open(&path, "#q=compare&odd=gl:softpipe");
+    let filter = chromium.open(path, "#q=compare&odd=gl:softpipe");
     filter.wait_count("1 of 13 cases");
     assert_eq!(
         filter.eval::<String>("document.querySelector('#f-q').value"),
         "compare"
     );
     let other = chromium.open(
-        &path,
+        path,
         "#q=zzz&verdict=nonsense&on=nobody&page=-3&__proto__=1",
     );
     other.wait_count("0 of 13 cases");
-    let entry = chromium.open(&path, "#findings");
+    let entry = chromium.open(path, "#findings");
     assert!(!entry.eval::<bool>("document.querySelector('#report').hidden"));
 }
 
-#[test]
-fn the_keyboard_suffices() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = made::write(folder.path());
-    let chromium = Chromium::start();
-    let page = chromium.open(&path, "");
+fn the_keyboard_suffices(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
     page.press("Tab");
     assert_eq!(page.focused(), "Skip to the content");
     page.press("Enter");
@@ -279,14 +278,10 @@ fn the_keyboard_suffices() {
     page.wait_hash("#cases");
 }
 
-#[test]
-fn a_screen_reader_is_told_what_everything_is() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = made::write(folder.path());
-    let chromium = Chromium::start();
-    let page = chromium.open(&path, "");
+fn a_screen_reader_is_told_what_everything_is(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
     page.wait_count("13 of 13");
-    let nameless = |page: &Page| -> Vec<String> {
+    let nameless = |page: &Page<'_>| -> Vec<String> {
         page.eval(
             "[...document.querySelectorAll('a, button, input, select, summary, table, nav, form, img')]\
              .filter(e => e.checkVisibility() && !e.computedName).map(e => e.outerHTML.slice(0, 200))",
@@ -327,22 +322,18 @@ fn a_screen_reader_is_told_what_everything_is() {
     );
     assert_eq!(headless, [] as [&str; 0]);
 
-    let case = chromium.open(&path, &format!("#case={CRASH}"));
+    let case = chromium.open(path, &format!("#case={CRASH}"));
     case.wait("!document.querySelector('#case').hidden");
     assert_eq!(nameless(&case), [] as [&str; 0]);
     let main = "document.querySelector('#case').computedRole + ' ' + document.querySelector('#case').computedName";
     assert_eq!(case.eval::<String>(main), format!("article {CRASH}"));
 }
 
-#[test]
-fn without_scripts_the_page_says_what_is_missing() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = made::write(folder.path());
-    let chromium = Chromium::start();
-    let page = chromium.open_without_scripts(&path);
+fn without_scripts_the_page_says_what_is_missing(chromium: &Chromium, path: &Path) {
+    let page = chromium.open_without_scripts(path);
     let text: String = page.eval("document.body.innerText");
     for due in [
-        "want scripts",
+        "need scripts",
         "Areas and adapters",
         "differs only here",
         "What was asserted",

@@ -1,5 +1,6 @@
 //! A made-up run of a believable shape, for tests and for looking at.
 
+pub(crate) mod large;
 pub(crate) mod methods;
 
 use etalon_frame::{

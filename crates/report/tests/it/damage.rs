@@ -1,9 +1,8 @@
 //! Whatever stands in a run folder, its reports are made or a message says why not.
 //!
 //! `PROPTEST_CASES` says how many inputs are taken.
-#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-#[path = "../../record/tests/spoil/mod.rs"]
+#[path = "../../../record/tests/spoil/mod.rs"]
 mod spoil;
 
 use etalon_record::{Bench, Run};

@@ -10,7 +10,7 @@ pub(crate) const ADAPTERS: [&str; 4] = ["cpu", "gl:llvmpipe", "gl:softpipe", "vu
 pub(crate) const ODD: &str = "depth/compare/compare=greater/write=true";
 /// Crashes on `vulkan:lavapipe`, with all that is told of a lost process.
 pub(crate) const CRASH: &str = "blend/order/draws=2";
-/// How many cases there are.
+/// The number of cases.
 pub(crate) const CASES: usize = 6 + 1 + 4 + 1 + 1;
 
 /// Writes the run with its reports, and says where the page is.

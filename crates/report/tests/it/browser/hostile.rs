@@ -1,11 +1,11 @@
 //! Names that try to become something else than text.
 
-use crate::driver::Chromium;
+use super::driver::Chromium;
 use crate::synthetic::{self, adapter, header};
 use etalon_frame::{Api, Story, StoryLine};
 use etalon_record::{Expected, LossKind, ProcessEnd, Record, RunWriter, Verdict};
 
-/// What would run, each alone and all of them together.
+/// Texts that would run as a script, each alone and all of them together.
 const HOSTILE: [&str; 12] = [
     "<script>window.hacked=1</script>",
     "</script><img src=x onerror=window.hacked=2>",
@@ -21,8 +21,7 @@ const HOSTILE: [&str; 12] = [
     "&lt;b&gt;&#60;script&#62;\\u003cscript\\u003e%3Cscript%3E",
 ];
 
-#[test]
-fn hostile_names_stay_text_in_a_browser() {
+pub(super) fn hostile_names_stay_text(chromium: &Chromium) {
     let folder = tempfile::tempdir().unwrap();
     let adapters: Vec<_> = HOSTILE.iter().map(|h| adapter(h, Api::Vulkan)).collect();
     let mut header = header(HOSTILE.len() as u64, adapters);
@@ -55,7 +54,6 @@ fn hostile_names_stay_text_in_a_browser() {
     drop(writer);
     let path = etalon_report::write(folder.path()).unwrap().html;
 
-    let chromium = Chromium::start();
     let page = chromium.open(&path, "");
     page.wait_count("12 of 12 cases");
     let ids: Vec<String> = page.rows();
@@ -116,7 +114,7 @@ fn hostile_names_stay_text_in_a_browser() {
         page.choose(option, none);
     }
     page.click("#f-q");
-    page.tab.send_character(HOSTILE[1]).unwrap();
+    page.type_in(HOSTILE[1]);
     page.wait_count("1 of 12 cases");
     let linked = chromium.open(&path, &format!("#case={}", HOSTILE[1]));
     assert_eq!(

@@ -1,76 +1,21 @@
 //! The files for other programs, read by somebody else's parsers and schemas.
-#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-mod synthetic;
-
-use deqp_runner::{RunnerResults, RunnerStatus, TestStatus};
+use crate::deqp::{self, Line};
+use crate::markdown::read_markdown;
+use crate::synthetic::{self, adapter, header};
+use crate::verdicts::{every_verdict, record_all};
 use etalon_frame::{Api, Aspect};
 use etalon_record::{
     Assertion, Expected, Header, LossKind, ProcessEnd, Record, RunWriter, Verdict, selection_digest,
 };
 use etalon_report::{Written, write};
-use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+use pulldown_cmark::{Event, Parser};
 use serde_json::Value;
 use std::fs;
 use std::io::Cursor;
 use std::path::Path;
-use synthetic::{adapter, header};
 
 const HOSTILE: &str = "\"><script>alert(1)</script>|`a`|![x](http://a.b/c)@me #1\\|&amp;]]>\u{1b}[2J\u{7}\u{202e},\nPass,1";
-
-/// One record per verdict on `gl:a`, and one more for each way in which it can be taken.
-fn every_verdict(folder: &Path) -> Vec<Record> {
-    let mut records: Vec<Record> = Verdict::ALL
-        .into_iter()
-        .map(|v| Record::new(format!("depth/all/verdict={v}"), "gl:a", v))
-        .collect();
-    for verdict in Verdict::ALL.into_iter().filter(|v| v.is_bad()) {
-        let mut record = Record::new(format!("blend/expected/verdict={verdict}"), "gl:a", verdict);
-        record.expected = Some(Expected {
-            reason: "bug 12 of the driver".to_owned(),
-        });
-        records.push(record);
-    }
-    for (verdict, due) in [
-        (Verdict::Pass, Verdict::Fail),
-        (Verdict::Imprecise, Verdict::Flaky),
-    ] {
-        let mut record = Record::new(format!("blend/better/verdict={verdict}"), "gl:a", verdict);
-        record.improves = Some(due);
-        records.push(record);
-    }
-    // Better than a crash, and bad all the same.
-    let mut still_bad = Record::new("blend/still-bad", "gl:a", Verdict::Fail);
-    still_bad.improves = Some(Verdict::Crash);
-    records.push(still_bad);
-    for verdict in [Verdict::Fail, Verdict::Pass, Verdict::Crash] {
-        let mut record = Record::new(format!("selftest/due/verdict={verdict}"), "gl:a", verdict);
-        record.due_fail = true;
-        records.push(record);
-    }
-    let mut lost = Record::new("depth/lost", "gl:a", Verdict::Crash);
-    lost.message = "worker lost".to_owned();
-    lost.process = Some(ProcessEnd {
-        kind: LossKind::Died,
-        signal: Some(6),
-        exit: None,
-        stderr: "LLVM ERROR\nout of registers".to_owned(),
-        seconds: 1.5,
-    });
-    lost.after = vec!["depth/first".to_owned(), "depth/second".to_owned()];
-    let mut repeated = Record::new("depth/repeated", "gl:a", Verdict::Pass);
-    repeated.repeats = vec![Verdict::Pass; 4];
-    repeated.validation = vec!["VUID-1: something".to_owned()];
-    records.extend([lost, repeated]);
-    let header = header(records.len() as u64, vec![adapter("gl:a", Api::OpenGl)]);
-    record_all(folder, &header, &records);
-    records
-}
-
-fn record_all(folder: &Path, header: &Header, records: &[Record]) {
-    let mut writer = RunWriter::create(folder, header).unwrap();
-    records.iter().for_each(|r| writer.append(r).unwrap());
-}
 
 /// A run whose every text is hostile.
 fn hostile(folder: &Path) {
@@ -245,7 +190,7 @@ fn junit_tells_what_became_of_processes_and_repetitions() {
 #[test]
 fn ctrf_keeps_to_the_schema_of_the_format() {
     let schema: Value =
-        serde_json::from_str(include_str!("data/ctrf/ctrf-schema-0.0.json")).unwrap();
+        serde_json::from_str(include_str!("../data/ctrf/ctrf-schema-0.0.json")).unwrap();
     let validator = jsonschema::options()
         .should_validate_formats(true)
         .build(&schema)
@@ -308,10 +253,6 @@ fn ctrf_statuses_are_those_of_the_table() {
     );
 }
 
-fn deqp(path: &Path) -> RunnerResults {
-    RunnerResults::from_csv(&mut fs::File::open(path).unwrap()).unwrap()
-}
-
 #[test]
 fn deqp_runner_reads_its_lists() {
     for (name, folder) in runs() {
@@ -319,7 +260,7 @@ fn deqp_runner_reads_its_lists() {
         let document = ctrf(&written);
         let mut lines = 0;
         for path in &written.results {
-            lines += deqp(path).tests.len();
+            lines += deqp::read(&text(path)).unwrap().len();
         }
         // One test of the other format stands for the run itself.
         let tests = document["results"]["tests"].as_array().unwrap().len() - 1;
@@ -340,35 +281,36 @@ fn deqp_runner_understands_every_status() {
     let records = every_verdict(folder.path());
     let written = write(folder.path()).unwrap();
     assert!(written.results[0].ends_with("results/gl_a.csv"));
-    let results = deqp(&written.results[0]);
+    let list = text(&written.results[0]);
+    assert_eq!(list, deqp::LIST, "the list that deqp-runner read");
+    let own = deqp::read(&list).unwrap();
     for record in &records {
         let plain = match record.verdict {
-            Verdict::Pass => RunnerStatus::Pass,
-            Verdict::Imprecise => RunnerStatus::Warn,
+            Verdict::Pass => "Pass",
+            Verdict::Imprecise => "Warn",
             Verdict::Fail | Verdict::Open | Verdict::ResourceError | Verdict::InternalError => {
-                RunnerStatus::Fail
+                "Fail"
             }
-            Verdict::Measured | Verdict::NotSupported | Verdict::Skipped => RunnerStatus::Skip,
-            Verdict::Flaky => RunnerStatus::Flake,
-            Verdict::Crash | Verdict::DeviceLost => RunnerStatus::Crash,
-            Verdict::Timeout => RunnerStatus::Timeout,
+            Verdict::Measured | Verdict::NotSupported | Verdict::Skipped => "Skip",
+            Verdict::Flaky => "Flake",
+            Verdict::Crash | Verdict::DeviceLost => "Crash",
+            Verdict::Timeout => "Timeout",
         };
         let due = match record.case.as_str() {
-            "blend/expected/verdict=flaky" => RunnerStatus::KnownFlake,
-            case if case.starts_with("blend/expected") => RunnerStatus::ExpectedFail,
-            "blend/better/verdict=pass" => RunnerStatus::UnexpectedImprovement(TestStatus::Pass),
-            "blend/better/verdict=imprecise" => {
-                RunnerStatus::UnexpectedImprovement(TestStatus::Warn)
-            }
-            "selftest/due/verdict=fail" => RunnerStatus::ExpectedFail,
-            "selftest/due/verdict=pass" => RunnerStatus::Fail,
+            "blend/expected/verdict=flaky" => "KnownFlake",
+            case if case.starts_with("blend/expected") => "ExpectedFail",
+            "blend/better/verdict=pass" => "UnexpectedImprovement(Pass)",
+            "blend/better/verdict=imprecise" => "UnexpectedImprovement(Warn)",
+            "selftest/due/verdict=fail" => "ExpectedFail",
+            "selftest/due/verdict=pass" => "Fail",
             _ => plain,
         };
-        let found = results.get(&record.case).unwrap();
-        assert_eq!(found.status, due, "{record:?}");
+        let Line { status, regression } = deqp::recorded(&record.case);
+        assert_eq!(status, due, "{record:?}");
+        assert_eq!(own[record.case.as_str()], due, "{record:?}");
         // What speaks against the run speaks against it there, but for flakes, which deqp-runner lets pass.
         let flake = record.verdict == Verdict::Flaky;
-        assert_eq!(found.status.is_regression(), record.unexpected() && !flake);
+        assert_eq!(regression, record.unexpected() && !flake);
     }
 }
 
@@ -383,7 +325,7 @@ fn ids_that_deqp_runner_cannot_read_are_left_out_and_counted() {
     let list = text(&written.results[0]);
     assert!(list.starts_with("# 5 records left out"), "{list}");
     assert_eq!(list.lines().last(), Some("a/b,Pass,0"));
-    assert_eq!(deqp(&written.results[0]).tests.len(), 1);
+    assert_eq!(deqp::read(&text(&written.results[0])).unwrap().len(), 1);
 }
 
 #[test]
@@ -400,56 +342,6 @@ fn missing_records_are_missing_in_lists_of_deqp_runner() {
         list.starts_with("# incomplete: 2 records missing"),
         "{list}"
     );
-}
-
-/// What a reader of Markdown makes of a summary.
-#[derive(Default)]
-struct Read {
-    /// Rows of all tables, their heads included, as the text of their cells.
-    rows: Vec<Vec<String>>,
-    /// Items of lists.
-    items: usize,
-    /// All text, code included.
-    text: String,
-}
-
-fn read_markdown(markdown: &str) -> Read {
-    let mut read = Read::default();
-    let mut in_cell = false;
-    let options = Options::ENABLE_TABLES | Options::ENABLE_STRIKETHROUGH | Options::ENABLE_MATH;
-    for event in Parser::new_ext(markdown, options) {
-        match event {
-            Event::Html(html) | Event::InlineHtml(html) => panic!("HTML: {html}"),
-            Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
-                panic!("link to {dest_url}")
-            }
-            Event::Start(Tag::Strikethrough | Tag::CodeBlock(_) | Tag::BlockQuote(_))
-            | Event::InlineMath(_)
-            | Event::DisplayMath(_) => panic!("{event:?}"),
-            Event::Start(Tag::TableHead | Tag::TableRow) => read.rows.push(Vec::new()),
-            Event::Start(Tag::TableCell) => {
-                read.rows.last_mut().unwrap().push(String::new());
-                in_cell = true;
-            }
-            Event::End(TagEnd::TableCell) => in_cell = false,
-            Event::Start(Tag::Item) => read.items += 1,
-            Event::End(TagEnd::Table) => read.text.push('\n'),
-            Event::Text(text) | Event::Code(text) => {
-                read.text.push_str(&text);
-                if in_cell {
-                    read.rows
-                        .last_mut()
-                        .unwrap()
-                        .last_mut()
-                        .unwrap()
-                        .push_str(&text);
-                }
-            }
-            Event::SoftBreak | Event::HardBreak => read.text.push('\n'),
-            _ => {}
-        }
-    }
-    read
 }
 
 #[test]
@@ -540,6 +432,6 @@ fn files_of_a_huge_run_keep_their_limits() {
     let report = junit_parser::from_reader(Cursor::new(text(&written.junit))).unwrap();
     assert_eq!(report.suites.len(), 11);
     assert_eq!(written.results.len(), 10);
-    assert_eq!(deqp(&written.results[9]).tests.len(), 8000);
+    assert_eq!(deqp::read(&text(&written.results[9])).unwrap().len(), 8000);
     assert_eq!(ctrf(&written)["results"]["summary"]["tests"], 80_001);
 }

@@ -1,9 +1,7 @@
 //! Two runs held against each other: planted changes of every kind are found, and none other.
-#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-mod runs_made;
-mod synthetic;
-
+use crate::runs_made::{Two, one_adapter, record_all, rich};
+use crate::synthetic::{self, adapter, header};
 use etalon_frame::{Api, CounterKind, CounterOutcome, Story, StoryLine};
 use etalon_record::{
     Expected, LossKind, ProcessEnd, Record, Run, RunWriter, Verdict, selection_digest,
@@ -11,13 +9,11 @@ use etalon_record::{
 use etalon_report::runs::{Change, Direction, Side, diff, table, write_page};
 use etalon_report::{ReportError, TableOptions};
 use proptest::prelude::*;
-use runs_made::{Two, one_adapter, record_all, rich};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
-use synthetic::{adapter, header};
 
-/// What one planted change is found as: its direction and what differs.
+/// The change that one planted difference is found as: its direction and what differs.
 fn planted(change: impl FnOnce(&mut Record)) -> Option<Change> {
     let two = Two::new();
     let old: Vec<Record> = (0..5).map(|i| rich(&format!("blend/f/case={i}"))).collect();

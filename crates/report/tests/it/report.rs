@@ -1,9 +1,6 @@
 //! Reports made from run folders: their structure, their size, and what hostile names do to them.
-#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-mod bench;
-mod synthetic;
-
+use crate::synthetic::{self, adapter, header};
 use etalon_frame::{Accuracy, Api, Aspect, Distance, Story, StoryLine};
 use etalon_record::{Expected, Measured, Parameter, Record, Run, RunWriter, Times, Verdict};
 use etalon_report::{TableOptions, Written, table, write};
@@ -12,7 +9,6 @@ use std::collections::HashSet;
 use std::ffi::OsString;
 use std::fs;
 use std::path::Path;
-use synthetic::{adapter, header};
 
 fn read(written: &Written) -> (String, String) {
     (
