@@ -6,7 +6,7 @@ use crate::synthetic::{self, adapter, header};
 use crate::verdicts::{every_verdict, record_all};
 use etalon_frame::{Api, Aspect};
 use etalon_record::{
-    Assertion, Expected, Header, LossKind, ProcessEnd, Record, RunWriter, Verdict, selection_digest,
+    Assertion, LossKind, ProcessEnd, Record, RunWriter, Verdict, selection_digest,
 };
 use etalon_report::{Written, write};
 use pulldown_cmark::{Event, Parser};
