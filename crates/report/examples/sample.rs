@@ -3,10 +3,8 @@
 //! adapters.
 #![expect(clippy::unwrap_used, reason = "an example may stop at the first error")]
 
-#[path = "../tests/synthetic/mod.rs"]
+#[path = "../tests/it/synthetic/mod.rs"]
 mod synthetic;
-#[path = "../tests/synthetic/large.rs"]
-mod synthetic_large;
 
 use etalon_record::Run;
 use etalon_report::{TableOptions, table, write};
@@ -19,9 +17,9 @@ fn main() {
         eprintln!("usage: sample FOLDER [REPEATS|large|methods]");
         std::process::exit(64)
     }));
-    let what = arguments.next().unwrap_or_else(|| "1".to_owned());
-    let records = match what.as_str() {
-        "large" => synthetic_large::write(&folder),
+    let kind = arguments.next().unwrap_or_else(|| "1".to_owned());
+    let records = match kind.as_str() {
+        "large" => synthetic::large::write(&folder),
         "methods" => synthetic::methods::write(&folder),
         repeats => synthetic::write(&folder, repeats.parse().unwrap()),
     };

@@ -1,5 +1,5 @@
-//! Rendering methods: accuracy against speed, stability, and claims of the literature; and how
-//! accurate the drivers are.
+//! Rendering methods: accuracy against speed, stability, and claims of the literature; and the accuracy
+//! of the drivers.
 
 mod breaks;
 mod claims;
@@ -8,29 +8,14 @@ mod driver;
 mod front;
 #[cfg(test)]
 mod made;
+mod name;
 mod page;
 mod scatter;
 mod stability;
 mod summary;
-mod svg;
 
 pub(crate) use data::Methods;
 pub(crate) use driver::section as driver_section;
+pub(crate) use name::PAGE;
 pub(crate) use page::page;
 pub(crate) use summary::{lines, section};
-
-/// The name of the page of methods in a run folder.
-pub(crate) const PAGE: &str = "methods.html";
-/// How charts look; for pages that have some.
-pub(crate) const CHART_STYLE: &str = include_str!("methods/chart.css");
-
-/// A parameter's value.
-fn value_text(value: f64) -> String {
-    svg::digits(value, 3)
-}
-
-/// The name of the element that a scene's charts are in: letters, digits and dashes, so that no name
-/// of a record can break a link.
-fn anchor(question: usize, scene: usize) -> String {
-    format!("s{question}-{scene}")
-}

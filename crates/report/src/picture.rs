@@ -1,4 +1,4 @@
-//! Images of frames as PNG data URIs: what was allowed, what came back, and where they differ.
+//! Images of frames as PNG data URIs: the allowed codes, the actual ones, and their difference.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -6,6 +6,7 @@ use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_record::FrameImage;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
+use maud::{Markup, Render, html};
 
 /// The most texels a side that a picture shows; more are cut around the first wrong one.
 const WINDOW: u32 = 128;
@@ -32,6 +33,30 @@ pub(crate) struct Strip {
     pub(crate) title: String,
     pub(crate) pictures: Vec<Picture>,
     pub(crate) caption: String,
+}
+
+impl Strip {
+    /// The bytes that the pictures take in a page.
+    pub(crate) fn bytes(&self) -> usize {
+        self.pictures.iter().map(|p| p.uri.len()).sum()
+    }
+}
+
+impl Render for Strip {
+    fn render(&self) -> Markup {
+        html! {
+            div.strip {
+                h5 { (self.title) }
+                @for p in &self.pictures {
+                    figure {
+                        img src=(p.uri) width=(p.size[0]) height=(p.size[1]) alt={ (p.label) " of " (self.title) };
+                        figcaption { (p.label) }
+                    }
+                }
+                p.cap { (self.caption) }
+            }
+        }
+    }
 }
 
 /// The part of an image that is shown.
@@ -176,7 +201,7 @@ fn alpha(image: &FrameImage) -> Alpha {
     }
 }
 
-/// What a picture shows of a texel.
+/// The channels of a texel that a picture shows.
 #[derive(Clone, Copy)]
 enum Look {
     Rgb,
@@ -235,7 +260,7 @@ impl View<'_> {
         })
     }
 
-    /// How far a sample lies outside the allowed range, in codes on a log scale from 0 to 1.
+    /// The distance of a sample from the allowed range, in codes on a logarithmic scale from 0 to 1.
     fn distance(&self, sample: usize) -> f64 {
         let n = self.image.channels.len();
         let channel = |(i, e): (usize, &ChannelEncoding)| {
@@ -290,9 +315,7 @@ impl View<'_> {
         let image = self.image;
         let [low, high] = self.range;
         let mut text = match image.aspect {
-            Aspect::Color => {
-                "Colours are shown opaque, 0 to 1, without a transfer function.".to_owned()
-            }
+            Aspect::Color => "Colours are opaque, 0 to 1, without a transfer function.".to_owned(),
             Aspect::Depth => "Black is depth 0, white is depth 1.".to_owned(),
             Aspect::Stencil => format!("Black is {low}, white is {high}."),
         };

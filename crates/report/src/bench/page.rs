@@ -1,39 +1,22 @@
-//! `index.html` of a bench: one self-contained page that works offline and has no script.
+//! `index.html` of a bench.
 
-use super::data::{CaseFigures, Figures, Timed};
-use super::picture::{Scale, drift, strip};
-use super::{KINDS, change, duration};
-use crate::html::adapters::{breakable, details};
-use crate::html::{POLICY, STYLE};
-use crate::words::{self, count};
-use etalon_record::{Bench, BenchRecord, Time};
+use super::figures::{CaseFigures, Figures, Timed};
+use super::kind::KINDS;
+use super::ruler::drift;
+use super::spread::{Times, strip};
+use crate::numbers::{change, count, duration, percent};
+use crate::page::Page;
+use crate::page::adapter::{breakable, details};
+use crate::words;
+use etalon_record::{Bench, BenchRecord, Time, Verdict};
 use etalon_stats::{CONFIDENCE, MIN_ROUNDS, POWER, Summary};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 const OWN_STYLE: &str = include_str!("bench.css");
 
-/// The frame of a page.
-pub(super) fn frame(title: &str, body: Markup) -> String {
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { (title) }
-                style { (PreEscaped(STYLE)) (PreEscaped(OWN_STYLE)) }
-            }
-            body { (body) }
-        }
-    }
-    .into_string()
-}
-
-/// The whole page.
+/// The page.
 pub(super) fn page(bench: &Bench, figures: &Figures<'_>) -> String {
-    let body = html! {
+    let main = html! {
         (head(bench, figures))
         (explanation())
         @if figures.cases.is_empty() {
@@ -54,9 +37,15 @@ pub(super) fn page(bench: &Bench, figures: &Figures<'_>) -> String {
                 p.soft { (absent.name) ": " (absent.reason) "; " (absent.remedy) }
             }
         }
-        footer { "Made by etalon from bench.jsonl in this folder." }
     };
-    frame(&format!("etalon bench {}", bench.header.started), body)
+    Page {
+        title: &format!("etalon bench {}", bench.header.started),
+        styles: &[OWN_STYLE],
+        script: None,
+        main,
+        source: "bench.jsonl in this folder",
+    }
+    .html()
 }
 
 fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
@@ -66,7 +55,7 @@ fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
     html! {
         header {
             h1 { "etalon bench" }
-            p.lead { "How long graphics drivers take for frames that were found to be right." }
+            p.lead { "Frame times of graphics drivers, of frames that were judged right." }
             @if bench.truncated || bench.missing() > 0 {
                 p.state.bad { b { "! Incomplete. " } (count(bench.missing(), "round")) " missing." }
             }
@@ -79,7 +68,7 @@ fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
             dl.facts {
                 dt { "Started" } dd { (h.started) }
                 dt { "Command" } dd { code { (h.command.join(" ")) } }
-                dt { "Machine" } dd { (h.machine.cpu) ", " (count(u64::from(h.machine.cores), "core")) ", " (h.machine.os) }
+                dt { "Machine" } dd { (words::machine(&h.machine)) }
                 dt { "Suite" } dd {
                     "etalon " (h.etalon)
                     @if let Some(commit) = &h.commit { ", commit " code { (commit) } }
@@ -98,11 +87,11 @@ fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
 fn explanation() -> Markup {
     html! {
         details {
-            summary { "How to read this" }
+            summary { "Reading this page" }
             p {
-                "A round is one fresh preparation of a scene, some frames of warm-up, which are "
-                "discarded and counted, and some timed frames, none of which is discarded. Rounds of all "
-                "cases and adapters interleave, so that whatever drifts hits all alike."
+                "A round prepares the scene anew, draws some frames of warm-up, which are counted and discarded, and "
+                "some timed frames, all of which count. Rounds of all cases and adapters interleave, so that drift "
+                "affects all alike."
             }
             p {
                 b { "Median" } " is the median of the rounds' medians; the " b { "interval" }
@@ -115,7 +104,7 @@ fn explanation() -> Markup {
                 b { "Wall" } " lasts until the device is done, " b { "cpu" }
                 " until the last call that submits work has returned, " b { "gpu" }
                 " is between timestamps of the device. " b { "Prepare" } " and " b { "first" }
-                " are what a scene costs once. Adapters with the same rank cannot be told apart. Software "
+                " are what a scene costs once. Adapters with the same rank do not differ provably. Software "
                 "and hardware have tables of their own."
             }
         }
@@ -167,8 +156,8 @@ fn ruler(bench: &Bench) -> Markup {
             @match drift(bench) {
                 Some(chart) => {
                     p {
-                        "Fixed work on the processor, timed right before and after each round. Where the line "
-                        "moves, the machine itself has changed its pace."
+                        "Fixed work on the processor, timed before and after each round. Where the line moves, the speed of "
+                        "the machine itself changed."
                     }
                     (chart)
                 }
@@ -192,7 +181,7 @@ fn of_case(case: &CaseFigures<'_>, number: usize) -> Markup {
 }
 
 fn table(rows: &[Timed<'_>], title: &str) -> Markup {
-    let scale = Scale::of(rows);
+    let scale = Times::of(rows);
     let shown: Vec<Time> = Time::ALL
         .into_iter()
         .filter(|t| rows.iter().any(|r| r.others.contains_key(t)))
@@ -238,9 +227,9 @@ fn figures_of(s: &Summary) -> Markup {
     }
 }
 
-/// How much of the picture was asserted.
+/// The share of the picture that was asserted.
 fn share(record: &BenchRecord) -> String {
-    format!("{:.1} % asserted", record.picture.asserted * 100.0)
+    format!("{} asserted", percent(record.picture.asserted, 1))
 }
 
 fn ended(record: &BenchRecord) -> Markup {
@@ -251,7 +240,7 @@ fn ended(record: &BenchRecord) -> Markup {
     }
 }
 
-fn verdict(record: &BenchRecord) -> etalon_record::Verdict {
+fn verdict(record: &BenchRecord) -> Verdict {
     let ended = record.ended.as_ref().map(|e| e.verdict);
     ended.unwrap_or(record.picture.verdict)
 }

@@ -1,34 +1,28 @@
-//! `mutants.html`: one self-contained page that works offline.
+//! `mutants.html`.
 
-use super::{areas, elsewhere};
-use crate::html::{POLICY, STYLE};
-use crate::words::count;
+use super::summary::{areas, elsewhere};
+use crate::numbers::{count, duration};
+use crate::page::Page;
+use crate::words::machine;
 use etalon_record::{AreaTally, Catch, Hunt, MutantRecord, Sighting};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 
-/// The whole page.
+/// The page.
 pub(super) fn page(hunt: &Hunt) -> String {
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { "etalon mutants " (hunt.started) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                (head(hunt))
-                (by_area(hunt))
-                (noted(hunt))
-                (all(hunt))
-                footer { "Made by etalon from mutants.json in this folder." }
-            }
-        }
+    let main = html! {
+        (head(hunt))
+        (by_area(hunt))
+        (noted(hunt))
+        (all(hunt))
+    };
+    Page {
+        title: &format!("etalon mutants {}", hunt.started),
+        styles: &[],
+        script: None,
+        main,
+        source: "mutants.json in this folder",
     }
-    .into_string()
+    .html()
 }
 
 fn head(hunt: &Hunt) -> Markup {
@@ -36,12 +30,12 @@ fn head(hunt: &Hunt) -> Markup {
     html! {
         header {
             h1 { "etalon mutants" }
-            p.lead { "Whether the suite sees bugs that were planted in a rasterizer which passes it." }
+            p.lead { "Bugs planted in a rasterizer that passes the suite, and the cases that catch them." }
             @if complaints.is_empty() {
                 p.state.good { b { "✓ Every planted bug is caught, or proven to be legal." } }
             } @else {
                 p.state.bad {
-                    b { "✗ " (count(complaints.len() as u64, "planted bug")) " came out wrong." }
+                    b { "✗ " (count(complaints.len() as u64, "planted bug")) " with a wrong outcome." }
                 }
                 ul { @for (mutant, why) in &complaints {
                     li { a href={ "#" (mutant.mutant.name) } { (mutant.mutant.name) } ": " (why) }
@@ -51,8 +45,7 @@ fn head(hunt: &Hunt) -> Markup {
                 dt { "Started" } dd { (hunt.started) }
                 dt { "Command" } dd { code { (hunt.command.join(" ")) } }
                 dt { "Machine" } dd {
-                    (hunt.machine.cpu) ", " (count(u64::from(hunt.machine.cores), "core")) ", "
-                    (hunt.machine.os)
+                    (machine(&hunt.machine))
                 }
                 dt { "Suite" } dd {
                     "etalon " (hunt.etalon)
@@ -60,7 +53,7 @@ fn head(hunt: &Hunt) -> Markup {
                 }
                 dt { "Scope" } dd {
                     (count(hunt.mutants.len() as u64, "planted bug")) ", "
-                    (count(hunt.cases, "case")) ", " (format!("{:.1} s", hunt.seconds))
+                    (count(hunt.cases, "case")) ", " (duration(hunt.seconds))
                     @if !hunt.full { "; an area ends at a bug's first Fail" }
                 }
             }
@@ -102,7 +95,7 @@ fn by_area(hunt: &Hunt) -> Markup {
             h2 { "By area" }
             p {
                 "Which area's cases see which bugs. A bug has one area that must see it alone; the last "
-                "column tells how many do."
+                "column counts those that it does."
             }
             div.wide { table {
                 thead { tr {
@@ -123,7 +116,7 @@ fn noted(hunt: &Hunt) -> Markup {
     html! {
         (noted_list("Noticed", of(Catch::Noticed).collect()))
         (noted_list("Survived", of(Catch::Survived).collect()))
-        (noted_list("Seen by other areas than their own alone", elsewhere(hunt)))
+        (noted_list("Caught by other areas only", elsewhere(hunt)))
     }
 }
 
@@ -148,7 +141,7 @@ fn all(hunt: &Hunt) -> Markup {
             h2 { "All planted bugs" }
             div.wide { table.figures {
                 thead { tr {
-                    th { "Name" } th { "What it does" } th { "Source" } th { "Outcome" }
+                    th { "Name" } th { "Effect" } th { "Source" } th { "Outcome" }
                     th { "Cases that failed / were imprecise / passed" } th { "First seen" }
                 } }
                 tbody { @for m in &hunt.mutants { (row(m)) } }

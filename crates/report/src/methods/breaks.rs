@@ -1,13 +1,13 @@
-//! Where along its parameter a method leaves an error of one percent.
+//! The value of its parameter at which a method leaves an error of one percent.
 
-use super::svg;
+use crate::numbers::digits;
 
 /// The error that counts as broken: one percent of full brightness.
 pub(super) const LIMIT: f64 = 0.01;
 /// Stands for an error of zero, which has no logarithm.
 const LEAST: f64 = 1e-6;
 
-/// How an error along a parameter lies to [`LIMIT`].
+/// The position of an error along a parameter relative to [`LIMIT`].
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Break {
     /// At or below it everywhere.
@@ -23,14 +23,14 @@ pub(super) enum Break {
 pub(super) struct Crossing {
     /// The parameter's value, interpolated between the logarithms of the errors on both sides.
     pub(super) value: f64,
-    /// Whether the error is above the limit behind it.
+    /// True if the error is above the limit behind it.
     pub(super) leaves: bool,
 }
 
 impl Crossing {
     /// The value in as many digits as an interpolation is good for.
     pub(super) fn text(self) -> String {
-        svg::digits(self.value, 2)
+        digits(self.value, 2)
     }
 }
 

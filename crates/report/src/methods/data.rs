@@ -3,7 +3,7 @@
 use etalon_record::{Measured, Record, Run};
 use std::collections::BTreeMap;
 
-/// Everything that the records tell of methods.
+/// The records of methods.
 pub(crate) struct Methods<'a> {
     /// Adapters that drew some method, in the header's order.
     pub(crate) adapters: Vec<Adapter<'a>>,
@@ -17,14 +17,14 @@ pub(crate) struct Adapter<'a> {
     pub(crate) kind: Kind,
 }
 
-/// What an adapter draws with: these never share a ranking.
+/// The device that an adapter draws with; kinds never share a ranking.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     /// The processor.
     Software,
     /// A device of its own.
     Hardware,
-    /// The run does not tell.
+    /// The run has no facts of the adapter.
     Unknown,
 }
 
@@ -50,14 +50,14 @@ impl Kind {
 /// All scenes of a question.
 pub(crate) struct Question<'a> {
     pub(crate) name: &'a str,
-    pub(crate) scenes: Vec<Scene<'a>>,
+    pub(crate) scenes: Vec<SceneSeries<'a>>,
     /// Method names in order: a method looks the same in all charts of its question.
     pub(crate) methods: Vec<&'a str>,
 }
 
 /// One family of cases: a scene, drawn by many methods along one parameter at most. Two families may
 /// draw the same scene along two parameters.
-pub(crate) struct Scene<'a> {
+pub(crate) struct SceneSeries<'a> {
     pub(crate) question: &'a str,
     /// The last part of the case file's name, which is that of the scene but for a suffix.
     pub(crate) name: &'a str,
@@ -202,7 +202,7 @@ impl<'a> Methods<'a> {
     }
 
     /// Every scene of every question.
-    pub(crate) fn scenes(&self) -> impl Iterator<Item = &Scene<'a>> {
+    pub(crate) fn scenes(&self) -> impl Iterator<Item = &SceneSeries<'a>> {
         self.questions.iter().flat_map(|q| &q.scenes)
     }
 
@@ -229,8 +229,8 @@ fn scene<'a>(
     name: &'a str,
     records: &[(&'a Record, &'a Measured)],
     adapters: &[Adapter<'a>],
-) -> Scene<'a> {
-    // An axis that has one value in the whole scene tells nothing.
+) -> SceneSeries<'a> {
+    // An axis with one value in the whole scene is no variant.
     let mut values: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for (record, m) in records {
         for (axis, value) in settings(record, m) {
@@ -279,7 +279,7 @@ fn scene<'a>(
                 points,
             }
         });
-    Scene {
+    SceneSeries {
         question,
         name,
         series: series.collect(),

@@ -1,14 +1,16 @@
-//! How accurate drivers are: how far their codes lie from the ideal ones, beside their speed.
+//! The accuracy of drivers: the distance of their codes from the ideal ones, beside their speed.
 
-use super::svg::{self, LEFT, RIGHT, Scale, TOP, n};
-use crate::grid::Grid;
-use crate::html::breakable;
+use crate::chart::{LEFT, RIGHT, Scale, TOP, chart, key, marker, n};
+use crate::numbers::{digits, duration};
+use crate::page::adapter::breakable;
+use crate::run::grid::Grid;
+use crate::words::plain;
 use etalon_frame::{Accuracy, Aspect};
 use etalon_record::{Record, Verdict};
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 
-/// What one adapter's frames of one area and aspect come to.
+/// The accuracy of one adapter's frames of one area and aspect.
 #[derive(Clone, Copy, Default)]
 struct Figures<'a> {
     /// Of frames that are legal.
@@ -45,7 +47,7 @@ fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
         for column in 0..grid.adapters.len() {
             for index in area.on(column) {
                 let record = grid.record(index);
-                // A selftest's frame is held against something wrong on purpose.
+                // A selftest's frame is compared with a wrong expectation on purpose.
                 if record.due_fail {
                     continue;
                 }
@@ -66,13 +68,13 @@ fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
     rows
 }
 
-/// Whether the numbers of a record make sense; a run folder may hold any.
+/// True if a chart can show the numbers of a record; a run folder may hold any.
 fn drawable(a: &Accuracy) -> bool {
     let fine = |v: f64| v.is_finite() && (0.0..=1e12).contains(&v);
     a.channels > 0 && fine(a.mean) && fine(a.max)
 }
 
-/// How fast an adapter went through the run.
+/// The speed of an adapter in the run.
 struct Speed {
     cases_per_second: Option<f64>,
     /// Median of drawing and reading back over all cases that were judged.
@@ -127,11 +129,11 @@ pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
             }
             p.legend {
                 @for (i, adapter) in grid.adapters.iter().enumerate() {
-                    span.key { (svg::key(i)) " " (breakable(adapter)) }
+                    span.key { (key(i)) " " (breakable(adapter)) }
                 }
             }
             div.charts {
-                @for aspect in aspects.iter().filter(|a| **a != Aspect::Stencil) { (chart(grid, &rows, *aspect)) }
+                @for aspect in aspects.iter().filter(|a| **a != Aspect::Stencil) { (panel(grid, &rows, *aspect)) }
             }
             details open[rows.len() <= 12] {
                 summary { "Table and command" }
@@ -152,7 +154,7 @@ pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
 
 fn table(grid: &Grid<'_>, rows: &Rows<'_>) -> Markup {
     let speeds: Vec<Speed> = grid.adapters.iter().map(|a| speed(grid, a)).collect();
-    let time = |t: Option<f64>| t.map_or_else(|| "–".to_owned(), svg::seconds);
+    let time = |t: Option<f64>| t.map_or_else(|| "–".to_owned(), duration);
     html! {
         div.wide { table.numbers {
             thead { tr {
@@ -168,7 +170,7 @@ fn table(grid: &Grid<'_>, rows: &Rows<'_>) -> Markup {
                 }
                 tr.sum {
                     th scope="row" colspan="2" { "cases per second" }
-                    @for s in &speeds { td { @if let Some(rate) = s.cases_per_second { (svg::digits(rate, 3)) } @else { "–" } } }
+                    @for s in &speeds { td { @if let Some(rate) = s.cases_per_second { (digits(rate, 3)) } @else { "–" } } }
                 }
                 tr {
                     th scope="row" colspan="2" { "median draw time" }
@@ -189,17 +191,17 @@ fn cell(figures: &Figures<'_>) -> Markup {
     html! {
         td title=[figures.legal.map(|_| format!("The largest: {}", figures.farthest))] {
             @if let Some(legal) = &figures.legal {
-                (svg::digits(legal.mean, 2)) " / " (svg::digits(legal.max, 3))
+                (digits(legal.mean, 2)) " / " (digits(legal.max, 3))
             } @else { "–" }
             @if let Some(wrong) = &figures.wrong {
-                " (" (svg::digits(wrong.max, 3)) ")"
+                " (" (digits(wrong.max, 3)) ")"
             }
         }
     }
 }
 
 /// A row per area, a mark per adapter at its mean distance.
-fn chart(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
+fn panel(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
     const ROW: f64 = 24.0;
     const NAMES: f64 = 96.0;
     const ZERO: f64 = 30.0;
@@ -227,21 +229,21 @@ fn chart(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
         @for tick in scale.ticks(5) {
             path.grid d={ "M" (n(x(tick))) " " (n(TOP)) "V" (n(bottom)) } {}
             @if x(tick) > start + ZERO + 14.0 {
-                text.tick x=(n(x(tick))) y=(n(bottom + 14.0)) text-anchor="middle" { (svg::digits(tick, 2)) }
+                text.tick x=(n(x(tick))) y=(n(bottom + 14.0)) text-anchor="middle" { (digits(tick, 2)) }
             }
         }
         rect.box x=(n(start)) y=(n(TOP)) width=(n(RIGHT - start)) height=(n(bottom - TOP)) {}
         text.axis x=(n(f64::midpoint(start, RIGHT))) y=(n(bottom + 32.0)) text-anchor="middle" { "mean distance in codes" }
         @for (i, (area, figures)) in of_aspect.iter().enumerate() {
             @let y = TOP + ROW * (i as f64 + 0.5);
-            text.tick x=(n(start - 5.0)) y=(n(y + 3.5)) text-anchor="end" { (crate::words::plain(area, 18)) }
+            text.tick x=(n(start - 5.0)) y=(n(y + 3.5)) text-anchor="end" { (plain(area, 18)) }
             @if i > 0 { path.grid d={ "M" (n(start)) " " (n(y - ROW / 2.0)) "H" (n(RIGHT)) } {} }
             @for (adapter, f) in figures.iter().enumerate() {
                 @if let Some(legal) = &f.legal {
                     // Marks of equal means lie one below the other.
                     @let shift = (adapter as f64 + 0.5) / figures.len() as f64 - 0.5;
-                    @let text = format!("{}, {area}: mean {}, largest {} codes", grid.adapters[adapter], svg::digits(legal.mean, 2), svg::digits(legal.max, 3));
-                    (svg::marker(adapter, (x(legal.mean), y + shift * (ROW - 10.0)), true, &text))
+                    @let text = format!("{}, {area}: mean {}, largest {} codes", grid.adapters[adapter], digits(legal.mean, 2), digits(legal.max, 3));
+                    (marker(adapter, (x(legal.mean), y + shift * (ROW - 10.0)), true, &text))
                 }
             }
         }
@@ -251,5 +253,5 @@ fn chart(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
         super::page::title(aspect.name())
     );
     let about = "A row per area, a mark per adapter at its mean distance in codes.";
-    svg::chart(bottom + 42.0, &title, about, &body)
+    chart(bottom + 42.0, &title, about, &body)
 }

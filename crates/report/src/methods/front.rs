@@ -1,6 +1,6 @@
 //! The Pareto front of two costs.
 
-/// Which points no other point beats: none is as good in both costs and better in one. In the order of
+/// The points that no other point beats: none is as good in both costs and better in one. In the order of
 /// the first cost; of equal points only the first one.
 pub(super) fn front(points: &[(f64, f64)]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();

@@ -1,14 +1,18 @@
-//! `methods.html`: one self-contained page that works offline and needs no script.
+//! `methods.html`.
 
-use super::data::{Methods, Point, Question, Scene, Series};
-use super::svg;
-use super::{CHART_STYLE, anchor, claims, scatter, stability, value_text};
-use crate::html::{POLICY, STYLE, breakable, quoted};
-use crate::words::{self, count};
+use super::data::{Methods, Point, Question, SceneSeries, Series};
+use super::name::{anchor, value_text};
+use super::{claims, scatter, stability};
+use crate::chart::{self, key};
+use crate::command::quoted;
+use crate::numbers::{bytes, count, digits, duration, share};
+use crate::page::Page;
+use crate::page::adapter::breakable;
+use crate::words;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use etalon_record::Run;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 use std::path::Path;
 
 /// The most bytes of one picture, and of all pictures together, that the page holds.
@@ -27,37 +31,30 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
         .enumerate()
         .map(|(q, question)| in_question(run, methods, &mut pictures, (q, question)))
         .collect();
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(POLICY);
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { "etalon methods " (run.header.started) }
-                style { (PreEscaped(STYLE)) (PreEscaped(CHART_STYLE)) }
-            }
-            body {
-                (head(run, methods))
-                section id="claims" {
-                    h2 { "Claims of the literature" }
-                    (claims::section(methods))
-                }
-                (breaks(methods))
-                section id="reading" {
-                    h2 { "How to read the charts" }
-                    h3 { "Accuracy against speed" }
-                    (scatter::caption())
-                    h3 { "Stability" }
-                    (stability::caption())
-                }
-                @for question in questions { (question) }
-                footer { "Made by etalon from run.jsonl and pictures/ in this folder." }
-            }
+    let main = html! {
+        (head(run, methods))
+        section id="claims" {
+            h2 { "Claims of the literature" }
+            (claims::section(methods))
         }
+        (breaks(methods))
+        section id="reading" {
+            h2 { "Reading the charts" }
+            h3 { "Accuracy against speed" }
+            (scatter::caption())
+            h3 { "Stability" }
+            (stability::caption())
+        }
+        @for question in questions { (question) }
+    };
+    Page {
+        title: &format!("etalon methods {}", run.header.started),
+        styles: &[chart::STYLE],
+        script: None,
+        main,
+        source: "run.jsonl and pictures/ in this folder",
     }
-    .into_string()
+    .html()
 }
 
 fn head(run: &Run, methods: &Methods<'_>) -> Markup {
@@ -72,12 +69,12 @@ fn head(run: &Run, methods: &Methods<'_>) -> Markup {
         header {
             h1 { "Methods: accuracy against speed" }
             p.lead {
-                "What rendering methods cost, how far their pictures lie from the truth, and where each breaks."
+                "Cost and error of rendering methods, and the parameter at which each breaks."
             }
             dl.facts {
                 dt { "Run" } dd { a href="index.html" { "verdicts and findings" } ", " (h.started) }
                 dt { "Command" } dd { code { (h.command.join(" ")) } }
-                dt { "Machine" } dd { (h.machine.cpu) ", " (count(u64::from(h.machine.cores), "core")) ", " (h.machine.os) }
+                dt { "Machine" } dd { (words::machine(&h.machine)) }
                 dt { "Scope" } dd {
                     (count(scenes, "scene")) ", " (count(records as u64, "record")) " on "
                     @for (i, adapter) in methods.adapters.iter().enumerate() {
@@ -88,8 +85,8 @@ fn head(run: &Run, methods: &Methods<'_>) -> Markup {
             }
             nav {
                 a href="#claims" { "Claims" } " "
-                a href="#breaks" { "Where methods break" } " "
-                a href="#reading" { "How to read the charts" } " "
+                a href="#breaks" { "Break points" } " "
+                a href="#reading" { "Reading the charts" } " "
                 @for (q, question) in methods.questions.iter().enumerate() {
                     a href={ "#q" (q) } { (title(question.name)) } " "
                 }
@@ -111,7 +108,7 @@ pub(super) fn title(name: &str) -> String {
     }
 }
 
-/// Every break point in one table; curves that never cross are told beside their charts.
+/// Every break point in one table; curves that never cross are listed beside their charts.
 fn breaks(methods: &Methods<'_>) -> Markup {
     let mut rows = Vec::new();
     for (q, question) in methods.questions.iter().enumerate() {
@@ -124,9 +121,9 @@ fn breaks(methods: &Methods<'_>) -> Markup {
     let (broken, steady): (Vec<_>, Vec<_>) = rows.into_iter().partition(|(_, _, _, f)| f.crosses());
     html! {
         section id="breaks" {
-            h2 { "Where methods break" }
+            h2 { "Break points" }
             p {
-                "The value of a scene's parameter at which a method's RMSE crosses 1 % of full brightness."
+                "The parameter at which a method's RMSE crosses 1 % of full brightness."
             }
             @if broken.is_empty() { p { "No method crosses it." } }
             @else {
@@ -136,7 +133,7 @@ fn breaks(methods: &Methods<'_>) -> Markup {
                         @for (anchor, question, scene, found) in &broken {
                             tr {
                                 td { a href={ "#" (anchor) } { (question.name) "/" (scene.name) } }
-                                td { (svg::key(question.style(found.method))) " " (found.series) }
+                                td { (key(question.style(found.method))) " " (found.series) }
                                 td { (found.sentence) }
                                 td { (stability::who(methods, found)) }
                             }
@@ -145,7 +142,7 @@ fn breaks(methods: &Methods<'_>) -> Markup {
                 } }
             }
             @if !steady.is_empty() {
-                p.note { (count(steady.len() as u64, "curve")) " along a parameter never cross it, one way or the other; they are listed beside their charts." }
+                p.note { (count(steady.len() as u64, "curve")) " along a parameter never cross it; they are listed beside their charts." }
             }
         }
     }
@@ -176,7 +173,7 @@ fn in_scene(
     methods: &Methods<'_>,
     pictures: &mut Pictures<'_>,
     question: &Question<'_>,
-    (anchor, scene): (&str, &Scene<'_>),
+    (anchor, scene): (&str, &SceneSeries<'_>),
 ) -> Markup {
     let mut names: Vec<&str> = scene.series.iter().map(|s| s.method).collect();
     names.dedup();
@@ -191,7 +188,7 @@ fn in_scene(
             h3 { (title(scene.name)) }
             p.legend {
                 @for name in &names {
-                    span.key { (svg::key(question.style(name))) " " (name) }
+                    span.key { (key(question.style(name))) " " (name) }
                 }
             }
             @if let Some(text) = middles(scene) { p.cap { (text) } }
@@ -199,7 +196,7 @@ fn in_scene(
             (stability::charts(methods, question, scene))
             (pictures.strip(scene))
             p.cap {
-                @if truth > 0.0 { "The truth itself may be off by " (svg::share(truth)) " in a channel. " }
+                @if truth > 0.0 { "The truth itself may be off by " (share(truth)) " in a channel. " }
                 @else { "The truth is exact. " }
             }
             details {
@@ -212,8 +209,8 @@ fn in_scene(
     }
 }
 
-/// Which values stand for methods with a parameter in the charts of accuracy against speed.
-fn middles(scene: &Scene<'_>) -> Option<String> {
+/// The values that stand for methods with a parameter in the charts of accuracy against speed.
+fn middles(scene: &SceneSeries<'_>) -> Option<String> {
     let mut shown: Vec<(String, Vec<&str>)> = Vec::new();
     for series in &scene.series {
         if let (Some(parameter), Some(value)) = (series.parameter, series.middle()) {
@@ -238,7 +235,7 @@ fn middles(scene: &Scene<'_>) -> Option<String> {
     Some(format!("Full points: {}.", parts.join("; ")))
 }
 
-fn table(methods: &Methods<'_>, scene: &Scene<'_>) -> Markup {
+fn table(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
     let parameter = scene.series.iter().any(|s| s.parameter.is_some());
     html! {
         div.wide { table.numbers {
@@ -260,7 +257,7 @@ fn table(methods: &Methods<'_>, scene: &Scene<'_>) -> Markup {
 
 fn row(methods: &Methods<'_>, series: &Series<'_>, point: &Point<'_>, parameter: bool) -> Markup {
     let m = point.measured;
-    let time = |of: Option<f64>| of.map_or_else(|| "–".to_owned(), svg::seconds);
+    let time = |of: Option<f64>| of.map_or_else(|| "–".to_owned(), duration);
     let record = point.record;
     html! {
         tr {
@@ -269,10 +266,10 @@ fn row(methods: &Methods<'_>, series: &Series<'_>, point: &Point<'_>, parameter:
                 td { @if let (Some(p), Some(v)) = (series.parameter, point.value) { (p) " " (value_text(v)) } }
             }
             td { (methods.adapters[point.adapter].name) }
-            td { (svg::share(m.distance.rmse)) }
-            td { (svg::share(m.distance.max)) }
-            td { (svg::digits(m.distance.flip, 3)) }
-            td { (svg::share(m.distance.wrong)) }
+            td { (share(m.distance.rmse)) }
+            td { (share(m.distance.max)) }
+            td { (digits(m.distance.flip, 3)) }
+            td { (share(m.distance.wrong)) }
             td { (time(m.time.map(|t| t.wall))) }
             td { (time(m.time.map(|t| t.cpu))) }
             td { (time(m.time.and_then(|t| t.gpu))) }
@@ -286,14 +283,6 @@ fn row(methods: &Methods<'_>, series: &Series<'_>, point: &Point<'_>, parameter:
     }
 }
 
-fn bytes(n: u64) -> String {
-    match n {
-        n if n < 10_000 => format!("{n}\u{a0}B"),
-        n if n < 10_000_000 => format!("{}\u{a0}kB", svg::digits(n as f64 / 1e3, 3)),
-        n => format!("{}\u{a0}MB", svg::digits(n as f64 / 1e6, 3)),
-    }
-}
-
 /// Pictures below the run folder, as far as there is room for them in the page.
 struct Pictures<'a> {
     folder: &'a Path,
@@ -302,7 +291,7 @@ struct Pictures<'a> {
 
 impl Pictures<'_> {
     /// The truth and what each method drew, at its middle value where there is a picture of that.
-    fn strip(&mut self, scene: &Scene<'_>) -> Markup {
+    fn strip(&mut self, scene: &SceneSeries<'_>) -> Markup {
         let mut figures: Vec<(String, String)> = Vec::new();
         for series in &scene.series {
             let middle = series.middle();

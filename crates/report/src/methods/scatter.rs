@@ -1,12 +1,15 @@
 //! Accuracy against speed: a chart per scene and adapter, with fronts.
 
-use super::data::{Kind, Methods, Point, Question, Scene};
+use super::data::{Kind, Methods, Point, Question, SceneSeries};
 use super::front::front;
-use super::svg::{self, BOTTOM, LEFT, Labels, Plot, RIGHT, Scale, TOP, n};
-use super::value_text;
+use super::name::value_text;
+use crate::chart::{
+    BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, marker, n, zero_band,
+};
+use crate::numbers::{duration, round_duration, share};
 use maud::{Markup, html};
 
-/// What rounding to 8 bits alone costs where values lie anywhere between two codes: the standard
+/// The error of rounding to 8 bits alone where values lie anywhere between two codes: the standard
 /// deviation of a uniform distribution one code wide.
 pub(super) const ROUNDING: f64 = 1.0 / (255.0 * 3.464_101_615_137_754_4);
 
@@ -16,18 +19,22 @@ struct Dot<'s, 'a> {
     /// Position of the method in its question.
     style: usize,
     name: String,
-    /// Whether it stands for its series, being the only one or that of the middle value.
+    /// True if it stands for its series: the only point, or that of the middle value.
     main: bool,
     time: f64,
     error: f64,
 }
 
 /// All charts of a scene: software and hardware adapters apart.
-pub(super) fn charts(methods: &Methods<'_>, question: &Question<'_>, scene: &Scene<'_>) -> Markup {
+pub(super) fn charts(
+    methods: &Methods<'_>,
+    question: &Question<'_>,
+    scene: &SceneSeries<'_>,
+) -> Markup {
     let dots = dots(question, scene);
     let positive: Vec<f64> = dots.iter().map(|d| d.error).filter(|e| *e > 0.0).collect();
     let y = Scale::log(positive.iter().copied().chain([0.01]));
-    let zero = svg::zero_band(dots.iter().map(|d| d.error));
+    let zero = zero_band(dots.iter().map(|d| d.error));
     let kinds = methods.kinds();
     html! {
         @for kind in &kinds {
@@ -56,11 +63,11 @@ fn heading(kind: Kind) -> &'static str {
     match kind {
         Kind::Software => "Software adapters, which draw with the processor",
         Kind::Hardware => "Hardware adapters",
-        Kind::Unknown => "Adapters of which the run does not tell what they draw with",
+        Kind::Unknown => "Adapters of unknown kind",
     }
 }
 
-fn dots<'s, 'a>(question: &Question<'a>, scene: &'s Scene<'a>) -> Vec<Dot<'s, 'a>> {
+fn dots<'s, 'a>(question: &Question<'a>, scene: &'s SceneSeries<'a>) -> Vec<Dot<'s, 'a>> {
     let mut dots = Vec::new();
     for series in &scene.series {
         let style = question.style(series.method);
@@ -87,7 +94,7 @@ fn dots<'s, 'a>(question: &Question<'a>, scene: &'s Scene<'a>) -> Vec<Dot<'s, 'a
 }
 
 fn panel(
-    scene: &Scene<'_>,
+    scene: &SceneSeries<'_>,
     adapter: &str,
     plot: &Plot,
     all: &[&Dot<'_, '_>],
@@ -119,14 +126,14 @@ fn panel(
     let mut labels = Labels::new(own.iter().map(|d| at(d)));
     let title = format!("{} on {adapter}", scene.name);
     let body = html! {
-        (plot.frame(svg::seconds, svg::share, "frame time", "RMSE, share of full brightness"))
+        (plot.frame(round_duration, share, "frame time", "RMSE, share of full brightness"))
         (line_at(plot, 0.01, "one"))
         (line_at(plot, ROUNDING, "rounding"))
         @if every != mine { (steps(plot, &every, "group")) }
         (steps(plot, &mine, "front"))
         @for dot in own.iter().filter(|d| !d.main).chain(own.iter().filter(|d| d.main)) {
-            @let text = format!("{}: RMSE {}, {} on {adapter}", dot.name, svg::share(dot.error), svg::seconds(dot.time));
-            (svg::marker(dot.style, at(dot), !dot.main, &text))
+            @let text = format!("{}: RMSE {}, {} on {adapter}", dot.name, share(dot.error), duration(dot.time));
+            (marker(dot.style, at(dot), !dot.main, &text))
         }
         @for dot in &leaders {
             @let name = &dot.point.measured.method;
@@ -135,7 +142,7 @@ fn panel(
             }
         }
     };
-    svg::chart(svg::HEIGHT, &title, &about, &body)
+    chart(HEIGHT, &title, &about, &body)
 }
 
 /// The front as steps: between two of its points nothing better than the faster one is known.
@@ -155,7 +162,7 @@ fn steps(plot: &Plot, points: &[(f64, f64)], class: &str) -> Markup {
     html! { @if !path.is_empty() { path class=(class) d=(path) {} } }
 }
 
-/// What the charts of accuracy against speed show, in words.
+/// The explanation of the charts of accuracy against speed.
 pub(super) fn caption() -> Markup {
     html! {
         p {
@@ -165,7 +172,7 @@ pub(super) fn caption() -> Markup {
             "adapter's full points: a method above or right of it is beaten by another. The "
             b { "dashed line" } " is the front of all adapters of the same kind; software and hardware never "
             "share one. Where there are pictures without any error, a band at the bottom holds them. Dotted lines: an RMSE of 1 %, and what "
-            "rounding to 8 bits alone costs (" (svg::share(ROUNDING)) "). Frame time is the median wall time of a "
+            "rounding to 8 bits alone costs (" (share(ROUNDING)) "). Frame time is the median wall time of a "
             "frame until the device was done; a picture that the rules forbid gets no time."
         }
     }

@@ -1,14 +1,15 @@
 //! Stability: the error along a parameter, one curve per method, with break points.
 
 use super::breaks::{self, Break, LIMIT};
-use super::data::{Methods, Question, Scene, Series};
+use super::data::{Methods, Question, SceneSeries, Series};
+use super::name::value_text;
 use super::scatter::{ROUNDING, line_at};
-use super::svg::{self, Labels, Plot, Scale, n};
-use super::value_text;
+use crate::chart::{HEIGHT, Labels, Plot, Scale, chart, color, marker, n, zero_band};
+use crate::numbers::share;
 use maud::{Markup, html};
 
-/// Where one method breaks on some adapters.
-pub(super) struct Found<'a> {
+/// The break of one method's curve, and the adapters that share it.
+pub(super) struct CurveBreak<'a> {
     pub(super) method: &'a str,
     pub(super) series: String,
     pub(super) adapters: Vec<&'a str>,
@@ -18,15 +19,15 @@ pub(super) struct Found<'a> {
     range: String,
 }
 
-impl Found<'_> {
-    /// Whether the error crosses the limit within the parameter's range.
+impl CurveBreak<'_> {
+    /// True if the error crosses the limit within the parameter's range.
     pub(super) fn crosses(&self) -> bool {
         matches!(self.found, Break::Crossings(_))
     }
 }
 
 /// The parameters along which some method of the scene has a curve.
-fn parameters<'a>(scene: &Scene<'a>) -> Vec<&'a str> {
+fn parameters<'a>(scene: &SceneSeries<'a>) -> Vec<&'a str> {
     let curves = scene.series.iter().filter(|s| s.values().len() > 1);
     let mut names: Vec<&str> = curves.filter_map(|s| s.parameter).collect();
     names.sort_unstable();
@@ -35,7 +36,7 @@ fn parameters<'a>(scene: &Scene<'a>) -> Vec<&'a str> {
 }
 
 /// The curves along a parameter.
-fn curves<'s, 'a>(scene: &'s Scene<'a>, parameter: &str) -> Vec<&'s Series<'a>> {
+fn curves<'s, 'a>(scene: &'s SceneSeries<'a>, parameter: &str) -> Vec<&'s Series<'a>> {
     let along = |s: &&Series<'a>| s.parameter == Some(parameter) && s.values().len() > 1;
     scene.series.iter().filter(along).collect()
 }
@@ -47,8 +48,8 @@ fn scale(series: &[&Series<'_>]) -> Scale {
 }
 
 /// Every method's break in a scene, in order; adapters that break alike together.
-pub(super) fn found<'a>(methods: &Methods<'a>, scene: &Scene<'a>) -> Vec<Found<'a>> {
-    let mut result: Vec<Found<'a>> = Vec::new();
+pub(super) fn found<'a>(methods: &Methods<'a>, scene: &SceneSeries<'a>) -> Vec<CurveBreak<'a>> {
+    let mut result: Vec<CurveBreak<'a>> = Vec::new();
     for parameter in parameters(scene) {
         let all = curves(scene, parameter);
         let log = matches!(scale(&all), Scale::Log { .. });
@@ -70,7 +71,7 @@ pub(super) fn found<'a>(methods: &Methods<'a>, scene: &Scene<'a>) -> Vec<Found<'
                 let sentence = found.sentence(&series.name(), parameter, &range);
                 match result[first..].iter_mut().find(|f| f.sentence == sentence) {
                     Some(same) => same.adapters.push(adapter.name),
-                    None => result.push(Found {
+                    None => result.push(CurveBreak {
                         method: series.method,
                         series: series.name(),
                         adapters: vec![adapter.name],
@@ -89,7 +90,7 @@ pub(super) fn found<'a>(methods: &Methods<'a>, scene: &Scene<'a>) -> Vec<Found<'
 pub(super) fn charts<'a>(
     methods: &Methods<'a>,
     question: &Question<'a>,
-    scene: &Scene<'a>,
+    scene: &SceneSeries<'a>,
 ) -> Markup {
     let parameters = parameters(scene);
     html! {
@@ -108,7 +109,7 @@ pub(super) fn charts<'a>(
 }
 
 /// The breaks of a scene: each crossing in a sentence, all that never crosses together.
-fn list(methods: &Methods<'_>, scene: &Scene<'_>) -> Markup {
+fn list(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
     let (broken, steady): (Vec<_>, Vec<_>) =
         found(methods, scene).into_iter().partition(|f| f.crosses());
     let mut groups: Vec<(String, Vec<String>)> = Vec::new();
@@ -139,8 +140,8 @@ fn list(methods: &Methods<'_>, scene: &Scene<'_>) -> Markup {
     }
 }
 
-/// On which adapters it was found.
-pub(super) fn who(methods: &Methods<'_>, found: &Found<'_>) -> String {
+/// The adapters that a break was found on.
+pub(super) fn who(methods: &Methods<'_>, found: &CurveBreak<'_>) -> String {
     if found.adapters.len() == methods.adapters.len() {
         "all adapters".to_owned()
     } else {
@@ -176,7 +177,7 @@ fn alike(methods: &Methods<'_>, series: &[&Series<'_>]) -> Vec<Vec<usize>> {
 fn panel<'a>(
     methods: &Methods<'a>,
     question: &Question<'a>,
-    scene: &Scene<'a>,
+    scene: &SceneSeries<'a>,
     parameter: &str,
     series: &[&Series<'a>],
     adapters: &[usize],
@@ -190,7 +191,7 @@ fn panel<'a>(
     let plot = Plot {
         x,
         y: Scale::log(errors.clone().filter(|e| *e > 0.0).chain([LIMIT])),
-        zero: svg::zero_band(errors),
+        zero: zero_band(errors),
     };
     let names: Vec<&str> = adapters.iter().map(|a| methods.adapters[*a].name).collect();
     let title = match names.len() {
@@ -206,17 +207,17 @@ fn panel<'a>(
     };
     let mut labels = Labels::new(series.iter().flat_map(|s| places(s)));
     let body = html! {
-        (plot.frame(value_text, svg::share, parameter, "RMSE, share of full brightness"))
+        (plot.frame(value_text, share, parameter, "RMSE, share of full brightness"))
         (line_at(&plot, LIMIT, "one"))
         @for s in series {
             @let places = places(s);
-            path class={ "curve " (svg::color(question.style(s.method))) } d=(line(&places)) {}
+            path class={ "curve " (color(question.style(s.method))) } d=(line(&places)) {}
         }
         @for s in series {
             @let (style, places) = (question.style(s.method), places(s));
             @for ((value, error), place) in s.curve(on).into_iter().zip(places) {
-                @let text = format!("{}: RMSE {} at {parameter} {}", s.name(), svg::share(error), value_text(value));
-                (svg::marker(style, place, true, &text))
+                @let text = format!("{}: RMSE {} at {parameter} {}", s.name(), share(error), value_text(value));
+                (marker(style, place, true, &text))
             }
         }
         @for s in series {
@@ -224,7 +225,7 @@ fn panel<'a>(
                 @for c in crossings {
                     @let text = c.text();
                     @let at = (plot.x(c.value), plot.y(LIMIT));
-                    circle class={ "break " (svg::color(question.style(s.method))) } cx=(n(at.0)) cy=(n(at.1)) r="6" {
+                    circle class={ "break " (color(question.style(s.method))) } cx=(n(at.0)) cy=(n(at.1)) r="6" {
                         title { (s.name()) @if c.leaves { " leaves" } @else { " comes within" } " 1 % RMSE at " (parameter) " " (text) }
                     }
                     @if let Some((x, y)) = labels.place(&text, at) {
@@ -249,7 +250,7 @@ fn panel<'a>(
         "The error along {parameter}, one curve per method; rings mark where a curve crosses 1 %. On {}.",
         names.join(", ")
     );
-    svg::chart(svg::HEIGHT, &title, &about, &body)
+    chart(HEIGHT, &title, &about, &body)
 }
 
 fn line(places: &[(f64, f64)]) -> String {
@@ -261,7 +262,7 @@ fn line(places: &[(f64, f64)]) -> String {
     path
 }
 
-/// What the charts of stability show, in words.
+/// The explanation of the charts of stability.
 pub(super) fn caption() -> Markup {
     html! {
         p {

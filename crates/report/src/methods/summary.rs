@@ -1,10 +1,10 @@
 //! The best methods of every scene, for the first page and the terminal.
 
 use super::breaks::LIMIT;
-use super::data::{Kind, Methods, Point, Scene, Series};
-use super::svg;
-use super::{PAGE, anchor};
-use crate::words::{count, plain};
+use super::data::{Kind, Methods, Point, SceneSeries, Series};
+use super::name::{PAGE, anchor};
+use crate::numbers::{count, duration, share};
+use crate::words::plain;
 use maud::{Markup, html};
 
 /// The most scenes that the terminal lists.
@@ -20,7 +20,7 @@ struct Best<'s, 'a> {
 /// A scene's candidates on adapters of a kind: every series by its middle value.
 fn candidates<'s, 'a>(
     methods: &'s Methods<'a>,
-    scene: &'s Scene<'a>,
+    scene: &'s SceneSeries<'a>,
     kind: Kind,
 ) -> Vec<Best<'s, 'a>> {
     let mut result = Vec::new();
@@ -84,10 +84,10 @@ pub(crate) fn section(methods: &Methods<'_>) -> Markup {
                                         th scope="row" { a href={ (PAGE) "#" (anchor(q, s)) } { (question.name) "/" (scene.name) } }
                                         @if kinds.len() > 1 { td { (kind.name()) } }
                                         td { (best.series.name()) }
-                                        td.num { (svg::share(best.error)) }
+                                        td.num { (share(best.error)) }
                                         @if let Some((fast, time)) = fast(&all) {
                                             td { (fast.series.name()) }
-                                            td.num { (svg::seconds(time)) }
+                                            td.num { (duration(time)) }
                                             td { (methods.adapters[fast.point.adapter].name) }
                                         } @else {
                                             td colspan="3" { "none" }
@@ -116,16 +116,12 @@ pub(crate) fn lines(methods: &Methods<'_>, width: usize) -> String {
         if kinds.len() > 1 {
             line.push_str(&format!(" ({})", kind.name()));
         }
-        line.push_str(&format!(
-            ": {} {}",
-            best.series.name(),
-            svg::share(best.error)
-        ));
+        line.push_str(&format!(": {} {}", best.series.name(), share(best.error)));
         match fast(&all) {
             Some((fast, time)) => line.push_str(&format!(
                 "; {} {} on {}",
                 fast.series.name(),
-                svg::seconds(time),
+                duration(time),
                 methods.adapters[fast.point.adapter].name
             )),
             None => line.push_str("; none within"),

@@ -1,9 +1,10 @@
 //! Claims of what methods cost.
 
-use super::{Claim, Figure, Pair, Place, fragments, medians, pairs, time};
+use super::claim::{Claim, Figure, Place};
+use super::pair::{Pair, fragments, medians, pairs, time};
 use crate::methods::breaks::LIMIT;
 use crate::methods::data::Methods;
-use crate::methods::svg::digits;
+use crate::numbers::digits;
 
 /// The claims, in the order in which they are shown.
 pub(super) const CLAIMS: &[Claim] = &[
@@ -53,7 +54,7 @@ pub(super) const CLAIMS: &[Claim] = &[
     },
 ];
 
-/// What one peeling method does at one value of its scene's parameter.
+/// One peeling method at one value of its scene's parameter.
 #[derive(Clone, Copy)]
 struct Peeled {
     value: Option<f64>,
@@ -92,7 +93,7 @@ fn dual_peeling(methods: &Methods<'_>) -> Vec<Figure> {
     figures
 }
 
-/// How much worse a picture may be and still count as the same.
+/// The factor by which an error may be larger and still count as the same.
 const ALIKE: f64 = 1.5;
 
 fn halves(one: u32, dual: u32) -> bool {

@@ -1,9 +1,10 @@
 //! Claims of what methods show.
 
-use super::{Claim, Figure, Place, pairs};
+use super::claim::{Claim, Figure, Place};
+use super::pair::pairs;
 use crate::methods::breaks::{self, Break, LIMIT};
-use crate::methods::data::{Methods, Point, Scene, Series, usable};
-use crate::methods::svg::{digits, share};
+use crate::methods::data::{Methods, Point, SceneSeries, Series, usable};
+use crate::numbers::{digits, share};
 
 /// Half a step between two codes of 8 bits.
 const HALF_CODE: f64 = 0.5 / 255.0;
@@ -63,7 +64,7 @@ fn early_tests(methods: &Methods<'_>) -> Vec<Figure> {
     figures
 }
 
-/// Where a curve comes within the limit for good; its start where it is within from there on.
+/// The value from which on a curve stays within the limit; its start if it always does.
 fn resolved(series: &Series<'_>, adapter: usize) -> Option<Option<f64>> {
     let curve = series.curve(adapter);
     let ratio = curve.last()?.0 / curve.first()?.0;
@@ -106,7 +107,7 @@ fn reversed_depth(methods: &Methods<'_>) -> Vec<Figure> {
     figures
 }
 
-fn scene_name(scene: &Scene<'_>, series: &Series<'_>) -> String {
+fn scene_name(scene: &SceneSeries<'_>, series: &Series<'_>) -> String {
     match series.variant.as_str() {
         "" => scene.name.to_owned(),
         variant => format!("{} ({variant})", scene.name),

@@ -2,14 +2,14 @@ use super::*;
 use crate::methods::made::{Made, run};
 
 /// The claim whose title begins like this, checked against a run.
-fn check(title: &str, made: &[Made]) -> (Outcome, Vec<Figure>) {
+fn check(title: &str, made: &[Made]) -> (Reproduction, Vec<Figure>) {
     let run = run(made);
     let claim = all().find(|c| c.title.starts_with(title)).unwrap();
     let figures = Methods::of(&run).map_or_else(Vec::new, |m| (claim.check)(&m));
-    (Outcome::of(&figures), figures)
+    (Reproduction::of(&figures), figures)
 }
 
-fn outcome(title: &str, made: &[Made]) -> Outcome {
+fn outcome(title: &str, made: &[Made]) -> Reproduction {
     check(title, made).0
 }
 
@@ -39,8 +39,13 @@ fn nothing_is_measured_where_methods_are_missing() {
     let lonely = [Made::new("elsewhere/scene/method=other").at("k", 1.0)];
     for claim in all() {
         let (outcome, figures) = check(claim.title, &lonely);
-        assert_eq!(outcome, Outcome::NotMeasured, "{} {figures:?}", claim.title);
-        assert_eq!(check(claim.title, &[]).0, Outcome::NotMeasured);
+        assert_eq!(
+            outcome,
+            Reproduction::NotMeasured,
+            "{} {figures:?}",
+            claim.title
+        );
+        assert_eq!(check(claim.title, &[]).0, Reproduction::NotMeasured);
     }
 }
 
@@ -58,7 +63,7 @@ fn one_method_alone_says_nothing() {
         for claim in all() {
             assert_eq!(
                 outcome(claim.title, &[fragments(id, 7)]),
-                Outcome::NotMeasured
+                Reproduction::NotMeasured
             );
         }
     }
@@ -87,17 +92,17 @@ fn dual_peeling_is_counted_at_equal_pictures() {
         dual(16.0, 0.002),
     ];
     let (outcome, figures) = check("Dual depth", &halves);
-    assert_eq!(outcome, Outcome::Reproduced);
+    assert_eq!(outcome, Reproduction::Reproduced);
     assert_eq!(figures[0].text, "32 → 17 passes, RMSE ×0.5 to ×1.2");
     let worse = [one(8.0, 0.05), dual(4.0, 0.08)];
     assert_eq!(
         super::tests::outcome("Dual depth", &worse),
-        Outcome::NotReproduced
+        Reproduction::NotReproduced
     );
     let unpaired = [one(8.0, 0.001), dual(8.0, 0.001)];
     assert_eq!(
         super::tests::outcome("Dual depth", &unpaired),
-        Outcome::NotMeasured
+        Reproduction::NotMeasured
     );
     // Without a number of peels, the richest scene that both get right.
     let layers = |method: &str, n: f64, p: u32, rmse| {
@@ -121,13 +126,16 @@ fn weighted_blending_takes_two_passes_everywhere() {
     let of = |scene: &str, n| passes(&format!("transparency/{scene}/method=weighted-blended"), n);
     assert_eq!(
         outcome("Weighted", &[of("a", 2), of("b", 2)]),
-        Outcome::Reproduced
+        Reproduction::Reproduced
     );
     assert_eq!(
         outcome("Weighted", &[of("a", 2), of("b", 3)]),
-        Outcome::Partly(1, 2)
+        Reproduction::Partly(1, 2)
     );
-    assert_eq!(outcome("Weighted", &[of("a", 4)]), Outcome::NotReproduced);
+    assert_eq!(
+        outcome("Weighted", &[of("a", 4)]),
+        Reproduction::NotReproduced
+    );
 }
 
 #[test]
@@ -138,16 +146,16 @@ fn culling_is_judged_by_its_closed_mesh() {
         of("closed-mesh", "none", 1000),
         of("closed-mesh", "back", 510),
     ];
-    assert_eq!(outcome("Culling", &halved), Outcome::Reproduced);
+    assert_eq!(outcome("Culling", &halved), Reproduction::Reproduced);
     let kept = [
         of("closed-mesh", "none", 1000),
         of("closed-mesh", "back", 900),
     ];
-    assert_eq!(outcome("Culling", &kept), Outcome::NotReproduced);
+    assert_eq!(outcome("Culling", &kept), Reproduction::NotReproduced);
     let other = [of("open-mesh", "none", 1000), of("open-mesh", "back", 900)];
-    assert_eq!(outcome("Culling", &other), Outcome::NotMeasured);
+    assert_eq!(outcome("Culling", &other), Reproduction::NotMeasured);
     let zero = [of("closed-mesh", "none", 0), of("closed-mesh", "back", 0)];
-    assert_eq!(outcome("Culling", &zero), Outcome::NotMeasured);
+    assert_eq!(outcome("Culling", &zero), Reproduction::NotMeasured);
 }
 
 #[test]
@@ -157,12 +165,12 @@ fn sampling_costs_are_ratios_per_adapter() {
         fragments(&of("none"), 1000),
         fragments(&of("supersampling-2x2"), 5100),
     ];
-    assert_eq!(outcome("Supersampling", &four), Outcome::Reproduced);
+    assert_eq!(outcome("Supersampling", &four), Reproduction::Reproduced);
     let two = [
         fragments(&of("none"), 1000),
         fragments(&of("supersampling-2x2"), 2000),
     ];
-    assert_eq!(outcome("Supersampling", &two), Outcome::NotReproduced);
+    assert_eq!(outcome("Supersampling", &two), Reproduction::NotReproduced);
     let times = |msaa, full| {
         vec![
             wall(&of("none"), 1.0),
@@ -172,20 +180,23 @@ fn sampling_costs_are_ratios_per_adapter() {
     };
     assert_eq!(
         outcome("Multisampling", &times(1.5, 4.0)),
-        Outcome::Reproduced
+        Reproduction::Reproduced
     );
     assert_eq!(
         outcome("Multisampling", &times(4.5, 4.0)),
-        Outcome::NotReproduced
+        Reproduction::NotReproduced
     );
     let mut both = times(1.5, 4.0);
     both.extend(times(5.0, 4.0).into_iter().map(|m| m.on("gl:a")));
     let (found, figures) = check("Multisampling", &both);
-    assert_eq!(found, Outcome::Partly(1, 2));
+    assert_eq!(found, Reproduction::Partly(1, 2));
     assert_eq!(figures[1].adapter, "gl:a");
     let mut untimed = times(1.5, 4.0);
     untimed[1].wall = None;
-    assert_eq!(outcome("Multisampling", &untimed), Outcome::NotMeasured);
+    assert_eq!(
+        outcome("Multisampling", &untimed),
+        Reproduction::NotMeasured
+    );
 }
 
 #[test]
@@ -198,21 +209,27 @@ fn front_to_back_is_held_against_the_prepass() {
         ]
         .map(|(m, n)| fragments(&format!("visibility-cost/rooms/method={m}"), n).at("layers", 8.0))
     };
-    assert_eq!(outcome("Drawing front", &of(400, 400)), Outcome::Reproduced);
+    assert_eq!(
+        outcome("Drawing front", &of(400, 400)),
+        Reproduction::Reproduced
+    );
     assert_eq!(
         outcome("Drawing front", &of(800, 400)),
-        Outcome::NotReproduced
+        Reproduction::NotReproduced
     );
     assert_eq!(
         outcome("Drawing front", &of(1000, 1000)),
-        Outcome::NotReproduced
+        Reproduction::NotReproduced
     );
     // An adapter that counts what the depth test rejects is judged by its times.
     let mut blind = of(1000, 2000).to_vec();
     blind.push(fragments("visibility-cost/rooms/method=no-test", 1000).at("layers", 8.0));
-    assert_eq!(outcome("Drawing front", &blind), Outcome::NotReproduced);
+    assert_eq!(
+        outcome("Drawing front", &blind),
+        Reproduction::NotReproduced
+    );
     blind[1].wall = Some(0.0005);
-    assert_eq!(outcome("Drawing front", &blind), Outcome::Reproduced);
+    assert_eq!(outcome("Drawing front", &blind), Reproduction::Reproduced);
 }
 
 #[test]
@@ -221,8 +238,11 @@ fn early_tests_must_give_the_same_error() {
         [("discard", 0.001), ("forced-early-test", early)]
             .map(|(m, e)| Made::new(&format!("visibility-cost/rooms/method={m}")).off(e))
     };
-    assert_eq!(outcome("Early tests", &of(0.001)), Outcome::Reproduced);
-    assert_eq!(outcome("Early tests", &of(0.0011)), Outcome::NotReproduced);
+    assert_eq!(outcome("Early tests", &of(0.001)), Reproduction::Reproduced);
+    assert_eq!(
+        outcome("Early tests", &of(0.0011)),
+        Reproduction::NotReproduced
+    );
 }
 
 #[test]
@@ -242,19 +262,19 @@ fn reversed_depth_needs_the_smaller_gap() {
         |fixed, reversed| [curve("depth24", fixed), curve("reversed-depth", reversed)].concat();
     assert_eq!(
         outcome("Reversed", &of([0.3, 0.3, 0.001], [0.3, 0.001, 0.001])),
-        Outcome::Reproduced
+        Reproduction::Reproduced
     );
     assert_eq!(
         outcome("Reversed", &of([0.3, 0.3, 0.3], [0.3, 0.3, 0.001])),
-        Outcome::Reproduced
+        Reproduction::Reproduced
     );
     assert_eq!(
         outcome("Reversed", &of([0.3, 0.001, 0.001], [0.3, 0.3, 0.001])),
-        Outcome::NotReproduced
+        Reproduction::NotReproduced
     );
     assert_eq!(
         outcome("Reversed", &of([0.3, 0.3, 0.3], [0.3, 0.3, 0.3])),
-        Outcome::NotReproduced
+        Reproduction::NotReproduced
     );
 }
 
@@ -273,16 +293,16 @@ fn coverage_has_a_level_for_each_sample() {
     let levels = |a: f64| 0.4 * (a - (a * 4.0).round() / 4.0).abs() + 0.001;
     assert_eq!(
         outcome("Alpha to coverage", &of(levels)),
-        Outcome::Reproduced
+        Reproduction::Reproduced
     );
     assert_eq!(
         outcome("Alpha to coverage", &of(|_| 0.001)),
-        Outcome::NotReproduced,
+        Reproduction::NotReproduced,
         "no levels"
     );
     assert_eq!(
         outcome("Alpha to coverage", &of(|a| 0.1 * a)),
-        Outcome::NotReproduced
+        Reproduction::NotReproduced
     );
 }
 
@@ -302,15 +322,15 @@ fn depth_fail_is_right_everywhere() {
     let title = "Shadow volumes";
     assert_eq!(
         outcome(title, &of([0.001, 0.3], [0.001, 0.001])),
-        Outcome::Reproduced
+        Reproduction::Reproduced
     );
     assert_eq!(
         outcome(title, &of([0.001, 0.3], [0.001, 0.3])),
-        Outcome::NotReproduced
+        Reproduction::NotReproduced
     );
     assert_eq!(
         outcome(title, &of([0.001, 0.001], [0.001, 0.001])),
-        Outcome::NotReproduced
+        Reproduction::NotReproduced
     );
 }
 
@@ -324,19 +344,19 @@ fn accumulated_errors_stay_below_half_a_code_over_alpha() {
     let code = 1.0 / 255.0;
     let title = "The error of blending";
     let fine = [at("alpha", 0.1, 5.0 * code), at("alpha", 0.5, 0.9 * code)];
-    assert_eq!(outcome(title, &fine), Outcome::Reproduced);
+    assert_eq!(outcome(title, &fine), Reproduction::Reproduced);
     assert_eq!(
         outcome(title, &[at("alpha", 0.1, 7.0 * code)]),
-        Outcome::NotReproduced
+        Reproduction::NotReproduced
     );
     let grows = [
         at("layers", 1.0, code),
         at("layers", 16.0, 4.0 * code),
         at("layers", 64.0, 3.8 * code),
     ];
-    assert_eq!(outcome(title, &grows), Outcome::Reproduced);
+    assert_eq!(outcome(title, &grows), Reproduction::Reproduced);
     let falls = [at("layers", 1.0, 4.0 * code), at("layers", 16.0, code)];
-    assert_eq!(outcome(title, &falls), Outcome::NotReproduced);
+    assert_eq!(outcome(title, &falls), Reproduction::NotReproduced);
 }
 
 #[test]

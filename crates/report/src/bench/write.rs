@@ -1,0 +1,44 @@
+//! Writing the reports of a bench.
+
+use super::figures::Figures;
+use super::page;
+use crate::error::ReportError;
+use crate::export::dashboards;
+use crate::files::replace;
+use etalon_record::Bench;
+use std::path::{Path, PathBuf};
+
+/// The files that [`write_bench`] writes.
+pub const BENCH_FILES: [&str; 3] = [HTML, BENCHER, ACTION];
+const HTML: &str = "index.html";
+const BENCHER: &str = "bencher.json";
+const ACTION: &str = "benchmark-action.json";
+
+/// The files that [`write_bench`] made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenBench {
+    /// The page.
+    pub html: PathBuf,
+    /// Wall times in Bencher's metric format.
+    pub bencher: PathBuf,
+    /// Wall times for github-action-benchmark, tool `customSmallerIsBetter`.
+    pub action: PathBuf,
+}
+
+/// Writes `index.html`, `bencher.json` and `benchmark-action.json` into a bench folder. Each is
+/// written beside its place and then renamed, so that a reader never sees half a report.
+///
+/// # Errors
+/// Returns an error if the folder holds no readable bench, or cannot be written to.
+pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
+    let bench = Bench::read(folder)?;
+    let figures = Figures::new(&bench);
+    let html = page::page(&bench, &figures);
+    let bencher = dashboards::bencher(&figures)?;
+    let action = dashboards::action(&figures)?;
+    Ok(WrittenBench {
+        html: replace(folder, HTML, html.as_bytes())?,
+        bencher: replace(folder, BENCHER, &bencher)?,
+        action: replace(folder, ACTION, &action)?,
+    })
+}

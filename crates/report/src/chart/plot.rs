@@ -1,0 +1,84 @@
+//! The frame of a chart: its place, box, grid, ticks and axis names.
+
+use super::number::n;
+use super::scale::Scale;
+use maud::{Markup, html};
+
+/// Width and height of a chart in its own units, which are pixels at full size.
+pub(crate) const WIDTH: f64 = 400.0;
+pub(crate) const HEIGHT: f64 = 300.0;
+/// The plot's place within.
+pub(crate) const LEFT: f64 = 58.0;
+pub(crate) const RIGHT: f64 = WIDTH - 12.0;
+pub(crate) const TOP: f64 = 30.0;
+pub(crate) const BOTTOM: f64 = HEIGHT - 42.0;
+
+/// Height of the band for pictures that are exactly right: none where there are no such pictures.
+pub(crate) fn zero_band(mut errors: impl Iterator<Item = f64>) -> f64 {
+    if errors.any(|e| e == 0.0) { 20.0 } else { 0.0 }
+}
+
+/// The two scales of a plot, in chart units.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plot {
+    pub(crate) x: Scale,
+    pub(crate) y: Scale,
+    /// Height of a band below the scale for what is exactly zero.
+    pub(crate) zero: f64,
+}
+
+impl Plot {
+    pub(crate) fn x(&self, value: f64) -> f64 {
+        LEFT + self.x.at(value) * (RIGHT - LEFT)
+    }
+
+    pub(crate) fn y(&self, value: f64) -> f64 {
+        if self.zero > 0.0 && value <= 0.0 {
+            return BOTTOM - self.zero / 2.0;
+        }
+        let bottom = BOTTOM - self.zero;
+        bottom - self.y.at(value) * (bottom - TOP)
+    }
+
+    /// The box, the grid lines and the tick labels.
+    pub(crate) fn frame(
+        &self,
+        x_label: impl Fn(f64) -> String,
+        y_label: impl Fn(f64) -> String,
+        x_name: &str,
+        y_name: &str,
+    ) -> Markup {
+        let middle = f64::midpoint(TOP, BOTTOM);
+        html! {
+            @if self.zero > 0.0 {
+                rect.zero x=(n(LEFT)) y=(n(BOTTOM - self.zero)) width=(n(RIGHT - LEFT)) height=(n(self.zero)) {}
+                text.tick x=(n(LEFT - 5.0)) y=(n(BOTTOM - self.zero / 2.0 + 3.5)) text-anchor="end" { "exact" }
+            }
+            @for tick in self.x.ticks(5) {
+                @let x = self.x(tick);
+                path.grid d={ "M" (n(x)) " " (n(TOP)) "V" (n(BOTTOM)) } {}
+                text.tick x=(n(x)) y=(n(BOTTOM + 14.0)) text-anchor="middle" { (x_label(tick)) }
+            }
+            @for tick in self.y.ticks(7) {
+                @let y = self.y(tick);
+                path.grid d={ "M" (n(LEFT)) " " (n(y)) "H" (n(RIGHT)) } {}
+                text.tick x=(n(LEFT - 5.0)) y=(n(y + 3.5)) text-anchor="end" { (y_label(tick)) }
+            }
+            rect.box x=(n(LEFT)) y=(n(TOP)) width=(n(RIGHT - LEFT)) height=(n(BOTTOM - TOP)) {}
+            text.axis x=(n(f64::midpoint(LEFT, RIGHT))) y=(n(HEIGHT - 8.0)) text-anchor="middle" { (x_name) }
+            text.axis transform={ "translate(11 " (n(middle)) ") rotate(-90)" } text-anchor="middle" { (y_name) }
+        }
+    }
+}
+
+/// One chart: an image with a title and a description for screen readers.
+pub(crate) fn chart(height: f64, title: &str, about: &str, body: &Markup) -> Markup {
+    let view = format!("0 0 {WIDTH} {height}");
+    html! {
+        svg.chart viewBox=(view) width=(WIDTH) height=(height) role="img" {
+            title { (title) ". " (about) }
+            text.head x=(n(LEFT)) y="18" { (title) }
+            (body)
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! Command lines that reports print for people to copy.
+
+use etalon_record::Record;
+
+/// Returns a word quoted for a POSIX shell where it needs to be.
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "/._=+-:,@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+/// The command that draws a case again.
+pub(crate) fn run(case: &str, adapter: &str) -> String {
+    format!("etalon run {} --adapter {}", quoted(case), quoted(adapter))
+}
+
+/// The command that explains the first wrong texel of a record; without one, draws the case again.
+pub(crate) fn explain(record: &Record) -> String {
+    match record.wrong.first() {
+        Some(texel) => format!(
+            "etalon explain {} --texel {},{} --adapter {}",
+            quoted(&record.case),
+            texel.x,
+            texel.y,
+            quoted(&record.adapter)
+        ),
+        None => run(&record.case, &record.adapter),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn words_are_quoted_for_a_shell() {
+        assert_eq!(super::quoted("gl:es/a=1"), "gl:es/a=1");
+        assert_eq!(super::quoted("a'; rm b"), "'a'\\''; rm b'");
+        assert_eq!(super::quoted(""), "''");
+    }
+}

@@ -1,0 +1,9 @@
+//! The comparison of two benches: as data, for a terminal, and as a page.
+
+mod compare;
+mod page;
+mod table;
+
+pub use compare::{BenchDiff, BenchFacts, TimeChange, Untimed, diff};
+pub use page::write_diff;
+pub use table::diff_table;

@@ -1,0 +1,284 @@
+//! Two benches compared, from their recorded samples.
+
+use crate::bench::figures;
+use crate::bench::kind::software;
+use crate::words::machine;
+use etalon_record::{Bench, BenchHeader, BenchRecord, Time};
+use etalon_stats::{LEVEL, MINIMUM, Outcome, Samples, Why, compare, smallest_visible, summarize};
+use serde::Serialize;
+
+/// The comparison of two benches. `--format json` prints its serialised form.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BenchDiff {
+    /// The time that was compared.
+    pub time: Time,
+    /// The highest rate at which two benches of the same thing are called different, per comparison.
+    pub level: f64,
+    /// Changes up to this ratio are not reported.
+    pub minimum: f64,
+    /// The first bench.
+    pub before: BenchFacts,
+    /// The second bench.
+    pub after: BenchFacts,
+    /// Facts that make the two hard to compare: other machines, drivers, rulers, profiles, lost rounds.
+    pub notes: Vec<String>,
+    /// Cases that were timed in both benches.
+    pub changes: Vec<TimeChange>,
+    /// Cases that were timed in one bench only.
+    pub gone: Vec<Untimed>,
+}
+
+/// The identity of one of the benches.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct BenchFacts {
+    /// The start, RFC 3339.
+    pub started: String,
+    /// The suite's version.
+    pub etalon: String,
+    /// The suite's commit, where it is known.
+    pub commit: Option<String>,
+    /// The machine, in words.
+    pub machine: String,
+    /// Its command line.
+    pub command: String,
+}
+
+/// A case on an adapter that was timed in both benches. Times are in seconds, ratios are after over
+/// before.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TimeChange {
+    /// The case.
+    pub case: String,
+    /// The adapter.
+    pub adapter: String,
+    /// True if the adapter draws with the processor.
+    pub software: bool,
+    /// `faster`, `slower` or `cannot tell`.
+    pub outcome: &'static str,
+    /// The reason why the samples decide nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why: Option<&'static str>,
+    /// The median before.
+    pub before: f64,
+    /// The median after.
+    pub after: f64,
+    /// Rounds before and after.
+    pub rounds: [usize; 2],
+    /// The ratio over all pairs of rounds, which is not quite that of the medians.
+    pub ratio: f64,
+    /// The interval of the ratio; none with too few rounds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interval: Option<[f64; 2]>,
+    /// The ratio in units of the ruler, where both benches have the same ruler and it bears on the
+    /// device.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ruled: Option<f64>,
+    /// Its interval.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ruled_interval: Option<[f64; 2]>,
+    /// The smallest ratio that would have been found with a probability of 0.9.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub visible: Option<f64>,
+}
+
+/// A case on an adapter that has times in one bench only.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Untimed {
+    /// The case.
+    pub case: String,
+    /// The adapter.
+    pub adapter: String,
+    /// True if the times are missing in the second bench, false if in the first.
+    pub from_after: bool,
+    /// The reason.
+    pub why: String,
+    /// True if this is worse than before: a right picture with a time is now wrong or broken.
+    pub worse: bool,
+}
+
+impl BenchDiff {
+    /// The number of changes with this outcome.
+    pub fn count(&self, outcome: &str) -> usize {
+        self.changes.iter().filter(|c| c.outcome == outcome).count()
+    }
+
+    /// True if anything is worse: slower, or no longer right.
+    pub fn worse(&self) -> bool {
+        self.count(Outcome::Slower.name()) > 0 || self.gone.iter().any(|g| g.worse)
+    }
+}
+
+/// Compares the second bench with the first.
+pub fn diff(before: &Bench, after: &Bench, time: Time) -> BenchDiff {
+    let same_ruler = before.header.ruler == after.header.ruler;
+    let mut found = BenchDiff {
+        time,
+        level: LEVEL,
+        minimum: MINIMUM,
+        before: side(&before.header),
+        after: side(&after.header),
+        notes: notes(before, after),
+        changes: Vec::new(),
+        gone: Vec::new(),
+    };
+    for old in &before.records {
+        let (case, adapter) = (&old.picture.case, &old.picture.adapter);
+        let new = after.record(case, adapter);
+        let kind = software(
+            after
+                .header
+                .adapter(adapter)
+                .or(before.header.adapter(adapter)),
+        );
+        // The ruler is the processor's: it says nothing of what another device does by itself.
+        let ruled = same_ruler && (kind || time != Time::Gpu);
+        let of = |record: &BenchRecord| samples(record, time, ruled);
+        match (of(old), new.and_then(of)) {
+            (Some(b), Some(a)) => found.changes.push(TimeChange {
+                case: case.clone(),
+                adapter: adapter.clone(),
+                software: kind,
+                ..changed(&b, &a)
+            }),
+            (Some(_), None) => found.gone.push(gone(old, new, true, time)),
+            (None, Some(_)) => {
+                let new = new.unwrap_or(old);
+                found.gone.push(gone(new, Some(old), false, time));
+            }
+            (None, None) => {}
+        }
+    }
+    for new in &after.records {
+        let (case, adapter) = (&new.picture.case, &new.picture.adapter);
+        let timed = samples(new, time, false).is_some();
+        if timed && before.record(case, adapter).is_none() {
+            found.gone.push(gone(new, None, false, time));
+        }
+    }
+    found
+}
+
+fn samples(record: &BenchRecord, time: Time, ruled: bool) -> Option<Samples> {
+    if ruled {
+        figures::samples(record, time)
+    } else {
+        Samples::new(&record.samples(time)).ok()
+    }
+}
+
+fn changed(before: &Samples, after: &Samples) -> TimeChange {
+    let comparison = compare(before, after);
+    let finite = |low: f64, high: f64| (low > 0.0 && high.is_finite()).then_some([low, high]);
+    let ratio = comparison.ratio;
+    TimeChange {
+        case: String::new(),
+        adapter: String::new(),
+        software: false,
+        outcome: comparison.outcome.name(),
+        why: match comparison.outcome {
+            Outcome::CannotTell(why) => Some(Why::text(why)),
+            Outcome::Faster | Outcome::Slower => None,
+        },
+        before: summarize(before).median,
+        after: summarize(after).median,
+        rounds: [before.rounds(), after.rounds()],
+        ratio: ratio.estimate,
+        interval: finite(ratio.low, ratio.high),
+        ruled: comparison.ruled.map(|r| r.estimate),
+        ruled_interval: comparison.ruled.and_then(|r| finite(r.low, r.high)),
+        visible: smallest_visible(before, after),
+    }
+}
+
+/// Times that only one bench has: `there` has them, `other` is the same of the other bench.
+fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time: Time) -> Untimed {
+    let (why, bad) = match other {
+        None => ("it took no part".to_owned(), false),
+        Some(other) => match &other.ended {
+            Some(ended) => (
+                format!("{}: {}", ended.verdict, ended.message),
+                ended.verdict.is_bad(),
+            ),
+            None if other.rounds.is_empty() => {
+                let p = &other.picture;
+                let message = match p.message.as_str() {
+                    "" => String::new(),
+                    text => format!(": {text}"),
+                };
+                (format!("{}{message}", p.verdict), p.verdict.is_bad())
+            }
+            None => (format!("it has no {time} times"), false),
+        },
+    };
+    Untimed {
+        case: there.picture.case.clone(),
+        adapter: there.picture.adapter.clone(),
+        from_after,
+        why,
+        worse: from_after && bad,
+    }
+}
+
+fn side(header: &BenchHeader) -> BenchFacts {
+    BenchFacts {
+        started: header.started.clone(),
+        etalon: header.etalon.clone(),
+        commit: header.commit.clone(),
+        machine: machine(&header.machine),
+        command: header.command.join(" "),
+    }
+}
+
+fn notes(before: &Bench, after: &Bench) -> Vec<String> {
+    let (b, a) = (&before.header, &after.header);
+    let mut notes = Vec::new();
+    if b.machine != a.machine {
+        notes.push(
+            "The machines differ, so a change may be theirs and not the driver's.".to_owned(),
+        );
+    }
+    if b.ruler != a.ruler {
+        notes.push(format!(
+            "The rulers differ ({}; {}), so a change of the machine's speed stays unnoticed.",
+            b.ruler, a.ruler
+        ));
+    }
+    if b.profile != a.profile {
+        notes.push(format!(
+            "Profiles: {} before, {} after.",
+            b.profile, a.profile
+        ));
+    }
+    if b.shader_cache != a.shader_cache {
+        notes.push(format!(
+            "Shader caches: {} before, {} after.",
+            b.shader_cache.name(),
+            a.shader_cache.name()
+        ));
+    }
+    for old in &b.adapters {
+        let Some(new) = a.adapter(&old.name) else {
+            continue;
+        };
+        let said = |what: &str, old_value: &str, new_value: &str| {
+            (old_value != new_value).then(|| {
+                format!(
+                    "{}: {what} {old_value} before, {new_value} after.",
+                    old.name
+                )
+            })
+        };
+        notes.extend(said("device", &old.device, &new.device));
+        notes.extend(said("driver", &old.driver_text(), &new.driver_text()));
+        notes.extend(said("API", &old.api_version, &new.api_version));
+    }
+    for (bench, name) in [(before, "first"), (after, "second")] {
+        if bench.missing() > 0 || bench.truncated {
+            let n = bench.missing();
+            notes.push(format!(
+                "The {name} bench is incomplete: {n} rounds are missing."
+            ));
+        }
+    }
+    notes
+}

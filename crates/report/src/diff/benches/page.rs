@@ -1,0 +1,130 @@
+//! The comparison of two benches as a page.
+
+use super::compare::{BenchDiff, BenchFacts, TimeChange};
+use crate::bench::kind::KINDS;
+use crate::error::ReportError;
+use crate::files::replace_at;
+use crate::numbers::{change, duration};
+use crate::page::Page;
+use crate::page::adapter::breakable;
+use maud::{Markup, html};
+use std::path::{Path, PathBuf};
+
+const BENCH_STYLE: &str = include_str!("../../bench/bench.css");
+
+/// Writes a comparison of two benches as one page.
+///
+/// # Errors
+/// Returns an error if the path names no file, or it cannot be written.
+pub fn write_diff(path: &Path, diff: &BenchDiff) -> Result<PathBuf, ReportError> {
+    replace_at(path, page(diff).as_bytes())
+}
+
+fn page(diff: &BenchDiff) -> String {
+    let main = html! {
+        header {
+            h1 { "etalon diff" }
+            p.lead { "Changes of " (diff.time) " times between two benches." }
+            @if diff.worse() {
+                p.state.bad { b {
+                    "✗ " (diff.count("slower")) " slower, "
+                    (diff.gone.iter().filter(|g| g.worse).count()) " no longer right."
+                } }
+            } @else {
+                p.state.good { b { "✓ Nothing is shown to be worse." } }
+            }
+            dl.facts { (side("Before", &diff.before)) (side("After", &diff.after)) }
+            @for note in &diff.notes { p.state.bad { "! " (note) } }
+        }
+        @for (kind, title) in KINDS {
+            @let changes: Vec<&TimeChange> = diff.changes.iter().filter(|c| c.software == kind).collect();
+            @if !changes.is_empty() {
+                section { h2 { (title) " adapters" } (table(&changes)) }
+            }
+        }
+        @if !diff.gone.is_empty() {
+            section {
+                h2 { "Timed in one bench only" }
+                ul { @for gone in &diff.gone {
+                    li {
+                        @if gone.worse { "✗ " }
+                        code { (gone.case) } " " (breakable(&gone.adapter)) ", not "
+                        @if gone.from_after { "after" } @else { "before" } ": " (gone.why)
+                    }
+                } }
+            }
+        }
+        section {
+            h2 { "Comparison" }
+            p {
+                "The medians of rounds are compared by the Wilcoxon–Mann–Whitney test turned around into "
+                "the interval of their ratio, as measured and in units of the ruler. Faster or slower is "
+                "said when both intervals lie beyond a change of " (change(diff.minimum)) ". Two benches "
+                "of the same thing are called different with a probability of at most " (diff.level)
+                " per comparison. Visible is the smallest change that would have been found with a "
+                "probability of 0.9."
+            }
+        }
+    };
+    Page {
+        title: "etalon diff",
+        styles: &[BENCH_STYLE],
+        script: None,
+        main,
+        source: "two recorded benches",
+    }
+    .html()
+}
+
+fn side(name: &str, side: &BenchFacts) -> Markup {
+    html! {
+        dt { (name) }
+        dd {
+            (side.started) ", etalon " (side.etalon)
+            @if let Some(commit) = &side.commit { ", commit " code { (commit) } }
+            ", " (side.machine) br; code { (side.command) }
+        }
+    }
+}
+
+fn table(changes: &[&TimeChange]) -> Markup {
+    let interval = |i: Option<[f64; 2]>| match i {
+        Some([low, high]) => format!("{} to {}", change(low), change(high)),
+        None => "–".to_owned(),
+    };
+    html! {
+        div.wide { table.diff {
+            thead { tr {
+                th { "Case" } th { "Adapter" } th { "Outcome" } th { "Before" } th { "After" } th { "Change" }
+                th { "Interval" } th { "In units of the ruler" } th { "Visible" } th { "Rounds" }
+            } }
+            tbody { @for c in changes {
+                tr class=(class(c.outcome)) {
+                    th scope="row" { (c.case) }
+                    td { (breakable(&c.adapter)) }
+                    td { b { (c.outcome) } @if let Some(why) = c.why { small { ": " (why) } } }
+                    td.num { (duration(c.before)) }
+                    td.num { (duration(c.after)) }
+                    td.num { (change(c.ratio)) }
+                    td.num { (interval(c.interval)) }
+                    td.num {
+                        @match c.ruled {
+                            Some(ruled) => { (change(ruled)) " (" (interval(c.ruled_interval)) ")" }
+                            None => "–",
+                        }
+                    }
+                    td.num { @match c.visible { Some(v) => (change(v)), None => "–" } }
+                    td.num { (c.rounds[0]) " and " (c.rounds[1]) }
+                }
+            } }
+        } }
+    }
+}
+
+fn class(outcome: &str) -> &'static str {
+    match outcome {
+        "slower" => "slower",
+        "faster" => "faster",
+        _ => "same",
+    }
+}

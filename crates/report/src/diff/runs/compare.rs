@@ -1,0 +1,303 @@
+//! Two records of a case compared.
+
+use super::data::{Change, Detail, Direction};
+use super::pairs::Folder;
+use super::pixels;
+use crate::words::{channel_of, headline};
+use etalon_frame::{Accuracy, WrongTexel};
+use etalon_record::{Record, Verdict};
+use serde::Serialize;
+use serde_json::json;
+use std::collections::{BTreeMap, HashMap};
+
+/// Right or wrong, as far as a record says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Standing {
+    Right,
+    /// With the verdict's severity.
+    Wrong(u8),
+    NotSupported,
+    Skipped,
+}
+
+impl Standing {
+    fn of(record: &Record) -> Self {
+        match record.verdict {
+            Verdict::NotSupported => Self::NotSupported,
+            Verdict::Skipped => Self::Skipped,
+            Verdict::Fail if record.due_fail => Self::Right,
+            // A selftest that was missed is as grave as what it missed.
+            good if record.due_fail && !good.is_bad() => Self::Wrong(Verdict::Fail.severity()),
+            bad if bad.is_bad() => Self::Wrong(bad.severity()),
+            _ => Self::Right,
+        }
+    }
+}
+
+/// The direction from one record to the other; see the documentation of [`runs`](super).
+fn direction(before: &Record, after: &Record) -> Direction {
+    if after.unexpected() && !before.unexpected() {
+        return Direction::Worse;
+    }
+    use Standing::{NotSupported, Right, Wrong};
+    match (Standing::of(before), Standing::of(after)) {
+        (Right, Wrong(_) | NotSupported) => Direction::Worse,
+        (Wrong(_) | NotSupported, Right) => Direction::Better,
+        (Wrong(old), Wrong(new)) if new > old => Direction::Worse,
+        (Wrong(old), Wrong(new)) if new < old => Direction::Better,
+        _ => Direction::Other,
+    }
+}
+
+/// The differences of two records of a case, or `None` if nothing but times differs.
+pub(super) fn change(
+    folders: &[Folder<'_>; 2],
+    adapter: [&str; 2],
+    both: &[&Record; 2],
+) -> Option<Change> {
+    let [before, after] = *both;
+    let details = details(before, after);
+    let (frame, frame_error) = match pixels::compare(folders, both) {
+        None => (None, None),
+        Some(Ok(frame)) => (Some(frame), None),
+        Some(Err(error)) => (None, Some(error)),
+    };
+    let mut what = Vec::new();
+    if before.verdict != after.verdict {
+        what.push("verdict");
+    }
+    if before.unexpected() != after.unexpected()
+        || before.expected.is_some() != after.expected.is_some()
+        || before.improves != after.improves
+    {
+        what.push("expectation");
+    }
+    if frame.as_ref().is_some_and(|f| !f.equal()) {
+        what.push("frame");
+    }
+    for detail in &details {
+        if !what.contains(&detail.what) {
+            what.push(detail.what);
+        }
+    }
+    (!what.is_empty()).then(|| Change {
+        case: before.case.clone(),
+        case_file: before.case_file().to_owned(),
+        adapter: adapter.map(str::to_owned),
+        direction: direction(before, after),
+        what,
+        verdict: both.map(|r| r.verdict),
+        unexpected: both.map(Record::unexpected),
+        headline: both.map(headline),
+        details,
+        frame,
+        frame_error,
+    })
+}
+
+/// Collects what differs.
+#[derive(Default)]
+struct Details(Vec<Detail>);
+
+impl Details {
+    fn add<T: PartialEq + Serialize>(
+        &mut self,
+        what: &'static str,
+        name: impl Into<String>,
+        before: T,
+        after: T,
+    ) {
+        if before != after {
+            self.0.push(Detail {
+                what,
+                name: name.into(),
+                before: json!(before),
+                after: json!(after),
+            });
+        }
+    }
+}
+
+fn details(before: &Record, after: &Record) -> Vec<Detail> {
+    let mut found = Details::default();
+    // A missing frame has no texels; the verdict already shows that it is missing.
+    let both_read = before.texels.total > 0 && after.texels.total > 0;
+    if both_read {
+        let [b, a] = [&before.texels, &after.texels];
+        found.add("texels", "all", b.total, a.total);
+        found.add("texels", "wrong", b.wrong, a.wrong);
+        found.add("texels", "imprecise", b.imprecise, a.imprecise);
+        found.add("texels", "open", b.open, a.open);
+        wrong(&mut found, before, after);
+    }
+    accuracy(&mut found, &before.accuracy, &after.accuracy);
+    let counters: HashMap<&str, _> = after
+        .counters
+        .iter()
+        .map(|c| (c.name.as_str(), c))
+        .collect();
+    for old in &before.counters {
+        if let Some(new) = counters.get(old.name.as_str()) {
+            found.add("counters", old.name.as_str(), old.actual, new.actual);
+            let [b, a] = [old.range().to_string(), new.range().to_string()];
+            found.add("counters", format!("{}, legal", old.name), b, a);
+        }
+    }
+    if let (Some(b), Some(a)) = (&before.measured, &after.measured) {
+        let [d, e] = [&b.distance, &a.distance];
+        found.add("distance", "RMSE", d.rmse, e.rmse);
+        found.add("distance", "largest", d.max, e.max);
+        found.add("distance", "FLIP", d.flip, e.flip);
+        found.add("distance", "share of wrong texels", d.wrong, e.wrong);
+        found.add(
+            "distance",
+            "error of the truth",
+            d.truth_error,
+            e.truth_error,
+        );
+        found.add("cost", "passes", b.passes, a.passes);
+        found.add("cost", "draws", b.draws, a.draws);
+        found.add("cost", "fragments", b.fragments, a.fragments);
+        found.add("cost", "bytes", b.bytes, a.bytes);
+    }
+    let lost = [before, after].map(|r| {
+        let end = r.process.as_ref();
+        // How long it took and what was written are other each time.
+        end.map(|end| json!({ "kind": end.kind, "signal": end.signal, "exit": end.exit }))
+    });
+    let [b, a] = lost;
+    found.add("process", "end", b, a);
+    found.add("repeats", "verdicts", &before.repeats, &after.repeats);
+    found.add("order", "only after", &before.after, &after.after);
+    // The words of messages hold addresses; how many there are is the same each time.
+    let said = [before, after].map(|r| r.validation.len());
+    found.add("validation", "messages", said[0], said[1]);
+    found.0
+}
+
+/// The differences of the listed wrong texels.
+fn wrong(found: &mut Details, before: &Record, after: &Record) {
+    let [b, a] = [before, after].map(|r| {
+        let place = |t: &WrongTexel| (t.y, t.x, t.sample);
+        let texels = r.wrong.iter().map(|t| (place(t), codes(t)));
+        texels.collect::<BTreeMap<_, _>>()
+    });
+    let gone = b.keys().filter(|place| !a.contains_key(place)).count();
+    let come = a.keys().filter(|place| !b.contains_key(place)).count();
+    if gone + come > 0 {
+        // Counts of two lists: equal ones are a difference too.
+        found.0.push(Detail {
+            what: "wrong",
+            name: "listed there only".to_owned(),
+            before: json!(gone),
+            after: json!(come),
+        });
+    }
+    let other = |place, codes| a.get(place).filter(|new| *new != codes);
+    let mut differ = b
+        .iter()
+        .filter_map(|(p, old)| Some((p, old, other(p, old)?)));
+    if let Some(((y, x, _), old, new)) = differ.next() {
+        let name = match differ.count() {
+            0 => format!("codes at ({x}, {y})"),
+            more => format!("codes at ({x}, {y}), and at {more} more"),
+        };
+        found.add("wrong", name, old, new);
+    }
+}
+
+/// The wrong channels of a texel with their codes.
+fn codes(texel: &WrongTexel) -> BTreeMap<String, u32> {
+    let channels = texel.channels.iter();
+    channels.map(|c| (channel_of(c), c.actual)).collect()
+}
+
+fn accuracy(found: &mut Details, before: &[Accuracy], after: &[Accuracy]) {
+    for old in before {
+        if let Some(new) = after.iter().find(|a| a.aspect == old.aspect) {
+            let aspect = old.aspect;
+            found.add("accuracy", format!("{aspect} mean"), old.mean, new.mean);
+            found.add("accuracy", format!("{aspect} largest"), old.max, new.max);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_record::Expected;
+
+    fn record(verdict: Verdict, expected: bool, due: bool) -> Record {
+        let mut record = Record::new("a/b", "cpu", verdict);
+        record.due_fail = due;
+        record.expected = expected.then(|| Expected {
+            reason: "known".to_owned(),
+        });
+        record
+    }
+
+    fn every() -> impl Iterator<Item = Record> {
+        let kinds = [(false, false), (true, false), (false, true)];
+        Verdict::ALL
+            .into_iter()
+            .flat_map(move |v| kinds.map(|(expected, due)| record(v, expected, due)))
+    }
+
+    #[test]
+    fn nothing_is_worse_or_better_than_itself() {
+        for r in every() {
+            assert_eq!(direction(&r, &r), Direction::Other, "{r:?}");
+        }
+    }
+
+    #[test]
+    fn no_way_is_better_both_ways() {
+        for b in every() {
+            for a in every() {
+                let ways = [direction(&b, &a), direction(&a, &b)];
+                assert_ne!(ways, [Direction::Better; 2], "{b:?} {a:?}");
+                if ways[0] == Direction::Better {
+                    assert!(!a.unexpected() || b.unexpected(), "{b:?} {a:?}");
+                }
+                if a.unexpected() && !b.unexpected() {
+                    assert_eq!(ways[0], Direction::Worse);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn right_to_wrong_is_worse_and_imprecise_is_right() {
+        let plain = |verdict| record(verdict, false, false);
+        let go = |b, a| direction(&plain(b), &plain(a));
+        for right in [Verdict::Pass, Verdict::Imprecise, Verdict::Measured] {
+            for wrong in Verdict::ALL.into_iter().filter(|v| v.is_bad()) {
+                assert_eq!(go(right, wrong), Direction::Worse);
+                assert_eq!(go(wrong, right), Direction::Better);
+            }
+            assert_eq!(go(right, Verdict::NotSupported), Direction::Worse);
+            assert_eq!(go(Verdict::NotSupported, right), Direction::Better);
+            assert_eq!(go(right, Verdict::Skipped), Direction::Other);
+        }
+        assert_eq!(go(Verdict::Pass, Verdict::Imprecise), Direction::Other);
+        assert_eq!(go(Verdict::Open, Verdict::Fail), Direction::Worse);
+        assert_eq!(go(Verdict::Fail, Verdict::Timeout), Direction::Better);
+        assert_eq!(go(Verdict::Fail, Verdict::NotSupported), Direction::Other);
+    }
+
+    #[test]
+    fn expectations_and_selftests_have_their_own_way() {
+        let fail = |expected| record(Verdict::Fail, expected, false);
+        assert_eq!(direction(&fail(true), &fail(false)), Direction::Worse);
+        assert_eq!(direction(&fail(false), &fail(true)), Direction::Other);
+        let due = |verdict| record(verdict, false, true);
+        assert_eq!(
+            direction(&due(Verdict::Fail), &due(Verdict::Pass)),
+            Direction::Worse
+        );
+        assert_eq!(
+            direction(&due(Verdict::Pass), &due(Verdict::Fail)),
+            Direction::Better
+        );
+    }
+}

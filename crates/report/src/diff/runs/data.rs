@@ -1,0 +1,351 @@
+//! The data of a comparison of two runs, which `etalon diff --format json` prints in its serialised form.
+//! Pairs in lists of two are always before and after.
+
+use etalon_frame::Aspect;
+use etalon_record::{Record, Verdict};
+use serde::Serialize;
+use serde_json::Value;
+
+/// The comparison of two runs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RunDiff {
+    /// `runs`, which distinguishes it from a comparison of benches.
+    pub kind: &'static str,
+    /// Reasons for which the comparison may mislead: incomplete runs, other selections, other machines.
+    pub warnings: Vec<String>,
+    /// The headers side by side.
+    pub facts: Vec<Fact>,
+    /// Adapters that are compared with none.
+    pub unpaired: Vec<Unpaired>,
+    /// The adapters that are compared.
+    pub pairs: Vec<Pair>,
+    /// Cases that changed: worse, better, other; of each the gravest first.
+    pub changes: Vec<Change>,
+    /// Cases of paired adapters that only one run has.
+    pub only: Vec<Only>,
+    /// Seconds of drawing by adapter and area, which are an indication and no measurement.
+    pub times: Vec<AreaTime>,
+    /// Frame times of methods that both runs have.
+    pub methods: Vec<MethodTime>,
+}
+
+impl RunDiff {
+    /// True if anything is worse.
+    pub fn worse(&self) -> bool {
+        self.count(Direction::Worse) > 0 || self.lost() > 0
+    }
+
+    /// True if something is better and nothing worse.
+    pub fn only_better(&self) -> bool {
+        !self.worse() && self.count(Direction::Better) > 0
+    }
+
+    /// The number of changes in this direction.
+    pub fn count(&self, direction: Direction) -> u64 {
+        let these = self.changes.iter().filter(|c| c.direction == direction);
+        these.count() as u64
+    }
+
+    /// Cases that the second run was to draw and holds no record of.
+    pub fn lost(&self) -> u64 {
+        self.only.iter().filter(|o| o.worse).count() as u64
+    }
+
+    /// The number of record pairs that were compared.
+    pub fn compared(&self) -> u64 {
+        self.pairs.iter().map(|p| p.compared).sum()
+    }
+}
+
+/// The direction of a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Direction {
+    /// For the worse.
+    Worse,
+    /// For the better.
+    Better,
+    /// Neither.
+    Other,
+}
+
+impl Direction {
+    /// Every direction, in the order of reports.
+    pub const ALL: [Self; 3] = [Self::Worse, Self::Better, Self::Other];
+
+    /// The word in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Worse => "worse",
+            Self::Better => "better",
+            Self::Other => "other",
+        }
+    }
+}
+
+/// One of the two runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Side {
+    /// The first.
+    Before,
+    /// The second.
+    After,
+}
+
+/// Something that both runs state.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Fact {
+    /// The name: `driver`, `commit`.
+    pub name: &'static str,
+    /// In the first run.
+    pub before: String,
+    /// In the second.
+    pub after: String,
+}
+
+impl Fact {
+    /// True if the runs differ in it.
+    pub fn differs(&self) -> bool {
+        self.before != self.after
+    }
+}
+
+/// An adapter without a partner.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Unpaired {
+    /// The run that has it.
+    pub side: Side,
+    /// Its name.
+    pub adapter: String,
+    /// The number of its records.
+    pub records: u64,
+}
+
+/// Two adapters that are compared.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Pair {
+    /// Their names.
+    pub adapter: [String; 2],
+    /// Their facts side by side.
+    pub facts: Vec<Fact>,
+    /// Record pairs that were compared.
+    pub compared: u64,
+    /// Of those, how many are the same but for times.
+    pub same: u64,
+    /// The number of worse records.
+    pub worse: u64,
+    /// The number of better records.
+    pub better: u64,
+    /// The number of records that differ and are neither.
+    pub other: u64,
+    /// The number of cases that only one of them has a record of.
+    pub only: [u64; 2],
+    /// Changes of verdicts, the most frequent first.
+    pub transitions: Vec<Transition>,
+    /// The share of channels of which something was asserted, over the records of both; 0 to 1.
+    pub asserted: [f64; 2],
+    #[serde(skip)]
+    channels: [[u64; 2]; 2],
+}
+
+impl Pair {
+    pub(super) fn new(adapter: [&str; 2], facts: Vec<Fact>) -> Self {
+        Self {
+            adapter: adapter.map(str::to_owned),
+            facts,
+            compared: 0,
+            same: 0,
+            worse: 0,
+            better: 0,
+            other: 0,
+            only: [0; 2],
+            transitions: Vec::new(),
+            asserted: [0.0; 2],
+            channels: [[0; 2]; 2],
+        }
+    }
+
+    /// Takes two records of a case into the sums.
+    pub(super) fn add(&mut self, both: &[&Record; 2]) {
+        self.compared += 1;
+        for (side, record) in both.iter().enumerate() {
+            let [asserted, all] = &mut self.channels[side];
+            for a in &record.assertions {
+                *asserted = asserted.saturating_add(a.asserted);
+                *all = all.saturating_add(a.channels);
+            }
+            if *all > 0 {
+                self.asserted[side] = *asserted as f64 / *all as f64;
+            }
+        }
+        let verdict = both.map(|r| r.verdict);
+        if verdict[0] == verdict[1] {
+            return;
+        }
+        match self.transitions.iter_mut().find(|t| t.verdict == verdict) {
+            Some(transition) => transition.records += 1,
+            None => self.transitions.push(Transition {
+                verdict,
+                records: 1,
+            }),
+        }
+        self.transitions
+            .sort_by_key(|t| (std::cmp::Reverse(t.records), t.verdict));
+    }
+
+    pub(super) fn count(&mut self, direction: Direction) {
+        match direction {
+            Direction::Worse => self.worse += 1,
+            Direction::Better => self.better += 1,
+            Direction::Other => self.other += 1,
+        }
+    }
+
+    /// One name where both have the same, else both.
+    pub fn name(&self) -> String {
+        both_names(&self.adapter)
+    }
+}
+
+pub(super) fn both_names([before, after]: &[String; 2]) -> String {
+    if before == after {
+        before.clone()
+    } else {
+        format!("{before} → {after}")
+    }
+}
+
+/// Records with the same change of verdict.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Transition {
+    /// The verdict before and after.
+    pub verdict: [Verdict; 2],
+    /// The number of records.
+    pub records: u64,
+}
+
+/// A case whose records differ in more than times.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Change {
+    /// The case.
+    pub case: String,
+    /// Its id without axis values.
+    pub case_file: String,
+    /// The adapters.
+    pub adapter: [String; 2],
+    /// The direction.
+    pub direction: Direction,
+    /// The parts that differ: `verdict`, `expectation`, `frame`, and the kinds of [`Detail::what`].
+    pub what: Vec<&'static str>,
+    /// The verdicts.
+    pub verdict: [Verdict; 2],
+    /// True for each record that is unexpected.
+    pub unexpected: [bool; 2],
+    /// The line that says most about each record.
+    pub headline: [String; 2],
+    /// Figures that differ.
+    pub details: Vec<Detail>,
+    /// The frames, where both runs keep one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame: Option<FrameChange>,
+    /// The reason why the frames could not be compared, if both runs name one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub frame_error: Option<String>,
+}
+
+/// A figure of a record that differs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Detail {
+    /// Its kind: `texels` (how many are wrong, imprecise, open), `wrong` (which), `accuracy` (distance
+    /// from the yardstick's middle in codes), `counters`, `distance` (from the truth), `cost` (passes,
+    /// draws, fragments, bytes), `process`, `repeats`, `order`, `validation`.
+    pub what: &'static str,
+    /// The figure within the kind: `wrong`, `color mean`.
+    pub name: String,
+    /// The value before; null if the record has none.
+    pub before: Value,
+    /// The value after; null if the record has none.
+    pub after: Value,
+}
+
+/// Two frames of a case.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct FrameChange {
+    /// The frame files below their run folders.
+    pub files: [String; 2],
+    /// Images that both frames have.
+    pub images: Vec<ImageChange>,
+    /// Images that only one frame has, or with another size or format.
+    pub unlike: Vec<String>,
+}
+
+impl FrameChange {
+    /// True if all codes are equal.
+    pub fn equal(&self) -> bool {
+        self.unlike.is_empty() && self.images.iter().all(|i| i.differ == 0)
+    }
+}
+
+/// One image of two frames.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct ImageChange {
+    /// The attachment.
+    pub attachment: String,
+    /// The aspect of it.
+    pub aspect: Aspect,
+    /// The number of samples.
+    pub samples: u64,
+    /// The number of samples that differ.
+    pub differ: u64,
+    /// The largest distance in any channel, in codes (for floats units in the last place).
+    pub largest: u64,
+}
+
+/// A case that one run has a record of, and the other has none.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Only {
+    /// The case.
+    pub case: String,
+    /// Its id without axis values.
+    pub case_file: String,
+    /// The adapter that has the record.
+    pub adapter: String,
+    /// The run that has it.
+    pub side: Side,
+    /// Its verdict.
+    pub verdict: Verdict,
+    /// True if the second run lacks a record that it was to hold.
+    pub worse: bool,
+}
+
+/// Seconds of drawing: preparing, drawing and reading back, each case once and beside other work.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AreaTime {
+    /// The adapters.
+    pub adapter: [String; 2],
+    /// The area.
+    pub area: String,
+    /// The number of cases that were drawn in both runs.
+    pub cases: u64,
+    /// Their seconds together.
+    pub sum: [f64; 2],
+    /// The median of their seconds.
+    pub median: [f64; 2],
+}
+
+/// Frame times of a method, medians in seconds while nothing else was drawn or judged.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MethodTime {
+    /// The case.
+    pub case: String,
+    /// The adapters.
+    pub adapter: [String; 2],
+    /// Until the device was done.
+    pub wall: [f64; 2],
+    /// Between GPU timestamps, where both runs have some.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gpu: Option<[f64; 2]>,
+    /// The number of frames that were timed.
+    pub samples: [u32; 2],
+}

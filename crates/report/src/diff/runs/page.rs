@@ -1,0 +1,389 @@
+//! The comparison of two runs as a page.
+
+use super::data::{Change, Direction, Fact, Pair, RunDiff, both_names};
+use super::times::STATEMENT;
+use super::{phrases, pixels};
+use crate::command;
+use crate::error::ReportError;
+use crate::files::replace_at;
+use crate::numbers::{count, duration, percent};
+use crate::page::Page;
+use crate::page::adapter::breakable;
+use crate::picture::Strip;
+use crate::words::{name, plain};
+use maud::{Markup, html};
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+const OWN_STYLE: &str = include_str!("runs.css");
+/// The most changes that the page lists, of each direction.
+const LISTED: usize = 1000;
+/// The most changes of a case file and direction that are shown with everything known about them.
+const BODIES: usize = 20;
+/// The most bytes that all pictures of the page take together.
+const PICTURE_BYTES: usize = 4 << 20;
+/// The most rows of a table of cases.
+const ROWS: usize = 500;
+
+/// Writes a comparison of two runs as one page. The folders are those of the runs, which hold the frames
+/// for its pictures.
+///
+/// # Errors
+/// Returns an error if the path names no file, or it cannot be written.
+pub fn write_page(
+    path: &Path,
+    diff: &RunDiff,
+    folders: [&Path; 2],
+) -> Result<PathBuf, ReportError> {
+    replace_at(path, page(diff, &folders).as_bytes())
+}
+
+fn page(diff: &RunDiff, folders: &[&Path; 2]) -> String {
+    let mut budget = PICTURE_BYTES;
+    let main = html! {
+        (head(diff))
+        (pairs(diff))
+        @for direction in Direction::ALL { (section(diff, direction, folders, &mut budget)) }
+        (only(diff))
+        (times(diff))
+        (methods(diff))
+        (reading())
+    };
+    Page {
+        title: &format!("etalon diff: {}", headline(diff)),
+        styles: &[OWN_STYLE],
+        script: None,
+        main,
+        source: "the records and frames of two runs",
+    }
+    .html()
+}
+
+fn headline(diff: &RunDiff) -> String {
+    let [worse, better, other] = Direction::ALL.map(|d| diff.count(d));
+    let lost = match diff.lost() {
+        0 => String::new(),
+        n => format!(", {} lost", count(n, "record")),
+    };
+    format!("{worse} worse, {better} better, {other} other{lost}")
+}
+
+fn head(diff: &RunDiff) -> Markup {
+    let same: u64 = diff.pairs.iter().map(|p| p.same).sum();
+    html! {
+        header {
+            h1 { "etalon diff" }
+            p.lead { "Changes of verdicts, pixels and times between two runs." }
+            @for warning in &diff.warnings { p.state.bad { b { "! " } (warning) } }
+            @if diff.pairs.is_empty() {
+                p.state.bad { b { "! Nothing was compared." } }
+            } @else if diff.worse() {
+                p.state.bad { b { "✗ " (headline(diff)) } ", " (same) " the same." }
+            } @else if diff.changes.is_empty() {
+                p.state.good { b { "✓ Nothing changed" } " in " (count(same, "record")) "." }
+            } @else {
+                p.state.good { b { "✓ Nothing is worse: " (headline(diff)) } ", " (same) " the same." }
+            }
+            (facts(&diff.facts))
+            nav {
+                @for direction in Direction::ALL {
+                    @if diff.count(direction) > 0 {
+                        a href={ "#" (direction.name()) } { (title(direction)) } " "
+                    }
+                }
+                @if !diff.only.is_empty() { a href="#only" { "In one run only" } " " }
+                @if !diff.times.is_empty() { a href="#times" { "Times" } " " }
+                @if !diff.methods.is_empty() { a href="#methods" { "Methods" } }
+            }
+        }
+    }
+}
+
+fn title(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Worse => "Worse",
+        Direction::Better => "Better",
+        Direction::Other => "Other changes",
+    }
+}
+
+/// Both sides of what the runs state; rows that differ are marked.
+fn facts(facts: &[Fact]) -> Markup {
+    let shown = |text: &str| {
+        html! {
+            @if text.is_empty() { td.none { "–" } } @else { td { (plain(text, 600)) } }
+        }
+    };
+    html! {
+        div.wide { table.two {
+            thead { tr { th { "" } th { "Before" } th { "After" } } }
+            tbody { @for fact in facts {
+                tr.differs[fact.differs()] {
+                    th scope="row" { (fact.name) @if fact.differs() { " ≠" } }
+                    (shown(&fact.before)) (shown(&fact.after))
+                }
+            } }
+        } }
+    }
+}
+
+fn pairs(diff: &RunDiff) -> Markup {
+    html! {
+        section id="adapters" {
+            h2 { "Adapters" }
+            @if !diff.pairs.is_empty() {
+                div.wide { table {
+                    thead { tr {
+                        th { "Adapter" } th { "Compared" } th { "Same" } th { "Worse" } th { "Better" } th { "Other" }
+                        th { "Only before" } th { "Only after" } th { "Asserted" } th { "Changed verdicts" }
+                    } }
+                    tbody { @for pair in &diff.pairs { (pair_row(pair)) } }
+                } }
+            }
+            @for pair in &diff.pairs {
+                @if !pair.facts.is_empty() {
+                    @let differ = pair.facts.iter().filter(|f| f.differs()).count() as u64;
+                    details open[differ > 0] {
+                        summary { code { (pair.name()) } " " small { (count(differ, "fact")) " differ" @if differ == 1 { "s" } } }
+                        (facts(&pair.facts))
+                    }
+                }
+            }
+            @for unpaired in &diff.unpaired {
+                p.soft {
+                    code { (unpaired.adapter) } " " (phrases::side(unpaired.side)) ": "
+                    (count(unpaired.records, "record")) ", not compared."
+                }
+            }
+        }
+    }
+}
+
+fn pair_row(pair: &Pair) -> Markup {
+    let [before, after] = pair.asserted.map(|share| percent(share, 2));
+    html! {
+        tr {
+            th scope="row" { (breakable(&pair.name())) }
+            td.num { (pair.compared) } td.num { (pair.same) }
+            td.num { (pair.worse) } td.num { (pair.better) } td.num { (pair.other) }
+            td.num { (pair.only[0]) } td.num { (pair.only[1]) }
+            td.num { @if before == after { (after) } @else { (before) " → " (after) } }
+            td {
+                @for (i, transition) in pair.transitions.iter().enumerate() {
+                    @if i > 0 { ", " } (transition.records) " " (phrases::transition(transition.verdict))
+                }
+            }
+        }
+    }
+}
+
+fn section(
+    diff: &RunDiff,
+    direction: Direction,
+    folders: &[&Path; 2],
+    budget: &mut usize,
+) -> Markup {
+    let all = diff.count(direction);
+    if all == 0 {
+        return html! {};
+    }
+    // One of each kind goes before the second of any; then they are shown by case file.
+    let chosen: HashSet<*const Change> = phrases::spread(&diff.changes, direction)
+        .into_iter()
+        .take(LISTED)
+        .map(std::ptr::from_ref)
+        .collect();
+    let mut files: Vec<(&str, Vec<&Change>)> = Vec::new();
+    let these = diff.changes.iter().filter(|c| c.direction == direction);
+    for change in these.filter(|c| chosen.contains(&std::ptr::from_ref(*c))) {
+        let known = files.iter_mut().find(|(file, _)| *file == change.case_file);
+        match known {
+            Some((_, changes)) => changes.push(change),
+            None => files.push((&change.case_file, vec![change])),
+        }
+    }
+    let rest = all - chosen.len() as u64;
+    html! {
+        section id=(direction.name()) {
+            h2 { (title(direction)) " (" (all) ")" }
+            @if rest > 0 {
+                p.note { (rest) " more are left out here; " code { "etalon diff --format json" } " has them all." }
+            }
+            @for (file, changes) in &files {
+                div.file {
+                    h3 { code { (file) } " " small { (count(changes.len() as u64, "change")) } }
+                    @for (i, change) in changes.iter().enumerate() {
+                        @if i < BODIES {
+                            details.d {
+                                summary { (line(change)) }
+                                div.body { (body(change, folders, budget)) }
+                            }
+                        } @else {
+                            p.d { (line(change)) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn line(change: &Change) -> Markup {
+    html! {
+        span class={ "chip " (change.direction.name()) } {
+            (phrases::sign(change.direction)) " " (phrases::verdicts(change))
+        }
+        " " code { (change.case) } " " small { (breakable(&both_names(&change.adapter))) }
+    }
+}
+
+fn body(change: &Change, folders: &[&Path; 2], budget: &mut usize) -> Markup {
+    let [old, new] = &change.adapter;
+    let run = |adapter: &str| command::run(&change.case, adapter);
+    html! {
+        div.wide { table.two {
+            thead { tr { th { "" } th { "Before" } th { "After" } } }
+            tbody {
+                tr.differs[change.verdict[0] != change.verdict[1]] {
+                    th scope="row" { "verdict" }
+                    @for i in [0, 1] {
+                        td {
+                            b { (name(change.verdict[i])) }
+                            @if change.unexpected[i] { " (unexpected)" }
+                            br; small { (change.headline[i]) }
+                        }
+                    }
+                }
+                @for detail in &change.details {
+                    tr.differs {
+                        th scope="row" { (phrases::title(detail)) }
+                        td { (plain(&phrases::value(&detail.before), 600)) }
+                        td { (plain(&phrases::value(&detail.after), 600)) }
+                    }
+                }
+            }
+        } }
+        @if let Some(said) = phrases::expectation(change) { p { "The verdict is " (said) "." } }
+        @if let Some(frame) = &change.frame {
+            @for said in phrases::frame(frame) { p.cap { (said) } }
+            @if !frame.equal() { (pictures(folders, frame, budget)) }
+        }
+        @if let Some(error) = &change.frame_error { p.note { "No pictures: " (error) } }
+        p.again {
+            "Draw it again: " code { (run(old)) }
+            @if old != new { " and " code { (run(new)) } }
+        }
+    }
+}
+
+fn pictures(folders: &[&Path; 2], frame: &super::data::FrameChange, budget: &mut usize) -> Markup {
+    if *budget == 0 {
+        return html! { p.note { "These pictures were left out to keep the page small." } };
+    }
+    let strips = pixels::strips(folders, frame);
+    *budget = budget.saturating_sub(strips.iter().map(Strip::bytes).sum());
+    html! {
+        @for strip in &strips {
+            (strip)
+        }
+        p.cap {
+            "Difference: " span.cross { "✗" } " another code; the brighter, the farther, in codes (for floats "
+            "units in the last place) on a logarithmic scale."
+        }
+    }
+}
+
+fn only(diff: &RunDiff) -> Markup {
+    let files = phrases::only_by_file(&diff.only);
+    html! {
+        @if !files.is_empty() {
+            section id="only" {
+                h2 { "In one run only (" (diff.only.len()) ")" }
+                ul {
+                    @for (one, n) in files.iter().take(ROWS) {
+                        li {
+                            @if one.worse { b { "✗ " } }
+                            (phrases::side(one.side)) ", " (breakable(&one.adapter)) ": "
+                            @if *n == 1 { code { (one.case) } ", " (name(one.verdict)) }
+                            @else { (count(*n, "case")) " of " code { (one.case_file) } }
+                        }
+                    }
+                }
+                @if files.len() > ROWS { p.note { "and of " (files.len() - ROWS) " more case files" } }
+            }
+        }
+    }
+}
+
+fn times(diff: &RunDiff) -> Markup {
+    html! {
+        @if !diff.times.is_empty() {
+            section id="times" {
+                h2 { "Times" }
+                p { (STATEMENT) }
+                div.wide { table {
+                    thead { tr {
+                        th { "Adapter" } th { "Area" } th { "Cases" } th { "Sum before" } th { "After" } th { "Change" }
+                        th { "Median before" } th { "After" } th { "Change" }
+                    } }
+                    tbody { @for time in diff.times.iter().take(ROWS) {
+                        tr {
+                            th scope="row" { (breakable(&both_names(&time.adapter))) }
+                            td { (time.area) } td.num { (time.cases) }
+                            td.num { (duration(time.sum[0])) } td.num { (duration(time.sum[1])) }
+                            td.num { (phrases::ratio(time.sum)) }
+                            td.num { (duration(time.median[0])) } td.num { (duration(time.median[1])) }
+                            td.num { (phrases::ratio(time.median)) }
+                        }
+                    } }
+                } }
+            }
+        }
+    }
+}
+
+fn methods(diff: &RunDiff) -> Markup {
+    html! {
+        @if !diff.methods.is_empty() {
+            section id="methods" {
+                h2 { "Frame times of methods" }
+                p { "Medians while nothing else was drawn or judged, of one process each. " (STATEMENT) }
+                div.wide { table {
+                    thead { tr {
+                        th { "Case" } th { "Adapter" } th { "Before" } th { "After" } th { "Change" }
+                        th { "GPU before" } th { "After" } th { "Frames" }
+                    } }
+                    tbody { @for time in diff.methods.iter().take(ROWS) {
+                        tr {
+                            th scope="row" { (time.case) }
+                            td { (breakable(&both_names(&time.adapter))) }
+                            td.num { (duration(time.wall[0])) } td.num { (duration(time.wall[1])) }
+                            td.num { (phrases::ratio(time.wall)) }
+                            @match time.gpu {
+                                Some(gpu) => { td.num { (duration(gpu[0])) } td.num { (duration(gpu[1])) } }
+                                None => { td.num { "–" } td.num { "–" } }
+                            }
+                            td.num { (time.samples[0]) " and " (time.samples[1]) }
+                        }
+                    } }
+                } }
+                @if diff.methods.len() > ROWS { p.note { "and " (diff.methods.len() - ROWS) " more" } }
+            }
+        }
+    }
+}
+
+fn reading() -> Markup {
+    html! {
+        section {
+            h2 { "Worse and better" }
+            p {
+                b { "Worse" } " is a record that is unexpected and whose partner in the first run is not; a right verdict (pass, imprecise, measured) that became a wrong one; a wrong "
+                "one that became a graver one; a case that was right and is not supported any more; and a case "
+                "of the same selection that the second run holds no record of. " b { "Better" } " is the way "
+                "back. Other pixels, counters and distances under the same verdict are " b { "other" }
+                " changes, and so is pass to imprecise, which is legal."
+            }
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! Differences of runs in words, shared by terminal and page.
+
+use super::data::{Change, Detail, Direction, FrameChange, Only, Side};
+use crate::numbers::{change, count, trimmed};
+use crate::words::name;
+use etalon_record::Verdict;
+use serde_json::Value;
+use std::collections::{BTreeMap, HashMap};
+
+/// A sign that distinguishes directions without colour.
+pub(super) fn sign(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Worse => "✗",
+        Direction::Better => "✓",
+        Direction::Other => "≠",
+    }
+}
+
+/// `pass → fail (expected)`, or the one verdict with what differs under it.
+pub(super) fn verdicts(change: &Change) -> String {
+    let [before, after] = change.verdict;
+    if before != after {
+        let excused = after.is_bad() && !change.unexpected[1];
+        let suffix = if excused { " (expected)" } else { "" };
+        return format!("{}{suffix}", transition(change.verdict));
+    }
+    let what = change.what.iter().map(|what| match *what {
+        "frame" => "pixels",
+        "texels" => "texel counts",
+        "wrong" => "wrong texels",
+        other => other,
+    });
+    let what = what.collect::<Vec<_>>().join(", ");
+    format!("{} as before, other {what}", name(before))
+}
+
+/// `pass → fail`.
+pub(super) fn transition([before, after]: [Verdict; 2]) -> String {
+    format!("{} → {}", name(before), name(after))
+}
+
+/// The change of the expectations, where it alone decides the direction.
+pub(super) fn expectation(change: &Change) -> Option<&'static str> {
+    match change.unexpected {
+        [false, true] if !change.verdict[0].is_bad() => None,
+        [false, true] => Some("expected before, and not after"),
+        [true, false] if change.verdict[1].is_bad() => Some("expected after, and not before"),
+        _ => None,
+    }
+}
+
+/// A figure as people read it.
+pub(super) fn value(value: &Value) -> String {
+    match value {
+        Value::Null => "–".to_owned(),
+        Value::String(text) => text.clone(),
+        Value::Number(number) => match (number.as_u64(), number.as_f64()) {
+            (Some(whole), _) => whole.to_string(),
+            (None, Some(float)) => short(float),
+            (None, None) => number.to_string(),
+        },
+        Value::Array(all) => match all.as_slice() {
+            [] => "none".to_owned(),
+            all => all.iter().map(self::value).collect::<Vec<_>>().join(", "),
+        },
+        Value::Object(all) => {
+            let known = all.iter().filter(|(_, v)| !v.is_null());
+            let each = known.map(|(key, v)| format!("{key} {}", self::value(v)));
+            each.collect::<Vec<_>>().join(", ")
+        }
+        Value::Bool(truth) => truth.to_string(),
+    }
+}
+
+/// Four digits, as a power of ten where many zeros would stand before or behind them.
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".to_owned()
+    } else if !(1e-3..1e6).contains(&size) {
+        format!("{value:.3e}")
+    } else {
+        let digits = (3.0 - size.log10().floor()).clamp(0.0, 6.0) as usize;
+        trimmed(format!("{value:.digits$}"))
+    }
+}
+
+/// `color mean 0.25 → 0.5`.
+pub(super) fn detail(detail: &Detail) -> String {
+    format!(
+        "{}: {} → {}",
+        title(detail),
+        value(&detail.before),
+        value(&detail.after)
+    )
+}
+
+/// The name of a figure.
+pub(super) fn title(detail: &Detail) -> String {
+    let kind = match detail.what {
+        "texels" => "samples",
+        "wrong" => "wrong texels",
+        "accuracy" => "codes from the yardstick",
+        "counters" => "counter",
+        "distance" => "distance from the truth",
+        "order" => "order",
+        other => other,
+    };
+    format!("{kind}, {}", detail.name)
+}
+
+/// The differences of two frames, image by image.
+pub(super) fn frame(frame: &FrameChange) -> Vec<String> {
+    let images = frame.images.iter().map(|image| {
+        let thing = if image.attachment == image.aspect.name() {
+            image.attachment.clone()
+        } else {
+            format!("{} {}", image.attachment, image.aspect)
+        };
+        match image.differ {
+            0 => format!("{thing}: equal"),
+            n => format!(
+                "{thing}: {n} of {} differ, by up to {}",
+                count(image.samples, "sample"),
+                count(image.largest, "code")
+            ),
+        }
+    });
+    let unlike = frame.unlike.iter();
+    let unlike =
+        unlike.map(|name| format!("{name}: of another size or format, or in one run only"));
+    images.chain(unlike).collect()
+}
+
+/// Changes of one direction, one of each kind before the second of any, and all else in their order.
+pub(super) fn spread(changes: &[Change], direction: Direction) -> Vec<&Change> {
+    let mut these: Vec<&Change> = changes
+        .iter()
+        .filter(|c| c.direction == direction)
+        .collect();
+    let mut seen: HashMap<_, usize> = HashMap::new();
+    these.sort_by_cached_key(|c| {
+        let rank = seen
+            .entry((&c.case_file, &c.adapter, c.verdict, &c.what))
+            .or_default();
+        *rank += 1;
+        *rank
+    });
+    these
+}
+
+/// Cases in one run only, counted by case file: file, adapter, side, whether that is worse, how many,
+/// and one of them.
+pub(super) fn only_by_file(only: &[Only]) -> Vec<(&Only, u64)> {
+    let mut found: BTreeMap<(bool, &str, &str, bool), (&Only, u64)> = BTreeMap::new();
+    for one in only {
+        let key = (
+            !one.worse,
+            one.case_file.as_str(),
+            one.adapter.as_str(),
+            one.side == Side::After,
+        );
+        found.entry(key).or_insert((one, 0)).1 += 1;
+    }
+    found.into_values().collect()
+}
+
+/// `before only`.
+pub(super) fn side(side: Side) -> &'static str {
+    match side {
+        Side::Before => "before only",
+        Side::After => "after only",
+    }
+}
+
+/// After over before, as a signed change.
+pub(super) fn ratio([before, after]: [f64; 2]) -> String {
+    change(after / before)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn figures_are_short() {
+        let all = [
+            (json!(0.0), "0"),
+            (json!(0.25), "0.25"),
+            (json!(1.0 / 3.0), "0.3333"),
+            (json!(123_456.7), "123457"),
+            (json!(100.0), "100"),
+            (json!(1e-9), "1.000e-9"),
+            (json!(4_294_967_296_u64), "4294967296"),
+            (json!(null), "–"),
+            (json!(["pass", "fail"]), "pass, fail"),
+            (json!([]), "none"),
+            (
+                json!({ "kind": "died", "signal": 6, "exit": null }),
+                "kind died, signal 6",
+            ),
+        ];
+        for (json, due) in all {
+            assert_eq!(value(&json), due);
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! The error of every report.
+
+use etalon_record::RecordError;
+use std::io;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// The reason for which a report could not be made.
+#[derive(Debug, Error)]
+pub enum ReportError {
+    /// The run could not be read.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// A report could not be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// The error of the system.
+        source: io::Error,
+    },
+    /// The JUnit report has no XML form.
+    #[error("cannot write the JUnit report: {0}")]
+    Junit(#[from] quick_junit::SerializeError),
+    /// A report has no JSON form.
+    #[error("cannot write a report as JSON: {0}")]
+    Json(serde_json::Error),
+    /// The path of a report does not end in a file name.
+    #[error("{} names no file", path.display())]
+    NoFile {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The run does not have the adapter that was asked for.
+    #[error("{} has no adapter {adapter}; it has {known}", path.display())]
+    NoAdapter {
+        /// The run folder.
+        path: PathBuf,
+        /// The adapter that was asked for.
+        adapter: String,
+        /// The adapters of the run.
+        known: String,
+    },
+    /// Two runs have no adapter of the same name.
+    #[error(
+        "the runs have no adapter of the same name: {before} before, {after} after; name the two to compare \
+         with --adapter-before and --adapter-after"
+    )]
+    NoCommonAdapter {
+        /// The adapters of the first run.
+        before: String,
+        /// The adapters of the second run.
+        after: String,
+    },
+}

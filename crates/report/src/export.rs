@@ -1,0 +1,8 @@
+//! Files for other programs.
+
+pub(crate) mod ctrf;
+pub(crate) mod dashboards;
+pub(crate) mod deqp;
+pub(crate) mod junit;
+pub(crate) mod markdown;
+pub(crate) mod status;

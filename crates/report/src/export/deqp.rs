@@ -1,0 +1,183 @@
+//! `results/<adapter>.csv`, as deqp-runner writes and reads it: `case,status,seconds`.
+//!
+//! A list of deqp-runner is one driver's, so there is one per adapter, sorted by case. Lines that begin
+//! with `#` are comments. deqp-runner knows no quoting: it takes everything before the first comma for
+//! the name, and refuses a whole list for one line that it cannot read or for one name that comes twice.
+//! A record whose id it would misread (a comma, a line break or another control character, a `#` at the
+//! front, nothing at all) is therefore left out, and the first comment says how many were. Ids of the
+//! suite's own cases hold none of this.
+//!
+//! | status | records |
+//! |---|---|
+//! | `Pass` | Pass |
+//! | `Warn` | Imprecise: legal, not precise, as dEQP's quality warnings |
+//! | `Fail` | Fail, Open, ResourceError, InternalError, and a selftest that was due to fail and did not; dEQP's resource and internal errors are `Fail` too |
+//! | `Crash` | Crash, DeviceLost |
+//! | `Timeout` | Timeout |
+//! | `Flake` | Flaky. deqp-runner lets flakes pass; here an unexpected one fails the run |
+//! | `KnownFlake` | Flaky, and expected |
+//! | `ExpectedFail` | any other bad verdict that is expected, and a selftest that fails as it should |
+//! | `UnexpectedImprovement(…)` | better than expected, with its status |
+//! | `Skip` | NotSupported, Skipped, and Measured, which judges nothing |
+//! | `Missing` | selected and not recorded, where the folder keeps the ids that were selected |
+
+use crate::export::status::seconds;
+use crate::numbers::count;
+use crate::run::grid::Grid;
+use etalon_record::{Record, Run, Verdict, read_cases, shard_of};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// The folder of the lists, below the run folder.
+pub(crate) const FOLDER: &str = "results";
+
+/// One list: its file name and its text.
+pub(crate) struct List {
+    pub(crate) name: String,
+    pub(crate) text: String,
+}
+
+/// A list per adapter of the run.
+pub(crate) fn lists(folder: &Path, run: &Run, grid: &Grid<'_>) -> Vec<List> {
+    let selected = selected(folder, run);
+    let mut names = BTreeSet::new();
+    let adapters = grid.adapters.iter().enumerate();
+    adapters
+        .map(|(column, adapter)| List {
+            name: file_name(adapter, &mut names),
+            text: list(run, grid, column, &selected),
+        })
+        .collect()
+}
+
+fn list(run: &Run, grid: &Grid<'_>, column: usize, selected: &[String]) -> String {
+    let mut lines = Vec::new();
+    let mut refused = 0;
+    let mut drawn = BTreeSet::new();
+    for index in grid.areas.iter().flat_map(|area| area.on(column)) {
+        let record = grid.record(index);
+        drawn.insert(record.case.as_str());
+        if readable(&record.case) {
+            let seconds = seconds(record);
+            lines.push((record.case.as_str(), status(record), seconds));
+        } else {
+            refused += 1;
+        }
+    }
+    let mut missing = run.header.cases.saturating_sub(drawn.len() as u64);
+    let absent = selected.iter().filter(|id| !drawn.contains(id.as_str()));
+    for id in absent.filter(|id| readable(id)) {
+        lines.push((id, "Missing".to_owned(), 0.0));
+        missing = missing.saturating_sub(1);
+    }
+    lines.sort_by(|a, b| a.0.cmp(b.0));
+    let mut text = String::new();
+    if refused > 0 {
+        text.push_str(&format!(
+            "# {} left out: deqp-runner could not read their ids\n",
+            count(refused, "record")
+        ));
+    }
+    if missing > 0 {
+        let records = count(missing, "record");
+        text.push_str(&format!(
+            "# incomplete: {records} missing, and not listed here\n"
+        ));
+    }
+    for (case, status, seconds) in lines {
+        text.push_str(&format!("{case},{status},{}\n", seconds as f32));
+    }
+    text
+}
+
+/// True if deqp-runner reads the id unchanged.
+fn readable(case: &str) -> bool {
+    !case.is_empty()
+        && !case.starts_with('#')
+        && !case.contains(|c: char| c == ',' || c.is_control())
+}
+
+/// The status in deqp-runner's words.
+fn status(record: &Record) -> String {
+    let plain = match record.verdict {
+        Verdict::Pass => "Pass",
+        Verdict::Imprecise => "Warn",
+        Verdict::Fail | Verdict::Open | Verdict::ResourceError | Verdict::InternalError => "Fail",
+        Verdict::Crash | Verdict::DeviceLost => "Crash",
+        Verdict::Timeout => "Timeout",
+        Verdict::Flaky => "Flake",
+        Verdict::NotSupported | Verdict::Skipped | Verdict::Measured => "Skip",
+    };
+    if record.unexpected() {
+        // A selftest that was due to fail has a good verdict and is unexpected all the same.
+        return if record.verdict.is_bad() {
+            plain
+        } else {
+            "Fail"
+        }
+        .to_owned();
+    }
+    match record.verdict {
+        Verdict::Flaky => "KnownFlake".to_owned(),
+        verdict if verdict.is_bad() => "ExpectedFail".to_owned(),
+        _ if record.improvement() => format!("UnexpectedImprovement({plain})"),
+        _ => plain.to_owned(),
+    }
+}
+
+/// The ids that the run is about, where it lacks records of some and the folder keeps the list.
+fn selected(folder: &Path, run: &Run) -> Vec<String> {
+    if run.missing() == 0 {
+        return Vec::new();
+    }
+    // A list that is damaged or another run's is of no use; the comment then counts the missing records.
+    let mut ids = read_cases(folder, &run.header)
+        .ok()
+        .flatten()
+        .unwrap_or_default();
+    if let Some(shard) = run.header.settings.shard {
+        ids.retain(|id| shard_of(id, shard.count) == shard.index);
+    }
+    ids
+}
+
+/// A file name for an adapter, other than all before: what could mislead a file system is replaced.
+fn file_name(adapter: &str, taken: &mut BTreeSet<String>) -> String {
+    const LONGEST: usize = 120;
+    let fine = |c: char| c.is_ascii_alphanumeric() || "._=+-".contains(c);
+    let safe: String = adapter
+        .chars()
+        .take(LONGEST)
+        .map(|c| if fine(c) { c } else { '_' })
+        .collect();
+    let safe = match safe.strip_prefix('.') {
+        Some(rest) => format!("_{rest}"),
+        None if safe.is_empty() => "_".to_owned(),
+        None => safe,
+    };
+    let mut name = format!("{safe}.csv");
+    let mut number = 1;
+    // Some file systems hold names for the same that differ in case alone.
+    while !taken.insert(name.to_ascii_lowercase()) {
+        number += 1;
+        name = format!("{safe}-{number}.csv");
+    }
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn file_names_stay_in_the_folder_and_apart() {
+        let mut taken = BTreeSet::new();
+        let mut name = |adapter: &str| file_name(adapter, &mut taken);
+        assert_eq!(name("gl:es:llvmpipe"), "gl_es_llvmpipe.csv");
+        assert_eq!(name("gl:es/llvmpipe"), "gl_es_llvmpipe-2.csv");
+        assert_eq!(name("GL:es:llvmpipe"), "GL_es_llvmpipe-3.csv");
+        assert_eq!(name("../../x"), "_._.._x.csv");
+        assert_eq!(name(""), "_.csv");
+        assert!(name(&"v".repeat(5000)).len() < 130);
+    }
+}

@@ -1,0 +1,97 @@
+//! `junit.xml`, for continuous integration.
+//!
+//! One suite per adapter, one test case per case. Unexpected records are failures (Fail,
+//! Open, Flaky and a selftest that did not fail) or errors (Crash and the like); NotSupported and
+//! Skipped are skipped. A bad verdict that was expected or due is a success with a note, since a viewer
+//! shows skipped cases as not run, and these did run. The loss of a process, the verdicts of repetitions,
+//! the cases that must be drawn before and validation messages are part of the failure, or of
+//! `system-out` without one; the standard error of a lost process is `system-err`. A last suite, `etalon`,
+//! holds one case that fails when the run is empty or incomplete: what was not run must not look green.
+
+use crate::export::status::{Conclusion, account, incomplete, note, particulars, seconds};
+use crate::run::grid::Grid;
+use crate::words::{headline, name};
+use etalon_record::{Record, Run};
+use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite};
+use std::time::Duration;
+
+pub(crate) fn xml(run: &Run, grid: &Grid<'_>) -> Result<String, SerializeError> {
+    let mut report = Report::new("etalon");
+    for (column, adapter) in grid.adapters.iter().enumerate() {
+        let mut suite = TestSuite::new(*adapter);
+        suite.add_property(("started", run.header.started.as_str()));
+        if let Some(facts) = run.header.adapter(adapter) {
+            suite.add_property(("device", facts.device.as_str()));
+            suite.add_property(("driver", facts.driver_text().as_str()));
+            suite.add_property(("api", facts.api_version.as_str()));
+        }
+        for area in &grid.areas {
+            for index in area.on(column) {
+                suite.add_test_case(test_case(grid.record(index)));
+            }
+        }
+        report.add_test_suite(suite);
+    }
+    report.add_test_suite(completeness(run));
+    report.to_string()
+}
+
+fn test_case(record: &Record) -> TestCase {
+    let conclusion = Conclusion::of(record);
+    let mut case = TestCase::new(record.case.as_str(), status(record, conclusion));
+    case.set_classname(record.case_file());
+    case.set_time(Duration::try_from_secs_f64(seconds(record)).unwrap_or_default());
+    let against = matches!(conclusion, Conclusion::Failed | Conclusion::Broken);
+    let mut lines = Vec::new();
+    if let Some(note) = note(record) {
+        lines.push(format!("{}; {note}", name(record.verdict)));
+        lines.push(headline(record));
+    }
+    if !against {
+        lines.extend(particulars(record));
+    }
+    if !lines.is_empty() {
+        case.set_system_out(lines.join("\n"));
+    }
+    let stderr = record.process.as_ref().map(|end| end.stderr.as_str());
+    if let Some(stderr) = stderr.filter(|text| !text.is_empty()) {
+        case.set_system_err(stderr);
+    }
+    case
+}
+
+fn status(record: &Record, conclusion: Conclusion) -> TestCaseStatus {
+    let kind = match conclusion {
+        Conclusion::Broken => NonSuccessKind::Error,
+        Conclusion::Failed => NonSuccessKind::Failure,
+        Conclusion::Skipped => {
+            let mut status = TestCaseStatus::skipped();
+            status.set_type(record.verdict.name());
+            status.set_message(headline(record));
+            return status;
+        }
+        Conclusion::Passed | Conclusion::Due | Conclusion::Excused | Conclusion::Measured => {
+            return TestCaseStatus::success();
+        }
+    };
+    let mut status = TestCaseStatus::non_success(kind);
+    status.set_type(record.verdict.name());
+    status.set_message(format!("{}: {}", name(record.verdict), headline(record)));
+    status.set_description(account(record));
+    status
+}
+
+fn completeness(run: &Run) -> TestSuite {
+    let status = match incomplete(run) {
+        None => TestCaseStatus::success(),
+        Some(message) => {
+            let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
+            status.set_type("incomplete");
+            status.set_message(message);
+            status
+        }
+    };
+    let mut suite = TestSuite::new("etalon");
+    suite.add_test_case(TestCase::new("the run is complete", status));
+    suite
+}

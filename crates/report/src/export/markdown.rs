@@ -1,0 +1,311 @@
+//! `summary.md`, for the job page of a continuous integration.
+//!
+//! GitHub takes at most one MiB for a step's summary and throws away what is longer, so the file stays
+//! below [`LIMIT`] bytes for every run, and states what it leaves out. Texts of a run may be
+//! hostile: text goes through [`escaped`], names and commands through [`code`].
+
+use crate::command;
+use crate::export::status::{incomplete, particulars};
+use crate::numbers::{count, percent_of};
+use crate::run::grid::Tally;
+use crate::run::unexpected::unexpected_records;
+use crate::words::{Tone, headline, name, plain, symbol};
+use etalon_frame::Aspect;
+use etalon_record::{Assertion, Record, Run, Verdict};
+use std::collections::BTreeMap;
+
+/// The file has fewer bytes than this.
+pub(crate) const LIMIT: usize = 1_000_000;
+/// The most records that a list names; a longer one is for a page that can be searched.
+const LISTED: usize = 500;
+
+/// A text that grows up to a limit.
+struct Text {
+    text: String,
+    /// The length of the text at which the current section must end.
+    until: usize,
+}
+
+impl Text {
+    /// Begins a section that may fill the text up to so many bytes.
+    fn section(&mut self, until: usize) {
+        self.until = until.min(LIMIT - 4096);
+    }
+
+    /// Adds a line, or nothing where it has no room.
+    fn line(&mut self, line: &str) -> bool {
+        let fits = self.text.len() + line.len() < self.until;
+        if fits {
+            self.text.push_str(line);
+            self.text.push('\n');
+        }
+        fits
+    }
+
+    /// Adds as many lines as there is room for, at most so many, and says how many more there are.
+    fn lines<T>(&mut self, all: &[T], most: usize, line: impl Fn(&T) -> String) {
+        let shown = all
+            .iter()
+            .take(most)
+            .take_while(|item| self.line(&line(item)));
+        let rest = all.len() - shown.count();
+        if rest > 0 {
+            // The room behind the sections is there for this.
+            self.text
+                .push_str(&format!("\n{rest} more left out of this summary.\n"));
+        }
+    }
+}
+
+/// The file.
+pub(crate) fn summary(run: &Run) -> String {
+    let mut text = Text {
+        text: String::new(),
+        until: 0,
+    };
+    text.section(100_000);
+    head(&mut text, run);
+    if !run.records.is_empty() {
+        text.section(250_000);
+        adapters(&mut text, run);
+        text.section(700_000);
+        unexpected(&mut text, run);
+        text.section(800_000);
+        improvements(&mut text, run);
+        text.section(900_000);
+        asserted(&mut text, run);
+    }
+    text.section(950_000);
+    absent(&mut text, run);
+    text.text
+}
+
+fn head(text: &mut Text, run: &Run) {
+    let h = &run.header;
+    text.line("# etalon\n");
+    if let Some(why) = incomplete(run) {
+        text.line(&format!("**✗ Incomplete: {why}.**\n"));
+    }
+    let bad = run.records.iter().filter(|r| r.unexpected()).count() as u64;
+    if bad > 0 {
+        text.line(&format!("**✗ {}.**\n", count(bad, "unexpected record")));
+    } else if !run.records.is_empty() {
+        text.line("**✓ Nothing unexpected.**\n");
+    }
+    let better = run.records.iter().filter(|r| r.improvement()).count() as u64;
+    if better > 0 {
+        text.line(&format!(
+            "**{}**: their expectations can be removed.\n",
+            count(better, "improvement")
+        ));
+    }
+    let commit = h.commit.as_deref().map_or(String::new(), |commit| {
+        format!(", commit {}", code(commit, 100))
+    });
+    let shard = h
+        .settings
+        .shard
+        .map_or(String::new(), |s| format!(", shard {s}"));
+    text.line(&format!(
+        "{} on {}, {}{shard}. Started {}, etalon {}{commit}, {}, {}, {}.\n",
+        count(h.cases, "case"),
+        count(h.adapters.len() as u64, "adapter"),
+        count(run.records.len() as u64, "record"),
+        code(&h.started, 60),
+        escaped(&h.etalon, 60),
+        escaped(&h.machine.cpu, 200),
+        count(u64::from(h.machine.cores), "core"),
+        escaped(&h.machine.os, 200),
+    ));
+    text.line(&format!("{}\n", code(&h.command.join(" "), 2000)));
+}
+
+/// A row per adapter, a column per verdict that occurs.
+fn adapters(text: &mut Text, run: &Run) {
+    let mut of: BTreeMap<&str, Vec<&Record>> = BTreeMap::new();
+    for record in &run.records {
+        of.entry(&record.adapter).or_default().push(record);
+    }
+    for adapter in &run.header.adapters {
+        of.entry(&adapter.name).or_default();
+    }
+    let rows: Vec<(&str, Tally)> = of
+        .into_iter()
+        .map(|(adapter, records)| (adapter, Tally::of(records)))
+        .collect();
+    let occurs = |v: &Verdict| rows.iter().any(|(_, tally)| tally.plain(*v) > 0);
+    let verdicts: Vec<Verdict> = Verdict::ALL.into_iter().filter(occurs).collect();
+    let excused = rows.iter().any(|(_, tally)| tally.excused() > 0);
+    let missing = |tally: &Tally| run.header.cases.saturating_sub(tally.total);
+    let some_missing = rows.iter().any(|(_, tally)| missing(tally) > 0);
+
+    let mut titles: Vec<String> = vec!["adapter".to_owned(), "driver".to_owned()];
+    titles.extend(
+        verdicts
+            .iter()
+            .map(|v| format!("{} {}", symbol(*v), name(*v))),
+    );
+    if excused {
+        titles.push("expected".to_owned());
+    }
+    titles.push("unexpected".to_owned());
+    if some_missing {
+        titles.push("missing".to_owned());
+    }
+    text.line("## Adapters\n");
+    text.line(&format!("| {} |", titles.join(" | ")));
+    text.line(&format!("|---|---{}|", "|---:".repeat(titles.len() - 2)));
+    text.lines(&rows, LISTED, |(adapter, tally)| {
+        let driver = run.header.adapter(adapter).map(|a| a.driver_text());
+        let mut cells = vec![
+            code(adapter, 100),
+            escaped(&driver.unwrap_or_default(), 200),
+        ];
+        let number = |n: u64| if n == 0 { String::new() } else { n.to_string() };
+        cells.extend(verdicts.iter().map(|v| number(tally.plain(*v))));
+        if excused {
+            cells.push(number(tally.excused()));
+        }
+        cells.push(match tally.unexpected {
+            0 => String::new(),
+            n => format!("**{n}**"),
+        });
+        if some_missing {
+            cells.push(number(missing(tally)));
+        }
+        format!("| {} |", cells.join(" | "))
+    });
+    text.line("");
+}
+
+fn unexpected(text: &mut Text, run: &Run) {
+    let bad = unexpected_records(run);
+    if bad.is_empty() {
+        return;
+    }
+    text.line("## Unexpected\n");
+    text.lines(&bad, LISTED, |record| {
+        let sign = match Tone::of(record) {
+            Tone::Missed => symbol(Verdict::Fail),
+            _ => symbol(record.verdict),
+        };
+        let mut entry = format!(
+            "- {sign} **{}** {} on {}: {}",
+            name(record.verdict),
+            code(&record.case, 400),
+            code(&record.adapter, 100),
+            escaped(&headline(record), 300),
+        );
+        for line in particulars(record).iter().take(6) {
+            entry.push_str(&format!("\\\n  {}", escaped(line, 300)));
+        }
+        entry.push_str(&format!("\\\n  {}", code(&command::explain(record), 800)));
+        entry
+    });
+    text.line("");
+}
+
+fn improvements(text: &mut Text, run: &Run) {
+    let better: Vec<&Record> = run.records.iter().filter(|r| r.improvement()).collect();
+    if better.is_empty() {
+        return;
+    }
+    text.line("## Better than expected\n");
+    text.lines(&better, LISTED, |record| {
+        let due = record.improves.map_or("", name);
+        format!(
+            "- {} on {}: {} expected, {} recorded",
+            code(&record.case, 400),
+            code(&record.adapter, 100),
+            due,
+            name(record.verdict)
+        )
+    });
+    text.line("");
+}
+
+/// The asserted channels over all adapters, by area and aspect.
+fn asserted(text: &mut Text, run: &Run) {
+    let mut sums: BTreeMap<(&str, Aspect), Assertion> = BTreeMap::new();
+    for record in &run.records {
+        for assertion in &record.assertions {
+            sums.entry((record.area(), assertion.aspect))
+                .and_modify(|sum| sum.add(assertion))
+                .or_insert(*assertion);
+        }
+    }
+    if sums.is_empty() {
+        return;
+    }
+    text.line("## What was asserted\n");
+    text.line("| area | aspect | channels | asserted | exactly one code legal |");
+    text.line("|---|---|---:|---:|---:|");
+    let rows: Vec<_> = sums.into_iter().collect();
+    text.lines(&rows, LISTED, |((area, aspect), sum)| {
+        format!(
+            "| {} | {aspect} | {} | {} | {} |",
+            code(area, 100),
+            sum.channels,
+            percent_of(sum.asserted, sum.channels),
+            percent_of(sum.exact, sum.channels)
+        )
+    });
+    text.line("");
+}
+
+fn absent(text: &mut Text, run: &Run) {
+    let absent = &run.header.absent;
+    if absent.is_empty() {
+        return;
+    }
+    text.line("## Absent adapters\n");
+    text.lines(absent, LISTED, |a| {
+        format!(
+            "- {}: {}; {}",
+            code(&a.name, 100),
+            escaped(&a.reason, 300),
+            escaped(&a.remedy, 300)
+        )
+    });
+}
+
+/// Text that means nothing in Markdown, in HTML or to the filters that GitHub lays over both: references
+/// of characters are no markup, and a mention, an issue or an emoji is none with a word joiner inside.
+fn escaped(text: &str, longest: usize) -> String {
+    let mut result = String::new();
+    for c in plain(text, longest).chars() {
+        match c {
+            '@' | '#' | ':' => result.push_str(&format!("&#{};\u{2060}", c as u32)),
+            '.' | ',' | '-' | '/' | '=' | '%' | '+' | '(' | ')' | ';' | '?' => result.push(c),
+            c if c.is_ascii_punctuation() => result.push_str(&format!("&#{};", c as u32)),
+            c => result.push(c),
+        }
+    }
+    result
+}
+
+/// A name or a command as code, which no filter touches; as escaped text where code could not hold it.
+fn code(text: &str, longest: usize) -> String {
+    let text = plain(text, longest);
+    let held = !text.contains(['`', '|', '\\']) && !text.trim().is_empty() && text.trim() == text;
+    if held {
+        format!("`{text}`")
+    } else {
+        escaped(&text, longest + 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_loses_its_meaning() {
+        assert_eq!(escaped("a|b<i>", 99), "a&#124;b&#60;i&#62;");
+        assert_eq!(escaped("@me", 99), "&#64;\u{2060}me");
+        assert_eq!(escaped("a\nb", 99), "a\u{fffd}b");
+        assert_eq!(code("gl:es:x", 99), "`gl:es:x`");
+        assert_eq!(code("a`b", 99), "a&#96;b");
+        assert_eq!(code("", 99), "");
+    }
+}

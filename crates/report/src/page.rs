@@ -1,0 +1,66 @@
+//! The shell of every page: one self-contained file that works offline. Its content security policy
+//! forbids all requests, also those of a hostile name in a record, and all scripts but the page's
+//! own, which it names by digest.
+
+pub(crate) mod adapter;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use sha2::{Digest, Sha256};
+
+const STYLE: &str = include_str!("page/style.css");
+
+/// One page.
+pub(crate) struct Page<'a> {
+    /// The title of the window.
+    pub(crate) title: &'a str,
+    /// Style sheets beyond the one of all pages.
+    pub(crate) styles: &'a [&'static str],
+    /// The script, which the content holds as [`script`].
+    pub(crate) script: Option<&'static str>,
+    /// The content.
+    pub(crate) main: Markup,
+    /// The files that the page was made from.
+    pub(crate) source: &'a str,
+}
+
+impl Page<'_> {
+    /// The HTML text.
+    pub(crate) fn html(&self) -> String {
+        html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta http-equiv="Content-Security-Policy" content=(policy(self.script));
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    meta name="color-scheme" content="light dark";
+                    title { (self.title) }
+                    style { (PreEscaped(STYLE)) @for style in self.styles { (PreEscaped(style)) } }
+                }
+                body {
+                    a.skip href="#main" { "Skip to the content" }
+                    main id="main" tabindex="-1" { (self.main) }
+                    footer { "Made by etalon from " (self.source) "." }
+                }
+            }
+        }
+        .into_string()
+    }
+}
+
+/// The element of a page's own script.
+pub(crate) fn script(text: &'static str) -> Markup {
+    html! { script { (PreEscaped(text)) } }
+}
+
+fn policy(script: Option<&str>) -> String {
+    let script = script.map_or(String::new(), |text| {
+        let digest = STANDARD.encode(Sha256::digest(text));
+        format!("script-src 'sha256-{digest}'; ")
+    });
+    format!(
+        "default-src 'none'; img-src data:; style-src 'unsafe-inline'; {script}base-uri 'none'; form-action 'none'"
+    )
+}

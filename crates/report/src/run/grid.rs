@@ -1,0 +1,176 @@
+//! A run, sorted by area, case file, case and adapter.
+
+use crate::words::Tone;
+use etalon_record::{Record, Run, Verdict};
+use std::collections::{BTreeMap, HashMap};
+
+/// The most adapters that have a column of their own, and one for all others: a damaged run may name as
+/// many as it has records.
+const MAX_COLUMNS: usize = 1000;
+const LAST_COLUMN: usize = MAX_COLUMNS - 1;
+/// The name of that column.
+const OTHERS: &str = "(more adapters)";
+
+/// A run, sorted. Records are named by their position in the run.
+pub(crate) struct Grid<'a> {
+    pub(crate) run: &'a Run,
+    /// Adapter names: the header's, then any that only records name.
+    pub(crate) adapters: Vec<&'a str>,
+    /// Areas by name.
+    pub(crate) areas: Vec<Area<'a>>,
+}
+
+/// All case files of an area.
+pub(crate) struct Area<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) files: Vec<CaseFile<'a>>,
+}
+
+/// All cases that share their id up to the first axis value.
+pub(crate) struct CaseFile<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) cases: Vec<CaseRow<'a>>,
+}
+
+/// One case on all adapters.
+pub(crate) struct CaseRow<'a> {
+    pub(crate) id: &'a str,
+    /// The record on each adapter of [`Grid::adapters`], where there is one.
+    pub(crate) records: Vec<Option<usize>>,
+}
+
+impl<'a> Grid<'a> {
+    pub(crate) fn new(run: &'a Run) -> Self {
+        let mut adapters: Vec<&str> = Vec::new();
+        let mut column: HashMap<&str, usize> = HashMap::new();
+        let from_header = run.header.adapters.iter().map(|a| a.name.as_str());
+        for name in from_header.chain(run.records.iter().map(|r| r.adapter.as_str())) {
+            column.entry(name).or_insert_with(|| {
+                match adapters.len() {
+                    MAX_COLUMNS => {}
+                    LAST_COLUMN => adapters.push(OTHERS),
+                    _ => adapters.push(name),
+                }
+                adapters.len() - 1
+            });
+        }
+        type Rows<'a> = BTreeMap<&'a str, Vec<Option<usize>>>;
+        let mut sorted: BTreeMap<&str, BTreeMap<&str, Rows<'_>>> = BTreeMap::new();
+        for (index, record) in run.records.iter().enumerate() {
+            let row = sorted
+                .entry(record.area())
+                .or_default()
+                .entry(record.case_file())
+                .or_default()
+                .entry(&record.case)
+                .or_insert_with(|| vec![None; adapters.len()]);
+            let place = &mut row[column[record.adapter.as_str()]];
+            // A run has one record per case and adapter; should it have two, the worse one counts.
+            let rank = |i: usize| {
+                let r: &Record = &run.records[i];
+                (r.unexpected(), r.verdict.severity())
+            };
+            if place.is_none_or(|other| rank(other) < rank(index)) {
+                *place = Some(index);
+            }
+        }
+        let areas = sorted
+            .into_iter()
+            .map(|(name, files)| Area {
+                name,
+                files: files
+                    .into_iter()
+                    .map(|(name, rows)| CaseFile {
+                        name,
+                        cases: rows
+                            .into_iter()
+                            .map(|(id, records)| CaseRow { id, records })
+                            .collect(),
+                    })
+                    .collect(),
+            })
+            .collect();
+        Self {
+            run,
+            adapters,
+            areas,
+        }
+    }
+
+    pub(crate) fn record(&self, index: usize) -> &'a Record {
+        &self.run.records[index]
+    }
+}
+
+impl Area<'_> {
+    /// The records on one adapter, in the order of case files and cases.
+    pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = usize> {
+        self.files.iter().flat_map(move |f| f.on(adapter))
+    }
+}
+
+impl CaseFile<'_> {
+    /// The records on one adapter, in the order of cases.
+    pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = usize> {
+        self.cases.iter().filter_map(move |c| c.records[adapter])
+    }
+}
+
+/// Counts of records by verdict.
+#[derive(Default)]
+pub(crate) struct Tally {
+    /// Counts, the gravest first: what was not expected before what was.
+    counts: BTreeMap<(u8, u8, Verdict, Tone), u64>,
+    /// The number of unexpected records.
+    pub(crate) unexpected: u64,
+    /// The gravest of those; a selftest that was missed counts as a Fail.
+    pub(crate) worst: Option<Verdict>,
+    /// Records in all.
+    pub(crate) total: u64,
+}
+
+impl Tally {
+    pub(crate) fn of<'r>(records: impl IntoIterator<Item = &'r Record>) -> Self {
+        let mut tally = Self::default();
+        for record in records {
+            tally.total += 1;
+            let tone = Tone::of(record);
+            let weight = match tone {
+                Tone::Missed => Verdict::Fail,
+                _ => record.verdict,
+            };
+            let excused = u8::from(tone == Tone::Excused);
+            let key = (excused, u8::MAX - weight.severity(), record.verdict, tone);
+            *tally.counts.entry(key).or_default() += 1;
+            if record.unexpected() {
+                tally.unexpected += 1;
+                let worse = tally.worst.is_none_or(|w| w.severity() < weight.severity());
+                if worse {
+                    tally.worst = Some(weight);
+                }
+            }
+        }
+        tally
+    }
+
+    /// Verdict, tone and count, the gravest first.
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (Verdict, Tone, u64)> {
+        self.counts.iter().map(|((_, _, v, t), n)| (*v, *t, *n))
+    }
+
+    /// The records of one verdict that are to be taken as it says.
+    pub(crate) fn plain(&self, verdict: Verdict) -> u64 {
+        self.entries()
+            .filter(|(v, t, _)| *v == verdict && *t != Tone::Excused)
+            .map(|(_, _, n)| n)
+            .sum()
+    }
+
+    /// Bad verdicts that were expected or due.
+    pub(crate) fn excused(&self) -> u64 {
+        self.entries()
+            .filter(|(_, t, _)| *t == Tone::Excused)
+            .map(|(_, _, n)| n)
+            .sum()
+    }
+}

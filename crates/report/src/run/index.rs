@@ -1,0 +1,185 @@
+//! `index.html` of a run.
+//!
+//! The totals, the matrix and the findings need no script; the script adds the table of all cases, with
+//! search and filters, and the view of one case. Every view has an address:
+//! `index.html#q=less&on=cpu`, `index.html#case=depth/compare/compare=less`.
+
+mod adapters;
+mod assertions;
+mod cases;
+mod consensus;
+mod data;
+mod detail;
+mod facts;
+mod findings;
+mod link;
+mod mark;
+mod matrix;
+
+use crate::chart;
+use crate::methods::{self, Methods};
+use crate::numbers::count;
+use crate::page::{self, Page};
+use crate::run::grid::{Grid, Tally};
+use crate::words::{self, Tone};
+use etalon_record::{Run, Verdict};
+use mark::{class, mark};
+use maud::{Markup, html};
+use std::path::Path;
+
+const CASES_STYLE: &str = include_str!("index/cases.css");
+/// In one function, so that the page has no global names but the browser's.
+const SCRIPT: &str = concat!(
+    "(() => {\n\"use strict\";\n",
+    include_str!("index/script/data.js"),
+    include_str!("index/script/state.js"),
+    include_str!("index/script/table.js"),
+    include_str!("index/script/case.js"),
+    include_str!("index/script/keys.js"),
+    include_str!("index/script/route.js"),
+    "})();\n"
+);
+/// The page. Frame files are read from the folder as they are needed.
+pub(crate) fn page(folder: &Path, run: &Run, methods: Option<&Methods<'_>>) -> String {
+    let grid = Grid::new(run);
+    let plan = findings::Plan::new(&grid);
+    let drivers = methods::driver_section(&grid);
+    let mut styles = vec![CASES_STYLE];
+    if drivers.is_some() {
+        styles.push(chart::STYLE);
+    }
+    let main = html! {
+        (cases::view())
+        div id="report" {
+            (head(run, methods.is_some(), drivers.is_some()))
+            @if run.records.is_empty() {
+                p { "No case was run." }
+            } @else {
+                (totals(run))
+                (matrix::section(&grid))
+                @if let Some(methods) = methods { (methods::section(methods)) }
+                @if let Some(drivers) = drivers { (drivers) }
+                (cases::section(&grid))
+            }
+            // Before the long sections, so that the table works while the rest is still read.
+            (data::block(&grid, &plan))
+            (page::script(SCRIPT))
+            @if !run.records.is_empty() {
+                (findings::section(folder, &grid, &plan))
+                (assertions::section(&grid))
+            }
+            (adapters::section(&run.header))
+        }
+    };
+    Page {
+        title: &title(run),
+        styles: &styles,
+        script: Some(SCRIPT),
+        main,
+        source: "run.jsonl and frames/ in this folder",
+    }
+    .html()
+}
+
+fn title(run: &Run) -> String {
+    let bad = run.records.iter().filter(|r| r.unexpected()).count();
+    match bad {
+        0 => format!("etalon {}", run.header.started),
+        n => format!("{n} unexpected – etalon {}", run.header.started),
+    }
+}
+
+fn head(run: &Run, methods: bool, drivers: bool) -> Markup {
+    let h = &run.header;
+    html! {
+        header {
+            h1 { "etalon" }
+            p.lead { "Conformance of graphics drivers' per-fragment operations." }
+            (state(run))
+            dl.facts {
+                dt { "Started" } dd { (h.started) }
+                dt { "Command" } dd { code { (h.command.join(" ")) } }
+                dt { "Machine" } dd { (words::machine(&h.machine)) }
+                dt { "Suite" } dd {
+                    "etalon " (h.etalon)
+                    @if let Some(commit) = &h.commit { ", commit " code { (commit) } }
+                }
+                dt { "Scope" } dd {
+                    (count(h.cases, "case")) " on " (count(h.adapters.len() as u64, "adapter"))
+                    ", " (count(run.records.len() as u64, "record"))
+                }
+                @let settings = words::settings(&h.settings);
+                @if !settings.is_empty() { dt { "Settings" } dd { (settings.join(", ")) } }
+            }
+            @if !run.records.is_empty() {
+            nav aria-label="Parts of the page" {
+                a href="#matrix" { "Matrix" } " "
+                @if methods { a href="#methods" { "Methods" } " " }
+                @if drivers { a href="#accuracy" { "Accuracy of drivers" } " " }
+                a href="#cases" { "All cases" } " "
+                a href="#findings" { "Findings" } " "
+                a href="#asserted" { "What was asserted" } " "
+                a href="#adapters" { "Adapters" }
+            }
+            }
+        }
+    }
+}
+
+/// The state of the run: incomplete, unexpected records, improvements.
+fn state(run: &Run) -> Markup {
+    let tally = Tally::of(&run.records);
+    let improvements = run.records.iter().filter(|r| r.improvement()).count() as u64;
+    let missing = run.missing();
+    html! {
+        @if run.truncated || missing > 0 {
+            p.state.bad {
+                b { "! Incomplete. " }
+                @if missing > 0 {
+                    (missing) " of " (run.header.expected_records()) " records are missing. "
+                }
+                @if run.truncated { "The last record was cut off: the run did not end by itself." }
+            }
+        }
+        @if tally.unexpected > 0 {
+            p.state.bad {
+                b { (words::symbol(Verdict::Fail)) " " (count(tally.unexpected, "unexpected record")) }
+                ", listed under " a href="#findings" { "Findings" } "."
+            }
+        } @else if !run.records.is_empty() {
+            p.state.good { b { (words::symbol(Verdict::Pass)) " Nothing unexpected." } }
+        }
+        @if improvements > 0 {
+            p.state.good {
+                b { (count(improvements, "improvement")) }
+                ": their expectations can be removed."
+            }
+        }
+    }
+}
+
+/// Counts over the whole run, which are the legend at the same time.
+fn totals(run: &Run) -> Markup {
+    let tally = Tally::of(&run.records);
+    html! {
+        section {
+            h2 { "Totals" }
+            ul.totals {
+                @for (verdict, tone, n) in tally.entries() {
+                    li class=(class(verdict, tone)) {
+                        span.big { (n) } " " (mark(verdict, tone))
+                        small { (sentence(verdict, tone)) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn sentence(verdict: Verdict, tone: Tone) -> &'static str {
+    match tone {
+        Tone::Plain => words::meaning(verdict),
+        Tone::Excused => "Named by the expectations, or a selftest that is due to fail.",
+        Tone::Missed => "A selftest that is due to fail, and did not: the suite missed a bug.",
+    }
+}

@@ -1,0 +1,141 @@
+//! Every case on every adapter, to be searched, and the view of one case. The script fills both.
+
+use super::consensus::{Consensus, Votes};
+use crate::numbers::count;
+use crate::page::adapter::breakable;
+use crate::run::grid::{Grid, Tally};
+use crate::words;
+use etalon_record::Verdict;
+use maud::{Markup, html};
+
+pub(crate) fn section(grid: &Grid<'_>) -> Markup {
+    html! {
+        section id="cases" aria-labelledby="cases-title" {
+            h2 id="cases-title" { "All cases" }
+            p {
+                "One group per case file, one row per case, one column per adapter. The consensus is what "
+                "more than half of the adapters that drew a case agree on: that it is right (pass, "
+                "imprecise, measured) or that it is not. Not supported and skipped have no vote, and "
+                "selftests that are due to fail are left out."
+            }
+            p {
+                @for verdict in Verdict::ALL {
+                    span.key { i { (words::symbol(verdict)) } " " (words::name(verdict)) } " "
+                }
+                "A verdict in parentheses was expected or due."
+            }
+            noscript {
+                p.note {
+                    "The table of all cases, its search and the view of a case need scripts, which are disabled here. "
+                    "The rest of this page does not."
+                }
+            }
+            (controls(grid))
+            p.count id="count" role="status" aria-live="polite" {}
+            div.wide id="rows" hidden {
+                table.cases id="case-table" aria-describedby="keys" {
+                    caption.vh { "Cases, what the adapters agree on, and the verdict on each adapter" }
+                    thead { tr {
+                        th scope="col" aria-sort="ascending" { button type="button" data-sort="case" { "Case" } }
+                        th scope="col" aria-sort="none" { button type="button" data-sort="consensus" { "Consensus" } }
+                        @for adapter in &grid.adapters {
+                            th scope="col" { (breakable(adapter)) }
+                        }
+                    } }
+                }
+            }
+            nav.pages id="pages" aria-label="Pages of cases" hidden {
+                button type="button" id="page-back" { "Previous page" }
+                span id="page-at" {}
+                button type="button" id="page-on" { "Next page" }
+            }
+            p.note id="keys" hidden {
+                "Keys: " kbd { "/" } " searches; in the table " kbd { "↓" } " " kbd { "↑" } " or " kbd { "j" } " "
+                kbd { "k" } " move over rows, " kbd { "Enter" } " opens a case or a group, " kbd { "Esc" }
+                " leads back."
+            }
+        }
+    }
+}
+
+/// The place in which the script shows one case.
+pub(crate) fn view() -> Markup {
+    html! { article id="case" aria-labelledby="case-title" hidden {} }
+}
+
+fn controls(grid: &Grid<'_>) -> Markup {
+    let tally = Tally::of(&grid.run.records);
+    let mut verdicts: Vec<Verdict> = tally.entries().map(|(v, _, _)| v).collect();
+    verdicts.sort_by_key(|v| std::cmp::Reverse(v.severity()));
+    verdicts.dedup();
+    let (odd, apart) = odd(grid);
+    html! {
+        form.filter id="filter" role="search" aria-labelledby="cases-title" hidden {
+            div.search {
+                label for="f-q" { "Search" }
+                input id="f-q" type="search" autocomplete="off" spellcheck="false"
+                    aria-describedby="f-q-help" aria-keyshortcuts="/" enterkeyhint="search";
+                small id="f-q-help" { "The id contains all words; * matches anything." }
+            }
+            label.check { input id="f-messages" type="checkbox"; "search messages too" }
+            div {
+                label for="f-verdict" { "Verdict" }
+                select id="f-verdict" {
+                    option value="" { "any" }
+                    option value="bad" { "any bad one" }
+                    @for verdict in verdicts {
+                        option value=(verdict.name()) { (words::symbol(verdict)) " " (words::name(verdict)) }
+                    }
+                    option value="none" { "no record" }
+                }
+            }
+            div {
+                label for="f-on" { "On adapter" }
+                select id="f-on" {
+                    option value="" { "any" }
+                    @for (i, adapter) in grid.adapters.iter().enumerate() { option value=(i) { (adapter) } }
+                }
+            }
+            div {
+                label for="f-area" { "Area" }
+                select id="f-area" {
+                    option value="" { "any" }
+                    @for (i, area) in grid.areas.iter().enumerate() { option value=(i) { (area.name) } }
+                }
+            }
+            div {
+                label for="f-odd" { "Differs only on" }
+                select id="f-odd" {
+                    option value="" { "–" }
+                    option value="any" { "any one adapter (" (odd.iter().sum::<u64>()) ")" }
+                    @for (i, adapter) in grid.adapters.iter().enumerate() {
+                        option value=(i) { (adapter) " (" (odd[i]) ")" }
+                    }
+                }
+            }
+            label.check { input id="f-unexpected" type="checkbox"; "unexpected only (" (tally.unexpected) ")" }
+            label.check { input id="f-disagree" type="checkbox"; "adapters disagree (" (count(apart, "case")) ")" }
+            button type="button" id="f-clear" { "Clear filters" }
+            button type="button" id="f-groups" aria-controls="case-table" { "Open all groups" }
+        }
+    }
+}
+
+/// The number of cases that differ on each adapter only, and the number that the adapters disagree on.
+fn odd(grid: &Grid<'_>) -> (Vec<u64>, u64) {
+    let mut odd = vec![0; grid.adapters.len()];
+    let mut apart = 0;
+    for case in grid
+        .areas
+        .iter()
+        .flat_map(|a| &a.files)
+        .flat_map(|f| &f.cases)
+    {
+        let consensus = Consensus::of(grid, case);
+        apart += u64::from(matches!(consensus.votes, Votes::Odd | Votes::Split));
+        if let Some(column) = consensus.only() {
+            odd[column] += 1;
+        }
+    }
+    (odd, apart)
+}

@@ -1,0 +1,302 @@
+//! The data of the page's script: one JSON block with every case on every adapter.
+//!
+//! A block in the page rather than a file beside it, since a browser lets no page that was opened from
+//! the file system read its neighbours. Names and texts are strings of JSON, in which `<` is escaped, so
+//! none of them can end the block.
+
+use super::consensus::Consensus;
+use super::facts::{self, LABELS};
+use super::findings::{Plan, kind};
+use super::mark::class;
+use crate::run::grid::{Grid, Tally};
+use crate::words::{self, Tone};
+use etalon_record::Verdict;
+use maud::{Markup, PreEscaped, html};
+use serde::Serialize;
+use std::collections::HashMap;
+
+/// The most bytes that messages and other texts take together.
+const TEXT_BYTES: usize = 8 << 20;
+/// Signs for the kinds of cells; more than there are verdicts and tones.
+const SIGNS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
+/// The sign of a cell without a record.
+const NO_RECORD: char = '.';
+
+#[derive(Serialize)]
+struct Data<'a> {
+    adapters: &'a [&'a str],
+    /// The meaning of each sign, the gravest first.
+    cells: Vec<Cell>,
+    /// Text, how the votes lie, odd adapters.
+    consensus: Vec<(String, &'static str, Vec<usize>)>,
+    /// The labels of facts: words, form, and true if an entry under Findings has the same.
+    labels: Vec<(&'static str, &'static str, bool)>,
+    texts: Vec<String>,
+    /// The facts of a record: label, text, label, text, …; the first list is empty.
+    facts: Vec<Vec<usize>>,
+    files: Vec<File<'a>>,
+    /// Case, adapter and record of what stands under Findings with everything known about it.
+    bodies: Vec<[usize; 3]>,
+}
+
+#[derive(Serialize)]
+struct Cell {
+    sign: char,
+    /// The verdict's name in records.
+    verdict: &'static str,
+    word: String,
+    symbol: &'static str,
+    class: &'static str,
+    bad: bool,
+    excused: bool,
+    unexpected: bool,
+}
+
+#[derive(Serialize)]
+struct File<'a> {
+    name: &'a str,
+    area: usize,
+    cases: Vec<Case<'a>>,
+}
+
+/// The id behind the file's name, a sign per adapter, the consensus; for each record in turn the
+/// microseconds of drawing and judging; for each record the facts.
+#[derive(Serialize)]
+struct Case<'a>(&'a str, String, usize, Vec<u64>, Vec<usize>);
+
+/// The block, ready to be put into a page.
+pub(crate) fn block(grid: &Grid<'_>, plan: &Plan) -> Markup {
+    let json = serde_json::to_string(&data(grid, plan));
+    // All data has a JSON form; the script reports an empty block.
+    let json = json.unwrap_or_else(|_| "null".to_owned());
+    let json = json.replace('<', "\\u003c");
+    html! { script type="application/json" id="data" { (PreEscaped(json)) } }
+}
+
+fn data<'a>(grid: &'a Grid<'_>, plan: &Plan) -> Data<'a> {
+    let (facts, facts_of, texts) = facts_of_all(grid);
+    let (cells, signs) = cells(grid);
+    let mut consensus: Interner<(String, &'static str, Vec<usize>)> = Interner::default();
+    let mut bodies = Vec::new();
+    let mut number = 0;
+    let mut files = Vec::new();
+    for (a, area) in grid.areas.iter().enumerate() {
+        for file in &area.files {
+            let mut cases = Vec::new();
+            for case in &file.cases {
+                let found = Consensus::of(grid, case);
+                let found = consensus.place((found.text, found.votes.name(), found.odd));
+                let mut row = Case(
+                    case.id.strip_prefix(file.name).unwrap_or(case.id),
+                    String::new(),
+                    found,
+                    Vec::new(),
+                    Vec::new(),
+                );
+                for (column, index) in case.records.iter().enumerate() {
+                    let Some(index) = *index else {
+                        row.1.push(NO_RECORD);
+                        continue;
+                    };
+                    let record = grid.record(index);
+                    let key = (record.verdict, Tone::of(record));
+                    row.1.push(signs.get(&key).copied().unwrap_or(NO_RECORD));
+                    let micros = |s: f64| (s * 1e6).round() as u64;
+                    row.3.push(micros(record.seconds.draw));
+                    row.3.push(micros(record.seconds.judge));
+                    row.4.push(facts_of[index]);
+                    if plan.whole(index) {
+                        bodies.push([number, column, index]);
+                    }
+                }
+                cases.push(row);
+                number += 1;
+            }
+            let name = file.name;
+            files.push(File {
+                name,
+                area: a,
+                cases,
+            });
+        }
+    }
+    Data {
+        adapters: &grid.adapters,
+        cells,
+        consensus: consensus.values,
+        labels: LABELS.to_vec(),
+        texts,
+        facts,
+        files,
+        bodies,
+    }
+}
+
+/// The kinds of cells that the run has, the gravest first, with the sign of each.
+fn cells(grid: &Grid<'_>) -> (Vec<Cell>, HashMap<(Verdict, Tone), char>) {
+    let tally = Tally::of(&grid.run.records);
+    let mut signs = HashMap::new();
+    let cells = tally
+        .entries()
+        .zip(SIGNS)
+        .map(|((verdict, tone, _), sign)| {
+            let sign = char::from(*sign);
+            signs.insert((verdict, tone), sign);
+            let plain = tone == Tone::Plain;
+            Cell {
+                sign,
+                verdict: verdict.name(),
+                word: format!("{}{}", words::name(verdict), tone.suffix()),
+                symbol: words::symbol(verdict),
+                class: class(verdict, tone),
+                bad: verdict.is_bad(),
+                excused: tone == Tone::Excused,
+                unexpected: tone == Tone::Missed || plain && verdict.is_bad(),
+            }
+        });
+    (cells.collect(), signs)
+}
+
+/// All lists of facts, the list of every record by its position in the run, and all texts.
+fn facts_of_all(grid: &Grid<'_>) -> (Vec<Vec<usize>>, Vec<usize>, Vec<String>) {
+    let records = &grid.run.records;
+    let mut texts: Interner<String> = Interner::default();
+    let mut lists: Interner<Vec<usize>> = Interner::default();
+    lists.place(Vec::new());
+    let mut of = vec![0; records.len()];
+    // What is unexpected gets its texts before there is no room left.
+    let mut order: Vec<usize> = (0..records.len()).collect();
+    order.sort_by_key(|i| kind(&records[*i]));
+    let mut bytes = 0;
+    for index in order {
+        let mut facts = facts::of(&records[index]);
+        let new = facts.iter().filter(|(_, text)| !texts.has(text));
+        let cost: usize = new.map(|(_, text)| escaped(text)).sum();
+        if cost > TEXT_BYTES.saturating_sub(bytes) {
+            facts = vec![facts::no_room()];
+        } else {
+            bytes += cost;
+        }
+        let list = facts.into_iter().flat_map(|(label, text)| {
+            let text = texts.place(text);
+            [label as usize, text]
+        });
+        of[index] = lists.place(list.collect());
+    }
+    (lists.values, of, texts.values)
+}
+
+/// The bytes that a text takes in the block.
+fn escaped(text: &str) -> usize {
+    let one = |c: char| match c {
+        '<' => 6,
+        '"' | '\\' | '\n' => 2,
+        c if c.is_ascii_control() => 6,
+        c => c.len_utf8(),
+    };
+    text.chars().map(one).sum::<usize>() + 3
+}
+
+/// Values, each once, by place.
+struct Interner<T> {
+    places: HashMap<T, usize>,
+    values: Vec<T>,
+}
+
+impl<T> Default for Interner<T> {
+    fn default() -> Self {
+        Self {
+            places: HashMap::new(),
+            values: Vec::new(),
+        }
+    }
+}
+
+impl<T: std::hash::Hash + Eq + Clone> Interner<T> {
+    fn has(&self, value: &T) -> bool {
+        self.places.contains_key(value)
+    }
+
+    fn place(&mut self, value: T) -> usize {
+        if let Some(place) = self.places.get(&value) {
+            return *place;
+        }
+        let place = self.values.len();
+        self.places.insert(value.clone(), place);
+        self.values.push(value);
+        place
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_record::{Header, Machine, Record, Run, Settings};
+
+    fn run(records: Vec<Record>) -> Run {
+        let header = Header {
+            format: etalon_record::FORMAT,
+            etalon: String::new(),
+            commit: None,
+            machine: Machine::default(),
+            started: String::new(),
+            command: Vec::new(),
+            cases: records.len() as u64,
+            settings: Settings::default(),
+            adapters: Vec::new(),
+            absent: Vec::new(),
+        };
+        Run {
+            header,
+            records,
+            truncated: false,
+        }
+    }
+
+    fn block_of(records: Vec<Record>) -> String {
+        let run = run(records);
+        let grid = Grid::new(&run);
+        block(&grid, &Plan::new(&grid)).into_string()
+    }
+
+    #[test]
+    fn no_text_can_end_the_block() {
+        let hostile = "</script><!--<script>\u{0}\u{2028}\"\\";
+        let mut record = Record::new(format!("a/{hostile}"), hostile, Verdict::Crash);
+        record.message = hostile.to_owned();
+        let block = block_of(vec![record]);
+        let inner = block.split_once('>').unwrap().1;
+        let inner = inner.strip_suffix("</script>").unwrap();
+        assert!(!inner.contains('<'));
+        let json: serde_json::Value = serde_json::from_str(inner).unwrap();
+        assert_eq!(json["adapters"][0], hostile);
+        let id = json["files"][0]["name"].as_str().unwrap().to_owned()
+            + json["files"][0]["cases"][0][0].as_str().unwrap();
+        assert_eq!(id, format!("a/{hostile}"));
+        let texts = json["texts"].as_array().unwrap();
+        assert!(texts.iter().any(|t| t == hostile));
+    }
+
+    #[test]
+    fn texts_end_where_the_room_does_and_the_unexpected_goes_first() {
+        let mut records: Vec<Record> = (0..4000)
+            .map(|i| {
+                let mut r = Record::new(format!("a/{i}"), "b", Verdict::Pass);
+                r.message = format!("{i} {}", "<".repeat(1000));
+                r
+            })
+            .collect();
+        records[3999].verdict = Verdict::Crash;
+        let block = block_of(records);
+        assert!(block.len() < TEXT_BYTES + (1 << 20), "{}", block.len());
+        assert!(block.contains("\"3999 \\u003c"));
+        assert!(block.contains("\"0 \\u003c") && !block.contains("\"3998 \\u003c"));
+        assert!(block.contains("left out to keep the page small"));
+    }
+
+    #[test]
+    fn there_are_signs_for_all_kinds_of_cells() {
+        assert!(SIGNS.len() >= Verdict::ALL.len() * 3);
+        assert!(!SIGNS.contains(&(NO_RECORD as u8)));
+    }
+}

@@ -1,0 +1,211 @@
+//! All facts of one record.
+
+use super::{facts, link};
+use crate::command;
+use crate::numbers::count;
+use crate::picture;
+use crate::words::{
+    allowed, channel_of, code_and_value, code_text, multisampled, place, process_end, repetitions,
+    value_text,
+};
+use etalon_frame::{Band, ChannelMismatch, Story, WrongTexel};
+use etalon_record::{FrameFile, Record, Run};
+use maud::{Markup, html};
+use std::path::Path;
+
+/// The most wrong texels in a table.
+const TEXELS: usize = 6;
+/// The most bytes that all pictures of a page take together.
+const PICTURE_BYTES: usize = 3 << 20;
+
+/// The room that pictures take.
+#[derive(Default)]
+pub(crate) struct Budget {
+    bytes: usize,
+    /// Frames that had no room.
+    pub(crate) cut: u64,
+}
+
+pub(crate) fn body(folder: &Path, record: &Record, budget: &mut Budget) -> Markup {
+    let frame = record.frame.as_deref();
+    let frame = frame.map(|path| (path, Run::read_frame(folder, path)));
+    html! {
+        @if let Some((_, Ok(frame))) = &frame { (about(frame)) }
+        @if let Some(expected) = &record.expected { p { b { "Expected: " } (expected.reason) } }
+        @if record.due_fail {
+            p { b { "Selftest: " } "the judge sees another scene than the driver, so this is due to fail." }
+        }
+        @if !record.message.is_empty() { pre { (facts::end(&record.message)) } }
+        (circumstances(record))
+        @if record.texels.total > 0 { p { (facts::counts(record)) } }
+        @match &frame {
+            Some((_, Ok(frame))) => (pictures(frame, budget)),
+            Some((path, Err(error))) => p.note { "No pictures: " (path) ": " (error) },
+            None => {},
+        }
+        @if !record.counters.is_empty() { (counters(record)) }
+        @if !record.wrong.is_empty() { (texels(record)) }
+        @if let Some(story) = &record.story { (operations(story, record)) }
+        p.again {
+            "Draw it again: "
+            code { (command::run(&record.case, &record.adapter)) }
+            @if let Some((path, _)) = &frame { ", frame: " code { (path) } }
+            span.all { ". " a href=(link::case(&record.case)) { "This case on all adapters" } "." }
+        }
+    }
+}
+
+fn about(frame: &FrameFile) -> Markup {
+    html! {
+        p.about { (frame.about) }
+        @if !frame.spec.is_empty() { p.spec { "Specifications: " (frame.spec.join("; ")) } }
+    }
+}
+
+/// The end of the process, validation messages, and the verdicts of repetitions.
+fn circumstances(record: &Record) -> Markup {
+    html! {
+        @if let Some(process) = &record.process {
+            p { b { "Process: " } (process_end(process)) }
+            @if !process.stderr.is_empty() {
+                h5 { "Standard error" }
+                pre { (facts::end(&process.stderr)) }
+            }
+        }
+        @if !record.validation.is_empty() {
+            h5 { "Validation" }
+            @for message in &record.validation { pre { (facts::end(message)) } }
+        }
+        @if !record.repeats.is_empty() { p { b { "Repeated: " } (repetitions(&record.repeats)) } }
+        @if !record.after.is_empty() {
+            p { b { "Only when drawn after: " } }
+            ul { @for case in &record.after { li { a href=(link::case(case)) { code { (case) } } } } }
+        }
+    }
+}
+
+fn counters(record: &Record) -> Markup {
+    html! {
+        div.wide { table.figures {
+            caption { "Counters" }
+            thead { tr {
+                th scope="col" { "Counter" } th scope="col" { "Counts" } th scope="col" { "Legal" }
+                th scope="col" { "Came" } th scope="col" { "Verdict" }
+            } }
+            tbody {
+                @for counter in &record.counters {
+                    tr {
+                        th scope="row" { (counter.name) }
+                        td { (counter.kind.name()) }
+                        td.num { (counter.range().to_string()) }
+                        td.num { (counter.actual) }
+                        td {
+                            @match counter.band {
+                                Some(Band::Fail) => "✗ illegal",
+                                Some(Band::Imprecise) => "• outside the yardstick",
+                                None if counter.is_asserted() => "legal",
+                                None => "nothing is asserted",
+                            }
+                        }
+                    }
+                }
+            }
+        } }
+    }
+}
+
+fn pictures(frame: &FrameFile, budget: &mut Budget) -> Markup {
+    if budget.bytes > PICTURE_BYTES {
+        budget.cut += 1;
+        return html! { p.note { "These pictures were left out to keep the page small." } };
+    }
+    let strips: Vec<_> = frame.images.iter().map(picture::strip).collect();
+    budget.bytes += strips.iter().flatten().map(|s| s.bytes()).sum::<usize>();
+    html! {
+        @for strip in strips {
+            @if let Some(strip) = strip {
+                (strip)
+            } @else {
+                p.note { "An image of this frame has more or fewer codes than its size needs." }
+            }
+        }
+        p.cap {
+            "Difference: " span.cross { "✗" } " outside the legal set, " span.dot { "•" }
+            " legal but outside the yardstick; the brighter, the farther outside the allowed range, "
+            "in codes (for floats units in the last place) on a logarithmic scale. Allowed low and "
+            "high enclose all allowed outcomes, so a wrong texel may lie between them."
+        }
+    }
+}
+
+fn texels(record: &Record) -> Markup {
+    let shown = record.wrong.len().min(TEXELS);
+    let all = record.texels.wrong + record.texels.imprecise;
+    // The bounds of an imprecise texel are the yardstick's, which it left.
+    let imprecise = |t: &WrongTexel| t.band == Band::Imprecise;
+    let bound = match record.wrong[..shown]
+        .iter()
+        .filter(|t| imprecise(t))
+        .count()
+    {
+        0 => "Allowed",
+        n if n == shown => "Yardstick",
+        _ => "Allowed (≈: yardstick)",
+    };
+    html! {
+        div.wide { table.text.codes {
+            caption { "Wrong texels" }
+            thead { tr {
+                th scope="col" { "Place" } th scope="col" { "Band" } th scope="col" { "Channel" }
+                th scope="col" { "Encoding" } th scope="col" { (bound) " code" }
+                th scope="col" { (bound) " value" } th scope="col" { "Actual" } th scope="col" { "Off by" }
+            } }
+            tbody {
+                @for texel in &record.wrong[..shown] {
+                    @for (i, m) in texel.channels.iter().enumerate() { (texel_row(&place(texel, multisampled(record)), texel, i, m)) }
+                }
+            }
+        } }
+        @if all > shown as u64 { p.note { "and " (all - shown as u64) " more" } }
+    }
+}
+
+fn texel_row(place: &str, texel: &WrongTexel, i: usize, m: &ChannelMismatch) -> Markup {
+    let order = |code| m.encoding.order_of_code(code);
+    let off = (order(m.low) - order(m.actual)).max(order(m.actual) - order(m.high));
+    html! {
+        tr {
+            @if i == 0 {
+                th rowspan=(texel.channels.len()) { (place) }
+                td rowspan=(texel.channels.len()) {
+                    (match texel.band { Band::Fail => "✗ fail", Band::Imprecise => "≈ imprecise" })
+                }
+            }
+            td { (channel_of(m)) }
+            td { (m.encoding.to_string()) }
+            td { (allowed(m, code_text)) }
+            td { (allowed(m, value_text)) }
+            td { b { (code_and_value(m.encoding, m.actual)) } }
+            td {
+                @if m.encoding.is_nan(m.actual) { "not a number" }
+                @else { (count(off.max(0).unsigned_abs(), "code")) }
+            }
+        }
+    }
+}
+
+fn operations(story: &Story, record: &Record) -> Markup {
+    let mut at = "";
+    html! {
+        h5 { "Expected operations" @if let Some(texel) = record.wrong.first() { " at " (place(texel, multisampled(record))) } }
+        ol.story {
+            @for line in &story.lines {
+                @if line.at != at { li.at { ({ at = &line.at; at }) } }
+                li {
+                    b { (line.operation) } ": " (line.detail)
+                    @if let Some(citation) = &line.citation { " " cite { "[" (citation) "]" } }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! The facts of one record in a case's view, as labels and texts.
+
+use crate::numbers::{count, duration, percent};
+use crate::words;
+use etalon_frame::CounterOutcome;
+use etalon_record::{Assertion, Record};
+
+/// The most characters of a message that the page keeps; the end of it, where the reason usually stands.
+const LONGEST: usize = 4000;
+
+/// The label of a text, by its position in [`LABELS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Label {
+    Headline,
+    Message,
+    Expected,
+    Improves,
+    Selftest,
+    Process,
+    StandardError,
+    Validation,
+    Repeats,
+    After,
+    Texels,
+    Asserted,
+    Counter,
+    Measured,
+    Frame,
+    Note,
+}
+
+/// Words, form and true if an entry under Findings has the same. Forms: `text`, `pre` for what came
+/// from a driver, `case` for an id that can be followed, `code`.
+pub(crate) const LABELS: [(&str, &str, bool); 16] = [
+    ("In short", "text", true),
+    ("Message", "pre", true),
+    ("Expected", "text", true),
+    ("Improvement", "text", false),
+    ("Selftest", "text", true),
+    ("Process", "text", true),
+    ("Standard error", "pre", true),
+    ("Validation", "pre", true),
+    ("Repeated", "text", true),
+    ("Drawn after", "case", true),
+    ("Samples", "text", true),
+    ("Asserted", "text", false),
+    ("Counter", "text", true),
+    ("Measured", "text", false),
+    ("Frame", "code", true),
+    ("Note", "text", false),
+];
+
+/// Stands for all facts of a record when there is no room for them.
+pub(crate) fn no_room() -> (Label, String) {
+    let text = "The facts of this record were left out to keep the page small; run.jsonl has them.";
+    (Label::Note, text.to_owned())
+}
+
+/// Everything worth telling about a record that is not in its cell.
+pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
+    let mut facts = Vec::new();
+    let mut add = |label: Label, text: String| facts.push((label, text));
+    let headline = words::headline(record);
+    if headline != words::meaning(record.verdict) && headline != record.message {
+        add(Label::Headline, headline);
+    }
+    if !record.message.is_empty() {
+        add(Label::Message, end(&record.message));
+    }
+    if let Some(expected) = &record.expected {
+        add(Label::Expected, end(&expected.reason));
+    }
+    if let Some(verdict) = record.improves {
+        let text = format!("The expectations still name {}.", words::name(verdict));
+        add(Label::Improves, text);
+    }
+    if record.due_fail {
+        let text = "The judge sees another scene than the driver, so this is due to fail.";
+        add(Label::Selftest, text.to_owned());
+    }
+    if let Some(process) = &record.process {
+        add(Label::Process, words::process_end(process));
+        if !process.stderr.is_empty() {
+            add(Label::StandardError, end(&process.stderr));
+        }
+    }
+    for message in &record.validation {
+        add(Label::Validation, end(message));
+    }
+    if !record.repeats.is_empty() {
+        add(Label::Repeats, words::repetitions(&record.repeats));
+    }
+    for case in &record.after {
+        add(Label::After, case.clone());
+    }
+    if record.texels.wrong + record.texels.imprecise + record.texels.open > 0 {
+        add(Label::Texels, counts(record));
+    }
+    for assertion in &record.assertions {
+        add(Label::Asserted, asserted(assertion));
+    }
+    for counter in &record.counters {
+        add(Label::Counter, counted(counter));
+    }
+    if let Some(m) = &record.measured {
+        let rmse = percent(m.distance.rmse, 1);
+        let mut text = format!("{} of {}: RMSE {rmse}", m.method, m.scene);
+        if let Some(time) = &m.time {
+            text.push_str(&format!(", {} per frame", duration(time.wall)));
+        }
+        add(Label::Measured, text);
+    }
+    if let Some(frame) = &record.frame {
+        add(Label::Frame, frame.clone());
+    }
+    facts
+}
+
+/// The counts of samples by outcome.
+pub(super) fn counts(record: &Record) -> String {
+    let t = &record.texels;
+    format!(
+        "Of {}, {} outside the legal set, {} legal and outside the yardstick, {} open.",
+        count(t.total, "sample"),
+        t.wrong,
+        t.imprecise,
+        t.open
+    )
+}
+
+fn asserted(a: &Assertion) -> String {
+    let mut text = format!(
+        "{}: {} of {}, {} of them exactly",
+        a.aspect.name(),
+        a.asserted,
+        count(a.channels, "channel"),
+        a.exact
+    );
+    if let Some(sharpness) = a.sharpness() {
+        text.push_str(&format!(", sharpness {sharpness:.2}"));
+    }
+    text
+}
+
+fn counted(c: &CounterOutcome) -> String {
+    let legal = match c.is_asserted() {
+        true => format!("legal {}", c.range()),
+        false => "nothing is asserted".to_owned(),
+    };
+    format!("{} ({}): {}, {legal}", c.name, c.kind.name(), c.actual)
+}
+
+/// The end of a text that is too long for the page.
+pub(crate) fn end(text: &str) -> String {
+    match text.char_indices().rev().nth(LONGEST) {
+        None => text.to_owned(),
+        Some((at, c)) => format!("… {}", &text[at + c.len_utf8()..]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_record::{LossKind, ProcessEnd, Verdict};
+
+    #[test]
+    fn labels_are_told_by_their_position() {
+        assert_eq!(LABELS[Label::Note as usize].0, "Note");
+        assert_eq!(LABELS[Label::After as usize].1, "case");
+        assert_eq!(LABELS[Label::Frame as usize].0, "Frame");
+    }
+
+    #[test]
+    fn a_long_message_keeps_its_end() {
+        let text = format!("ä{}z", "x".repeat(LONGEST));
+        let cut = end(&text);
+        assert!(cut.starts_with("… x") && cut.ends_with("xz"));
+        assert_eq!(cut.chars().count(), LONGEST + 2);
+        assert_eq!(end("short"), "short");
+    }
+
+    #[test]
+    fn a_record_tells_what_it_holds_and_no_more() {
+        let mut record = Record::new("a/b", "cpu", Verdict::Pass);
+        assert_eq!(of(&record), []);
+        record.verdict = Verdict::Crash;
+        record.repeats = vec![Verdict::Pass, Verdict::Crash];
+        record.after = vec!["a/a".to_owned()];
+        record.validation = vec!["VUID-1".to_owned(), "VUID-2".to_owned()];
+        record.process = Some(ProcessEnd {
+            kind: LossKind::Died,
+            signal: Some(11),
+            exit: None,
+            stderr: "last words".to_owned(),
+            seconds: 1.5,
+        });
+        let labels: Vec<Label> = of(&record).into_iter().map(|(label, _)| label).collect();
+        use Label::*;
+        let due = [
+            Process,
+            StandardError,
+            Validation,
+            Validation,
+            Repeats,
+            After,
+        ];
+        assert_eq!(labels, due);
+    }
+}

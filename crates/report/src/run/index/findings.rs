@@ -1,0 +1,228 @@
+//! The findings by area and adapter: everything that is not a plain pass.
+
+use super::consensus::Consensus;
+use super::detail::{self, Budget};
+use super::link;
+use super::mark::{class, mark};
+use crate::numbers::count;
+use crate::run::grid::{Area, CaseFile, Grid, Tally};
+use crate::words::{self, Tone};
+use etalon_record::{Record, Verdict};
+use maud::{Markup, html};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::path::Path;
+
+/// The most records that are shown with everything known about them.
+const BODIES: usize = 400;
+/// The most imprecise records of a case file and adapter that are.
+const IMPRECISE_BODIES: usize = 3;
+/// The most lines of a case file and adapter.
+const LINES: usize = 20;
+/// The most lines of all; what a page of so many case files and adapters has more of stands under
+/// "All cases", which costs a browser less.
+const ALL_LINES: usize = 5000;
+
+/// The records that are listed, and those of them that are shown with all facts.
+pub(crate) struct Plan {
+    bodies: HashMap<usize, bool>,
+    /// Records whose adapter alone stands against all others that drew the case.
+    odd: HashSet<usize>,
+    /// Records that would have been shown whole, had there been room.
+    cut: usize,
+}
+
+impl Plan {
+    pub(crate) fn new(grid: &Grid<'_>) -> Self {
+        // The first of every case file and adapter go before any second one, and what is
+        // unexpected before what is not.
+        let mut lines = Vec::new();
+        let mut whole = Vec::new();
+        for area in &grid.areas {
+            for file in &area.files {
+                for column in 0..grid.adapters.len() {
+                    let mut ranks = [0; 3];
+                    for index in listed(grid, file, column) {
+                        let kind = kind(grid.record(index));
+                        let rank = &mut ranks[kind];
+                        if *rank < LINES {
+                            lines.push((kind, *rank, index));
+                        }
+                        let most = if kind == 2 { IMPRECISE_BODIES } else { LINES };
+                        if *rank < most {
+                            whole.push((kind, *rank, index));
+                        }
+                        *rank += 1;
+                    }
+                }
+            }
+        }
+        lines.sort_unstable();
+        whole.sort_unstable();
+        let shown = lines.iter().take(ALL_LINES);
+        let mut bodies: HashMap<usize, bool> = shown.map(|(_, _, i)| (*i, false)).collect();
+        for (_, _, index) in whole.iter().take(BODIES) {
+            bodies.insert(*index, true);
+        }
+        let files = grid.areas.iter().flat_map(|a| &a.files);
+        let odd = files.flat_map(|f| &f.cases).filter_map(|case| {
+            let column = Consensus::of(grid, case).only()?;
+            case.records[column]
+        });
+        Self {
+            bodies,
+            odd: odd.collect(),
+            cut: whole.len().saturating_sub(BODIES),
+        }
+    }
+
+    /// True if the record has an entry that can be linked to.
+    pub(crate) fn lists(&self, index: usize) -> bool {
+        self.bodies.contains_key(&index)
+    }
+
+    /// True if the record's entry has all facts.
+    pub(crate) fn whole(&self, index: usize) -> bool {
+        self.bodies.get(&index).copied().unwrap_or(false)
+    }
+}
+
+/// 0 for what is unexpected, 1 for what was expected or due, 2 for imprecise and all else.
+pub(crate) fn kind(record: &Record) -> usize {
+    if record.unexpected() {
+        0
+    } else if record.verdict.is_bad() {
+        1
+    } else {
+        2
+    }
+}
+
+/// The records of a case file on one adapter that are worth an entry, the gravest kind first.
+fn listed(grid: &Grid<'_>, file: &CaseFile<'_>, column: usize) -> Vec<usize> {
+    let worth = |i: &usize| {
+        let r = grid.record(*i);
+        r.unexpected() || r.verdict.is_bad() || r.verdict == Verdict::Imprecise
+    };
+    let mut result: Vec<usize> = file.on(column).filter(worth).collect();
+    result.sort_by_key(|i| kind(grid.record(*i)));
+    result
+}
+
+pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> Markup {
+    let mut budget = Budget::default();
+    let areas: Vec<Markup> = grid
+        .areas
+        .iter()
+        .enumerate()
+        .map(|(a, area)| in_area(folder, grid, plan, &mut budget, (a, area)))
+        .collect();
+    html! {
+        section id="findings" {
+            h2 { "Findings" }
+            p {
+                "Everything that is not a plain pass, by area and adapter. An entry opens to its pictures, its "
+                "wrong texels, and the operations at the first of them."
+            }
+            @if plan.cut > 0 {
+                p.note {
+                    "The page shows " (BODIES) " records with pictures; " (plan.cut)
+                    " more have a line only. Their frames are under frames/."
+                }
+            }
+            @if budget.cut > 0 {
+                p.note { (count(budget.cut, "frame")) " were left out to keep the page small." }
+            }
+            @for area in areas { (area) }
+        }
+    }
+}
+
+fn in_area(
+    folder: &Path,
+    grid: &Grid<'_>,
+    plan: &Plan,
+    budget: &mut Budget,
+    (a, area): (usize, &Area<'_>),
+) -> Markup {
+    html! {
+        h3 id={ "a" (a) } { (area.name) }
+        @for (column, adapter) in grid.adapters.iter().enumerate() {
+            @let tally = Tally::of(area.on(column).map(|i| grid.record(i)));
+            @if tally.total > 0 {
+                div.list id={ "l" (a) "-" (column) } {
+                    h4 {
+                        code { (adapter) }
+                        @for (verdict, tone, n) in tally.entries() {
+                            span class={ "chip " (class(verdict, tone)) } { (n) " " (mark(verdict, tone)) }
+                        }
+                    }
+                    @for file in &area.files { (in_file(folder, grid, plan, budget, file, column)) }
+                    (not_supported(grid, area, column))
+                }
+            }
+        }
+    }
+}
+
+fn in_file(
+    folder: &Path,
+    grid: &Grid<'_>,
+    plan: &Plan,
+    budget: &mut Budget,
+    file: &CaseFile<'_>,
+    column: usize,
+) -> Markup {
+    let all = listed(grid, file, column);
+    let rest = all.iter().filter(|i| !plan.lists(**i)).count();
+    html! {
+        @for index in all.into_iter().filter(|i| plan.lists(*i)) {
+            @let record = grid.record(index);
+            @if plan.whole(index) {
+                details.d {
+                    summary { (line(plan, index, record, html! { code { (record.case) } })) }
+                    div.body id={ "r" (index) } { (detail::body(folder, record, budget)) }
+                }
+            } @else {
+                p.d id={ "r" (index) } {
+                    (line(plan, index, record, html! { a href=(link::case(&record.case)) { code { (record.case) } } }))
+                }
+            }
+        }
+        @if rest > 0 {
+            p.d.more {
+                "and " (rest) " more of " code { (file.name) } ", under "
+                a href=(link::filter(file.name, grid.adapters[column])) { "All cases" }
+            }
+        }
+    }
+}
+
+fn line(plan: &Plan, index: usize, record: &Record, id: Markup) -> Markup {
+    html! {
+        span class={ "chip " (class(record.verdict, Tone::of(record))) } {
+            (mark(record.verdict, Tone::of(record)))
+        }
+        " " (id)
+        @if plan.odd.contains(&index) { " " span.chip.only { "differs only here" } }
+        span.h { (words::headline(record)) }
+    }
+}
+
+/// Cases that the adapter cannot draw, counted by what is missing.
+fn not_supported(grid: &Grid<'_>, area: &Area<'_>, column: usize) -> Markup {
+    let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
+    for index in area.on(column) {
+        let record = grid.record(index);
+        if record.verdict == Verdict::NotSupported {
+            *reasons.entry(words::headline(record)).or_default() += 1;
+        }
+    }
+    html! {
+        @for (reason, n) in reasons {
+            p.d {
+                span.chip.u { (n) " " (mark(Verdict::NotSupported, Tone::Plain)) }
+                " " span.h { (reason) }
+            }
+        }
+    }
+}

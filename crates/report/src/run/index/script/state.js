@@ -1,0 +1,117 @@
+// The filter: what its controls say, and the same as the part of the address behind `#`.
+const INITIAL = {
+  q: "", messages: false, verdict: "", on: "", area: "", odd: "", unexpected: false, disagree: false,
+  sort: "case", page: 1,
+};
+let state = { ...INITIAL };
+
+function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
+}
+
+// Ids stay readable in addresses.
+function encoded(text) {
+  return encodeURIComponent(text).replace(/%(2F|3A|3D|2C)/g, decodeURIComponent);
+}
+
+function addressOf(id) {
+  return "#case=" + encoded(id);
+}
+
+// The parameters behind `#`; none for the address of an element, which has no `=`.
+function parameters(hash) {
+  const found = new Map();
+  for (const part of hash.slice(1).split("&")) {
+    const at = part.indexOf("=");
+    if (at > 0) found.set(part.slice(0, at), decoded(part.slice(at + 1)));
+  }
+  return found;
+}
+
+function stateOf(found) {
+  const place = (list, name) => {
+    const at = list.indexOf(name);
+    return at < 0 ? "" : String(at);
+  };
+  const areas = [...$("f-area").options].slice(1).map(option => option.textContent);
+  const known = value => [...$("f-verdict").options].some(option => option.value === value);
+  const odd = found.get("odd");
+  return {
+    q: found.get("q") ?? "",
+    messages: found.get("messages") === "1",
+    verdict: known(found.get("verdict")) ? found.get("verdict") : "",
+    on: found.has("on") ? place(data.adapters, found.get("on")) : "",
+    area: found.has("area") ? place(areas, found.get("area")) : "",
+    odd: odd === undefined ? "" : odd === "" ? "any" : place(data.adapters, odd),
+    unexpected: found.get("unexpected") === "1",
+    disagree: found.get("disagree") === "1",
+    sort: ["case", "-case", "consensus"].includes(found.get("sort")) ? found.get("sort") : "case",
+    page: Math.max(1, Math.floor(Number(found.get("page"))) || 1),
+  };
+}
+
+function hashOf(state) {
+  const parts = [];
+  const add = (key, value) => parts.push(key + "=" + encoded(value));
+  if (state.q) add("q", state.q);
+  if (state.messages) add("messages", "1");
+  if (state.verdict) add("verdict", state.verdict);
+  if (state.on) add("on", data.adapters[state.on]);
+  if (state.area) add("area", $("f-area").options[Number(state.area) + 1].textContent);
+  if (state.odd) add("odd", state.odd === "any" ? "" : data.adapters[state.odd]);
+  if (state.unexpected) add("unexpected", "1");
+  if (state.disagree) add("disagree", "1");
+  if (state.sort !== "case") add("sort", state.sort);
+  if (state.page > 1) add("page", String(state.page));
+  return parts.length ? "#" + parts.join("&") : "#cases";
+}
+
+function filtered(state) {
+  return ["q", "verdict", "on", "area", "odd", "unexpected", "disagree"].some(key => state[key]);
+}
+
+// True if a case's id, or its facts, contain all words of a search.
+function searcher(q, messages) {
+  const tests = q.toLowerCase().split(/\s+/).filter(Boolean).map(word => {
+    const pieces = word.split("*");
+    const occurs = text => {
+      let at = 0;
+      for (const piece of pieces) {
+        const found = text.indexOf(piece, at);
+        if (found < 0) return false;
+        at = found + piece.length;
+      }
+      return true;
+    };
+    if (!messages) return one => occurs(one.low);
+    const texts = data.texts.map(text => occurs(text.toLowerCase()));
+    const facts = data.facts.map(list => list.some((text, i) => i % 2 === 1 && texts[text]));
+    return one => occurs(one.low) || one.facts.some(list => facts[list]);
+  });
+  return one => tests.every(test => test(one));
+}
+
+function matching(state) {
+  const found = searcher(state.q, state.messages);
+  const adapters = state.on ? [Number(state.on)] : data.adapters.map((_, i) => i);
+  const fits = sign => {
+    const cell = signs.get(sign);
+    if (state.verdict === "none") return !cell && !state.unexpected;
+    if (!cell || state.unexpected && !cell.unexpected) return false;
+    if (state.verdict === "bad") return cell.bad;
+    return !state.verdict || cell.verdict === state.verdict;
+  };
+  const fitting = new Set([...signs.keys(), "."].filter(fits));
+  return cases.filter(one => {
+    if (state.area && one.file.area !== Number(state.area)) return false;
+    const { votes, odd } = one.consensus;
+    if (state.odd && (votes !== "odd" || state.odd !== "any" && odd[0] !== Number(state.odd))) return false;
+    if (state.disagree && votes !== "odd" && votes !== "split") return false;
+    return adapters.some(i => fitting.has(one.cells[i])) && found(one);
+  });
+}
+

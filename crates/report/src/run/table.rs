@@ -1,0 +1,169 @@
+//! The summary for a terminal.
+
+use crate::methods;
+use crate::numbers::count;
+use crate::run::grid::{Grid, Tally};
+use crate::run::unexpected::unexpected_records;
+use crate::terminal::{self, TableOptions, dotted, wrapped};
+use crate::words::{Tone, headline, name, plain, symbol};
+use etalon_record::{Record, Run, Verdict};
+use tabled::builder::Builder;
+use tabled::settings::Color;
+use tabled::settings::object::Cell;
+
+/// The most unexpected records that are listed.
+const LISTED: usize = 20;
+
+/// Verdicts of cases without a frame to judge; one column together.
+const BROKEN: [Verdict; 6] = [
+    Verdict::Flaky,
+    Verdict::Crash,
+    Verdict::Timeout,
+    Verdict::DeviceLost,
+    Verdict::ResourceError,
+    Verdict::InternalError,
+];
+
+/// A table with a row per adapter, then a line per unexpected record (20 at most), then what is
+/// missing. A bad verdict that was expected or due is counted under `expected` only, so that a
+/// row's counts add up to its records; the rate counts records per second of drawing and judging.
+/// Always ends in a newline.
+pub fn table(run: &Run, options: TableOptions) -> String {
+    if run.records.is_empty() {
+        return format!("No case was run.\n{}", incomplete(run));
+    }
+    let grid = Grid::new(run);
+    let rows: Vec<(&str, Vec<&Record>)> = grid
+        .adapters
+        .iter()
+        .map(|a| (*a, run.records.iter().filter(|r| r.adapter == *a).collect()))
+        .collect();
+    let mut text = adapters(&rows, options);
+    text.push('\n');
+    if let Some(found) = methods::Methods::of(run) {
+        text.push_str(&methods::lines(&found, options.width));
+    }
+    text.push_str(&unexpected(run, options));
+    let improvements = run.records.iter().filter(|r| r.improvement()).count();
+    if improvements > 0 {
+        text.push_str(&format!(
+            "{}: their expectations can be removed\n",
+            count(improvements as u64, "improvement")
+        ));
+    }
+    text.push_str(&incomplete(run));
+    text
+}
+
+fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
+    let measured = rows
+        .iter()
+        .any(|(_, r)| r.iter().any(|r| r.verdict == Verdict::Measured));
+    let mut columns: Vec<(&str, &[Verdict], Color)> = vec![
+        ("pass", &[Verdict::Pass], Color::FG_GREEN),
+        ("imprecise", &[Verdict::Imprecise], Color::FG_CYAN),
+        ("fail", &[Verdict::Fail], Color::FG_RED | Color::BOLD),
+        ("open", &[Verdict::Open], Color::FG_YELLOW),
+        (
+            "not supported",
+            &[Verdict::NotSupported],
+            Color::FG_BRIGHT_BLACK,
+        ),
+        ("broken", &BROKEN, Color::FG_MAGENTA | Color::BOLD),
+    ];
+    // Not supported is the adapter's word, skipped is the user's.
+    let skipped = rows
+        .iter()
+        .any(|(_, r)| r.iter().any(|r| r.verdict == Verdict::Skipped));
+    if skipped {
+        let column = ("skipped", &[Verdict::Skipped][..], Color::FG_BRIGHT_BLACK);
+        columns.insert(columns.len() - 1, column);
+    }
+    if measured {
+        columns.insert(1, ("measured", &[Verdict::Measured], Color::FG_BLUE));
+    }
+    let mut builder = Builder::default();
+    let names = columns.iter().map(|(name, _, _)| *name);
+    builder.push_record(
+        ["adapter"]
+            .into_iter()
+            .chain(names)
+            .chain(["expected", "cases/s"]),
+    );
+    let mut painted = Vec::new();
+    for (at, (adapter, records)) in rows.iter().enumerate() {
+        let tally = Tally::of(records.iter().copied());
+        let mut row = vec![plain(adapter, 60)];
+        for (i, (_, verdicts, color)) in columns.iter().enumerate() {
+            let n: u64 = verdicts.iter().map(|v| tally.plain(*v)).sum();
+            row.push(dotted(n));
+            if n > 0 {
+                painted.push((Cell::new(at + 1, i + 1), color.clone()));
+            }
+        }
+        row.push(dotted(tally.excused()));
+        row.push(rate(records));
+        builder.push_record(row);
+    }
+    let mut table = terminal::table(builder, options, 1);
+    if options.color {
+        for (cell, color) in painted {
+            table.modify(cell, color);
+        }
+    }
+    wrapped(table, options)
+}
+
+fn rate(records: &[&Record]) -> String {
+    let seconds: f64 = records
+        .iter()
+        .map(|r| r.seconds.draw + r.seconds.judge)
+        .sum();
+    if seconds > 0.0 {
+        format!("{:.0}", records.len() as f64 / seconds)
+    } else {
+        "·".to_owned()
+    }
+}
+
+fn unexpected(run: &Run, options: TableOptions) -> String {
+    let bad = unexpected_records(run);
+    if bad.is_empty() {
+        return String::new();
+    }
+    let mut text = format!("\n{}\n", count(bad.len() as u64, "unexpected record"));
+    for record in bad.iter().take(LISTED) {
+        let sign = match Tone::of(record) {
+            Tone::Missed => symbol(Verdict::Fail),
+            _ => symbol(record.verdict),
+        };
+        let head = options.paint(&format!("{sign} {}", name(record.verdict)), "31");
+        let adapter = plain(&record.adapter, 60);
+        text.push_str(&format!(
+            "{head}  {adapter}  {}\n",
+            plain(&record.case, 300)
+        ));
+        let line = plain(&headline(record), options.room(4));
+        text.push_str(&format!("    {line}\n"));
+    }
+    match bad.len().saturating_sub(LISTED) {
+        0 => {}
+        n => text.push_str(&format!("and {n} more\n")),
+    }
+    text
+}
+
+fn incomplete(run: &Run) -> String {
+    let mut text = String::new();
+    if run.truncated {
+        text.push_str("The last record was cut off: the run did not end by itself.\n");
+    }
+    let missing = run.missing();
+    if missing > 0 {
+        text.push_str(&format!(
+            "Incomplete: {missing} of {} records are missing.\n",
+            run.header.expected_records()
+        ));
+    }
+    text
+}

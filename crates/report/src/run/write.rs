@@ -1,0 +1,99 @@
+//! Writing the reports of a run.
+
+use super::grid::Grid;
+use super::index;
+use crate::error::ReportError;
+use crate::export::{ctrf, deqp, junit, markdown};
+use crate::files::replace;
+use crate::methods::{self, Methods};
+use etalon_record::Run;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The files that [`write()`] may write into a run folder.
+pub const RUN_FILES: [&str; 5] = [HTML, methods::PAGE, JUNIT, CTRF, SUMMARY];
+/// The folders that [`write()`] writes into a run folder.
+pub const RUN_FOLDERS: [&str; 1] = [deqp::FOLDER];
+const HTML: &str = "index.html";
+const JUNIT: &str = "junit.xml";
+const CTRF: &str = "ctrf.json";
+const SUMMARY: &str = "summary.md";
+
+/// The reports that [`write()`] made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// The page.
+    pub html: PathBuf,
+    /// The page of methods, where the run has any.
+    pub methods: Option<PathBuf>,
+    /// The JUnit file, for continuous integration.
+    pub junit: PathBuf,
+    /// The run in the Common Test Report Format.
+    pub ctrf: PathBuf,
+    /// The summary in Markdown for a job's page, of less than 1,000,000 bytes.
+    pub summary: PathBuf,
+    /// deqp-runner's `results.csv`, one per adapter.
+    pub results: Vec<PathBuf>,
+}
+
+impl Written {
+    /// Every file, the page for people first.
+    pub fn all(&self) -> impl Iterator<Item = &Path> {
+        let single = [
+            Some(&self.html),
+            self.methods.as_ref(),
+            Some(&self.junit),
+            Some(&self.ctrf),
+            Some(&self.summary),
+        ];
+        let all = single.into_iter().flatten().chain(&self.results);
+        all.map(PathBuf::as_path)
+    }
+}
+
+/// Writes the reports of a run into its folder: `index.html`, `junit.xml`, `ctrf.json`, `summary.md`,
+/// `results/<adapter>.csv`, and `methods.html` where it has records of methods. Each is written beside
+/// its place and then renamed, so that a reader never sees half a report.
+///
+/// # Errors
+/// Returns an error if the folder holds no readable run, or cannot be written to. A frame file that is missing or
+/// damaged is no error: the page names it.
+pub fn write(folder: &Path) -> Result<Written, ReportError> {
+    let run = Run::read(folder)?;
+    let found = Methods::of(&run);
+    let page = index::page(folder, &run, found.as_ref());
+    let html = replace(folder, HTML, page.as_bytes())?;
+    let methods = match &found {
+        Some(found) => {
+            let page = methods::page(folder, &run, found);
+            Some(replace(folder, methods::PAGE, page.as_bytes())?)
+        }
+        None => None,
+    };
+    let grid = Grid::new(&run);
+    let junit = replace(folder, JUNIT, junit::xml(&run, &grid)?.as_bytes())?;
+    let ctrf = replace(folder, CTRF, &ctrf::json(&run, &grid)?)?;
+    let summary = replace(folder, SUMMARY, markdown::summary(&run).as_bytes())?;
+    let results = lists(folder, &run, &grid)?;
+    Ok(Written {
+        html,
+        methods,
+        junit,
+        ctrf,
+        summary,
+        results,
+    })
+}
+
+/// deqp-runner's lists, in a folder of their own.
+fn lists(folder: &Path, run: &Run, grid: &Grid<'_>) -> Result<Vec<PathBuf>, ReportError> {
+    let below = folder.join(deqp::FOLDER);
+    fs::create_dir_all(&below).map_err(|source| ReportError::Io {
+        path: below.clone(),
+        source,
+    })?;
+    let lists = deqp::lists(folder, run, grid).into_iter();
+    lists
+        .map(|list| replace(&below, &list.name, list.text.as_bytes()))
+        .collect()
+}

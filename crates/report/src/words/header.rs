@@ -1,0 +1,60 @@
+//! The header of a run in words.
+
+use crate::numbers::{count, round_duration};
+use etalon_record::{Machine, Settings};
+
+/// `Example CPU, 4 cores, Linux 6.12`.
+pub(crate) fn machine(machine: &Machine) -> String {
+    format!(
+        "{}, {}, {}",
+        machine.cpu,
+        count(u64::from(machine.cores), "core"),
+        machine.os
+    )
+}
+
+/// The settings of a run that differ from the defaults, one text each.
+pub(crate) fn settings(settings: &Settings) -> Vec<String> {
+    let mut texts = Vec::new();
+    let mut add = |text: Option<String>| texts.extend(text);
+    add(settings.shard.map(|s| format!("shard {s}")));
+    add(settings.shuffle.map(|s| format!("shuffled with seed {s}")));
+    add(settings
+        .repeat
+        .map(|n| format!("each case drawn {}", count(u64::from(n), "time"))));
+    add(settings
+        .shader_cache
+        .map(|c| format!("shader cache {}", c.name())));
+    add(settings
+        .validate
+        .then(|| "validation layers enabled".to_owned()));
+    add(settings
+        .timeout
+        .map(|s| format!("at most {} per case", round_duration(s))));
+    add(settings
+        .memory
+        .map(|m| format!("at most {m} MiB per worker")));
+    texts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_are_told_where_they_are_set() {
+        assert!(settings(&Settings::default()).is_empty());
+        let some = Settings {
+            repeat: Some(3),
+            validate: true,
+            timeout: Some(20.0),
+            ..Settings::default()
+        };
+        let texts = [
+            "each case drawn 3 times",
+            "validation layers enabled",
+            "at most 20 s per case",
+        ];
+        assert_eq!(settings(&some), texts);
+    }
+}

@@ -1,0 +1,120 @@
+//! Verdicts in words and signs.
+
+use etalon_record::{Record, Verdict};
+
+/// The weight of a record's verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum Tone {
+    /// As the verdict says.
+    Plain,
+    /// Bad, but expected or due.
+    Excused,
+    /// A selftest that was due to fail and did not.
+    Missed,
+}
+
+impl Tone {
+    pub(crate) fn of(record: &Record) -> Self {
+        if record.verdict.is_bad() && !record.unexpected() {
+            Self::Excused
+        } else if record.due_fail && record.unexpected() && !record.verdict.is_bad() {
+            Self::Missed
+        } else {
+            Self::Plain
+        }
+    }
+
+    /// The text behind the verdict.
+    pub(crate) fn suffix(self) -> &'static str {
+        match self {
+            Self::Plain => "",
+            Self::Excused => " (expected)",
+            Self::Missed => " (due to fail)",
+        }
+    }
+}
+
+/// A sign that distinguishes verdicts without colour. The variation selector keeps browsers from
+/// drawing a coloured picture.
+pub(crate) fn symbol(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "✓",
+        Verdict::Imprecise => "≈",
+        Verdict::Fail => "✗",
+        Verdict::Open => "○",
+        Verdict::Measured => "◇",
+        Verdict::NotSupported => "–",
+        Verdict::Skipped => "↷",
+        Verdict::Flaky => "⇄",
+        Verdict::Crash => "⚡\u{fe0e}",
+        Verdict::Timeout => "◷",
+        Verdict::DeviceLost => "⊘",
+        Verdict::ResourceError => "□",
+        Verdict::InternalError => "!",
+    }
+}
+
+/// The verdict's name with spaces.
+pub(crate) fn name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::NotSupported => "not supported",
+        Verdict::DeviceLost => "device lost",
+        Verdict::ResourceError => "resource error",
+        Verdict::InternalError => "internal error",
+        other => other.name(),
+    }
+}
+
+/// The meaning of a verdict in one sentence.
+pub(crate) fn meaning(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "Every texel lies inside the yardstick, and something was asserted.",
+        Verdict::Imprecise => "Every texel is legal; some lie outside the yardstick.",
+        Verdict::Fail => "A texel lies outside what the API's text allows.",
+        Verdict::Open => "Nothing could be asserted.",
+        Verdict::Measured => "Measured, not judged.",
+        Verdict::NotSupported => "The adapter lacks something that the scene needs.",
+        Verdict::Skipped => "The expectations skip the case on this adapter.",
+        Verdict::Flaky => "The same case gave different frames.",
+        Verdict::Crash => "The process that drew the case died.",
+        Verdict::Timeout => "The case exceeded its time limit.",
+        Verdict::DeviceLost => "The API reported the device lost.",
+        Verdict::ResourceError => "The driver refused an allocation or an object.",
+        Verdict::InternalError => "The suite itself failed, not the driver.",
+    }
+}
+
+/// The verdicts of a record's repetitions: `pass, 2 × fail`.
+pub(crate) fn repetitions(verdicts: &[Verdict]) -> String {
+    let runs = verdicts.chunk_by(|a, b| a == b).map(|same| {
+        let word = same.first().map_or("", |v| name(*v));
+        match same.len() {
+            1 => word.to_owned(),
+            n => format!("{n} × {word}"),
+        }
+    });
+    runs.collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symbols_differ() {
+        let mut all: Vec<_> = Verdict::ALL.iter().map(|v| symbol(*v)).collect();
+        all.sort_unstable();
+        all.dedup();
+        assert_eq!(all.len(), Verdict::ALL.len());
+    }
+
+    #[test]
+    fn repetitions_are_counted_in_their_order() {
+        use Verdict::{Fail, Pass};
+        assert_eq!(
+            repetitions(&[Pass, Fail, Fail, Pass]),
+            "pass, 2 × fail, pass"
+        );
+        assert_eq!(repetitions(&[]), "");
+    }
+}

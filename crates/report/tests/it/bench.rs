@@ -1,0 +1,343 @@
+//! Reports of benches, made from bench folders.
+
+use crate::synthetic::adapter;
+use etalon_frame::Api;
+use etalon_record::{
+    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Ended, Machine, Picture, Round,
+    ShaderCache, Time, Verdict,
+};
+use etalon_report::{TableOptions, bench_table, diff, diff_table, write_bench, write_diff};
+use roxmltree::Document;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+pub(crate) fn header() -> BenchHeader {
+    let mut card = adapter("vulkan:card", Api::Vulkan);
+    card.software = false;
+    BenchHeader {
+        format: BENCH_FORMAT,
+        etalon: "0.1.0".to_owned(),
+        commit: Some("abc".to_owned()),
+        machine: Machine {
+            os: "Linux".to_owned(),
+            cpu: "A processor".to_owned(),
+            cores: 2,
+        },
+        started: "2026-01-01T00:00:00Z".to_owned(),
+        command: vec!["etalon".to_owned(), "bench".to_owned()],
+        profile: "quick".to_owned(),
+        cases: 2,
+        rounds: 9,
+        shader_cache: ShaderCache::Warm,
+        ruler: "a million multiplications".to_owned(),
+        adapters: vec![
+            adapter("cpu", Api::Vulkan),
+            adapter("vulkan:lavapipe", Api::Vulkan),
+            adapter("gl:softpipe", Api::OpenGl),
+            card,
+        ],
+        absent: Vec::new(),
+    }
+}
+
+const CASES: [&str; 2] = ["perf/clear/size=256", "perf/<b>&quad/size=256"];
+
+fn picture(case: &str, adapter: &str, verdict: Verdict, message: &str) -> BenchLine {
+    BenchLine::Picture(Picture {
+        case: case.to_owned(),
+        adapter: adapter.to_owned(),
+        verdict,
+        asserted: 0.995,
+        message: message.to_owned(),
+    })
+}
+
+fn round(case: &str, adapter: &str, number: u32, median: f64, gpu: bool) -> BenchLine {
+    let jitter = [0.3, -0.2, 0.1, 0.0, -0.4, 0.2, -0.1, 0.4, -0.3][number as usize % 9];
+    let middle = median * (1.0 + jitter / 100.0);
+    let wall = [0.98, 0.99, 1.0, 1.01, 1.4].map(|f| middle * f).to_vec();
+    BenchLine::Round(Round {
+        case: case.to_owned(),
+        adapter: adapter.to_owned(),
+        round: number,
+        at: f64::from(number),
+        ruler: [0.002, 0.002 * (1.0 + jitter / 1000.0)],
+        prepare: 0.02,
+        first: middle * 3.0,
+        warm_up: 2,
+        cpu: wall.iter().map(|t| t / 4.0).collect(),
+        gpu: if gpu {
+            wall.iter().map(|t| t / 2.0).collect()
+        } else {
+            Vec::new()
+        },
+        read_back: Vec::new(),
+        wall,
+    })
+}
+
+/// Two cases: softpipe's picture is wrong, lavapipe takes 3 ms, `cpu` as long as is said, the card
+/// 0.1 ms.
+pub(crate) fn write(folder: &Path, header: &BenchHeader, cpu: f64, softpipe: Verdict) -> Bench {
+    let mut writer = BenchWriter::create(folder, header).unwrap();
+    for case in CASES {
+        for (name, median) in [
+            ("cpu", cpu),
+            ("vulkan:lavapipe", 3e-3),
+            ("vulkan:card", 1e-4),
+        ] {
+            let line = picture(case, name, Verdict::Pass, "");
+            writer.append(&line).unwrap();
+            for number in 0..header.rounds {
+                let line = round(case, name, number, median, name == "vulkan:card");
+                writer.append(&line).unwrap();
+            }
+        }
+        let line = picture(case, "gl:softpipe", softpipe, "texel (1, 2) is <wrong>");
+        writer.append(&line).unwrap();
+        if softpipe == Verdict::Pass {
+            for number in 0..header.rounds {
+                writer
+                    .append(&round(case, "gl:softpipe", number, 0.01, false))
+                    .unwrap();
+            }
+        }
+    }
+    Bench::read(folder).unwrap()
+}
+
+fn page(path: &Path) -> String {
+    let html = fs::read_to_string(path).unwrap();
+    let body = html.strip_prefix("<!DOCTYPE html>").unwrap();
+    // Elements without content are not closed in HTML; the rest is well-formed.
+    let xml = body.replace("<br>", "<br/>").replace("<wbr>", "<wbr/>");
+    let closed = |part: &str| part.replacen('>', "/>", 1);
+    let mut parts = xml.split("<meta ");
+    let mut xml = parts.next().unwrap().to_owned();
+    for part in parts {
+        xml.push_str("<meta ");
+        xml.push_str(&closed(part));
+    }
+    Document::parse(&xml).unwrap();
+    assert!(!html.contains("<script") && !html.contains("http-equiv=\"refresh\""));
+    html
+}
+
+/// The pages of a bench, and of its comparison with a slower one.
+pub(crate) fn pages(folder: &Path) -> [PathBuf; 2] {
+    let before = write(&folder.join("before"), &header(), 2e-3, Verdict::Pass);
+    let after = write(&folder.join("after"), &header(), 2.2e-3, Verdict::Fail);
+    let found = diff(&before, &after, Time::Wall);
+    let own = write_bench(&folder.join("after")).unwrap();
+    [
+        own.html,
+        write_diff(&folder.join("diff.html"), &found).unwrap(),
+    ]
+}
+
+#[test]
+fn the_page_keeps_software_and_hardware_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), &header(), 2e-3, Verdict::Fail);
+    let written = write_bench(folder.path()).unwrap();
+    let html = page(&written.html);
+    let software = html.find("Software adapters, wall time").unwrap();
+    let hardware = html.find("Hardware adapters, wall time").unwrap();
+    let ruler = html.find("id=\"ruler\"").unwrap();
+    let card = html.find("vulkan:<wbr>card").unwrap();
+    assert!(software < hardware && hardware < card && card < ruler);
+    assert!(html[software..hardware].contains("2.000 ms"));
+    assert!(!html[software..hardware].contains("100.0 µs"));
+    assert!(html.contains("perf/&lt;b&gt;&amp;quad/size=256") && !html.contains("<b>&quad"));
+    assert!(html.contains("texel (1, 2) is &lt;wrong&gt;"));
+    assert!(
+        html.contains("2 pictures</b>") || html.contains("2 pictures wrong"),
+        "counted"
+    );
+    assert!(html.contains("<svg class=\"drift\"") && html.contains("<svg class=\"strip\""));
+}
+
+/// Bencher's schema: an object of objects of metrics, each with a value and two optional bounds.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Metric {
+    value: f64,
+    lower_value: Option<f64>,
+    upper_value: Option<f64>,
+}
+
+/// `BenchmarkResult` of github-action-benchmark.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ActionResult {
+    name: String,
+    value: f64,
+    range: Option<String>,
+    unit: String,
+    extra: Option<String>,
+}
+
+#[test]
+fn files_for_dashboards_have_the_published_shape() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), &header(), 2e-3, Verdict::Fail);
+    let written = write_bench(folder.path()).unwrap();
+    let text = fs::read(&written.bencher).unwrap();
+    let all: BTreeMap<String, BTreeMap<String, Metric>> = serde_json::from_slice(&text).unwrap();
+    assert_eq!(all.len(), 6, "a wrong picture has no time");
+    let metrics = &all["perf/clear/size=256 vulkan:lavapipe"];
+    let latency = &metrics["latency"];
+    assert!((latency.value - 3e6).abs() < 1.0, "{}", latency.value);
+    let (low, high) = (latency.lower_value.unwrap(), latency.upper_value.unwrap());
+    assert!(low < latency.value && latency.value < high && high < 3.1e6);
+    assert!(!metrics.contains_key("gpu-time"));
+    assert!(all["perf/clear/size=256 vulkan:card"].contains_key("gpu-time"));
+    for (name, measures) in &all {
+        assert!(name.len() <= 1024 && measures.keys().all(|m| m.len() <= 64));
+    }
+
+    let text = fs::read(&written.action).unwrap();
+    let results: Vec<ActionResult> = serde_json::from_slice(&text).unwrap();
+    assert_eq!(results.len(), 6);
+    let cpu = results
+        .iter()
+        .find(|r| r.name == "perf/clear/size=256 cpu")
+        .unwrap();
+    assert!((cpu.value - 2e6).abs() < 1.0 && cpu.unit == "ns");
+    assert!(cpu.range.as_ref().unwrap().starts_with("± "));
+    let extra = cpu.extra.as_ref().unwrap();
+    assert!(
+        extra.starts_with("9 rounds, 45 samples, 18 discarded as warm-up"),
+        "{extra}"
+    );
+}
+
+#[test]
+fn the_table_ranks_within_a_kind() {
+    let folder = tempfile::tempdir().unwrap();
+    let bench = write(folder.path(), &header(), 3.003e-3, Verdict::Pass);
+    let text = bench_table(
+        &bench,
+        TableOptions {
+            width: 200,
+            color: false,
+        },
+    );
+    let rank = |adapter: &str, from: &str| {
+        let part = text.split(from).nth(1).unwrap();
+        let cells = |line: &str| {
+            line.split('│')
+                .map(|c| c.trim().to_owned())
+                .collect::<Vec<_>>()
+        };
+        let mut rows = part.lines().map(cells);
+        let row = rows
+            .find(|r| r.get(3).is_some_and(|c| c == adapter))
+            .unwrap();
+        row[2].clone()
+    };
+    // 0.1 % apart: not to be told apart; softpipe is third.
+    assert_eq!(rank("vulkan:lavapipe", "Software"), "1");
+    assert_eq!(rank("cpu", "Software"), "1");
+    assert_eq!(rank("gl:softpipe", "Software"), "3");
+    assert_eq!(rank("vulkan:card", "Hardware"), "1");
+    assert!(text.ends_with('\n'));
+}
+
+#[test]
+fn a_diff_tells_what_is_worse() {
+    let folders = [(); 3].map(|()| tempfile::tempdir().unwrap());
+    let before = write(folders[0].path(), &header(), 2e-3, Verdict::Pass);
+    let same = write(folders[1].path(), &header(), 2e-3, Verdict::Pass);
+    let unchanged = diff(&before, &same, Time::Wall);
+    assert!(!unchanged.worse() && unchanged.notes.is_empty());
+    assert_eq!(unchanged.count("cannot tell"), 8);
+
+    let mut other = header();
+    other.adapters[1].driver_version = "26.0.0".to_owned();
+    other.ruler = "another".to_owned();
+    let after = write(folders[2].path(), &other, 2.2e-3, Verdict::Fail);
+    let found = diff(&before, &after, Time::Wall);
+    assert_eq!((found.count("slower"), found.count("faster")), (2, 0));
+    let slower = found
+        .changes
+        .iter()
+        .find(|c| c.outcome == "slower")
+        .unwrap();
+    assert_eq!(slower.adapter, "cpu");
+    assert!((slower.ratio - 1.1).abs() < 0.005 && slower.ruled.is_none());
+    assert_eq!(found.gone.len(), 2);
+    assert!(
+        found
+            .gone
+            .iter()
+            .all(|g| g.worse && g.from_after && g.why.contains("fail"))
+    );
+    let notes = found.notes.join("\n");
+    assert!(
+        notes.contains("26.0.0") && notes.contains("rulers differ"),
+        "{notes}"
+    );
+    assert!(
+        diff(&after, &before, Time::Wall)
+            .gone
+            .iter()
+            .all(|g| !g.worse)
+    );
+    assert_eq!(diff(&after, &before, Time::Wall).count("faster"), 2);
+    // The card alone has GPU times, and no ruler bears on them.
+    let gpu = diff(&before, &same, Time::Gpu);
+    assert!(gpu.changes.len() == 2 && gpu.changes.iter().all(|c| c.ruled.is_none()));
+
+    let text = diff_table(
+        &found,
+        TableOptions {
+            width: 160,
+            color: false,
+        },
+    );
+    assert!(text.contains("2 slower, 0 faster, 4 undecided"), "{text}");
+    let software = text.find("Software, wall times").unwrap();
+    let hardware = text.find("Hardware, wall times").unwrap();
+    assert!(!text[software..hardware].contains("vulkan:card"));
+    let json: serde_json::Value = serde_json::to_value(&found).unwrap();
+    assert_eq!(json["changes"].as_array().unwrap().len(), 6);
+
+    let path = folders[0].path().join("diff.html");
+    let html = page(&write_diff(&path, &found).unwrap());
+    assert!(html.contains("2 slower, 2 no longer right."));
+}
+
+#[test]
+fn a_bench_that_was_cut_short_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = BenchWriter::create(folder.path(), &header()).unwrap();
+    writer
+        .append(&picture(CASES[0], "cpu", Verdict::Pass, ""))
+        .unwrap();
+    for number in 0..3 {
+        writer
+            .append(&round(CASES[0], "cpu", number, 1e-3, false))
+            .unwrap();
+    }
+    let ended = Ended {
+        case: CASES[0].to_owned(),
+        adapter: "cpu".to_owned(),
+        verdict: Verdict::Crash,
+        message: "signal 11".to_owned(),
+    };
+    writer.append(&BenchLine::Ended(ended)).unwrap();
+    let written = write_bench(folder.path()).unwrap();
+    let html = page(&written.html);
+    assert!(
+        html.contains("Incomplete") && html.contains("signal 11"),
+        "{html}"
+    );
+    let bench = Bench::read(folder.path()).unwrap();
+    // Seven pairs were never begun.
+    assert_eq!(bench.missing(), 7 * 9);
+    let text = bench_table(&bench, TableOptions::default());
+    assert!(text.contains("63 rounds missing"), "{text}");
+}

@@ -1,0 +1,37 @@
+//! The pages in a browser: opened from the file system, used by clicks and keys. One Chromium serves all
+//! checks, since its start costs more than most of them; each check has a tab of its own.
+
+mod cdp;
+mod driver;
+mod hostile;
+mod index;
+mod large;
+mod made;
+mod unscripted;
+
+use driver::Chromium;
+
+#[test]
+fn pages_work_in_a_browser() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = made::write(folder.path());
+    let chromium = Chromium::start();
+    let check = |name: &str, check: &dyn Fn()| {
+        let start = std::time::Instant::now();
+        println!("{name} …");
+        check();
+        println!("{name}: {:.1?}", start.elapsed());
+    };
+    for (name, of) in index::CHECKS {
+        check(name, &|| of(&chromium, &path));
+    }
+    check("hostile names", &|| {
+        hostile::hostile_names_stay_text(&chromium)
+    });
+    check("large run", &|| {
+        large::eighty_thousand_records_open_and_are_searched(&chromium);
+    });
+    check("pages without scripts", &|| {
+        unscripted::pages_have_no_script(&chromium)
+    });
+}

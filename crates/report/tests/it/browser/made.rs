@@ -1,0 +1,87 @@
+//! A small made-up run in which it is known what stands out.
+
+use crate::synthetic::{adapter, header};
+use etalon_frame::Api;
+use etalon_record::{Expected, LossKind, ProcessEnd, Record, RunWriter, Seconds, Verdict};
+use std::path::{Path, PathBuf};
+
+pub(crate) const ADAPTERS: [&str; 4] = ["cpu", "gl:llvmpipe", "gl:softpipe", "vulkan:lavapipe"];
+/// Fails on `gl:softpipe` and nowhere else.
+pub(crate) const ODD: &str = "depth/compare/compare=greater/write=true";
+/// Crashes on `vulkan:lavapipe`, with all that is told of a lost process.
+pub(crate) const CRASH: &str = "blend/order/draws=2";
+/// The number of cases.
+pub(crate) const CASES: usize = 6 + 1 + 4 + 1 + 1;
+
+/// Writes the run with its reports, and says where the page is.
+pub(crate) fn write(folder: &Path) -> PathBuf {
+    let adapters = ADAPTERS.map(|name| adapter(name, Api::Vulkan)).to_vec();
+    let mut writer = RunWriter::create(folder, &header(CASES as u64, adapters)).unwrap();
+    for id in ids() {
+        for (column, name) in ADAPTERS.into_iter().enumerate() {
+            writer.append(&record(&id, column, name)).unwrap();
+        }
+    }
+    drop(writer);
+    etalon_report::write(folder).unwrap().html
+}
+
+fn ids() -> Vec<String> {
+    let mut ids = Vec::new();
+    for compare in ["equal", "greater", "less"] {
+        for write in ["false", "true"] {
+            ids.push(format!("depth/compare/compare={compare}/write={write}"));
+        }
+    }
+    ids.push("depth/clip/planes=1".to_owned());
+    ids.extend((0..4).map(|read| format!("stencil/masks/read={read}")));
+    ids.push(CRASH.to_owned());
+    ids.push("selftest/told/bug=1".to_owned());
+    assert_eq!(ids.len(), CASES);
+    ids
+}
+
+fn record(id: &str, column: usize, name: &str) -> Record {
+    let verdict = match (id, column) {
+        (ODD, 2) => Verdict::Fail,
+        ("depth/clip/planes=1", _) => {
+            let each = [
+                Verdict::Pass,
+                Verdict::NotSupported,
+                Verdict::Skipped,
+                Verdict::Fail,
+            ];
+            each[column]
+        }
+        ("stencil/masks/read=1", 0) => Verdict::Imprecise,
+        ("stencil/masks/read=2", _) => Verdict::Fail,
+        (CRASH, 3) => Verdict::Crash,
+        ("selftest/told/bug=1", _) => Verdict::Fail,
+        _ => Verdict::Pass,
+    };
+    let mut record = Record::new(id, name, verdict);
+    record.seconds = Seconds {
+        draw: 0.0125,
+        judge: 2.5,
+    };
+    record.due_fail = id.starts_with("selftest");
+    if id == "stencil/masks/read=2" {
+        record.expected = Some(Expected {
+            reason: "masks are known to be wrong, bug 99".to_owned(),
+        });
+    }
+    if verdict == Verdict::Crash {
+        record.message = "the process died of SIGSEGV".to_owned();
+        record.process = Some(ProcessEnd {
+            kind: LossKind::Died,
+            signal: Some(11),
+            exit: None,
+            stderr: "lavapipe: assertion of the shader's stack\nlast line".to_owned(),
+            seconds: 0.75,
+        });
+        record.validation = vec!["VUID-vkCmdDraw-None-02699: no descriptor".to_owned()];
+        record.repeats = vec![Verdict::Crash, Verdict::Crash, Verdict::Pass];
+        record.after = vec![ODD.to_owned()];
+    }
+    record
+}

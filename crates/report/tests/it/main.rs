@@ -1,0 +1,17 @@
+//! Reports made from recorded folders, read again by parsers of others, by a browser, and by people: what
+//! a report prints is kept under `snapshots/`. To change it, run with `INSTA_UPDATE=always` and review the
+//! difference.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+mod bench;
+mod browser;
+mod damage;
+mod deqp;
+mod formats;
+mod markdown;
+mod printed;
+mod report;
+mod runs_diff;
+mod runs_made;
+mod synthetic;
+mod verdicts;

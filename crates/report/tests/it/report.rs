@@ -1,0 +1,458 @@
+//! Reports made from run folders: their structure, their size, and what hostile names do to them.
+
+use crate::synthetic::{self, adapter, header};
+use etalon_frame::{Accuracy, Api, Aspect, Distance, Story, StoryLine};
+use etalon_record::{Expected, Measured, Parameter, Record, Run, RunWriter, Times, Verdict};
+use etalon_report::{TableOptions, Written, table, write};
+use roxmltree::{Document, Node};
+use std::collections::HashSet;
+use std::ffi::OsString;
+use std::fs;
+use std::path::Path;
+
+fn read(written: &Written) -> (String, String) {
+    (
+        fs::read_to_string(&written.html).unwrap(),
+        fs::read_to_string(&written.junit).unwrap(),
+    )
+}
+
+/// One case per verdict on one adapter, and one more each: expected, due, missed, better.
+fn every_verdict(folder: &Path) -> Vec<Record> {
+    let adapters = vec![adapter("gl:a", Api::OpenGl), adapter("gl:b", Api::OpenGl)];
+    let cases = Verdict::ALL.len() as u64 + 4;
+    let mut writer = RunWriter::create(folder, &header(cases, adapters)).unwrap();
+    let mut records = Vec::new();
+    for name in ["gl:a", "gl:b"] {
+        for (i, verdict) in Verdict::ALL.into_iter().enumerate() {
+            let id = format!("depth/all/verdict={verdict}");
+            records.push(synthetic::record(&writer, &id, name, verdict, i as u32));
+        }
+        let mut expected = Record::new("blend/expected", name, Verdict::Crash);
+        expected.expected = Some(Expected {
+            reason: "bug 12 of the driver".to_owned(),
+        });
+        let mut better = Record::new("blend/better", name, Verdict::Pass);
+        better.improves = Some(Verdict::Fail);
+        let mut due = Record::new("selftest/due", name, Verdict::Fail);
+        due.due_fail = true;
+        let mut missed = Record::new("selftest/missed", name, Verdict::Pass);
+        missed.due_fail = true;
+        records.extend([expected, better, due, missed]);
+    }
+    records.iter().for_each(|r| writer.append(r).unwrap());
+    records
+}
+
+fn suite<'a>(xml: &'a Document<'_>, name: &str) -> Node<'a, 'a> {
+    let is = |n: &Node<'_, '_>| n.has_tag_name("testsuite") && n.attribute("name") == Some(name);
+    xml.descendants().find(is).unwrap()
+}
+
+fn case<'a>(suite: Node<'a, 'a>, name: &str) -> Node<'a, 'a> {
+    let is = |n: &Node<'_, '_>| n.attribute("name") == Some(name);
+    suite.children().find(is).unwrap()
+}
+
+/// `failure`, `error`, `skipped` or nothing.
+fn outcome(case: Node<'_, '_>) -> Option<String> {
+    let names = ["failure", "error", "skipped"];
+    let found = case
+        .children()
+        .find(|c| names.contains(&c.tag_name().name()));
+    found.map(|c| c.tag_name().name().to_owned())
+}
+
+#[test]
+fn junit_tells_failures_errors_and_skips_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = every_verdict(folder.path());
+    let (_, junit) = read(&write(folder.path()).unwrap());
+    let xml = Document::parse(&junit).unwrap();
+    for name in ["gl:a", "gl:b"] {
+        let suite = suite(&xml, name);
+        assert_eq!(suite.attribute("tests"), Some("17"));
+        assert_eq!(suite.attribute("failures"), Some("4"));
+        assert_eq!(suite.attribute("errors"), Some("5"));
+        for verdict in Verdict::ALL {
+            let found = outcome(case(suite, &format!("depth/all/verdict={verdict}")));
+            let due = match verdict {
+                Verdict::Fail | Verdict::Open | Verdict::Flaky => Some("failure"),
+                Verdict::NotSupported | Verdict::Skipped => Some("skipped"),
+                v if v.is_bad() => Some("error"),
+                _ => None,
+            };
+            assert_eq!(found.as_deref(), due, "{verdict}");
+        }
+        assert_eq!(outcome(case(suite, "blend/expected")), None);
+        assert_eq!(outcome(case(suite, "selftest/due")), None);
+        assert_eq!(outcome(case(suite, "blend/better")), None);
+        let missed = outcome(case(suite, "selftest/missed"));
+        assert_eq!(missed.as_deref(), Some("failure"));
+    }
+    let expected = case(suite(&xml, "gl:a"), "blend/expected");
+    let text: String = expected.descendants().filter_map(|n| n.text()).collect();
+    assert!(text.contains("expected: bug 12"), "{text}");
+    let fail = case(suite(&xml, "gl:a"), "depth/all/verdict=fail");
+    let text: String = fail.descendants().filter_map(|n| n.text()).collect();
+    assert!(text.contains("17.3.4"), "the story is told: {text}");
+    assert_eq!(
+        outcome(case(suite(&xml, "etalon"), "the run is complete")),
+        None
+    );
+    assert_eq!(records.len(), 2 * 17);
+}
+
+#[test]
+fn the_page_shows_every_verdict_and_its_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = every_verdict(folder.path());
+    let (html, _) = read(&write(folder.path()).unwrap());
+    for (i, record) in records.iter().enumerate() {
+        let id = format!("id=\"r{i}\"");
+        let listed =
+            record.verdict.is_bad() || record.verdict == Verdict::Imprecise || record.unexpected();
+        assert_eq!(html.contains(&id), listed, "{record:?}");
+        let view = format!("href=\"#case={}\"", record.case);
+        assert!(!listed || html.contains(&view), "{view}");
+    }
+    for label in [
+        "allowed low",
+        "allowed high",
+        "actual",
+        "difference",
+        "allowed",
+    ] {
+        assert!(
+            html.contains(&format!("<figcaption>{label}</figcaption>")),
+            "{label}"
+        );
+    }
+    for text in [
+        "bug 12 of the driver",
+        "due to fail",
+        "vulkan:radv",
+        "17.3.4",
+        "sharpness",
+    ] {
+        assert!(html.contains(text), "{text}");
+    }
+    assert!(!html.contains("http://") && !html.contains("https://"));
+    links_lead_somewhere(&html);
+}
+
+/// Every link of the page leads to an element of the page, to a case, or to a filter of cases.
+fn links_lead_somewhere(html: &str) {
+    let after = |key: &str| -> HashSet<String> {
+        let parts = html.split(key).skip(1);
+        parts
+            .map(|p| p.split('"').next().unwrap().to_owned())
+            .collect()
+    };
+    let (links, ids) = (after("href=\"#"), after("id=\""));
+    for link in links.difference(&ids) {
+        let views = ["case=", "q="];
+        assert!(views.iter().any(|v| link.starts_with(v)), "{link}");
+        assert!(!link.contains(['<', '>', '"', ' ', '\'']), "{link}");
+    }
+}
+
+#[test]
+fn hostile_names_stay_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let hostile = "\"><script>alert(1)</script><i class='x' onload=\"y\">&amp;]]>\u{1b}[2J\u{7}";
+    let mut header = header(1, vec![adapter(hostile, Api::Vulkan)]);
+    header.started = hostile.to_owned();
+    header.command = vec![hostile.to_owned()];
+    header.absent[0].remedy = hostile.to_owned();
+    let mut writer = RunWriter::create(folder.path(), &header).unwrap();
+    let id = format!("{hostile}/{hostile}/a={hostile}");
+    let mut record = synthetic::record(&writer, &id, hostile, Verdict::Fail, 1);
+    record.message = hostile.to_owned();
+    record.story = Some(Story {
+        lines: vec![StoryLine {
+            at: hostile.to_owned(),
+            operation: hostile.to_owned(),
+            detail: hostile.to_owned(),
+            citation: Some(hostile.to_owned()),
+        }],
+    });
+    record.wrong[0].channels[0].attachment = hostile.to_owned();
+    writer.append(&record).unwrap();
+    let (html, junit) = read(&write(folder.path()).unwrap());
+    assert_eq!(html.matches("<script>").count(), 1, "our own");
+    assert!(!html.contains("<i class='x'"));
+    assert!(!html.contains("\"><script"));
+    links_lead_somewhere(&html);
+    let xml = Document::parse(&junit).unwrap();
+    let fails = xml.descendants().filter(|n| n.has_tag_name("failure"));
+    assert_eq!(fails.count(), 1);
+
+    let run = Run::read(folder.path()).unwrap();
+    let text = table(&run, TableOptions::default());
+    assert!(
+        !text.contains('\u{1b}') && !text.contains('\u{7}'),
+        "{text:?}"
+    );
+}
+
+#[test]
+fn a_record_cannot_name_files_outside_the_folder() {
+    let outer = tempfile::tempdir().unwrap();
+    fs::write(outer.path().join("secret"), "the secret").unwrap();
+    let folder = outer.path().join("run");
+    let header = header(1, vec![adapter("cpu", Api::Vulkan)]);
+    let mut writer = RunWriter::create(&folder, &header).unwrap();
+    let mut record = Record::new("a/b", "cpu", Verdict::Fail);
+    record.frame = Some("../secret".to_owned());
+    writer.append(&record).unwrap();
+    let (html, _) = read(&write(&folder).unwrap());
+    assert!(html.contains("No pictures"));
+    assert!(!html.contains("the secret"));
+}
+
+#[test]
+fn an_empty_run_is_not_green() {
+    let folder = tempfile::tempdir().unwrap();
+    RunWriter::create(folder.path(), &header(0, Vec::new())).unwrap();
+    let (html, junit) = read(&write(folder.path()).unwrap());
+    assert!(html.contains("No case was run"));
+    assert!(!html.contains("Nothing unexpected"));
+    links_lead_somewhere(&html);
+    let xml = Document::parse(&junit).unwrap();
+    let complete = case(suite(&xml, "etalon"), "the run is complete");
+    assert_eq!(outcome(complete).as_deref(), Some("error"));
+    let text = table(&Run::read(folder.path()).unwrap(), TableOptions::default());
+    assert!(text.contains("No case was run"), "{text}");
+}
+
+#[test]
+fn a_cut_run_says_what_is_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = header(3, vec![adapter("cpu", Api::Vulkan)]);
+    let mut writer = RunWriter::create(folder.path(), &header).unwrap();
+    let pass = |n: u32| Record::new(format!("a/{n}"), "cpu", Verdict::Pass);
+    writer.append(&pass(0)).unwrap();
+    writer.append(&pass(1)).unwrap();
+    let path = folder.path().join("run.jsonl");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, &text[..text.len() - 9]).unwrap();
+    let (html, junit) = read(&write(folder.path()).unwrap());
+    assert!(html.contains("2 of 3 records are missing"));
+    assert!(html.contains("The last record was cut off"));
+    let xml = Document::parse(&junit).unwrap();
+    let complete = case(suite(&xml, "etalon"), "the run is complete");
+    assert_eq!(outcome(complete).as_deref(), Some("error"));
+    let run = Run::read(folder.path()).unwrap();
+    let text = table(&run, TableOptions::default());
+    assert!(text.contains("2 of 3 records are missing"), "{text}");
+}
+
+#[test]
+fn the_table_counts_and_lists() {
+    let folder = tempfile::tempdir().unwrap();
+    every_verdict(folder.path());
+    let run = Run::read(folder.path()).unwrap();
+    let text = table(&run, TableOptions::default());
+    assert!(!text.contains('\u{1b}'));
+    assert!(text.contains("18 unexpected records"), "{text}");
+    // Whatever became of a case is counted in one column; the last one holds the rate.
+    let options = TableOptions {
+        width: 200,
+        color: false,
+    };
+    let wide = table(&run, options);
+    let row = wide.lines().find(|l| l.starts_with("│ gl:a")).unwrap();
+    let cells: Vec<&str> = row.split('│').map(str::trim).collect();
+    let counts = cells[2..cells.len() - 2].iter();
+    let sum: u64 = counts.filter_map(|c| c.parse::<u64>().ok()).sum();
+    assert_eq!(sum, Verdict::ALL.len() as u64 + 4, "{wide}");
+    assert!(wide.contains(" skipped "), "{wide}");
+    assert!(text.contains("2 improvements"), "{text}");
+    assert!(text.contains("depth/all/verdict=crash\n    the process died of SIGABRT"));
+    assert!(text.contains("depth allowed 0x"), "{text}");
+    for width in [20, 60, 80] {
+        let narrow = table(&run, TableOptions { width, color: true });
+        let top = narrow.lines().next().unwrap().chars().count();
+        assert!(top <= width.max(40), "{narrow}");
+    }
+    let colored = table(
+        &run,
+        TableOptions {
+            width: 120,
+            color: true,
+        },
+    );
+    assert!(colored.contains("\u{1b}[31m"));
+}
+
+#[test]
+fn a_large_run_stays_small() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = synthetic::write(folder.path(), 2);
+    assert_eq!(records, synthetic::cases().len() * 2 * 8);
+    let (html, junit) = read(&write(folder.path()).unwrap());
+    assert!(html.len() < 8_000_000, "{}", html.len());
+    links_lead_somewhere(&html);
+    assert!(Document::parse(&junit).is_ok());
+    let leftovers = fs::read_dir(folder.path()).unwrap();
+    let names: Vec<_> = leftovers.map(|e| e.unwrap().file_name()).collect();
+    let hidden = |name: &OsString| name.to_string_lossy().starts_with('.');
+    assert!(!names.iter().any(hidden), "{names:?}");
+}
+
+#[test]
+fn methods_get_a_page_of_charts() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = synthetic::methods::write(folder.path());
+    let written = write(folder.path()).unwrap();
+    let page = fs::read_to_string(written.methods.as_ref().unwrap()).unwrap();
+    links_lead_somewhere(&page);
+    assert!(!page.contains("<script"), "readable without scripts");
+    assert!(!page.contains("http://") && !page.contains("https://"));
+    // Three scenes on four adapters, and one chart of stability for each scene, since the made-up errors are the
+    // same everywhere.
+    let charts: Vec<&str> = page.split("<svg class=\"chart").skip(1).collect();
+    assert_eq!(charts.len(), 3 * 4 + 3);
+    for chart in &charts {
+        let chart = chart.split("</svg>").next().unwrap();
+        assert!(chart.contains("role=\"img\"") && chart.contains("<title>"));
+        let xml = format!("<svg class=\"chart{chart}</svg>");
+        assert!(Document::parse(&xml).is_ok(), "{xml}");
+    }
+    assert_eq!(
+        page.matches("Hardware adapters").count(),
+        3,
+        "never among the others"
+    );
+    // Every record stands in a table, and every scene has its command.
+    assert_eq!(
+        page.matches("<tr><th scope=\"row\">").count(),
+        records + claims(&page)
+    );
+    assert!(
+        page.contains("etalon run &#39;methods/transparency/windows/*&#39;")
+            || page.contains("etalon run 'methods/transparency/windows/*'")
+    );
+    for text in [
+        "weighted-blended leaves 1\u{a0}% RMSE at alpha 0.53",
+        "reproduced",
+        "not measured",
+    ] {
+        assert!(page.contains(text), "{text}");
+    }
+
+    let (index, _) = read(&written);
+    links_lead_somewhere(&index);
+    for text in [
+        "href=\"methods.html#s",
+        "href=\"#methods\"",
+        "href=\"#accuracy\"",
+        "median frame time",
+    ] {
+        assert!(index.contains(text), "{text}");
+    }
+    assert!(index.len() < 200_000, "{}", index.len());
+    let text = table(&Run::read(folder.path()).unwrap(), TableOptions::default());
+    assert!(
+        text.contains("transparency/windows (hardware): depth-peeling 0;"),
+        "{text}"
+    );
+}
+
+fn claims(page: &str) -> usize {
+    page.matches("<td class=\"verdict").count()
+}
+
+#[test]
+fn hostile_names_of_methods_stay_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let hostile = "\"><script>alert(1)</script><i class='x' onload=\"y\">&amp;]]>\u{1b}[2J\u{7}";
+    let mut header = header(1, vec![adapter(hostile, Api::Vulkan)]);
+    header.command = vec![hostile.to_owned()];
+    let mut writer = RunWriter::create(folder.path(), &header).unwrap();
+    let [first, second] = [0.1, 2.0].map(|value| {
+        let mut record = Record::new(format!("{hostile}/b={hostile}"), hostile, Verdict::Measured);
+        record.accuracy = vec![Accuracy {
+            aspect: Aspect::Color,
+            channels: 1,
+            mean: value,
+            max: 1e300,
+        }];
+        record.measured = Some(Measured {
+            question: hostile.to_owned(),
+            scene: hostile.to_owned(),
+            method: hostile.to_owned(),
+            parameter: Some(Parameter {
+                name: hostile.to_owned(),
+                value,
+            }),
+            distance: Distance {
+                rmse: value / 10.0,
+                ..Distance::default()
+            },
+            time: Some(Times {
+                samples: 1,
+                wall: value,
+                cpu: 1e300,
+                gpu: Some(-1.0),
+            }),
+            passes: u32::MAX,
+            draws: 0,
+            fragments: Some(u64::MAX),
+            bytes: u64::MAX,
+            picture: Some("../secret.png".to_owned()),
+            truth: Some("/etc/passwd".to_owned()),
+        });
+        record
+    });
+    writer.append(&first).unwrap();
+    writer.append(&second).unwrap();
+    let written = write(folder.path()).unwrap();
+    let page = fs::read_to_string(written.methods.as_ref().unwrap()).unwrap();
+    assert!(!page.contains("<script") && !page.contains("<i class='x'"));
+    assert!(
+        !page.contains("<img"),
+        "nothing outside of the folder is read"
+    );
+    assert!(page.contains("leaves 1\u{a0}% RMSE"));
+    links_lead_somewhere(&page);
+    let (index, _) = read(&written);
+    assert!(!index.contains("<i class='x'"));
+    let text = table(&Run::read(folder.path()).unwrap(), TableOptions::default());
+    assert!(
+        !text.contains('\u{1b}') && !text.contains('\u{7}'),
+        "{text:?}"
+    );
+}
+
+#[test]
+fn pictures_of_methods_are_shown_when_they_are_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    synthetic::methods::write(folder.path());
+    let mut run = Run::read(folder.path()).unwrap();
+    let mut writer = RunWriter::create(&folder.path().join("with"), &run.header).unwrap();
+    for (record, name) in run
+        .records
+        .iter_mut()
+        .zip(["a.png", "b.png", "c.png", "d.png", "e.png"])
+    {
+        let measured = record.measured.as_mut().unwrap();
+        measured.picture = Some(format!("pictures/{name}"));
+        measured.truth = Some("pictures/truth.png".to_owned());
+        writer.append(record).unwrap();
+    }
+    let pictures = folder.path().join("with/pictures");
+    fs::create_dir_all(&pictures).unwrap();
+    let png = b"\x89PNG\r\n\x1a\nand so on";
+    fs::write(pictures.join("truth.png"), png).unwrap();
+    // The middle value's picture is the one that is shown.
+    fs::write(pictures.join("c.png"), png).unwrap();
+    let written = write(&folder.path().join("with")).unwrap();
+    let page = fs::read_to_string(written.methods.as_ref().unwrap()).unwrap();
+    assert_eq!(page.matches("<img").count(), 2);
+    fs::write(pictures.join("c.png"), "<svg onload='alert(1)'>").unwrap();
+    let written = write(&folder.path().join("with")).unwrap();
+    let page = fs::read_to_string(written.methods.as_ref().unwrap()).unwrap();
+    assert_eq!(page.matches("<img").count(), 1, "no picture, but the truth");
+}

@@ -1,0 +1,575 @@
+//! Two runs held against each other: planted changes of every kind are found, and none other.
+
+use crate::runs_made::{Two, one_adapter, record_all, rich};
+use crate::synthetic::{self, adapter, header};
+use etalon_frame::{Api, CounterKind, CounterOutcome, Story, StoryLine};
+use etalon_record::{
+    Expected, LossKind, ProcessEnd, Record, Run, RunWriter, Verdict, selection_digest,
+};
+use etalon_report::runs::{Change, Direction, Side, diff, table, write_page};
+use etalon_report::{ReportError, TableOptions};
+use proptest::prelude::*;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+
+/// The change that one planted difference is found as: its direction and what differs.
+fn planted(change: impl FnOnce(&mut Record)) -> Option<Change> {
+    let two = Two::new();
+    let old: Vec<Record> = (0..5).map(|i| rich(&format!("blend/f/case={i}"))).collect();
+    let mut new = old.clone();
+    change(&mut new[2]);
+    record_all(&two.before(), &one_adapter(5), &old);
+    record_all(&two.after(), &one_adapter(5), &new);
+    let found = two.diff();
+    assert!(found.only.is_empty() && found.unpaired.is_empty());
+    assert_eq!(found.compared(), 5);
+    assert!(found.changes.len() <= 1, "none but the planted one");
+    let changed = found.changes.len() as u64;
+    assert_eq!(found.pairs[0].same, 5 - changed);
+    // The one that changed is listed, and no other: methods have a line each, of their times.
+    let text = table(&found, TableOptions::default());
+    let page = two.page(&found);
+    let listed = |start: &str| text.lines().filter(|l| l.starts_with(start)).count();
+    assert_eq!(
+        ["✗ ", "✓ ", "≠ "].map(listed).iter().sum::<usize>(),
+        changed as usize
+    );
+    assert_eq!(page.matches("class=\"chip").count(), changed as usize);
+    if changed > 0 {
+        assert!(text.contains("  gl:a  blend/f/case=2\n"), "{text}");
+        assert!(page.contains("<code>blend/f/case=2</code>"));
+    }
+    found.changes.into_iter().next()
+}
+
+fn kinds(change: Option<Change>) -> (Direction, Vec<&'static str>) {
+    let change = change.unwrap();
+    assert_eq!(change.case, "blend/f/case=2");
+    (change.direction, change.what)
+}
+
+#[test]
+fn each_planted_change_is_found_as_what_it_is() {
+    let fail = planted(|r| r.verdict = Verdict::Fail);
+    assert_eq!(
+        kinds(fail),
+        (Direction::Worse, vec!["verdict", "expectation"])
+    );
+    let pass = planted(|r| r.verdict = Verdict::Pass);
+    assert_eq!(kinds(pass), (Direction::Other, vec!["verdict"]));
+    let expected = planted(|r| {
+        r.expected = Some(Expected {
+            reason: "known".to_owned(),
+        });
+    });
+    assert_eq!(kinds(expected), (Direction::Other, vec!["expectation"]));
+    let texels = planted(|r| r.texels.imprecise = 4);
+    assert_eq!(kinds(texels), (Direction::Other, vec!["texels"]));
+    let mean = planted(|r| r.accuracy[0].mean = 0.250_000_1);
+    assert_eq!(kinds(mean), (Direction::Other, vec!["accuracy"]));
+    let count = planted(|r| r.counters[0].actual = 143);
+    let detail = &count.as_ref().unwrap().details[0];
+    assert_eq!((&detail.before, &detail.after), (&json!(144), &json!(143)));
+    assert_eq!(kinds(count), (Direction::Other, vec!["counters"]));
+    let distance = planted(|r| r.measured.as_mut().unwrap().distance.rmse = 0.02);
+    assert_eq!(kinds(distance), (Direction::Other, vec!["distance"]));
+    let cost = planted(|r| r.measured.as_mut().unwrap().fragments = Some(4097));
+    assert_eq!(kinds(cost), (Direction::Other, vec!["cost"]));
+    let repeats = planted(|r| r.repeats = vec![Verdict::Imprecise, Verdict::Pass]);
+    assert_eq!(kinds(repeats), (Direction::Other, vec!["repeats"]));
+    let order = planted(|r| r.after = vec!["blend/f/case=1x".to_owned()]);
+    assert_eq!(kinds(order), (Direction::Other, vec!["order"]));
+    let said = planted(|r| r.validation = vec!["VUID-2".to_owned()]);
+    assert_eq!(kinds(said), (Direction::Other, vec!["validation"]));
+    let lost = planted(|r| {
+        r.process = Some(ProcessEnd {
+            kind: LossKind::Died,
+            signal: Some(6),
+            exit: None,
+            stderr: String::new(),
+            seconds: 1.0,
+        });
+    });
+    assert_eq!(kinds(lost), (Direction::Other, vec!["process"]));
+}
+
+#[test]
+fn times_messages_and_stories_are_no_change() {
+    let same = planted(|r| {
+        r.seconds.draw = 3.0;
+        r.measured.as_mut().unwrap().time.as_mut().unwrap().wall = 1.0;
+        r.message = "at 0x7ffd1234".to_owned();
+        r.story = Some(Story {
+            lines: vec![StoryLine {
+                at: "pass 0".to_owned(),
+                operation: "clear".to_owned(),
+                detail: "in other words".to_owned(),
+                citation: None,
+            }],
+        });
+    });
+    assert_eq!(same, None);
+}
+
+/// A failing record with its frame, in a run of its own.
+fn with_frame(folder: &Path, change: impl FnOnce(&mut etalon_record::FrameFile)) -> Record {
+    let writer = RunWriter::create(folder, &one_adapter(1)).unwrap();
+    let record = synthetic::record(&writer, "depth/f/case=1", "gl:a", Verdict::Fail, 7);
+    let mut frame = Run::read_frame(folder, record.frame.as_deref().unwrap()).unwrap();
+    change(&mut frame);
+    record_all(folder, &one_adapter(1), std::slice::from_ref(&record));
+    let writer = RunWriter::create(folder, &one_adapter(1)).unwrap();
+    writer.write_frame(&frame).unwrap();
+    let mut writer = writer;
+    writer.append(&record).unwrap();
+    record
+}
+
+#[test]
+fn frames_are_compared_texel_by_texel_and_shown() {
+    let two = Two::new();
+    with_frame(&two.before(), |_| {});
+    with_frame(&two.after(), |frame| {
+        // Two channels of one texel, and one of another, in the first image.
+        let codes = &mut frame.images[0].actual;
+        codes[4] ^= 0x10;
+        codes[5] ^= 0x01;
+        codes[8] ^= 0x04;
+    });
+    let found = two.diff();
+    let [change] = found.changes.as_slice() else {
+        panic!("{:?}", found.changes)
+    };
+    assert_eq!(change.what, ["frame"]);
+    assert_eq!(change.direction, Direction::Other);
+    let images = &change.frame.as_ref().unwrap().images;
+    assert_eq!((images[0].differ, images[0].largest), (2, 16));
+    assert_eq!((images[1].differ, images[1].largest), (0, 0));
+    let page = two.page(&found);
+    for label in ["before", "after", "difference"] {
+        assert!(
+            page.contains(&format!("<figcaption>{label}</figcaption>")),
+            "{label}"
+        );
+    }
+    assert!(page.contains("2 of 256 samples differ, by up to 16 codes"));
+    let text = table(&found, TableOptions::default());
+    assert!(text.contains("2 of 256 samples differ"), "{text}");
+}
+
+#[test]
+fn frames_that_cannot_be_read_are_told_and_stop_nothing() {
+    let two = Two::new();
+    let record = with_frame(&two.before(), |_| {});
+    with_frame(&two.after(), |_| {});
+    assert!(two.diff().changes.is_empty());
+    let mut worse = record.clone();
+    worse.texels.wrong += 1;
+    worse.frame = Some("../before/run.jsonl".to_owned());
+    record_all(&two.after(), &one_adapter(1), &[worse]);
+    let found = two.diff();
+    assert!(
+        found.changes[0]
+            .frame_error
+            .as_ref()
+            .unwrap()
+            .contains("no path below")
+    );
+    assert!(
+        found.warnings[0].contains("1 pair of frames"),
+        "{:?}",
+        found.warnings
+    );
+    assert!(two.page(&found).contains("No pictures"));
+}
+
+#[test]
+fn the_same_run_twice_is_no_change() {
+    let two = Two::new();
+    synthetic::write(&two.before(), 1);
+    let found = diff(&two.before(), &two.before(), None).unwrap();
+    assert!(found.changes.is_empty() && found.only.is_empty());
+    assert!(found.warnings.is_empty(), "{:?}", found.warnings);
+    assert!(!found.facts.iter().any(|f| f.differs()));
+    assert!(
+        found
+            .pairs
+            .iter()
+            .all(|p| p.facts.iter().all(|f| !f.differs()))
+    );
+    assert_eq!(found.pairs.len(), 8);
+    assert_eq!(
+        found.compared(),
+        Run::read(&two.before()).unwrap().records.len() as u64
+    );
+    assert!(!found.worse() && !found.only_better());
+    let text = table(&found, TableOptions::default());
+    assert!(text.contains("0 worse, 0 better, 0 other"), "{text}");
+    let folders = [two.before(), two.before()];
+    let path = two.folder.path().join("d.html");
+    write_page(&path, &found, [&folders[0], &folders[1]]).unwrap();
+    assert!(
+        fs::read_to_string(path)
+            .unwrap()
+            .contains("Nothing changed")
+    );
+}
+
+#[test]
+fn cases_in_one_run_only_are_worse_when_the_second_was_to_have_them() {
+    let ids = ["a/f/c=0", "a/f/c=1", "a/f/c=2"];
+    let pass = |id: &&str| Record::new(*id, "gl:a", Verdict::Pass);
+    let records: Vec<Record> = ids.iter().map(pass).collect();
+    let mut whole = one_adapter(3);
+    whole.settings.selection = selection_digest(ids);
+    let two = Two::new();
+    record_all(&two.before(), &whole, &records);
+    record_all(&two.after(), &whole, &records[..1]);
+    let found = two.diff();
+    assert!(found.worse());
+    assert_eq!(found.lost(), 2);
+    assert_eq!(
+        found.warnings,
+        ["The second run is incomplete: 2 of 3 records are missing."]
+    );
+    let text = table(&found, TableOptions::default());
+    assert!(text.starts_with("! The second run is incomplete"), "{text}");
+    assert!(
+        text.contains("✗ before only  gl:a  2 cases of a/f"),
+        "{text}"
+    );
+    assert!(two.page(&found).contains("The second run is incomplete"));
+
+    // The other way round nothing is lost.
+    let found = diff(&two.after(), &two.before(), None).unwrap();
+    assert_eq!((found.lost(), found.only.len()), (0, 2));
+    assert!(found.only.iter().all(|o| o.side == Side::After));
+
+    // Nor where somebody asked for fewer cases.
+    let mut fewer = one_adapter(1);
+    fewer.settings.selection = selection_digest(["a/f/c=0"]);
+    record_all(&two.after(), &fewer, &records[..1]);
+    let found = two.diff();
+    assert!(!found.worse());
+    assert_eq!(found.only.len(), 2);
+    assert!(found.warnings[0].contains("different selections"));
+}
+
+#[test]
+fn a_run_that_was_cut_off_is_told() {
+    let two = Two::new();
+    let records: Vec<Record> = (0..3).map(|i| rich(&format!("a/{i}"))).collect();
+    record_all(&two.before(), &one_adapter(3), &records);
+    record_all(&two.after(), &one_adapter(3), &records);
+    let path = two.after().join("run.jsonl");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(&path, &text[..text.len() - 9]).unwrap();
+    let found = two.diff();
+    assert_eq!(
+        found.warnings,
+        ["The second run is incomplete: 1 of 3 records are missing."]
+    );
+    assert_eq!(found.lost(), 1);
+    // A line that is damaged in the middle is no comparison.
+    fs::write(&path, text.replacen("\"case\"", "\"cas\"", 1)).unwrap();
+    let error = diff(&two.before(), &two.after(), None)
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("run.jsonl:2: "), "{error}");
+}
+
+#[test]
+fn adapters_are_matched_by_name_or_alone_or_as_named() {
+    let run = |folder: &Path, names: &[&str], verdict: Verdict| {
+        let adapters = names.iter().map(|n| adapter(n, Api::OpenGl)).collect();
+        let records: Vec<_> = names
+            .iter()
+            .map(|n| Record::new("a/b", *n, verdict))
+            .collect();
+        record_all(folder, &header(1, adapters), &records);
+    };
+    let two = Two::new();
+    run(&two.before(), &["gl:x"], Verdict::Pass);
+    run(&two.after(), &["vulkan:y"], Verdict::Fail);
+    let found = two.diff();
+    assert_eq!(found.pairs[0].adapter, ["gl:x", "vulkan:y"]);
+    assert_eq!(found.count(Direction::Worse), 1);
+    assert!(table(&found, TableOptions::default()).contains("gl:x → vulkan:y"));
+
+    run(&two.after(), &["vulkan:y", "gl:x", "gl:z"], Verdict::Fail);
+    let found = two.diff();
+    assert_eq!(found.pairs.len(), 1);
+    assert_eq!(found.pairs[0].adapter, ["gl:x", "gl:x"]);
+    assert_eq!(found.unpaired.len(), 2);
+    assert!(
+        found
+            .unpaired
+            .iter()
+            .all(|u| u.side == Side::After && u.records == 1)
+    );
+
+    let named = |names| diff(&two.before(), &two.after(), Some(names));
+    let found = named(["gl:x", "gl:z"]).unwrap();
+    assert_eq!(found.pairs[0].adapter, ["gl:x", "gl:z"]);
+    let error = named(["gl:x", "gl:q"]).unwrap_err();
+    assert!(matches!(error, ReportError::NoAdapter { .. }));
+    assert!(
+        error.to_string().contains("it has vulkan:y, gl:x, gl:z"),
+        "{error}"
+    );
+
+    run(&two.after(), &["vulkan:y", "gl:z"], Verdict::Fail);
+    let error = diff(&two.before(), &two.after(), None).unwrap_err();
+    assert!(
+        matches!(error, ReportError::NoCommonAdapter { .. }),
+        "{error}"
+    );
+    assert!(error.to_string().contains("--adapter-before"), "{error}");
+}
+
+#[test]
+fn headers_stand_side_by_side() {
+    let two = Two::new();
+    let mut new = one_adapter(1);
+    new.commit = Some("9999999".to_owned());
+    new.machine.cores = 8;
+    new.settings.repeat = Some(3);
+    new.adapters[0].driver_version = "26.1".to_owned();
+    new.adapters[0].limits.features.clear();
+    record_all(&two.before(), &one_adapter(1), &[rich("a/b")]);
+    record_all(&two.after(), &new, &[rich("a/b")]);
+    let found = two.diff();
+    let differ: Vec<_> = found
+        .facts
+        .iter()
+        .filter(|f| f.differs())
+        .map(|f| f.name)
+        .collect();
+    assert_eq!(differ, ["commit", "cores", "settings"]);
+    let differ: Vec<_> = found.pairs[0]
+        .facts
+        .iter()
+        .filter(|f| f.differs())
+        .collect();
+    let names: Vec<_> = differ.iter().map(|f| f.name).collect();
+    assert_eq!(names, ["driver", "features that only one has"]);
+    assert_eq!(differ[0].after, "Mesa 26.1");
+    assert!(found.warnings[0].contains("machines differ"));
+    let text = table(&found, TableOptions::default());
+    assert!(text.contains("commit: 0123abc → 9999999"), "{text}");
+    assert!(
+        text.contains("gl:a driver: Mesa 25.0.7 → Mesa 26.1"),
+        "{text}"
+    );
+}
+
+#[test]
+fn times_are_told_and_decide_nothing() {
+    let two = Two::new();
+    let records: Vec<Record> = (0..3).map(|i| rich(&format!("a/{i}"))).collect();
+    let mut slow = records.clone();
+    for record in &mut slow {
+        record.seconds.draw *= 3.0;
+        record
+            .measured
+            .as_mut()
+            .unwrap()
+            .time
+            .as_mut()
+            .unwrap()
+            .wall *= 2.0;
+    }
+    record_all(&two.before(), &one_adapter(3), &records);
+    record_all(&two.after(), &one_adapter(3), &slow);
+    let found = two.diff();
+    assert!(!found.worse() && found.changes.is_empty());
+    let time = &found.times[0];
+    assert_eq!((time.area.as_str(), time.cases), ("a", 3));
+    assert!((time.sum[1] / time.sum[0] - 3.0).abs() < 1e-9);
+    assert!((time.median[0] - 0.01).abs() < 1e-12);
+    assert_eq!(found.methods.len(), 3);
+    let text = table(&found, TableOptions::default());
+    assert!(text.contains("×3.00") && text.contains("×2.00"), "{text}");
+    assert!(text.contains("Only `etalon bench`"), "{text}");
+    assert!(two.page(&found).contains("Only `etalon bench`"));
+}
+
+#[test]
+fn runs_of_methods_are_compared() {
+    let two = Two::new();
+    let records = synthetic::methods::write(&two.before());
+    synthetic::methods::write(&two.after());
+    let found = two.diff();
+    assert!(found.changes.is_empty());
+    assert_eq!(found.compared(), records as u64);
+    assert!(found.methods.len() > 20, "{}", found.methods.len());
+    let text = table(&found, TableOptions::default());
+    assert!(text.contains("that changed less"), "{text}");
+    assert!(two.page(&found).contains("Frame times of methods"));
+}
+
+#[test]
+fn the_json_has_stable_names() {
+    let two = Two::new();
+    let old = rich("a/f/c=1");
+    let mut new = old.clone();
+    new.verdict = Verdict::Fail;
+    new.texels.wrong = 2;
+    record_all(&two.before(), &one_adapter(1), &[old]);
+    record_all(&two.after(), &one_adapter(1), &[new]);
+    let json: Value = serde_json::to_value(two.diff()).unwrap();
+    assert_eq!(json["kind"], "runs");
+    let change = &json["changes"][0];
+    assert_eq!(change["direction"], "worse");
+    assert_eq!(change["verdict"], json!(["imprecise", "fail"]));
+    assert_eq!(change["unexpected"], json!([false, true]));
+    assert_eq!(change["adapter"], json!(["gl:a", "gl:a"]));
+    let detail = json!({ "what": "texels", "name": "wrong", "before": 0, "after": 2 });
+    assert_eq!(change["details"][0], detail);
+    let pair = &json["pairs"][0];
+    assert_eq!(
+        pair["transitions"],
+        json!([{ "verdict": ["imprecise", "fail"], "records": 1 }])
+    );
+    for key in [
+        "adapter", "facts", "compared", "same", "worse", "better", "other", "only", "asserted",
+    ] {
+        assert!(!pair[key].is_null(), "{key}");
+    }
+    for key in ["warnings", "facts", "unpaired", "only", "times", "methods"] {
+        assert!(json[key].is_array(), "{key}");
+    }
+}
+
+#[test]
+fn hostile_names_stay_text() {
+    let hostile = "\"><script>alert(1)</script><i class='x' onload=\"y\">&amp;\u{1b}[2J\u{7}";
+    let two = Two::new();
+    let mut header = header(
+        2,
+        vec![adapter(hostile, Api::OpenGl), adapter("b", Api::OpenGl)],
+    );
+    header.started = hostile.to_owned();
+    header.command = vec![hostile.to_owned()];
+    let id = format!("{hostile}/f/c={hostile}");
+    let mut old = Record::new(&id, hostile, Verdict::Pass);
+    old.counters = vec![CounterOutcome {
+        name: hostile.to_owned(),
+        kind: CounterKind::SamplesPassed,
+        low: 0,
+        high: None,
+        actual: 1,
+        band: None,
+    }];
+    let mut new = old.clone();
+    new.verdict = Verdict::Fail;
+    new.message = hostile.to_owned();
+    new.frame = Some(hostile.to_owned());
+    new.counters[0].actual = 2;
+    let gone = Record::new(hostile, hostile, Verdict::Pass);
+    old.frame = Some(hostile.to_owned());
+    record_all(&two.before(), &header, &[old, gone]);
+    header.commit = Some(hostile.to_owned());
+    record_all(&two.after(), &header, &[new]);
+    let found = two.diff();
+    assert_eq!(found.changes.len(), 1);
+    let page = two.page(&found);
+    assert!(!page.contains("<script") && !page.contains("<i class='x'"));
+    assert!(!page.contains("http://") && !page.contains("https://"));
+    let text = table(&found, TableOptions::default());
+    assert!(!text.contains(['\u{1b}', '\u{7}']), "{text:?}");
+}
+
+#[test]
+fn large_differences_stay_small() {
+    let two = Two::new();
+    synthetic::write(&two.before(), 1);
+    synthetic::write(&two.after(), 1);
+    let run = Run::read(&two.after()).unwrap();
+    let mut writer = RunWriter::create(&two.after(), &run.header).unwrap();
+    for (i, record) in run.records.iter().enumerate() {
+        let mut record = record.clone();
+        if i % 2 == 0 {
+            record.verdict = Verdict::ALL[i / 2 % Verdict::ALL.len()];
+        }
+        writer.append(&record).unwrap();
+    }
+    let found = two.diff();
+    assert!(found.changes.len() > 1000, "{}", found.changes.len());
+    let sum: u64 = Direction::ALL.iter().map(|d| found.count(*d)).sum();
+    assert_eq!(sum, found.changes.len() as u64);
+    let order: Vec<_> = found.changes.iter().map(|c| c.direction).collect();
+    assert!(order.is_sorted());
+    let page = two.page(&found);
+    assert!(page.len() < 8 << 20, "{}", page.len());
+    let text = table(&found, TableOptions::default());
+    assert!(text.lines().count() < 400, "{}", text.lines().count());
+    for width in [40, 80] {
+        let narrow = table(&found, TableOptions { width, color: true });
+        assert!(narrow.contains("\u{1b}[31m"));
+    }
+}
+
+fn any_record() -> impl Strategy<Value = Record> {
+    let verdict = prop::sample::select(Verdict::ALL.to_vec());
+    let parts = (
+        0..12_u8,
+        0..3_u8,
+        verdict,
+        any::<[bool; 3]>(),
+        0..300_u64,
+        any::<f64>(),
+    );
+    parts.prop_map(
+        |(case, on, verdict, [expected, due, rich_one], wrong, mean)| {
+            let id = format!("a/f/c={case}");
+            let mut record = if rich_one {
+                rich(&id)
+            } else {
+                Record::new(&id, "", verdict)
+            };
+            record.adapter = format!("gl:{on}");
+            record.verdict = verdict;
+            record.due_fail = due;
+            record.expected = expected.then(|| Expected {
+                reason: "known".to_owned(),
+            });
+            record.texels.wrong = wrong;
+            if let (Some(a), true) = (record.accuracy.first_mut(), mean.is_finite()) {
+                a.mean = mean;
+            }
+            record
+        },
+    )
+}
+
+fn any_run() -> impl Strategy<Value = Vec<Record>> {
+    prop::collection::vec(any_record(), 0..30)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
+
+    /// Any run held against itself is no change, whatever it holds; any two runs give figures that add up,
+    /// a page and a text.
+    #[test]
+    fn any_two_runs_can_be_compared(old in any_run(), new in any_run()) {
+        let two = Two::new();
+        record_all(&two.before(), &one_adapter(12), &old);
+        record_all(&two.after(), &one_adapter(12), &new);
+        let own = diff(&two.before(), &two.before(), None).unwrap();
+        prop_assert!(own.changes.is_empty() && own.only.is_empty() && own.unpaired.is_empty());
+        prop_assert!(!own.worse() && !own.only_better());
+        let found = two.diff();
+        for pair in &found.pairs {
+            prop_assert_eq!(pair.compared, pair.same + pair.worse + pair.better + pair.other);
+        }
+        let better_back = diff(&two.after(), &two.before(), None).unwrap();
+        prop_assert_eq!(found.changes.len(), better_back.changes.len());
+        prop_assert_eq!(found.compared(), better_back.compared());
+        let text = table(&found, TableOptions::default());
+        prop_assert!(text.ends_with('\n'));
+        prop_assert!(two.page(&found).contains("</html>"));
+    }
+}
