@@ -1,20 +1,11 @@
 //! Passes that read what earlier passes left: drawn, resolved to, cleared or uploaded.
 
-use super::help::{GREEN, NONE, RED, draw, each, scene};
-use crate::GlBackend;
-use etalon_backend::Backend;
-use etalon_frame::{ChannelEncoding, Frame, Image, TextureFormat};
+use super::Checked;
+use crate::frames::{BLUE, GREEN, NONE, RED, check, check_near, color, values};
+use crate::scenes::{scene, scene_of};
+use crate::subject::Subject;
+use etalon_frame::{ChannelEncoding, TextureFormat};
 
-pub(super) fn all(backend: &GlBackend) {
-    two_attachments_take_turns(backend);
-    a_clear_is_read_before_the_first_draw(backend);
-    what_was_resolved_is_read(backend);
-    a_larger_attachment_is_averaged(backend);
-    sampled_fragments_are_discarded(backend);
-    invocations_of_all_passes_add_up(backend);
-}
-
-const BLUE: [u32; 4] = [0, 0, 255, 255];
 /// What a chain's passes draw, by turns: all of 5 by 4 texels, or a part.
 const PARTS: [[u32; 4]; 6] = [
     [0, 0, 5, 4],
@@ -25,47 +16,6 @@ const PARTS: [[u32; 4]; 6] = [
     [2, 0, 5, 4],
 ];
 
-/// Draws a scene, if the limits let it through, as those of llvmpipe's core profile do.
-pub(super) fn drawn(backend: &GlBackend, json: &str) -> Option<Frame> {
-    if let Some(missing) = backend.limits().missing(&scene(json).requirements()) {
-        let device = backend.adapter().device.to_lowercase();
-        let core = !backend.context.caps.es && device.starts_with("llvmpipe");
-        assert!(!core, "it lacks {missing}: {json}");
-        println!("not tested: {missing} is missing");
-        return None;
-    }
-    Some(draw(backend, json))
-}
-
-/// A scene of attachments and passes, as the insides of their JSON.
-pub(super) fn scene_of(attachments: &str, passes: &str, read: &[&str]) -> String {
-    format!(r#"{{ "attachments": {{ {attachments} }}, "passes": [ {passes} ], "read": {read:?} }}"#)
-}
-
-pub(super) fn image<'a>(frame: &'a Frame, attachment: &str) -> &'a Image {
-    let found = frame.images.iter().find(|i| i.attachment == attachment);
-    found.unwrap_or_else(|| panic!("the frame has no {attachment}"))
-}
-
-/// The values of a texel.
-pub(super) fn values(frame: &Frame, attachment: &str, x: u32, y: u32) -> Vec<f64> {
-    let image = image(frame, attachment);
-    let codes = image.channels.iter().zip(image.sample(x, y, 0));
-    codes
-        .map(|(e, code)| e.value_of_order(e.order_of_code(*code)))
-        .collect()
-}
-
-#[track_caller]
-pub(super) fn check_near(came: &[f64], due: &[f64], off: f64) {
-    assert_eq!(came.len(), due.len());
-    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= off;
-    assert!(
-        came.iter().zip(due).all(near),
-        "{came:?}, and {due:?} is due"
-    );
-}
-
 fn fetch(texels: [u32; 4], texture: &str, more: &str) -> String {
     format!(
         r#"{{ "mesh": {{ "kind": "rect", "texels": {texels:?} }}, "shader": "texel_color",
@@ -75,7 +25,7 @@ fn fetch(texels: [u32; 4], texture: &str, more: &str) -> String {
 
 /// By turns each of two attachments is added to the other: the first pass reads an upload and draws
 /// to a clear, all others read what was drawn.
-fn two_attachments_take_turns(backend: &GlBackend) {
+pub(crate) fn two_attachments_take_turns(s: &Subject) -> Checked {
     let both = r#"{ "operation": "add", "src_factor": "one", "dst_factor": "one" }"#;
     let blend = format!(r#", "blend": {{ "color": {both}, "alpha": {both} }}"#);
     let start = |x: u32, y: u32| [x + 5 * y, 1, 0, 2];
@@ -101,11 +51,11 @@ fn two_attachments_take_turns(backend: &GlBackend) {
             &(0..passes).map(pass).collect::<Vec<_>>().join(","),
             &["a", "b"],
         );
-        let Some(frame) = drawn(backend, &scene) else {
+        let Ok(frame) = s.draw(&scene) else {
             continue;
         };
         for (name, which) in [("a", 0), ("b", 1)] {
-            each(image(&frame, name), |x, y| {
+            check(color(&frame, name), |x, y| {
                 let mut sums = [start(x, y), [0; 4]];
                 // A channel that a format lacks reads as 0, alpha as 1, and is not written.
                 for pass in 0..passes {
@@ -121,14 +71,15 @@ fn two_attachments_take_turns(backend: &GlBackend) {
                     ChannelEncoding::Unorm(_) => sum,
                     float => float.nearest_code(sum.into()),
                 };
-                channels.map(code).collect()
+                channels.map(code).collect::<Vec<_>>()
             });
         }
     }
+    Ok(())
 }
 
 /// What is read before it is drawn holds what it was cleared to.
-fn a_clear_is_read_before_the_first_draw(backend: &GlBackend) {
+pub(crate) fn a_clear_is_read_before_the_first_draw(s: &Subject) -> Checked {
     let scene = scene_of(
         r#""a": { "format": "rgba8unorm", "size": [5, 4] },
            "b": { "format": "rgba8unorm", "size": [5, 4], "clear": [1, 0, 0, 1] },
@@ -142,19 +93,24 @@ fn a_clear_is_read_before_the_first_draw(backend: &GlBackend) {
         ),
         &["a", "b"],
     );
-    let Some(frame) = drawn(backend, &scene) else {
-        return;
-    };
-    each(image(&frame, "a"), |x, y| {
-        if x >= 3 && y < 3 { BLUE } else { RED }.to_vec()
-    });
-    each(image(&frame, "b"), |x, y| {
-        if x < 2 && y < 1 { GREEN } else { RED }.to_vec()
-    });
+    let frame = s.draw(&scene)?;
+    check(
+        color(&frame, "a"),
+        |x, y| {
+            if x >= 3 && y < 3 { BLUE } else { RED }
+        },
+    );
+    check(
+        color(&frame, "b"),
+        |x, y| {
+            if x < 2 && y < 1 { GREEN } else { RED }
+        },
+    );
+    Ok(())
 }
 
 /// Resolved, read, and both again with more drawn.
-fn what_was_resolved_is_read(backend: &GlBackend) {
+pub(crate) fn what_was_resolved_is_read(s: &Subject) -> Checked {
     // Edges between texels, which have all samples of a texel on the same side.
     let many = |[left, top, right, bottom]: [u32; 4], color: &str| {
         let corners = [[left, top], [left, bottom], [right, top], [right, bottom]];
@@ -182,21 +138,20 @@ fn what_was_resolved_is_read(backend: &GlBackend) {
         .join(","),
         &["shown"],
     );
-    let Some(frame) = drawn(backend, &scene) else {
-        return;
-    };
-    each(image(&frame, "shown"), |x, y| {
+    let frame = s.draw(&scene)?;
+    check(color(&frame, "shown"), |x, y| {
         let due = match y {
             0..3 if x < 5 => RED,
             3.. if x >= 2 => GREEN,
             _ => NONE,
         };
-        due.to_vec()
+        due
     });
+    Ok(())
 }
 
 /// Each texel samples the corner that four texels of a larger attachment share.
-fn a_larger_attachment_is_averaged(backend: &GlBackend) {
+pub(crate) fn a_larger_attachment_is_averaged(s: &Subject) -> Checked {
     let value = |x: u32, y: u32| [28 * x, 60 * y, 7, 255];
     for format in ["rgba8unorm", "rgba16float"] {
         let row = |y| [0, 1, 2, 3, 4, 5, 6, 7].map(|x| value(x, y));
@@ -217,17 +172,18 @@ fn a_larger_attachment_is_averaged(backend: &GlBackend) {
             ),
             &["small"],
         );
-        let Some(frame) = drawn(backend, &scene) else {
+        let Ok(frame) = s.draw(&scene) else {
             continue;
         };
         for (x, y) in (0..2).flat_map(|y| (0..4).map(move |x| (x, y))) {
             let due = [56 * x + 14, 120 * y + 30, 7, 255].map(|v| f64::from(v) / 255.0);
-            check_near(&values(&frame, "small", x, y), &due, 1.01 / 255.0);
+            check_near(&values(color(&frame, "small"), x, y), &due, 1.01 / 255.0);
         }
     }
+    Ok(())
 }
 
-fn sampled_fragments_are_discarded(backend: &GlBackend) {
+pub(crate) fn sampled_fragments_are_discarded(s: &Subject) -> Checked {
     let scene = scene_of(
         r#""color": { "format": "rgba8unorm", "size": [4, 4], "clear": [0, 0, 1, 1] },
            "source": { "format": "rgba8unorm", "size": [2, 2] }"#,
@@ -238,16 +194,18 @@ fn sampled_fragments_are_discarded(backend: &GlBackend) {
              "sampler": { "filter": "nearest", "address": ["repeat", "repeat"] } } ] }"#,
         &["color"],
     );
-    let Some(frame) = drawn(backend, &scene) else {
-        return;
-    };
-    each(image(&frame, "color"), |_, y| {
-        if y < 2 { RED } else { BLUE }.to_vec()
-    });
+    let frame = s.draw(&scene)?;
+    check(
+        color(&frame, "color"),
+        |_, y| {
+            if y < 2 { RED } else { BLUE }
+        },
+    );
+    Ok(())
 }
 
 /// Statistics of all passes add up, and asking for them changes no picture.
-fn invocations_of_all_passes_add_up(backend: &GlBackend) {
+pub(crate) fn invocations_of_all_passes_add_up(s: &Subject) -> Checked {
     let text = |counters: &str, both: &str, second: &str| {
         format!(
             r#"{{ "attachments": {{ "a": {{ "format": "rgba8unorm", "size": [16, 16] }},
@@ -265,11 +223,10 @@ fn invocations_of_all_passes_add_up(backend: &GlBackend) {
         r#", "counters": ["both"]"#,
         r#", "counters": ["second"]"#,
     );
-    let (Some(counted), Some(plain)) =
-        (drawn(backend, &counted), drawn(backend, &text("", "", "")))
-    else {
-        return;
-    };
+    let (counted, plain) = (
+        s.draw(&scene(&counted))?,
+        s.draw(&scene(&text("", "", "")))?,
+    );
     assert_eq!(counted.images, plain.images);
     let [both, second] = counted.counters[..] else {
         panic!("{:?}", counted.counters);
@@ -278,4 +235,5 @@ fn invocations_of_all_passes_add_up(backend: &GlBackend) {
         (320..640).contains(&both) && (128..256).contains(&second),
         "{both} {second}"
     );
+    Ok(())
 }

@@ -1,16 +1,18 @@
 //! Every shader of the suite, translated and drawn.
 
-use super::chains::drawn;
-use crate::GlBackend;
+use super::Checked;
+use crate::scenes::scene;
+use crate::subject::Subject;
 use etalon_scene::Shader;
 
 /// With as many attachments as a shader has outputs, and with fewer.
-pub(super) fn all(backend: &GlBackend) {
+pub(crate) fn every_shader_draws(s: &Subject) -> Checked {
     for shader in Shader::ALL {
         for targets in 1..=shader.outputs() {
-            drawn(backend, &with_shader(*shader, targets));
+            let _ = s.draw(&scene(&with_shader(*shader, targets)));
         }
     }
+    Ok(())
 }
 
 /// A scene that draws with a shader to so many attachments.

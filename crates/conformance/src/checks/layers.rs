@@ -1,16 +1,10 @@
 //! Layers taken apart and put together: depth peeling from one end and from both, weighted sums,
 //! samples discarded by thresholds.
 
-use super::chains::{check_near, drawn, image, scene_of, values};
-use super::help::{GREEN, NONE, RED, each};
-use crate::GlBackend;
-
-pub(super) fn all(backend: &GlBackend) {
-    layers_are_peeled_one_by_one(backend);
-    layers_are_peeled_from_both_ends(backend);
-    weighted_layers_are_summed_and_shown(backend);
-    samples_are_discarded_by_thresholds(backend);
-}
+use super::Checked;
+use crate::frames::{GREEN, NONE, RED, check, check_near, color, values};
+use crate::scenes::scene_of;
+use crate::subject::Subject;
 
 /// Three layers in the wrong order, each covering less than the one behind it.
 const LAYERS: [(&str, [u32; 4], f32); 3] = [
@@ -31,7 +25,7 @@ fn layers(shader: &str, more: &str) -> String {
 }
 
 /// The last pass has no use for the depth that the shader gives.
-fn layers_are_peeled_one_by_one(backend: &GlBackend) {
+pub(crate) fn layers_are_peeled_one_by_one(s: &Subject) -> Checked {
     let float = |name: &str, clear: u32| {
         format!(
             r#""{name}": {{ "format": "rgba32float", "size": [8, 4], "clear": [{clear}, 0, 0, 1] }}"#
@@ -68,40 +62,39 @@ fn layers_are_peeled_one_by_one(backend: &GlBackend) {
         .join(","),
         &["after-second", "first", "second", "third"],
     );
-    let Some(frame) = drawn(backend, &scene) else {
-        return;
-    };
+    let frame = s.draw(&scene)?;
     let [red, green, blue] = [[255, 0, 0, 128], GREEN, [0, 0, 255, 64]];
     for (at, name) in ["first", "second", "third"].into_iter().enumerate() {
-        each(image(&frame, name), |x, y| {
+        check(color(&frame, name), |x, y| {
             let peeled: &[[u32; 4]] = match (x, y) {
                 (0..4, 0..2) => &[red, green, blue],
                 (0..4, _) => &[red, blue],
                 (_, 0..2) => &[green, blue],
                 _ => &[blue],
             };
-            peeled.get(at).unwrap_or(&NONE).to_vec()
+            *peeled.get(at).unwrap_or(&NONE)
         });
     }
     check_near(
-        &values(&frame, "after-second", 0, 0),
+        &values(color(&frame, "after-second"), 0, 0),
         &[0.5, 0.0, 0.0, 1.0],
         1e-6,
     );
     check_near(
-        &values(&frame, "after-second", 7, 1),
+        &values(color(&frame, "after-second"), 7, 1),
         &[0.75, 0.0, 0.0, 1.0],
         1e-6,
     );
     check_near(
-        &values(&frame, "after-second", 7, 3),
+        &values(color(&frame, "after-second"), 7, 3),
         &[1.0, 0.0, 0.0, 1.0],
         0.0,
     );
+    Ok(())
 }
 
 /// The nearest and the farthest layer go in the same pass, by maxima of 32-bit floats.
-fn layers_are_peeled_from_both_ends(backend: &GlBackend) {
+pub(crate) fn layers_are_peeled_from_both_ends(s: &Subject) -> Checked {
     let max = r#"{ "operation": "max", "src_factor": "one", "dst_factor": "one" }"#;
     let blend = format!(r#", "blend": {{ "color": {max}, "alpha": {max} }}"#);
     let float = |name: &str, format: &str, clear: &str| {
@@ -127,25 +120,25 @@ fn layers_are_peeled_from_both_ends(backend: &GlBackend) {
         ),
         &["back", "front", "next", "range"],
     );
-    let Some(frame) = drawn(backend, &scene) else {
-        return;
-    };
-    let check = |name: &str, due: [f64; 4]| check_near(&values(&frame, name, 1, 1), &due, 1e-6);
+    let frame = s.draw(&scene)?;
+    let check =
+        |name: &str, due: [f64; 4]| check_near(&values(color(&frame, name), 1, 1), &due, 1e-6);
     check("range", [-0.25, 0.75, 0.0, 1.0]);
     check("next", [-0.5, 0.5, 0.0, 1.0]);
     check("front", [0.5, 0.0, 0.0, 0.5]);
     check("back", [0.0, 0.0, 1.0, 0.25]);
     // Where there is but one layer, it is the nearest.
     check_near(
-        &values(&frame, "front", 7, 3),
+        &values(color(&frame, "front"), 7, 3),
         &[0.0, 0.0, 0.25, 0.25],
         1e-6,
     );
-    check_near(&values(&frame, "back", 7, 3), &[0.0; 4], 0.0);
+    check_near(&values(color(&frame, "back"), 7, 3), &[0.0; 4], 0.0);
+    Ok(())
 }
 
 /// Sums and products beside each other, and what both make of the background.
-fn weighted_layers_are_summed_and_shown(backend: &GlBackend) {
+pub(crate) fn weighted_layers_are_summed_and_shown(s: &Subject) -> Checked {
     let component = |src: &str, dst: &str| {
         format!(r#"{{ "operation": "add", "src_factor": "{src}", "dst_factor": "{dst}" }}"#)
     };
@@ -174,30 +167,33 @@ fn weighted_layers_are_summed_and_shown(backend: &GlBackend) {
         ),
         &["left", "shown", "sum"],
     );
-    let Some(frame) = drawn(backend, &scene) else {
-        return;
-    };
+    let frame = s.draw(&scene)?;
     for (x, y) in (0..4).flat_map(|y| (0..4).map(move |x| (x, y))) {
         let both = x < 2 && y < 3;
         let green = if both { 93.75 } else { 0.0 };
         check_near(
-            &values(&frame, "sum", x, y),
+            &values(color(&frame, "sum"), x, y),
             &[93.75, green, 0.0, 93.75 + green],
             0.2,
         );
         let left = if both { 0.25 } else { 0.5 };
-        check_near(&values(&frame, "left", x, y), &[left], 1.01 / 255.0);
+        check_near(&values(color(&frame, "left"), x, y), &[left], 1.01 / 255.0);
         let shown = if both {
             [0.375, 0.375, 0.25]
         } else {
             [0.5, 0.0, 0.5]
         };
-        check_near(&values(&frame, "shown", x, y)[..3], &shown, 3.0 / 255.0);
+        check_near(
+            &values(color(&frame, "shown"), x, y)[..3],
+            &shown,
+            3.0 / 255.0,
+        );
     }
+    Ok(())
 }
 
 /// A threshold for each of four samples, in a texture that an earlier pass drew.
-fn samples_are_discarded_by_thresholds(backend: &GlBackend) {
+pub(crate) fn samples_are_discarded_by_thresholds(s: &Subject) -> Checked {
     let scene = scene_of(
         r#""color": { "format": "rgba8unorm", "size": [4, 4], "samples": 4, "clear": [0, 0, 0, 0] },
            "thresholds": { "format": "rgba8unorm", "size": [4, 4] }"#,
@@ -207,11 +203,10 @@ fn samples_are_discarded_by_thresholds(backend: &GlBackend) {
              "shader": "stochastic", "textures": ["thresholds"] } ] }"#,
         &["color"],
     );
-    let Some(frame) = drawn(backend, &scene) else {
-        return;
-    };
-    let color = image(&frame, "color");
+    let frame = s.draw(&scene)?;
+    let color = color(&frame, "color");
     for texel in color.codes.chunks(16) {
         assert_eq!(texel, [NONE, RED, NONE, RED].concat());
     }
+    Ok(())
 }
