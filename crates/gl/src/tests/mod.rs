@@ -1,0 +1,128 @@
+//! Checks of the insides: the choices that a context makes, and drivers held back.
+
+use crate::{GlBackend, Options, Platform, Profile, Tuning, open_with};
+use etalon_backend::{Backend, BackendError};
+use etalon_conformance::{
+    Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, ZINK, in_child, run_all, scene, variables,
+};
+use etalon_frame::Feature;
+
+/// The contexts of each driver, core profile first.
+fn contexts(driver: &str, clip_control: bool) -> [GlBackend; 2] {
+    [Profile::Core, Profile::Es].map(|profile| {
+        let options = Options {
+            profile,
+            platform: Platform::Surfaceless,
+            library: None,
+            debug: true,
+        };
+        let backend = open_with("gl:test", &options, Tuning { clip_control })
+            .unwrap_or_else(|e| panic!("{driver} cannot be opened: {e} ({GALLIUM_INSTALL})"));
+        let device = backend.adapter().device.to_lowercase();
+        assert!(device.starts_with(driver), "{device} is not {driver}");
+        assert_eq!(backend.context.caps.clip_control, clip_control);
+        backend
+    })
+}
+
+/// Every check without `glClipControl`, whose place takes the vertex shader.
+fn without_clip_control(driver: &str, skipped: [&[&str]; 2]) {
+    for (backend, skipped) in contexts(driver, false).iter().zip(skipped) {
+        let any = Driver {
+            environment: Vec::new(),
+            open: |_| unreachable!("it is open"),
+            lacks: &[""],
+            defects: &[],
+            tolerated: &[],
+        };
+        run_all(backend, &any, skipped);
+    }
+}
+
+#[test]
+fn llvmpipe_without_clip_control() {
+    let test = "tests::llvmpipe_without_clip_control";
+    in_child(test, &variables(LLVMPIPE), || {
+        without_clip_control("llvmpipe", [&[], &[]]);
+    });
+}
+
+#[test]
+fn softpipe_without_clip_control() {
+    let test = "tests::softpipe_without_clip_control";
+    in_child(test, &variables(SOFTPIPE), || {
+        without_clip_control("softpipe", [&[], &[]]);
+    });
+}
+
+fn features(backend: &GlBackend) {
+    let caps = &backend.context.caps;
+    let has = |feature| backend.limits().features.contains(&feature);
+    let softpipe = backend
+        .adapter()
+        .device
+        .to_lowercase()
+        .starts_with("softpipe");
+    assert_eq!(has(Feature::PreciseOcclusion), !caps.es);
+    assert_eq!(has(Feature::FragmentInvocations), !caps.es);
+    // Softpipe's core profile is too old for storage buffers.
+    assert_eq!(has(Feature::StorageCounters), caps.es || !softpipe);
+    assert!(has(Feature::ForcedEarlyTests));
+    // In ES it takes an extension.
+    assert!(caps.es || caps.conservative_depth);
+    assert_eq!(has(Feature::ConservativeDepth), caps.conservative_depth);
+    assert!(!has(Feature::MirroredViewport));
+}
+
+/// GL may round a viewport where it keeps no bits below the texel, and then it must not be drawn.
+fn a_viewport_between_texels_is_kept_or_refused(backend: &GlBackend) {
+    let bits = backend.context.caps.viewport_bits;
+    let between = scene(
+        r#"{ "attachments": { "color": { "format": "rgba8unorm", "clear": [0, 0, 1, 1] } },
+             "passes": [ { "color": ["color"], "draws": [ { "mesh": { "kind": "full" }, "shader": "uniform_color",
+                 "viewport": { "rect": [0, 0, 8.5, 16], "depth": [0, 1] } } ] } ],
+             "read": ["color"] }"#,
+    );
+    let refused = backend.prepare(&between).err();
+    let refused = matches!(refused, Some(BackendError::NotSupported(_)));
+    assert_eq!(refused, bits.unwrap_or(0) == 0);
+}
+
+/// Debug output listens: without this, its silence elsewhere would prove nothing.
+fn a_planted_mistake_is_told(backend: &GlBackend) {
+    backend.context.make_current().expect("it becomes current");
+    assert_eq!(backend.messages(), Vec::<String>::new());
+    // SAFETY: the context is current; the call is a mistake that GL defines.
+    unsafe { glow::HasContext::enable(&backend.context.gl, 0xFFFF) };
+    let messages = backend.messages();
+    assert_eq!(messages.len(), 1, "{messages:?}");
+    assert!(messages[0].starts_with("error "), "{messages:?}");
+    assert!(backend.context.check("the mistake").is_err());
+    assert_eq!(backend.messages(), Vec::<String>::new());
+}
+
+fn insides(driver: &str) {
+    for backend in contexts(driver, true) {
+        features(&backend);
+        a_viewport_between_texels_is_kept_or_refused(&backend);
+        a_planted_mistake_is_told(&backend);
+    }
+}
+
+#[test]
+fn llvmpipe_features_viewports_and_mistakes() {
+    let test = "tests::llvmpipe_features_viewports_and_mistakes";
+    in_child(test, &variables(LLVMPIPE), || insides("llvmpipe"));
+}
+
+#[test]
+fn softpipe_features_viewports_and_mistakes() {
+    let test = "tests::softpipe_features_viewports_and_mistakes";
+    in_child(test, &variables(SOFTPIPE), || insides("softpipe"));
+}
+
+#[test]
+fn zink_features_viewports_and_mistakes() {
+    let test = "tests::zink_features_viewports_and_mistakes";
+    in_child(test, &variables(ZINK), || insides("zink"));
+}
