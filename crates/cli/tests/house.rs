@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// Each crate's folder, which of ours it may use, and which graphics APIs; development dependencies
 /// are free.
-const TABLE: [(&str, &[&str], &[&str]); 18] = [
+const TABLE: [(&str, &[&str], &[&str]); 19] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -32,6 +32,11 @@ const TABLE: [(&str, &[&str], &[&str]); 18] = [
         &["glow", "khronos-egl", "naga"],
     ),
     ("wgpu", &["backend", "frame", "scene"], &["naga", "wgpu"]),
+    (
+        "conformance",
+        &["backend", "case", "frame", "methods", "scene"],
+        &[],
+    ),
     ("record", &["frame", "stats"], &[]),
     (
         "runner",

@@ -1,0 +1,274 @@
+//! Every colour format that is offered: cleared, uploaded, fetched, drawn and blended.
+
+use super::Checked;
+use crate::frames::{check, check_within_one, codes, color, texels, values};
+use crate::scenes::{blend, scene_of};
+use crate::subject::Subject;
+use etalon_frame::{ChannelEncoding, ReadPath, TextureFormat};
+use etalon_scene::{Contents, Scene};
+
+/// The values of the columns of [`COLUMNS`], which every format holds exactly.
+const VALUES: [[f64; 4]; 8] = [
+    [1.0, 0.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0, 0.0],
+    [0.0, 0.0, 1.0, 0.0],
+    [0.0, 0.0, 0.0, 1.0],
+    [0.0; 4],
+    [1.0; 4],
+    [1.0, 0.0, 1.0, 0.0],
+    [0.0, 1.0, 0.0, 1.0],
+];
+const COLUMNS: &str = r#"{ "kind": "columns", "values": [ [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0],
+    [0, 0, 0, 1], 0, 1, [1, 0, 1, 0], [0, 1, 0, 1] ] }"#;
+
+/// Colour formats that are offered, with their sample counts as attachments.
+fn colors<'a>(s: &'a Subject<'_>) -> impl Iterator<Item = (TextureFormat, &'a [u32])> {
+    let formats = s.limits().formats.iter().filter(|f| f.0.is_color());
+    formats.map(|(format, support)| (*format, &support.samples[..]))
+}
+
+pub(crate) fn clears_store_0_and_1(s: &Subject) -> Checked {
+    for (format, samples) in colors(s) {
+        // A format that cannot be drawn to can be cleared all the same.
+        let counts = if samples.is_empty() { &[1] } else { samples };
+        for values in [
+            VALUES[0], VALUES[2], VALUES[3], VALUES[5], VALUES[6], VALUES[7],
+        ] {
+            for samples in counts {
+                let frame = s.draw(&scene_of(
+                    &format!(
+                        r#""color": {{ "format": "{format}", "size": [4, 3], "samples": {samples}, "clear": {values:?} }}"#
+                    ),
+                    "",
+                    &["color"],
+                ))?;
+                let image = color(&frame, "color");
+                assert_eq!(
+                    (image.read, &image.channels[..]),
+                    (ReadPath::Copy, format.color_channels())
+                );
+                check(image, |_, _| codes(format.color_channels(), values));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Uploads codes from the whole range of each channel, and shows them in a `rgba32float` attachment
+/// where told. Returns the scene and the codes' orders.
+fn whole_range(format: TextureFormat, seen: bool) -> (Scene, Vec<i64>) {
+    let texels = r#""source": { "format": "r8unorm", "size": [16, 16], "texels": { "kind": "columns", "values": "#;
+    let source = format!("{texels} {:?} }} }}", [[0; 4]; 16]);
+    let mut scene = match seen {
+        true => scene_of(
+            &format!(r#""seen": {{ "format": "rgba32float", "size": [16, 16] }}, {source}"#),
+            r#"{ "color": ["seen"], "draws": [
+                 { "mesh": { "kind": "full" }, "shader": "texel_color", "textures": ["source"] } ] }"#,
+            &["source", "seen"],
+        ),
+        false => scene_of(&source, "", &["source"]),
+    };
+    let channels = format.color_channels();
+    let mut orders = Vec::new();
+    for texel in 0..256 {
+        for (c, e) in channels.iter().enumerate() {
+            let part = (texel + 64 * c as i64) % 256;
+            let range = i128::from(e.max_order()) - i128::from(e.min_order());
+            orders.push(e.min_order() + (range * i128::from(part) / 255) as i64);
+        }
+    }
+    let pairs = channels.iter().cycle().zip(&orders);
+    let codes = pairs.map(|(e, order)| e.code_of_order(*order)).collect();
+    let source = scene.attachments.last_mut().unwrap();
+    (source.format, source.contents) = (format, Contents::Texels(codes));
+    (scene, orders)
+}
+
+pub(crate) fn uploads_come_back(s: &Subject) -> Checked {
+    for (format, _) in colors(s) {
+        let (scene, _) = whole_range(format, false);
+        let frame = s.draw(&scene)?;
+        let due = &scene.attachments[0].contents;
+        let came = Contents::Texels(color(&frame, "source").codes.clone());
+        assert_eq!(&came, due, "{format}");
+    }
+    Ok(())
+}
+
+/// Values of a case file, channel by channel different, and the clear of another attachment.
+pub(crate) fn values_are_uploaded_as_codes(s: &Subject) -> Checked {
+    for (format, _) in colors(s) {
+        let channels = format.color_channels();
+        // Floats as values, others as codes, as case files have it.
+        let texel = |x: u32, c: usize| match channels.get(c) {
+            None => (0.0, 0),
+            Some(e) if e.is_float() => {
+                let code = e.nearest_code(f64::from(x) * 0.5 + c as f64);
+                (e.value_of_order(e.order_of_code(code)), code)
+            }
+            Some(e) => {
+                let order = i64::from(x * (c as u32 + 3) + 1) % (e.max_order() + 1);
+                (order as f64, e.code_of_order(order))
+            }
+        };
+        let values: Vec<_> = (0..16)
+            .map(|x| [0, 1, 2, 3].map(|c| texel(x, c).0))
+            .collect();
+        let frame = s.draw(&scene_of(
+            &format!(
+                r#""a": {{ "format": "{format}", "size": [16, 4], "texels": {{ "kind": "columns", "values": {values:?} }} }},
+                   "b": {{ "format": "{format}", "clear": [0, 1, 0, 1] }}"#
+            ),
+            "",
+            &["a", "b"],
+        ))?;
+        check(color(&frame, "a"), |x, _| {
+            (0..channels.len())
+                .map(|c| texel(x, c).1)
+                .collect::<Vec<_>>()
+        });
+        check(color(&frame, "b"), |_, _| codes(channels, VALUES[7]));
+    }
+    Ok(())
+}
+
+pub(crate) fn uploads_are_fetched(s: &Subject) -> Checked {
+    for (format, _) in colors(s).filter(|(f, _)| !f.is_integer()) {
+        let (scene, orders) = whole_range(format, true);
+        let frame = s.draw(&scene)?;
+        let channels = format.color_channels();
+        for (texel, orders) in orders.chunks(channels.len()).enumerate() {
+            let (x, y) = (texel as u32 % 16, texel as u32 / 16);
+            let mut due = [0.0, 0.0, 0.0, 1.0];
+            for ((due, e), order) in due.iter_mut().zip(channels).zip(orders) {
+                *due = e.value_of_order(*order);
+            }
+            let seen = values(color(&frame, "seen"), x, y);
+            for (c, (seen, due)) in seen.into_iter().zip(due).enumerate() {
+                let near = match channels.get(c) {
+                    // A texture unit may be half a code off (Direct3D allows as much), and software
+                    // drivers make use of it.
+                    Some(e @ ChannelEncoding::Srgb8) => {
+                        let position = e.position(seen).unwrap();
+                        (position - orders[c] as f64).abs() <= 0.5
+                    }
+                    _ => (seen - due).abs() <= 1e-5 * due.abs().max(1e-3),
+                };
+                assert!(near, "{format} ({x}, {y}): {seen}, and {due} is stored");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Each channel by itself, so that none may be taken for another. Columns are squares four texels
+/// wide, of which all samples of the inner texels are covered.
+pub(crate) fn draws_store_0_and_1(s: &Subject) -> Checked {
+    for (format, counts) in colors(s).filter(|(f, _)| !f.is_integer()) {
+        for samples in counts {
+            let frame = s.draw(&scene_of(
+                &format!(
+                    r#""color": {{ "format": "{format}", "size": [32, 8], "samples": {samples}, "clear": [1, 0, 1, 0] }}"#
+                ),
+                &format!(
+                    r#"{{ "color": ["color"], "draws": [ {{ "mesh": {COLUMNS}, "shader": "flat_color" }} ] }}"#
+                ),
+                &["color"],
+            ))?;
+            let image = color(&frame, "color");
+            let on_border = |at| matches!(at % 4, 0 | 3);
+            for (x, y) in texels(image.size) {
+                if *samples > 1 && (on_border(x) || on_border(y)) {
+                    continue;
+                }
+                let due = codes(format.color_channels(), VALUES[x as usize / 4]);
+                for sample in 0..*samples {
+                    let came = image.sample(x, y, sample);
+                    assert_eq!(came, due, "{format} ({x}, {y}) {sample}");
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Factors that give the larger of source and destination, and sums of zeros and ones.
+pub(crate) fn blendable_formats_blend(s: &Subject) -> Checked {
+    for (format, support) in &s.limits().formats {
+        assert!(format.is_color() || !support.blendable, "{format}");
+        if !support.blendable || support.samples.is_empty() {
+            continue;
+        }
+        let drawn = |clear: [f64; 4], mesh: &str, blend: &str| {
+            s.draw(&scene_of(
+                &format!(r#""color": {{ "format": "{format}", "clear": {clear:?} }}"#),
+                &format!(
+                    r#"{{ "color": ["color"], "draws": [ {{ "mesh": {mesh}, "shader": "flat_color", {blend} }} ] }}"#
+                ),
+                &["color"],
+            ))
+        };
+        let channels = format.color_channels();
+        let larger = blend("add", "one-minus-dst", "one");
+        let frame = drawn([1.0, 0.0, 1.0, 0.0], COLUMNS, &larger)?;
+        check(color(&frame, "color"), |x, _| {
+            let [_, green, _, alpha] = VALUES[x as usize / 2];
+            codes(channels, [1.0, green, 1.0, alpha])
+        });
+        let green = r#"{ "kind": "full", "value": [0, 1, 0, 0] }"#;
+        let frame = drawn([1.0, 0.0, 0.0, 1.0], green, &blend("add", "one", "one"))?;
+        check(color(&frame, "color"), |_, _| {
+            codes(channels, [1.0, 1.0, 0.0, 1.0])
+        });
+    }
+    Ok(())
+}
+
+/// sRGB codes are the stored bytes: linear 0.5 is stored as 188, cleared or drawn, sample by sample.
+pub(crate) fn srgb_codes_are_the_stored_bytes(s: &Subject) -> Checked {
+    let format = TextureFormat::Rgba8UnormSrgb;
+    for samples in &s.limits().formats[&format].samples {
+        let frame = s.draw(&scene_of(
+            &format!(
+                r#""a": {{ "format": "{format}", "samples": {samples}, "clear": [0.5, 0.5, 0.5, 0.5] }},
+                   "b": {{ "format": "rgba8unorm", "samples": {samples}, "clear": [0.5, 0.5, 0.5, 0.5] }}"#
+            ),
+            r#"{ "color": ["a"], "draws": [ { "mesh": { "kind": "rect", "texels": [0, 0, 16, 4], "value": 0.5 },
+                 "shader": "flat_color" } ] },
+               { "color": ["b"], "draws": [ { "mesh": { "kind": "rect", "texels": [0, 0, 16, 4], "value": 0.5 },
+                 "shader": "flat_color" } ] }"#,
+            &["a", "b"],
+        ))?;
+        for (name, due) in [("a", [188, 188, 188, 128]), ("b", [128; 4])] {
+            for y in [1, 6] {
+                check_within_one(color(&frame, name).sample(3, y, samples - 1), due);
+            }
+        }
+        let drawn = color(&frame, "a").sample(3, 1, samples - 1);
+        assert!(
+            drawn[..3].iter().all(|c| (187..=188).contains(c)),
+            "{drawn:?}"
+        );
+        assert!((127..=128).contains(&drawn[3]), "{drawn:?}");
+    }
+    Ok(())
+}
+
+/// Decoded by the fetch, and encoded by the draw.
+pub(crate) fn srgb_is_fetched_and_drawn(s: &Subject) -> Checked {
+    let steps = [0, 10, 50, 90, 130, 170, 210, 251].repeat(2);
+    let rows: Vec<_> = steps.iter().map(|v| [*v, v + 1, v + 2, v + 3]).collect();
+    let frame = s.draw(&scene_of(
+        &format!(
+            r#""a": {{ "format": "rgba8unorm-srgb" }},
+               "t": {{ "format": "rgba8unorm-srgb", "texels": {{ "kind": "columns", "values": {rows:?} }} }}"#
+        ),
+        r#"{ "color": ["a"], "draws": [ { "mesh": { "kind": "full" }, "shader": "texel_color", "textures": ["t"] } ] }"#,
+        &["a", "t"],
+    ))?;
+    check(color(&frame, "t"), |x, _| rows[x as usize]);
+    for x in 0..16 {
+        check_within_one(color(&frame, "a").sample(x, 12, 0), rows[x as usize]);
+    }
+    Ok(())
+}

@@ -1,0 +1,72 @@
+//! The built-in cases, drawn the whole way but not judged.
+
+use crate::subject::{Subject, check_shape};
+use etalon_backend::BackendError;
+use etalon_case::{Library, Profile};
+use etalon_frame::{Feature, Requirement};
+use std::env;
+
+/// The part of the built-in cases that a test draws.
+#[derive(Clone, Copy, Debug)]
+pub enum Share {
+    /// So many cases of each file, spread over its axes.
+    Sample(usize),
+    /// Every case.
+    All,
+}
+
+impl Share {
+    /// So many cases of each file; every case where the variable `ETALON_TESTS` is `all`.
+    pub fn sample(per_file: usize) -> Self {
+        if env::var_os("ETALON_TESTS").is_some_and(|v| v == "all") {
+            Self::All
+        } else {
+            Self::Sample(per_file)
+        }
+    }
+}
+
+/// After draws with two sources wgpu's OpenGL leaves their factors behind, and Mesa drops later
+/// draws to several targets.
+const TWO_SOURCES: Requirement = Requirement::Feature(Feature::DualSourceBlending);
+
+/// Draws a share of the built-in cases, and says how large it was. Nothing may fail but what the
+/// limits deny, and validation must be silent.
+///
+/// # Panics
+/// When something fails, or when nothing was drawn.
+pub fn draw_library(subject: &Subject<'_>, profile: Profile, share: Share) {
+    let library = Library::built_in().unwrap();
+    let (mut denied, mut all) = (0, 0);
+    let mut chosen = Vec::new();
+    for file in library.files() {
+        let cases: Vec<_> = file.cases(profile).collect();
+        all += cases.len();
+        let step = match share {
+            Share::Sample(most) => cases.len().div_ceil(most).max(1),
+            Share::All => 1,
+        };
+        for case in cases.into_iter().step_by(step) {
+            let case = case.build().unwrap();
+            let requirements = case.scene.requirements();
+            if subject.limits().missing(&requirements).is_some() {
+                denied += 1;
+            } else {
+                chosen.push((requirements.contains(&TWO_SOURCES), case));
+            }
+        }
+    }
+    chosen.sort_by_key(|(two_sources, _)| *two_sources);
+    for (_, case) in &chosen {
+        let frame = subject.backend.prepare(&case.scene).and_then(|mut p| {
+            p.submit()?;
+            p.read_back()
+        });
+        let frame = frame.unwrap_or_else(|e: BackendError| panic!("{}: {e}", case.id));
+        check_shape(&case.scene, &frame);
+        subject.check_silence(&case.id.to_string());
+    }
+    let drawn = chosen.len();
+    println!("{share:?} of {profile:?}: {drawn} drawn, {denied} denied, of {all} cases");
+    assert!(drawn > 0, "no built-in case can be drawn");
+}

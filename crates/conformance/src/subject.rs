@@ -1,0 +1,132 @@
+//! One open backend under test: draws scenes and keeps account of those that its limits deny.
+
+use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
+use etalon_frame::{Feature, Frame, Limits, Requirement};
+use etalon_scene::Scene;
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+/// A scene that was not drawn, with the requirement that the limits deny.
+#[derive(Clone, Copy, Debug)]
+pub struct Missing(pub Requirement);
+
+/// The result of a check that did not fail.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Everything was drawn but the scenes that need one of these.
+    Passed(BTreeSet<Requirement>),
+    /// Nothing was drawn, since all scenes need one of these.
+    Skipped(BTreeSet<Requirement>),
+}
+
+/// A backend with what its checks have drawn.
+pub struct Subject<'a> {
+    /// The backend.
+    pub backend: &'a dyn Backend,
+    /// Parts of messages that are not the backend's fault.
+    pub tolerated: &'a [&'a str],
+    drawn: Cell<bool>,
+    missing: RefCell<BTreeSet<Requirement>>,
+}
+
+impl<'a> Subject<'a> {
+    /// A backend of which nothing has been drawn.
+    pub fn new(backend: &'a dyn Backend, tolerated: &'a [&'a str]) -> Self {
+        Self {
+            backend,
+            tolerated,
+            drawn: Cell::default(),
+            missing: RefCell::default(),
+        }
+    }
+
+    /// The backend's limits.
+    pub fn limits(&self) -> &Limits {
+        self.backend.limits()
+    }
+
+    /// The backend's adapter.
+    pub fn adapter(&self) -> &AdapterInfo {
+        self.backend.adapter()
+    }
+
+    /// True if the limits offer the feature.
+    pub fn offers(&self, feature: Feature) -> bool {
+        self.limits().features.contains(&feature)
+    }
+
+    /// The outcome of everything that was drawn since the last call.
+    pub(crate) fn outcome(&self) -> Outcome {
+        let missing = self.missing.take();
+        if self.drawn.take() || missing.is_empty() {
+            Outcome::Passed(missing)
+        } else {
+            Outcome::Skipped(missing)
+        }
+    }
+
+    /// Holds that the limits let the scene through; else it must be refused for the same reason.
+    pub(crate) fn offered(&self, scene: &Scene) -> Result<(), Missing> {
+        let Some(requirement) = self.limits().missing(&scene.requirements()) else {
+            return Ok(());
+        };
+        let refused = self.backend.prepare(scene).err();
+        assert_eq!(refused, Some(BackendError::NotSupported(requirement)));
+        self.missing.borrow_mut().insert(requirement);
+        Err(Missing(requirement))
+    }
+
+    /// Prepares a scene that the limits let through.
+    pub(crate) fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, Missing> {
+        self.offered(scene)?;
+        let prepared = self.backend.prepare(scene);
+        self.drawn.set(true);
+        Ok(prepared.unwrap_or_else(|e| panic!("the scene is not prepared: {e}")))
+    }
+
+    /// Draws a scene twice, holds both frames to be whole and equal, and validation to be silent.
+    pub(crate) fn draw(&self, scene: &Scene) -> Result<Frame, Missing> {
+        let mut prepared = self.prepare(scene)?;
+        let mut draw = || {
+            let time = prepared.submit().expect("the scene is drawn");
+            assert!(
+                time.cpu <= time.wall && time.wall > Duration::ZERO,
+                "{time:?}"
+            );
+            prepared.read_back().expect("the frame is read back")
+        };
+        let (first, second) = (draw(), draw());
+        drop(prepared);
+        assert_eq!(first, second, "two submits give the same frame");
+        check_shape(scene, &first);
+        self.check_silence("a scene");
+        Ok(first)
+    }
+
+    /// Holds that validation and debug output said nothing that the backend answers for.
+    #[track_caller]
+    pub fn check_silence(&self, after: &str) {
+        let mut messages = self.backend.messages();
+        messages.retain(|m| !self.tolerated.iter().any(|part| m.contains(part)));
+        assert!(messages.is_empty(), "{after}: {}", messages.join("\n"));
+    }
+}
+
+/// Holds that each image is the one asked for, and whole.
+#[track_caller]
+pub(crate) fn check_shape(scene: &Scene, frame: &Frame) {
+    let due: Vec<_> = scene
+        .read
+        .iter()
+        .map(|index| &scene.attachments[*index])
+        .flat_map(|a| a.format.aspects().iter().map(|aspect| (&a.name, *aspect)))
+        .collect();
+    let images = frame.images.iter();
+    let came: Vec<_> = images.map(|i| (&i.attachment, i.aspect)).collect();
+    assert_eq!(came, due);
+    for image in &frame.images {
+        assert_eq!(image.codes.len(), image.expected_len());
+    }
+    assert_eq!(frame.counters.len(), scene.counters.len());
+}

@@ -1,0 +1,19 @@
+//! A sample of the built-in cases on each context; `ETALON_TESTS=all` draws all of them.
+
+use crate::drivers::is_softpipe;
+use etalon_backend::Backend;
+use etalon_case::Profile;
+use etalon_conformance::{Share, Subject, draw_library};
+
+/// Drivers that compile every state draw fewer.
+pub(crate) fn sample(backend: &dyn Backend) {
+    let (profile, per_file) = match is_softpipe(backend) {
+        true => (Profile::Full, 12),
+        false => (Profile::Quick, 3),
+    };
+    draw_library(
+        &Subject::new(backend, &[]),
+        profile,
+        Share::sample(per_file),
+    );
+}

@@ -1,0 +1,43 @@
+//! The driver under test.
+
+use etalon_backend::Backend;
+use etalon_conformance::Driver;
+use etalon_vulkan::{Options, VulkanBackend, enumerate, open};
+
+/// The name of the adapter under test.
+fn name() -> String {
+    std::env::var("ETALON_VULKAN_ADAPTER").unwrap_or("vulkan:lavapipe".to_owned())
+}
+
+/// True if the adapter under test is the one that must have everything.
+pub(crate) fn is_lavapipe() -> bool {
+    name() == "vulkan:lavapipe"
+}
+
+/// Opens the adapter under test. Without it a test fails: nothing would have been tested.
+pub(crate) fn backend(validate: bool) -> VulkanBackend {
+    let name = name();
+    let adapters = enumerate().unwrap_or_else(|e| panic!("these tests need {name}: {e}"));
+    let names: Vec<_> = adapters.iter().map(|a| a.name.as_str()).collect();
+    let Some(device) = names.iter().position(|n| *n == name) else {
+        panic!(
+            "these tests need {name}, and there is only {names:?}; apt-get install \
+             mesa-vulkan-drivers, or name another in ETALON_VULKAN_ADAPTER"
+        );
+    };
+    open(&name, &Options { device, validate }).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+pub(crate) fn lavapipe() -> Driver<'static> {
+    Driver {
+        environment: Vec::new(),
+        open: |validate| -> Box<dyn Backend> { Box::new(backend(validate)) },
+        lacks: match is_lavapipe() {
+            true => &["feature depth-bounds"],
+            // Another driver may lack anything.
+            false => &[""],
+        },
+        defects: &[],
+        tolerated: &[],
+    }
+}

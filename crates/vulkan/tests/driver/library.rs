@@ -1,0 +1,29 @@
+//! Built-in cases, and everything under the eyes of the validation layer.
+
+use crate::drivers::{backend, is_lavapipe, lavapipe};
+use etalon_backend::Backend;
+use etalon_case::Profile;
+use etalon_conformance::{Share, Subject, draw_library, run_all};
+
+pub(crate) fn sample(backend: &dyn Backend) {
+    let subject = Subject::new(backend, &[]);
+    draw_library(&subject, Profile::Quick, Share::sample(6));
+}
+
+/// One pass with the layer: every check, then cases of every file.
+#[test]
+fn the_validation_layer_is_silent() {
+    let backend = backend(true);
+    if is_lavapipe() {
+        run_all(
+            &backend,
+            &lavapipe(),
+            &["depth::bounds_reject_by_the_stored_depth"],
+        );
+    }
+    draw_library(
+        &Subject::new(&backend, &[]),
+        Profile::Full,
+        Share::sample(4),
+    );
+}

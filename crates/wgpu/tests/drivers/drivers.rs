@@ -1,0 +1,103 @@
+//! The drivers under wgpu. A missing driver is a failure: nothing would have been tested.
+
+use etalon_backend::Backend;
+use etalon_conformance::{Driver, LLVMPIPE, SOFTPIPE, variables};
+use etalon_wgpu::{Options, Via, WgpuBackend, enumerate, open};
+use std::fs;
+use std::path::PathBuf;
+
+const MANIFESTS: [&str; 3] = [
+    "/usr/share/vulkan/icd.d",
+    "/usr/local/share/vulkan/icd.d",
+    "/etc/vulkan/icd.d",
+];
+
+fn lavapipe_manifest() -> PathBuf {
+    MANIFESTS
+        .iter()
+        .filter_map(|folder| fs::read_dir(folder).ok())
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+        .find(|path| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            name.starts_with("lvp_icd")
+        })
+        .unwrap_or_else(|| {
+            panic!(
+                "lavapipe is not installed (no lvp_icd*.json in {MANIFESTS:?}): \
+                 apt-get install mesa-vulkan-drivers"
+            )
+        })
+}
+
+fn opened(name: &str, via: Via, validate: bool) -> WgpuBackend {
+    let found = enumerate(via).unwrap_or_else(|e| panic!("{name} cannot be used: {e}"));
+    let names: Vec<_> = found.iter().map(|info| info.name.as_str()).collect();
+    let device = names.iter().position(|n| *n == name);
+    let device = device.unwrap_or_else(|| panic!("{name} is not among the adapters {names:?}"));
+    assert!(found[device].software, "{name} is a software driver");
+    let options = Options {
+        via,
+        device,
+        validate,
+    };
+    let backend = open(name, &options).unwrap_or_else(|e| panic!("{name} does not open: {e}"));
+    assert_eq!(backend.adapter().name, name);
+    backend
+}
+
+/// Mistakes of wgpu 30 over Vulkan: it offers DEPTH_BIAS_CLAMP and does not enable the device's
+/// depthBiasClamp.
+const MISTAKES_OF_WGPU: &[&str] = &["VUID-VkGraphicsPipelineCreateInfo-pDynamicStates-00754"];
+
+pub(crate) fn lavapipe() -> Driver<'static> {
+    let manifest = lavapipe_manifest().to_string_lossy().into_owned();
+    Driver {
+        environment: vec![
+            ("VK_DRIVER_FILES", manifest.clone()),
+            ("VK_ICD_FILENAMES", manifest),
+        ],
+        open: |validate| Box::new(opened("wgpu:vulkan:lavapipe", Via::Vulkan, validate)),
+        lacks: &["feature", "format", "4 samples"],
+        defects: &[],
+        tolerated: MISTAKES_OF_WGPU,
+    }
+}
+
+pub(crate) fn llvmpipe() -> Driver<'static> {
+    Driver {
+        environment: variables(LLVMPIPE),
+        open: |validate| Box::new(opened("wgpu:gl:llvmpipe", Via::Gl, validate)),
+        lacks: &["feature", "format", "drawing", "blending", "4 samples"],
+        defects: &[RESTART],
+        tolerated: MISTAKES_OF_WGPU,
+    }
+}
+
+pub(crate) fn softpipe() -> Driver<'static> {
+    Driver {
+        environment: variables(SOFTPIPE),
+        open: |validate| Box::new(opened("wgpu:gl:softpipe", Via::Gl, validate)),
+        lacks: &["feature", "format", "drawing", "blending", "4 samples"],
+        defects: &[
+            RESTART,
+            (
+                "sampling::neighbours_in_the_mirror_are_averaged",
+                "the wrong neighbour in the mirror",
+            ),
+            (
+                "integers::integers_are_drawn_through_the_write_mask",
+                "a clear that is lost to the draws of its pass",
+            ),
+            ("targets::the_second_source_is_a_factor", SECOND),
+            ("targets::the_second_source_weighs_one_side", SECOND),
+            ("targets::later_draws_have_one_source", SECOND),
+        ],
+        tolerated: MISTAKES_OF_WGPU,
+    }
+}
+
+/// wgpu's OpenGL never enables the restart of primitives.
+const RESTART: (&str, &str) = ("raster::strips_begin_again", "strips that are joined");
+const SECOND: &str = "a second source that comes as the first";

@@ -1,0 +1,40 @@
+//! A sample of the built-in cases, and everything once more with validation; `ETALON_TESTS=all`
+//! draws every case.
+
+use crate::drivers;
+use etalon_backend::Backend;
+use etalon_case::Profile;
+use etalon_conformance::{Driver, Share, Subject, draw_library, in_child, run_all};
+
+/// Drivers that compile every state draw fewer.
+pub(crate) fn sample(backend: &dyn Backend) {
+    let softpipe = backend.adapter().name == "wgpu:gl:softpipe";
+    let share = Share::sample(if softpipe { 12 } else { 4 });
+    draw_library(&Subject::new(backend, &[]), Profile::Quick, share);
+}
+
+/// One pass with validation: every check, then cases of every file.
+fn validated(driver: &str, described: &Driver<'_>, skipped: &[&str]) {
+    let test = format!("library::validation_of_{driver}_is_silent");
+    in_child(&test, &described.environment, || {
+        let backend = (described.open)(true);
+        run_all(&*backend, described, skipped);
+        let subject = Subject::new(&*backend, described.tolerated);
+        draw_library(&subject, Profile::Quick, Share::sample(2));
+    });
+}
+
+#[test]
+fn validation_of_lavapipe_is_silent() {
+    validated("lavapipe", &drivers::lavapipe(), &[]);
+}
+
+#[test]
+fn validation_of_llvmpipe_is_silent() {
+    validated("llvmpipe", &drivers::llvmpipe(), &[]);
+}
+
+#[test]
+fn validation_of_softpipe_is_silent() {
+    validated("softpipe", &drivers::softpipe(), &[]);
+}
