@@ -1,6 +1,7 @@
 //! How far the codes of a frame lie from the ideal ones, whether they are legal or not.
 
-use crate::format::{Aspect, ChannelEncoding};
+use crate::encoding::ChannelEncoding;
+use crate::format::Aspect;
 use crate::legal::{CodeInterval, ImageInfo, TexelSet, WorldBox};
 use serde::{Deserialize, Serialize};
 

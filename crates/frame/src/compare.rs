@@ -1,21 +1,13 @@
 //! A frame held against its legal set and the yardstick.
 
 use crate::accuracy::{Accuracy, Distances};
+use crate::band::Band;
 use crate::counter::CounterOutcome;
-use crate::format::{Aspect, ChannelEncoding};
+use crate::encoding::ChannelEncoding;
+use crate::format::Aspect;
 use crate::image::{Frame, FrameError};
 use crate::legal::{ImageInfo, LegalSet, TexelSet};
 use serde::{Deserialize, Serialize};
-
-/// Which of the two bands a texel fell out of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Band {
-    /// Legal, but outside the yardstick.
-    Imprecise,
-    /// Outside what the API's text allows.
-    Fail,
-}
 
 /// One channel outside its interval. Codes are bit patterns in the channel's encoding.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -1,37 +1,26 @@
 //! What a device counts while it draws, and which counts are legal.
 
-use crate::compare::Band;
+use crate::band::Band;
+use crate::state_enum;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What a counter counts.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum CounterKind {
-    /// Samples that passed all tests, exactly: a precise occlusion query.
-    SamplesPassed,
-    /// 1 when any sample passed all tests, else 0: an occlusion query that is not precise.
-    AnySamplesPassed,
-    /// Runs of the fragment shader that counted themselves in a storage buffer.
-    ShaderRuns,
-    /// Runs of the fragment shader as the pipeline statistics tell them.
-    FragmentInvocations,
+state_enum! {
+    /// What a counter counts.
+    CounterKind {
+        /// Samples that passed all tests, exactly: a precise occlusion query.
+        SamplesPassed = "samples-passed",
+        /// 1 when any sample passed all tests, else 0: an occlusion query that is not precise.
+        AnySamplesPassed = "any-samples-passed",
+        /// Runs of the fragment shader that counted themselves in a storage buffer.
+        ShaderRuns = "shader-runs",
+        /// Runs of the fragment shader as the pipeline statistics tell them.
+        FragmentInvocations = "fragment-invocations",
+    }
 }
 
 impl CounterKind {
-    /// The name in case files and records.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::SamplesPassed => "samples-passed",
-            Self::AnySamplesPassed => "any-samples-passed",
-            Self::ShaderRuns => "shader-runs",
-            Self::FragmentInvocations => "fragment-invocations",
-        }
-    }
-
     /// Whether it is an occlusion query, of which a draw has one at most.
     pub fn is_occlusion(self) -> bool {
         matches!(self, Self::SamplesPassed | Self::AnySamplesPassed)

@@ -1,6 +1,7 @@
 //! What came back from a device.
 
-use crate::format::{Aspect, ChannelEncoding};
+use crate::encoding::ChannelEncoding;
+use crate::format::Aspect;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 

@@ -1,7 +1,8 @@
 //! Legal sets: what the rules allow at each sample of each image.
 
 use crate::counter::CounterSet;
-use crate::format::{Aspect, ChannelEncoding};
+use crate::encoding::ChannelEncoding;
+use crate::format::Aspect;
 use crate::image::{Image, ReadPath};
 use smallvec::SmallVec;
 use std::collections::HashMap;
