@@ -9,7 +9,7 @@ use crate::states;
 use crate::variants::{patch, read_back, relation, variant_scene};
 use crate::wire::{AxisValue, ExpectWire, FileWire, QuickWire, RandomWire, SceneWire};
 use etalon_frame::Requirement;
-use etalon_methods::{Made, Method, MethodWire, Parameter};
+use etalon_methods::{Method, MethodScene, MethodWire, Parameter};
 use etalon_scene::Scene;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -382,7 +382,7 @@ impl CaseRef<'_> {
                 })
             }
         };
-        let make = || -> Result<Made, At> {
+        let make = || -> Result<MethodScene, At> {
             let wire: MethodWire = typed(&substitute(&wire.method, values)?)?;
             etalon_methods::make(&wire).map_err(|e| At::new(e.message).key(&e.key))
         };

@@ -108,12 +108,12 @@ fn all() -> Vec<Value> {
     all
 }
 
-fn try_make(wire: &Value) -> Result<Made, ParameterError> {
+fn try_make(wire: &Value) -> Result<MethodScene, ParameterError> {
     let wire: MethodWire = serde_json::from_value(wire.clone()).expect("a wire of the right types");
     make(&wire)
 }
 
-fn made(wire: &Value) -> Made {
+fn made(wire: &Value) -> MethodScene {
     match try_make(wire) {
         Ok(made) => made,
         Err(at) => panic!("{wire}: {}", at.message),
@@ -123,7 +123,7 @@ fn made(wire: &Value) -> Made {
 #[test]
 fn every_method_draws_every_scene() {
     for wire in all() {
-        let Made { scene, truth } = made(&wire);
+        let MethodScene { scene, truth } = made(&wire);
         let picture = &scene.attachments[scene.read[0]];
         assert_eq!(picture.size, truth.size, "{wire}");
         assert!(!truth.surfaces.is_empty(), "{wire}");

@@ -1,6 +1,6 @@
 //! Convex pieces as what lies on one side of several lines.
 
-use crate::stage::Polygon;
+use crate::polygon::Polygon;
 
 /// A line, by the distance from it.
 #[derive(Clone, Copy, Debug)]

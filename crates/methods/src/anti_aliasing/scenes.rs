@@ -1,27 +1,12 @@
 //! Scenes of edges.
 
-use super::Wire;
 use super::pieces::{DEPTH, Line, Piece};
-use crate::error::ParameterError;
-use crate::picture::{Coverage, Truth};
-use crate::{SIZE, stage::Polygon, within};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use super::wire::{SceneName, Wire};
+use crate::error::{ParameterError, within};
+use crate::polygon::Polygon;
+use crate::stage::SIZE;
+use crate::truth::{Coverage, Truth};
 use std::f64::consts::TAU;
-
-/// What is seen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum SceneName {
-    /// Sixteen half planes whose edges lie at `angle` and at different parts of a texel.
-    HalfPlanes,
-    /// Four wedges that open by `opening`, in different directions.
-    ThinWedge,
-    /// Sectors and rings around a point in two colours by turns.
-    CheckerFan,
-    /// The wires of a torus, as quads a little wider than a texel.
-    WireTorus,
-}
 
 /// A ground on texel borders and pieces on it.
 #[derive(Clone, Debug)]

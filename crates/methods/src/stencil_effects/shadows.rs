@@ -5,9 +5,12 @@
 //! is the card moved. Cards stand on whole texels and light moves them by whole texels, so the edges of
 //! all shadows keep half a texel away from all centres.
 
-use super::{Shown, except, opaque, test};
-use crate::picture::Surface;
-use crate::{SIZE, stage, stage::Polygon, view::clip, view::settle};
+use super::shown::{Shown, except, opaque, test};
+use crate::grid::settle;
+use crate::polygon::{self, Polygon};
+use crate::stage::{self, SIZE};
+use crate::truth::Surface;
+use crate::view::clip;
 use etalon_scene::{CompareFunction, Draw, Shader, StencilOperation, StencilState};
 use glam::DVec3;
 use schemars::JsonSchema;
@@ -118,7 +121,7 @@ fn seen(faces: &[Vec<DVec3>], eye: f64, color: [f64; 4]) -> Vec<Polygon> {
 
 /// Counts the sides of a volume.
 fn count(method: MethodName, volume: &[Polygon]) -> Draw {
-    let mut draw = stage::draw(Shader::FlatColor, stage::mesh(SIZE, volume));
+    let mut draw = stage::draw(Shader::FlatColor, polygon::mesh(SIZE, volume));
     draw.depth = stage::depth(CompareFunction::Less, false);
     draw.targets[0].write_mask = 0;
     let [mut front, mut back] = [test(CompareFunction::Always, 0); 2];
@@ -142,7 +145,7 @@ fn count(method: MethodName, volume: &[Polygon]) -> Draw {
 
 /// Takes light away wherever a count is left.
 fn darken() -> Draw {
-    let mut draw = stage::draw(Shader::UniformColor, stage::cover());
+    let mut draw = stage::draw(Shader::UniformColor, polygon::cover());
     draw.params.color = [0.0, 0.0, 0.0, 1.0 - SHADE as f32];
     draw.targets[0].blend = stage::over();
     draw.stencil = except(0);

@@ -1,10 +1,10 @@
 //! Methods that spread what is seen through over four samples.
 
+use super::draws::{PICTURE, clear, depths, opaque};
 use super::scenes::Glass;
-use super::{PICTURE, clear, depths, opaque};
-use crate::{
-    SIZE, stage::Noise, stage::Polygon, stage::Stage, stage::depth, stage::draw, stage::mesh,
-};
+use crate::noise::Noise;
+use crate::polygon::{Polygon, mesh};
+use crate::stage::{SIZE, Stage, depth, draw};
 use etalon_frame::TextureFormat;
 use etalon_scene::{CompareFunction, Contents, Draw, Scene, Shader};
 

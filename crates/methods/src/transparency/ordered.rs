@@ -1,11 +1,9 @@
 //! Methods of one pass that differ in order and depth.
 
+use super::draws::{PICTURE, clear, depths, opaque, premultiplied};
 use super::scenes::{Glass, Object};
-use super::{PICTURE, clear, depths, opaque, premultiplied};
-use crate::{
-    SIZE, stage::Polygon, stage::Stage, stage::add, stage::both, stage::depth, stage::draw,
-    stage::mesh, stage::over,
-};
+use crate::polygon::{Polygon, mesh};
+use crate::stage::{SIZE, Stage, add, both, depth, draw, over};
 use etalon_scene::{BlendFactor, BlendState, CompareFunction, Params, Scene, Shader};
 
 /// The polygons of all objects, the farthest object first.

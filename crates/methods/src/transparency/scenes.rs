@@ -1,31 +1,11 @@
 //! What there is to see through.
 
-use super::Wire;
-use crate::error::ParameterError;
-use crate::picture::{Coverage, Truth};
-use crate::{SIZE, stage::Noise, stage::Polygon, within};
-use schemars::JsonSchema;
-use serde::Deserialize;
-
-/// What is seen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum SceneName {
-    /// Six panes beside and over each other, each at a depth of its own, and an opaque one between
-    /// them. `alpha` is theirs.
-    Windows,
-    /// Three panes, two of which are turned by `angle` degrees, so that they pass through each other
-    /// where it is large.
-    IntersectingPanes,
-    /// Three boxes of glass, one in the other, and something opaque in the innermost.
-    NestedGlass,
-    /// So many panes of low `alpha` as `layers` says.
-    ThinLayers,
-    /// A bundle of thin slanted strips.
-    Hair,
-    /// A stack of large quads around something opaque. `alpha` is theirs.
-    Smoke,
-}
+use super::wire::{SceneName, Wire};
+use crate::error::{ParameterError, within};
+use crate::noise::Noise;
+use crate::polygon::Polygon;
+use crate::stage::SIZE;
+use crate::truth::{Coverage, Truth};
 
 /// What is put together as one thing: sorted as a whole.
 #[derive(Clone, Debug)]

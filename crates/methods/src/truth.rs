@@ -1,4 +1,4 @@
-//! What a method's picture should show, as geometry: what the truth mode computes its picture from.
+//! The truth of a method's scene as geometry, from which the exact picture is computed.
 
 use etalon_scene::AddressMode;
 
@@ -79,28 +79,4 @@ pub struct Texture {
     pub texels: Vec<[f64; 4]>,
     /// What lies beyond its edges, across and down.
     pub address: [AddressMode; 2],
-}
-
-/// What a method case asks: which method draws which scene, and what should come of it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Method {
-    /// The question, the second part of the id: `transparency`.
-    pub question: String,
-    /// The scene, the third part of the id: `windows`.
-    pub scene: String,
-    /// The method, as the id names it: `depth-peeling`.
-    pub name: String,
-    /// What the stability curve runs along.
-    pub parameter: Option<Parameter>,
-    /// What should be seen in the first attachment that is read back, whose alpha does not count.
-    pub truth: Truth,
-}
-
-/// A parameter of a family of method cases.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Parameter {
-    /// The axis.
-    pub name: String,
-    /// Its value in this case.
-    pub value: f64,
 }
