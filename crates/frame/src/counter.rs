@@ -1,4 +1,4 @@
-//! What a device counts while it draws, and which counts are legal.
+//! Counters, and the counts that are legal.
 
 use crate::band::Band;
 use crate::state_enum;
@@ -21,7 +21,7 @@ state_enum! {
 }
 
 impl CounterKind {
-    /// Whether it is an occlusion query, of which a draw has one at most.
+    /// True if it is an occlusion query, of which a draw has one at most.
     pub fn is_occlusion(self) -> bool {
         matches!(self, Self::SamplesPassed | Self::AnySamplesPassed)
     }
@@ -37,12 +37,12 @@ pub struct CountRange {
 }
 
 impl CountRange {
-    /// Whether the count is legal.
+    /// True if the count is legal.
     pub fn contains(self, count: u64) -> bool {
         self.low <= count && self.high.is_none_or(|high| count <= high)
     }
 
-    /// Whether every count of this kind is legal, so that nothing is asserted.
+    /// True if every count of this kind is legal, so that nothing is asserted.
     pub fn is_open(self, kind: CounterKind) -> bool {
         let all = match kind {
             CounterKind::AnySamplesPassed => self.high.is_none_or(|high| high >= 1),
@@ -51,7 +51,7 @@ impl CountRange {
         self.low == 0 && all
     }
 
-    /// Whether exactly one count is legal.
+    /// True if exactly one count is legal.
     pub fn is_exact(self) -> bool {
         self.high == Some(self.low)
     }
@@ -67,12 +67,12 @@ impl fmt::Display for CountRange {
     }
 }
 
-/// What the rules allow of one counter.
+/// The counts of one counter that the rules allow.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CounterSet {
     /// The counter's name in the scene.
     pub name: String,
-    /// What it counts.
+    /// The kind of count.
     pub kind: CounterKind,
     /// The legal counts.
     pub range: CountRange,
@@ -84,14 +84,14 @@ pub struct CounterSet {
 pub struct CounterOutcome {
     /// The counter's name in the scene.
     pub name: String,
-    /// What it counts.
+    /// The kind of count.
     pub kind: CounterKind,
     /// At least so many are legal.
     pub low: u64,
     /// At most so many are legal; absent where nothing limits it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub high: Option<u64>,
-    /// What came back.
+    /// The count that came back.
     pub actual: u64,
     /// The worst band that the count fell out of.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -126,7 +126,7 @@ impl CounterOutcome {
         }
     }
 
-    /// Whether anything was asserted of the counter.
+    /// True if anything was asserted of the counter.
     pub fn is_asserted(&self) -> bool {
         !self.range().is_open(self.kind)
     }

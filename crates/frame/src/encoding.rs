@@ -4,7 +4,7 @@ use half::f16;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// How one channel's code stands for a value.
+/// The encoding of one channel: which code stands for which value.
 ///
 /// A *code* is the channel's bit pattern in the low bits of a `u32`. Its *order* is an integer that
 /// grows with the value the code stands for, one step per neighbouring code, so that intervals of
@@ -51,7 +51,7 @@ impl ChannelEncoding {
         }
     }
 
-    /// Whether the encoding is a float.
+    /// True if the encoding is a float.
     pub fn is_float(self) -> bool {
         matches!(self, Self::Float16 | Self::Float32 | Self::Ufloat(_))
     }
@@ -117,7 +117,7 @@ impl ChannelEncoding {
         }
     }
 
-    /// Where a value lies on the scale of orders, for encodings whose codes are equidistant in the
+    /// The position of a value on the scale of orders, for encodings whose codes are equidistant in the
     /// stored (for sRGB: encoded) value: the scale times the value, not rounded.
     pub fn position(self, value: f64) -> Option<f64> {
         match self {
@@ -172,7 +172,7 @@ impl ChannelEncoding {
         low
     }
 
-    /// Whether the code is a NaN.
+    /// True if the code is a NaN.
     pub fn is_nan(self, code: u32) -> bool {
         match self {
             Self::Float16 => f16::from_bits(code as u16).is_nan(),

@@ -69,17 +69,17 @@ impl TextureFormat {
         }
     }
 
-    /// Whether texels are colours.
+    /// True if texels are colours.
     pub fn is_color(self) -> bool {
         !self.has_depth() && !self.has_stencil()
     }
 
-    /// Whether texels are integers, which shaders write as integers and nothing blends.
+    /// True if texels are integers, which shaders write as integers and nothing blends.
     pub fn is_integer(self) -> bool {
         self == Self::Rgba8Uint
     }
 
-    /// Whether the format has a depth aspect.
+    /// True if the format has a depth aspect.
     pub fn has_depth(self) -> bool {
         matches!(
             self,
@@ -91,7 +91,7 @@ impl TextureFormat {
         )
     }
 
-    /// Whether the format has a stencil aspect.
+    /// True if the format has a stencil aspect.
     pub fn has_stencil(self) -> bool {
         matches!(
             self,

@@ -1,4 +1,4 @@
-//! What an adapter can do.
+//! The limits of an adapter, and the requirements that are held against them.
 
 use crate::api::Api;
 use crate::encoding::ChannelEncoding;
@@ -43,23 +43,23 @@ impl fmt::Display for Requirement {
     }
 }
 
-/// What an adapter does with one format.
+/// The support of one format by an adapter.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FormatSupport {
     /// Sample counts of attachments that can be drawn and read back; empty where the format can
     /// only be uploaded and fetched from.
     pub samples: Vec<u32>,
-    /// Whether attachments of the format can be blended into.
+    /// True if attachments of the format can be blended into.
     pub blendable: bool,
     /// The real encoding of the depth aspect. More than one where the API does not tell: then all
     /// of a frame is one or the other. Empty for formats without depth.
     pub depth: Vec<ChannelEncoding>,
-    /// How the depth aspect (or colour, where there is no depth) is read back.
+    /// The way the depth aspect (or colour, where there is no depth) is read back.
     pub read: ReadPath,
 }
 
-/// What an adapter can do, as far as the suite asks.
+/// The limits of an adapter, as far as the suite asks.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {

@@ -1,6 +1,6 @@
 //! Messages about input.
 
-/// How much of its beginning and of its end a long message keeps, in bytes.
+/// The bytes kept of the beginning and of the end of a long message.
 const HEAD: usize = 400;
 const TAIL: usize = 200;
 

@@ -1,4 +1,4 @@
-//! What blending many times adds up to: the same colour laid over a background again and again.
+//! Accumulated rounding: the same colour blended over a background again and again.
 //!
 //! After `n` layers of alpha `a` the background counts `(1 - a)^n` and the colour all the rest. What is
 //! stored in between is rounded each time; a difference from the colour that is less than half a code

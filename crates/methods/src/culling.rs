@@ -1,4 +1,4 @@
-//! What culling leaves out: faces by their winding, and whole objects outside of the picture.
+//! Culling: faces by their winding, and whole objects outside of the picture.
 
 use crate::error::{ParameterError, within};
 use crate::grid::settle;
@@ -82,7 +82,7 @@ pub enum MethodName {
     Frustum,
 }
 
-/// What the scene looks like.
+/// The draws of a scene and the polygons that should be seen.
 struct Shown {
     /// The draws.
     draws: Vec<Draw>,

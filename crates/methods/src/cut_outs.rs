@@ -1,4 +1,4 @@
-//! How holes in a texture are drawn: cards of grass.
+//! Cut-outs: holes in a texture, on cards of grass.
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
@@ -60,7 +60,7 @@ fn clamp() -> AddressMode {
 /// Draws the scene by the method.
 ///
 /// # Errors
-/// When a parameter is out of its range.
+/// If a parameter is out of its range.
 pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let scale = within("scale", wire.scale.unwrap_or(1.0), 0.25..=4.0)?;
     let cutoff = within("cutoff", wire.cutoff.unwrap_or(0.5), 0.01..=0.99)?;

@@ -1,4 +1,4 @@
-//! Which depths can be told apart: pairs of surfaces that nearly touch, at many distances.
+//! Depth precision: pairs of surfaces that nearly touch, at many distances.
 //!
 //! The near and the far surface of a pair take turns in being drawn first, so that a depth buffer that
 //! holds both to be equal goes wrong in half of the texels. Vertices come projected, with a depth that
@@ -78,7 +78,7 @@ enum MethodName {
 struct Quad {
     corners: [[f64; 3]; 4],
     color: [f64; 4],
-    /// Whether it lies on another surface.
+    /// True if it lies on another surface.
     is_decal: bool,
 }
 
@@ -172,7 +172,7 @@ fn decal(gap: f64) -> Vec<Quad> {
     vec![lid, plane, decal]
 }
 
-/// How a method keeps depth.
+/// The depth buffer of a method.
 struct Buffer {
     format: TextureFormat,
     near: f64,

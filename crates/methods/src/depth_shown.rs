@@ -1,4 +1,4 @@
-//! How depth is shown, by formulae that have one right result: as grey, as distance, as fog; and two
+//! Depth shown by formulae that have one right result: as grey, as distance, as fog; and two
 //! pictures that dissolve into each other.
 
 use crate::error::{ParameterError, within};
@@ -15,7 +15,7 @@ use serde::Deserialize;
 /// The distance of the far plane.
 const FAR: f64 = 1000.0;
 
-/// What fog looks like.
+/// The colour of fog.
 const FOG: [f64; 3] = [0.75, 0.8, 0.9];
 
 /// Cells of each picture that dissolves, across and down.

@@ -9,7 +9,7 @@ use thiserror::Error;
 pub struct ParameterError {
     /// The parameter, as case files name it.
     pub key: String,
-    /// What is wrong with it, and what would be right.
+    /// The error, and the values that are possible.
     pub message: String,
 }
 

@@ -97,7 +97,7 @@ fn untie(size: [u32; 2], points: &mut [[i64; 2]], edges: &[[usize; 2]]) {
     }
 }
 
-/// Whether an edge leads through the centre of a texel of the picture.
+/// True if an edge leads through the centre of a texel of the picture.
 fn touches_centre(size: [u32; 2], a: [i64; 2], b: [i64; 2]) -> bool {
     let step = GRID as i64;
     let half = step / 2;

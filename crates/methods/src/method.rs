@@ -2,7 +2,7 @@
 
 use crate::truth::Truth;
 
-/// What a method case asks: which method draws which scene, and what should come of it.
+/// The question, scene and method of a case, with the truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Method {
     /// The question, the second part of the id: `transparency`.
@@ -11,9 +11,9 @@ pub struct Method {
     pub scene: String,
     /// The method, as the id names it: `depth-peeling`.
     pub name: String,
-    /// What the stability curve runs along.
+    /// The parameter along which the stability curve runs.
     pub parameter: Option<Parameter>,
-    /// What should be seen in the first attachment that is read back, whose alpha does not count.
+    /// The truth of the first attachment that is read back, whose alpha does not count.
     pub truth: Truth,
 }
 

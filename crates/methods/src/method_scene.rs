@@ -5,8 +5,8 @@ use etalon_scene::Scene;
 
 /// A scene and what should be seen of it.
 pub struct MethodScene {
-    /// What adapters draw; the first attachment that is read back is the picture.
+    /// The scene; the first attachment that is read back is the picture.
     pub scene: Scene,
-    /// What should be seen.
+    /// Returns the truth.
     pub truth: Truth,
 }

@@ -36,7 +36,7 @@ pub enum MethodWire {
 /// Draws a scene by a method.
 ///
 /// # Errors
-/// When a parameter is out of its range, or a method does not know the scene.
+/// If a parameter is out of its range, or a method does not know the scene.
 pub fn make(wire: &MethodWire) -> Result<MethodScene, ParameterError> {
     match wire {
         MethodWire::Transparency(wire) => transparency::make(wire),

@@ -1,4 +1,4 @@
-//! What is done with a stencil: outlines, a mirror, shadow volumes.
+//! Stencil effects: outlines, a mirror, shadow volumes.
 
 mod mirror;
 mod outlines;

@@ -1,4 +1,4 @@
-//! What the questions whose scenes are solid or flat promise alike.
+//! Tests of the questions whose scenes are solid or flat.
 
 use super::*;
 use serde_json::{Value, json};

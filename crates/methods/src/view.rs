@@ -24,7 +24,7 @@ impl Face {
         (b - a).cross(c - a)
     }
 
-    /// Whether a point lies before its front.
+    /// True if a point lies before its front.
     pub(crate) fn looks_at(&self, point: DVec3) -> bool {
         self.normal().dot(point - self.corners[0]) > 0.0
     }
@@ -73,7 +73,7 @@ pub(crate) fn cuboid(low: DVec3, high: DVec3, color: [f64; 4]) -> Vec<Face> {
     ]
 }
 
-/// How eye space, in which the eye looks along -z, becomes a picture.
+/// The projection of eye space, in which the eye looks along -z, to a picture.
 #[derive(Clone, Copy, Debug)]
 enum Lens {
     /// Rays through the eye; the number is half the picture's height at distance 1.
@@ -82,7 +82,7 @@ enum Lens {
     Parallel(f64),
 }
 
-/// Where the eye is and what it sees.
+/// A camera.
 #[derive(Clone, Debug)]
 pub(crate) struct View {
     size: [f64; 2],
@@ -148,7 +148,7 @@ impl View {
         )
     }
 
-    /// What is left of faces between the near and the far plane, in the picture but not cut by its
+    /// Projects faces, clipped to the near and far plane but not to the picture's
     /// edges. Faces without anything left are left out.
     pub(crate) fn unbounded(&self, faces: &[Face]) -> Vec<Polygon> {
         let polygon = |face: &Face| {
@@ -164,7 +164,7 @@ impl View {
         faces.iter().filter_map(polygon).collect()
     }
 
-    /// What is seen of faces, each polygon inside of the picture.
+    /// Projects faces, clipped to the picture.
     pub(crate) fn see(&self, faces: &[Face]) -> Vec<Polygon> {
         let [width, height] = self.size;
         let inside = |polygon: Polygon| {
@@ -186,7 +186,7 @@ pub(crate) fn window_depth(distance: f64, [near, far]: [f64; 2]) -> f64 {
     far * (distance - near) / (distance * (far - near))
 }
 
-/// What is left of a convex polygon where a function that is linear in space is not negative
+/// Clips a convex polygon to where a function that is linear in space is not negative
 /// (Sutherland and Hodgman 1974). Neighbours cut a common edge at the same point, whichever way they
 /// run along it.
 pub(crate) fn clip(corners: &[DVec3], inside: impl Fn(DVec3) -> f64) -> Vec<DVec3> {

@@ -1,4 +1,4 @@
-//! What it costs to find out what is in front: rooms behind rooms, seen through openings, with a
+//! The cost of visibility: rooms behind rooms, seen through openings, with a
 //! fragment shader that does much work. All methods give the same picture.
 
 use crate::error::{ParameterError, within};

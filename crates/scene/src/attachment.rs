@@ -14,11 +14,11 @@ pub struct Attachment {
     pub size: [u32; 2],
     /// Samples per texel.
     pub samples: u32,
-    /// What it starts from. Every attachment is initialised before the first pass.
+    /// The initial contents. Every attachment is initialised before the first pass.
     pub contents: Contents,
 }
 
-/// What an attachment starts from.
+/// The initial contents of an attachment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Contents {
     /// A colour clear in red, green, blue, alpha, converted by the API.

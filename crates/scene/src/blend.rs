@@ -49,7 +49,7 @@ state_enum! {
 }
 
 impl BlendFactor {
-    /// Whether the factor comes from the second source.
+    /// True if the factor comes from the second source.
     pub fn is_second_source(self) -> bool {
         matches!(
             self,
@@ -96,7 +96,7 @@ pub struct BlendState {
     pub alpha: BlendComponent,
 }
 
-/// How one colour attachment takes a draw's fragments.
+/// The state of a draw for one colour attachment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct ColorTarget {
     /// Blending; `None` is off.

@@ -86,11 +86,11 @@ pub struct StencilState {
 pub struct StencilFace {
     /// The comparison: masked reference on the left, masked stored value on the right.
     pub compare: CompareFunction,
-    /// When the stencil test fails.
+    /// The operation where the stencil test fails.
     pub fail_op: StencilOperation,
-    /// When the stencil test passes and the depth test fails.
+    /// The operation where the stencil test passes and the depth test fails.
     pub depth_fail_op: StencilOperation,
-    /// When both pass.
+    /// The operation where both pass.
     pub pass_op: StencilOperation,
     /// Bits that take part in the comparison.
     pub read_mask: u8,

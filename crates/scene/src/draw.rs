@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 pub struct Draw {
     /// Vertices.
     pub mesh: Mesh,
-    /// How they become primitives.
+    /// The topology.
     pub topology: PrimitiveTopology,
     /// Vertex and fragment shader.
     pub shader: Shader,
@@ -27,7 +27,7 @@ pub struct Draw {
     /// Indices of the attachments that the shader reads: single-sample colour, as it was uploaded,
     /// cleared or left by earlier passes, and no part of the pass.
     pub textures: Vec<usize>,
-    /// How it samples them; `None` where it fetches single texels.
+    /// The sampler of the textures; `None` where the shader fetches single texels.
     pub sampler: Option<Sampler>,
     /// Indices of the scene's counters that this draw adds to: one of each kind at most, and one
     /// occlusion query at most.
@@ -38,15 +38,15 @@ pub struct Draw {
     pub front_face: FrontFace,
     /// Inside or edges.
     pub polygon_mode: PolygonMode,
-    /// Whether nothing is rasterized at all.
+    /// True if primitives are discarded before rasterization.
     pub rasterizer_discard: bool,
-    /// Where clip space lies.
+    /// The viewport.
     pub viewport: Viewport,
     /// Left, top, width and height of the texels that may be written; `None` is all.
     pub scissor: Option<[u32; 4]>,
-    /// What is added to depths of polygons.
+    /// The depth bias of polygons.
     pub depth_bias: DepthBias,
-    /// Whether depths beyond the viewport's range are moved to its ends instead of clipped.
+    /// True if depths beyond the viewport's range are clamped instead of clipped.
     pub depth_clamp: bool,
     /// Stored depths outside this range reject fragments; `None` is off.
     pub depth_bounds: Option<[f32; 2]>,
@@ -58,7 +58,7 @@ pub struct Draw {
     pub targets: Vec<ColorTarget>,
     /// The logic operation of all targets, instead of blending; `None` is off.
     pub logic: Option<LogicOperation>,
-    /// Which samples are drawn.
+    /// The samples that are drawn.
     pub multisample: Multisample,
     /// The blend constant in red, green, blue, alpha.
     pub blend_constant: [f32; 4],

@@ -32,7 +32,7 @@ impl EarlyTests {
         }
     }
 
-    /// Whether the shader promises something of the depth that it writes.
+    /// True if the shader makes a promise about the depth that it writes.
     pub fn is_conservative(self) -> bool {
         !matches!(self, Self::Implicit | Self::Forced)
     }

@@ -27,7 +27,7 @@ pub const RESTART: u32 = u32::MAX;
 pub struct Mesh {
     /// The vertices.
     pub vertices: Vec<Vertex>,
-    /// Which vertices are drawn, in order; [`RESTART`] ends a strip.
+    /// Indices of the drawn vertices, in order; [`RESTART`] ends a strip.
     pub indices: Option<Vec<u32>>,
 }
 

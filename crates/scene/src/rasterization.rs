@@ -82,7 +82,7 @@ impl Viewport {
         [x, y.min(y + h), w, h.abs()]
     }
 
-    /// Whether the picture is turned over.
+    /// True if the picture is flipped.
     pub fn is_mirrored(&self) -> bool {
         self.rect[3] < 0.0
     }

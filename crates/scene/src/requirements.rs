@@ -10,7 +10,7 @@ use etalon_frame::{CounterKind, Feature, Requirement};
 use std::collections::BTreeSet;
 
 impl Scene {
-    /// What the scene needs of an adapter, without repetition, in ascending order.
+    /// Returns the requirements of the scene, without repetition, in ascending order.
     pub fn requirements(&self) -> Vec<Requirement> {
         let mut needed = BTreeSet::new();
         for attachment in &self.attachments {

@@ -18,7 +18,7 @@ pub struct Scene {
     pub passes: Vec<Pass>,
     /// Indices of the attachments to read back at the end: all aspects, depth before stencil.
     pub read: Vec<usize>,
-    /// What is counted, by name in ascending order. All are read back; each starts from 0.
+    /// The counters, by name in ascending order. All are read back; each starts from 0.
     pub counters: Vec<Counter>,
 }
 
@@ -27,7 +27,7 @@ pub struct Scene {
 pub struct Pass {
     /// Indices of the colour attachments, in location order.
     pub color: Vec<usize>,
-    /// Where each colour attachment's samples are averaged to at the end of the pass: a
+    /// The attachment to which each colour attachment is resolved at the end of the pass: a
     /// single-sample attachment of the same format and size. As long as `color`.
     pub resolve: Vec<Option<usize>>,
     /// Index of the depth-stencil attachment.
@@ -43,7 +43,7 @@ pub struct Pass {
 pub struct Counter {
     /// Name in the case file.
     pub name: String,
-    /// What it counts.
+    /// The kind of count.
     pub kind: CounterKind,
 }
 

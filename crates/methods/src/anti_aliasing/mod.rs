@@ -1,4 +1,4 @@
-//! How edges are smoothed.
+//! Anti-aliasing.
 //!
 //! Each scene is a ground on texel borders and pieces with slanted edges on it, everything opaque.
 
@@ -22,7 +22,7 @@ use wire::MethodName;
 /// Draws the scene by the method.
 ///
 /// # Errors
-/// When a parameter is out of its range.
+/// If a parameter is out of its range.
 pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let edges = Edges::new(wire)?;
     let scene = match wire.method {

@@ -13,11 +13,11 @@ use std::f64::consts::TAU;
 pub(super) struct Edges {
     /// Red, green and blue where nothing is; where the ground is everywhere, it shows in seams alone.
     pub(super) background: [f64; 3],
-    /// What lies below the pieces.
+    /// The polygons below the pieces.
     pub(super) ground: Vec<Polygon>,
     /// The pieces that are seen.
     pub(super) front: Vec<Piece>,
-    /// What is seen of the ground, as pieces that fill the gaps between those in front.
+    /// The visible ground, as pieces that fill the gaps between those in front.
     pub(super) back: Vec<Piece>,
 }
 
@@ -31,7 +31,7 @@ impl Edges {
     /// The scene of a case.
     ///
     /// # Errors
-    /// When a parameter is out of its range.
+    /// If a parameter is out of its range.
     pub(super) fn new(wire: &Wire) -> Result<Self, ParameterError> {
         Ok(match wire.scene {
             SceneName::HalfPlanes => {
@@ -51,7 +51,7 @@ impl Edges {
         self.ground.iter().cloned().chain(front).collect()
     }
 
-    /// What should be seen.
+    /// Returns the truth.
     pub(super) fn truth(&self) -> Truth {
         Truth {
             size: SIZE,

@@ -1,4 +1,4 @@
-//! What methods draw, as scenes: the pictures are drawn and measured elsewhere.
+//! Tests of the methods' scenes; the pictures are drawn and measured elsewhere.
 
 use super::make;
 use super::scenes::Edges;

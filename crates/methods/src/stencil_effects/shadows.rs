@@ -63,13 +63,13 @@ const CARDS: [Card; 4] = [
 /// By how many texels light moves right and down on its way from z 0 to 1: 5 and 4 in a tenth.
 const LIGHT: [f64; 2] = [50.0, 40.0];
 
-/// Where volumes end: behind the wall, before the far plane at 1.
+/// The end of volumes: behind the wall, before the far plane at 1.
 const END: f64 = 0.97;
 
-/// How far behind its card a volume begins, so that the two do not touch.
+/// The distance of a volume from its card, so that the two do not touch.
 const BEHIND: f64 = 0.004;
 
-/// How much of its light a shadow keeps.
+/// The share of light in a shadow.
 const SHADE: f64 = 0.5;
 
 impl Card {
@@ -103,7 +103,7 @@ fn window_depth(z: f64, eye: f64) -> f64 {
     (z - eye) / (1.0 - eye)
 }
 
-/// What is left of faces behind the near plane, in the picture.
+/// Projects faces, clipped to the near plane and to the picture.
 fn seen(faces: &[Vec<DVec3>], eye: f64, color: [f64; 4]) -> Vec<Polygon> {
     let [width, height] = SIZE.map(f64::from);
     let polygon = |face: &Vec<DVec3>| {
@@ -152,7 +152,7 @@ fn darken() -> Draw {
     draw
 }
 
-/// What the cards behind the near plane look like, each followed by the shadows on it.
+/// The cards behind the near plane, each followed by the shadows on it.
 fn surfaces(eye: f64) -> Vec<Surface> {
     let mut all = Vec::new();
     for on in CARDS.iter().filter(|card| card.z > eye) {

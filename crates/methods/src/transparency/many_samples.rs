@@ -66,7 +66,7 @@ pub(super) fn layers(polygons: &[Polygon]) -> Vec<Vec<Polygon>> {
     layers
 }
 
-/// Whether two convex polygons have a point of the picture in common: no edge of either separates
+/// True if two convex polygons have a point of the picture in common: no edge of either separates
 /// them.
 fn overlap(a: &Polygon, b: &Polygon) -> bool {
     let range = |polygon: &Polygon, [x, y]: [f64; 2]| {

@@ -1,7 +1,7 @@
-//! How see-through surfaces are put together.
+//! Transparency: how surfaces that let light through are composed.
 //!
-//! What is opaque comes first or last, as a method needs it; all methods test what is seen through
-//! against its depth. Blending equations are those of Porter and Duff (1984).
+//! Opaque surfaces come first or last, as a method needs it; all methods test transparent surfaces
+//! against their depth. Blending equations are those of Porter and Duff (1984).
 
 mod draws;
 mod many_samples;
@@ -20,13 +20,13 @@ use crate::method_scene::MethodScene;
 use scenes::Glass;
 use wire::MethodName;
 
-/// How many layers are peeled where no `k` is given.
+/// The number of layers that are peeled where no `k` is given.
 const PEELED_LAYERS: u32 = 8;
 
 /// Draws the scene by the method.
 ///
 /// # Errors
-/// When a parameter is out of its range.
+/// If a parameter is out of its range.
 pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let glass = Glass::new(wire)?;
     if let Some(k) = wire.k {

@@ -1,4 +1,4 @@
-//! What there is to see through.
+//! Transparent scenes.
 
 use super::wire::{SceneName, Wire};
 use crate::error::{ParameterError, within};
@@ -7,7 +7,7 @@ use crate::polygon::Polygon;
 use crate::stage::SIZE;
 use crate::truth::{Coverage, Truth};
 
-/// What is put together as one thing: sorted as a whole.
+/// Polygons that are sorted as a whole.
 #[derive(Clone, Debug)]
 pub(super) struct Object {
     /// Its faces, in the order in which it is drawn.
@@ -27,11 +27,11 @@ impl Object {
 pub(super) struct Glass {
     /// Red, green and blue behind everything.
     pub(super) background: [f64; 3],
-    /// What hides, at constant depths.
+    /// Opaque polygons, at constant depths.
     pub(super) opaque: Vec<Polygon>,
-    /// What is seen through, in the order of an application that does not care.
+    /// Transparent objects, unsorted.
     pub(super) objects: Vec<Object>,
-    /// Whether edges are part of the question.
+    /// The part of a texel that counts: its area where edges are part of the question.
     pub(super) coverage: Coverage,
 }
 
@@ -39,7 +39,7 @@ impl Glass {
     /// The scene of a case.
     ///
     /// # Errors
-    /// When a parameter is out of its range.
+    /// If a parameter is out of its range.
     pub(super) fn new(wire: &Wire) -> Result<Self, ParameterError> {
         let alpha = |default: f64| within("alpha", wire.alpha.unwrap_or(default), 0.01..=0.99);
         let scene = match wire.scene {
@@ -65,7 +65,7 @@ impl Glass {
         self.objects.iter().flat_map(|o| &o.polygons)
     }
 
-    /// What should be seen.
+    /// Returns the truth.
     pub(super) fn truth(&self) -> Truth {
         Truth {
             size: SIZE,

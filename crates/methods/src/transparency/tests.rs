@@ -1,4 +1,4 @@
-//! What methods draw, as scenes: the pictures are drawn and measured elsewhere.
+//! Tests of the methods' scenes; the pictures are drawn and measured elsewhere.
 
 use super::ordered::{behind, by_object, by_triangle};
 use super::scenes::Glass;
