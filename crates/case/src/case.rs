@@ -18,7 +18,7 @@ pub struct Case {
     pub spec: Vec<String>,
     /// The scene that adapters draw.
     pub scene: Scene,
-    /// Selftests: the scene that the judge believes was drawn; a Fail is due.
+    /// Selftests: the scene that the frame is judged as; a Fail is due.
     pub judged_as: Option<Scene>,
     /// The scene with changes, each drawn too.
     pub variants: Vec<Variant>,
@@ -42,12 +42,12 @@ pub struct Expect {
 }
 
 impl Case {
-    /// The scene that the judge looks at.
+    /// Returns the scene that the frame is judged as.
     pub fn judged_scene(&self) -> &Scene {
         self.judged_as.as_ref().unwrap_or(&self.scene)
     }
 
-    /// Everything that adapters draw for the case: the scene, then its variants.
+    /// Returns all scenes that adapters draw for the case: the scene, then its variants.
     pub fn scenes(&self) -> impl Iterator<Item = &Scene> {
         let variants = self.variants.iter().map(|v| &v.scene);
         std::iter::once(&self.scene).chain(variants)
@@ -64,7 +64,7 @@ impl Case {
         all.into_iter().collect()
     }
 
-    /// The first part of the id.
+    /// Returns the first part of the id.
     pub fn area(&self) -> &str {
         self.id.split('/').next().unwrap_or_default()
     }

@@ -60,7 +60,7 @@ pub struct Frame {
     pub counters: Vec<u64>,
 }
 
-/// A frame that is not the one that was asked for. This is our backend's bug, never the driver's.
+/// A frame of another shape than was asked for: a bug of the backend, never of the driver.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum FrameError {
     /// The frame has another number of images than the legal set.

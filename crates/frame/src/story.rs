@@ -1,4 +1,4 @@
-//! The story of one texel: what the reference did to it, step by step.
+//! The story of one texel: the reference's operations on it, step by step.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;

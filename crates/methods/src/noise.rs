@@ -1,6 +1,6 @@
 //! Seeded random numbers.
 
-/// Numbers that look random and are the same for ever (SplitMix64: Steele and others 2014).
+/// Pseudo-random numbers, the same in every run (SplitMix64: Steele and others 2014).
 #[derive(Clone, Debug)]
 pub(crate) struct Noise(u64);
 

@@ -224,7 +224,7 @@ fn depth_at(corners: &[[f64; 3]], [x, y]: [f64; 2]) -> Option<f64> {
 }
 
 #[test]
-fn what_the_painter_draws_last_is_nearest() {
+fn without_a_depth_test_the_nearest_is_drawn_last() {
     let scene =
         json!({"question": "visibility-cost", "scene": "rooms", "method": "no-test", "layers": 7});
     // The truth's surfaces stand in the order of the draw without a test.

@@ -29,7 +29,7 @@ impl Face {
         self.normal().dot(point - self.corners[0]) > 0.0
     }
 
-    /// The face with all corners moved.
+    /// Returns the face with all corners moved.
     pub(crate) fn moved(&self, by: &DMat4) -> Self {
         let corners = self.corners.iter().map(|c| by.transform_point3(*c));
         Self {
@@ -38,7 +38,7 @@ impl Face {
         }
     }
 
-    /// The face in a light from above the viewer's left shoulder, so that faces can be told apart.
+    /// The face lit from the upper left, so that faces differ.
     pub(crate) fn lit(mut self) -> Self {
         let light = DVec3::new(-0.4, 0.8, 0.45).normalize();
         let bright = 0.65 + 0.35 * self.normal().normalize_or_zero().dot(light);

@@ -135,7 +135,7 @@ fn behind_first(eye: DVec3, faces: Vec<Face>) -> Vec<Face> {
     all
 }
 
-/// Always the same order without a system.
+/// A fixed pseudo-random order.
 fn shuffled(polygons: &[Polygon]) -> Vec<Polygon> {
     let key = |i: usize| (i as u32).wrapping_mul(0x9e37_79b1) >> 4;
     let mut order: Vec<usize> = (0..polygons.len()).collect();

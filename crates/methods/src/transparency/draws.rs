@@ -18,12 +18,12 @@ pub(super) fn clear(glass: &Glass) -> [f64; 4] {
     [r, g, b, 1.0]
 }
 
-/// Adds a depth attachment with nothing in it.
+/// Adds a cleared depth attachment.
 pub(super) fn depths(stage: &mut Stage, samples: u32) -> usize {
     stage.depth("depth", DEPTH, SIZE, samples, 1.0)
 }
 
-/// A draw of what is opaque, with depth; none where nothing is.
+/// A draw of the opaque polygons, with depth; `None` where there are none.
 pub(super) fn opaque(glass: &Glass, shader: Shader) -> Option<Draw> {
     if glass.opaque.is_empty() {
         return None;
@@ -33,7 +33,7 @@ pub(super) fn opaque(glass: &Glass, shader: Shader) -> Option<Draw> {
     Some(draw)
 }
 
-/// A draw of what is opaque for its depth alone.
+/// A draw of the opaque polygons for their depth alone.
 pub(super) fn opaque_depth(glass: &Glass, shader: Shader) -> Option<Draw> {
     let mut draw = opaque(glass, shader)?;
     for target in &mut draw.targets {
@@ -42,7 +42,7 @@ pub(super) fn opaque_depth(glass: &Glass, shader: Shader) -> Option<Draw> {
     Some(draw)
 }
 
-/// A draw of the colour of what is opaque, the farthest first, without depth.
+/// A draw of the opaque polygons' colours, the farthest first, without depth.
 pub(super) fn opaque_color(glass: &Glass) -> Option<Draw> {
     let mut polygons = glass.opaque.clone();
     polygons.sort_by(|a, b| b.corners[0][2].total_cmp(&a.corners[0][2]));

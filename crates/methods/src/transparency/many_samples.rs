@@ -1,4 +1,4 @@
-//! Methods that spread what is seen through over four samples.
+//! Methods that spread transparent surfaces over four samples.
 
 use super::draws::{PICTURE, clear, depths, opaque};
 use super::scenes::Glass;
@@ -11,7 +11,7 @@ use etalon_scene::{CompareFunction, Contents, Draw, Scene, Shader};
 /// Samples of a texel. The shader `stochastic` knows no more.
 const SAMPLES: u32 = 4;
 
-/// Alpha says how many samples are drawn.
+/// Draws a number of samples that follows alpha.
 pub(super) fn alpha_to_coverage(glass: &Glass, polygons: &[Polygon]) -> Scene {
     let mut glassy = draw(Shader::FlatColor, mesh(SIZE, polygons));
     glassy.multisample.alpha_to_coverage = true;

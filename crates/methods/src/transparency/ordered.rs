@@ -29,7 +29,7 @@ pub(super) fn by_triangle(glass: &Glass) -> Vec<Polygon> {
     triangles
 }
 
-/// Blends polygons in their order over what is opaque.
+/// Blends polygons in their order over the opaque ones.
 pub(super) fn blended(glass: &Glass, polygons: &[Polygon], write: bool) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
@@ -42,7 +42,7 @@ pub(super) fn blended(glass: &Glass, polygons: &[Polygon], write: bool) -> Scene
     stage.read(&[picture])
 }
 
-/// Draws what has an alpha of at least a half, and all of that as if it were opaque.
+/// Draws polygons with an alpha of at least a half as opaque, and no others.
 pub(super) fn alpha_test(glass: &Glass, polygons: &[Polygon]) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));

@@ -22,7 +22,7 @@ impl Object {
     }
 }
 
-/// A scene with things to see through.
+/// A scene with transparent objects.
 #[derive(Clone, Debug)]
 pub(super) struct Glass {
     /// Red, green and blue behind everything.
@@ -36,7 +36,7 @@ pub(super) struct Glass {
 }
 
 impl Glass {
-    /// The scene of a case.
+    /// Returns the scene of a case.
     ///
     /// # Errors
     /// If a parameter is out of its range.
@@ -81,7 +81,7 @@ impl Glass {
     }
 }
 
-/// Six colours that are easy to tell apart.
+/// Six distinct colours.
 const HUES: [[f64; 3]; 6] = [
     [0.85, 0.2, 0.15],
     [0.15, 0.65, 0.25],
@@ -155,7 +155,7 @@ fn intersecting_panes(angle: f64, alpha: f64) -> Glass {
     }
 }
 
-/// A box that is looked into: its front face, and its back face and sides in the middle of it.
+/// A box that is open to the viewer: its front face, and its back face and sides in the middle of it.
 fn glass_box(front: [f64; 4], near: f64, back: [f64; 4], far: f64, color: [f64; 4]) -> Object {
     let corners = |[left, top, right, bottom]: [f64; 4], depth: f64| {
         [
