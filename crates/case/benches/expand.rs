@@ -1,4 +1,4 @@
-//! What case files cost: parsing the built-in ones, naming every case, and building every scene.
+//! The cost of case files: parsing the built-in ones, naming every case, and building every scene.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_case::{Library, Profile};

@@ -1,7 +1,7 @@
 //! Draws: defaults, names to indices, impossible states refused.
 
+use crate::attachment::{MAX_SIZE, find};
 use crate::error::{At, Step};
-use crate::resolve::{MAX_SIZE, find};
 use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
@@ -9,7 +9,7 @@ use etalon_scene::{
     PrimitiveTopology, Shader, StencilFace, StencilOperation, StencilState, Viewport,
 };
 
-/// What a draw draws to, and what it can name.
+/// The target of a draw, and the names that it can use.
 pub(crate) struct Target<'a> {
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
@@ -109,9 +109,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
             .below(Step::Key("params".to_owned())));
     }
     Ok(Draw {
-        mesh,
         topology: wire.topology,
-        shader: wire.shader,
         params: Params {
             color: wire.params.color.0,
             back_color: wire.params.back_color.0,
@@ -124,7 +122,6 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
         front_face: wire.front_face,
         polygon_mode: wire.polygon_mode,
         rasterizer_discard: wire.rasterizer_discard,
-        viewport,
         scissor: wire.scissor,
         depth_bias: wire.depth_bias,
         depth_clamp: wire.depth_clamp,
@@ -135,6 +132,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
         logic: wire.logic,
         multisample: wire.multisample,
         blend_constant: wire.blend_constant.0,
+        ..Draw::new(wire.shader, mesh, viewport)
     })
 }
 
@@ -251,7 +249,7 @@ fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
             ))
             .key("uv"));
         }
-        if shader == Shader::Centroid && vertex.uv[0] < 0.0 {
+        if shader.interpolates_at_centroid() && vertex.uv[0] < 0.0 {
             let message = "the shader `centroid` wants a first texture coordinate not below 0";
             return Err(At::new(message).key("uv"));
         }
@@ -263,7 +261,7 @@ fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
     Ok(())
 }
 
-/// Whether a draw can change depth or stencil.
+/// True if a draw can change depth or stencil.
 pub(crate) fn writes_depth_stencil(draw: &Draw) -> bool {
     let changes = |face: &StencilFace| {
         let operations = [face.fail_op, face.depth_fail_op, face.pass_op];
@@ -349,11 +347,7 @@ fn viewport_texels(viewport: &Viewport) -> [u32; 2] {
 
 /// The viewport, or the whole attachments.
 fn viewport(wire: &DrawWire, size: [u32; 2]) -> Result<Viewport, At> {
-    let whole = Viewport {
-        rect: [0.0, 0.0, size[0] as f32, size[1] as f32],
-        depth: [0.0, 1.0],
-    };
-    let viewport = wire.viewport.unwrap_or(whole);
+    let viewport = wire.viewport.unwrap_or(Viewport::whole(size));
     let [x, y, w, h] = viewport.rect;
     let far = MAX_SIZE as f32;
     let fits = |v: f32| v.abs() <= far;

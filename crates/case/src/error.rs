@@ -6,7 +6,7 @@ use jsonc_parser::common::Ranged;
 use std::fmt;
 use thiserror::Error;
 
-/// What is wrong with a case file, and where.
+/// An error in a case file, with its place.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub struct CaseError {
     /// The file.
@@ -15,7 +15,7 @@ pub struct CaseError {
     pub line: usize,
     /// The key: `scene.passes[0].draws[1].depth.compare`.
     pub key: String,
-    /// What is wrong and, where it helps, what would be right.
+    /// The error and, where it helps, the remedy.
     pub message: String,
 }
 

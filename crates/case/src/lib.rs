@@ -3,6 +3,9 @@
 //! A [`Library`] holds case files, compiled in or from a folder. Each file expands into
 //! [`CaseRef`]s, whose ids cost nothing; [`CaseRef::build`] makes the [`Case`] with its scene.
 
+mod attachment;
+mod build;
+mod case;
 mod draw;
 mod error;
 mod file;
@@ -13,12 +16,15 @@ mod relation;
 mod resolve;
 mod schema;
 mod states;
+mod values;
 mod variants;
 mod wire;
 
+pub use case::{Case, Expect};
 pub use error::CaseError;
 pub use etalon_methods::Method;
-pub use file::{Case, CaseFile, CaseRef, Expect, Profile, Variant};
+pub use file::{CaseFile, CaseRef, Profile};
 pub use library::Library;
 pub use relation::Relation;
 pub use schema::schema;
+pub use variants::Variant;

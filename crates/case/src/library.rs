@@ -17,7 +17,7 @@ impl Library {
     /// The case files that were compiled in.
     ///
     /// # Errors
-    /// When one of them is broken; a test holds that none is.
+    /// If one of them is broken; a test holds that none is.
     pub fn built_in() -> Result<Self, CaseError> {
         let files = BUILT_IN
             .iter()
@@ -29,7 +29,7 @@ impl Library {
     /// All files ending in `.json` below a folder.
     ///
     /// # Errors
-    /// When a folder or file cannot be read or a file is broken.
+    /// If a folder or file cannot be read or a file is broken.
     pub fn from_folder(folder: &Path) -> Result<Self, CaseError> {
         let mut names = Vec::new();
         collect(folder, "", &mut names)?;

@@ -6,7 +6,7 @@ use std::collections::HashSet;
 /// Two values that meet: axis and position of the one, axis and position of the other.
 type Pair = (usize, usize, usize, usize);
 
-/// What rows have to cover.
+/// The coverage that rows must reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cover {
     /// Each pair of values of each two axes, at least once.
@@ -51,7 +51,7 @@ fn pairs(lengths: &[usize]) -> Vec<Pair> {
 struct State<'a> {
     lengths: &'a [usize],
     open: HashSet<Pair>,
-    /// How often each value of each axis stands in a row.
+    /// The number of rows with each value of each axis.
     used: Vec<Vec<usize>>,
     rows: Vec<Vec<usize>>,
 }

@@ -40,7 +40,7 @@ enum Extra {
 /// The size of all attachments, a side.
 const SIZE: u32 = 16;
 
-/// The scene of a seed. The same seed gives the same scene for ever: ids name it.
+/// The scene of a seed. A seed always gives the same scene: ids name it.
 pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
     // Neighbouring seeds of the flavours share nothing.
     let mut dice = Dice(seed ^ (0x9e37_79b9 * (flavor as u64 + 1)));

@@ -1,6 +1,14 @@
-//! What several frames, or several attachments of one frame, have to do with each other.
+//! Relations between several frames, or between several attachments of one frame.
 
-use etalon_scene::Invariance;
+use crate::attachment::read_back;
+use crate::draw::write_mask;
+use crate::error::At;
+use crate::values::{substitute, typed};
+use crate::variants::Variant;
+use crate::wire::RelationWire;
+use etalon_scene::{Invariance, Scene};
+use serde_json::Value;
+use std::collections::BTreeMap;
 
 /// Pictures that must be the same.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,4 +24,59 @@ pub struct Relation {
     /// Indices of the attachments of each frame that are compared with each other; empty where
     /// the variants' frames are compared with the scene's own.
     pub attachments: Vec<usize>,
+}
+
+/// Parses a relation and checks it against the scenes.
+pub(crate) fn relation(
+    value: &Value,
+    values: &BTreeMap<&str, &Value>,
+    scene: &Scene,
+    variants: &[Variant],
+) -> Result<Option<Relation>, At> {
+    if value.is_null() {
+        return match variants {
+            [] => Ok(None),
+            _ => Err(At::new(
+                "variants need a relation, or nothing is asserted of them",
+            )),
+        };
+    }
+    let wire: RelationWire = typed(&substitute(value, values)?)?;
+    let mut attachments = Vec::new();
+    for (i, name) in wire.attachments.iter().enumerate() {
+        let index = read_back(scene, name).map_err(|e| e.index(i).key("attachments"))?;
+        attachments.push(index);
+    }
+    let key = |index: &usize| {
+        let a = &scene.attachments[*index];
+        (a.format, a.size, a.samples)
+    };
+    if attachments
+        .windows(2)
+        .any(|pair| key(&pair[0]) != key(&pair[1]))
+    {
+        let message = "the attachments differ in format, size or samples";
+        return Err(At::new(message).key("attachments"));
+    }
+    if attachments.len() < 2 && variants.is_empty() {
+        return Err(At::new("a relation needs variants or two attachments"));
+    }
+    let shape = |scene: &Scene| -> Vec<_> {
+        let read = scene.read.iter().map(|i| &scene.attachments[*i]);
+        read.map(|a| (a.name.clone(), a.format, a.size, a.samples))
+            .collect()
+    };
+    if let Some(other) = variants.iter().find(|v| shape(&v.scene) != shape(scene)) {
+        return Err(At::new(format!(
+            "variant `{}` reads other images back than the scene",
+            other.name
+        )));
+    }
+    Ok(Some(Relation {
+        invariance: wire.same,
+        within: wire.within,
+        channels: write_mask(&wire.channels).map_err(|e| e.key("channels"))?,
+        offset: wire.offset,
+        attachments,
+    }))
 }

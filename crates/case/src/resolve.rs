@@ -1,18 +1,22 @@
-//! From the parsed scene to the domain's: defaults, names to indices, impossible states refused.
+//! Scenes and passes: defaults, names to indices, impossible states refused.
 
+use crate::attachment::{attachment, default_size, find};
 use crate::draw::{Target, draw, writes_depth_stencil};
 use crate::error::At;
-use crate::wire::{AttachmentWire, ClearWire, PassWire, SceneWire, TexelsWire};
-use etalon_frame::{ChannelEncoding, TextureFormat};
-use etalon_scene::{Attachment, Contents, Counter, Pass, Scene};
-
-/// The largest width or height of an attachment that a case file may ask for.
-pub(crate) const MAX_SIZE: u32 = 4096;
+use crate::values::typed;
+use crate::wire::{PassWire, SceneWire};
+use etalon_scene::{Attachment, Counter, Pass, Scene};
+use serde_json::Value;
 
 /// The most counters of a scene.
 const MAX_COUNTERS: usize = 64;
 
-pub(crate) fn scene(wire: &SceneWire) -> Result<Scene, At> {
+/// Parses and checks a scene.
+pub(crate) fn parse_scene(value: &Value) -> Result<Scene, At> {
+    scene(&typed::<SceneWire>(value)?)
+}
+
+fn scene(wire: &SceneWire) -> Result<Scene, At> {
     let size = default_size(wire);
     let mut attachments = Vec::new();
     for (name, a) in &wire.attachments {
@@ -54,178 +58,6 @@ pub(crate) fn scene(wire: &SceneWire) -> Result<Scene, At> {
         read,
         counters,
     })
-}
-
-fn default_size(wire: &SceneWire) -> [u32; 2] {
-    wire.attachments
-        .values()
-        .find_map(|a| a.size)
-        .unwrap_or([16, 16])
-}
-
-pub(crate) fn find(name: &str, attachments: &[Attachment]) -> Result<usize, At> {
-    attachments
-        .iter()
-        .position(|a| a.name == name)
-        .ok_or_else(|| {
-            let names: Vec<_> = attachments.iter().map(|a| a.name.as_str()).collect();
-            At::new(format!(
-                "there is no attachment `{name}`; there are: {}",
-                names.join(", ")
-            ))
-        })
-}
-
-fn attachment(name: &str, wire: &AttachmentWire, size: [u32; 2]) -> Result<Attachment, At> {
-    let size = wire.size.unwrap_or(size);
-    if size.contains(&0) || size.iter().any(|s| *s > MAX_SIZE) {
-        return Err(At::new(format!("a side is 1 to {MAX_SIZE} texels long")).key("size"));
-    }
-    let samples = wire.samples.unwrap_or(1);
-    if ![1, 2, 4, 8, 16].contains(&samples) {
-        return Err(At::new("samples are 1, 2, 4, 8 or 16").key("samples"));
-    }
-    let contents = match (&wire.clear, &wire.texels) {
-        (Some(_), Some(_)) => {
-            return Err(
-                At::new("an attachment starts from `clear` or from `texels`").key("texels"),
-            );
-        }
-        (None, Some(texels)) => {
-            self::texels(texels, wire.format, size, samples).map_err(|e| e.key("texels"))?
-        }
-        (Some(clear), None) => self::clear(clear, wire.format).map_err(|e| e.key("clear"))?,
-        (None, None) if wire.format.is_color() => Contents::Color([0.0; 4]),
-        (None, None) => Contents::DepthStencil {
-            depth: 1.0,
-            stencil: 0,
-        },
-    };
-    Ok(Attachment {
-        name: name.to_owned(),
-        format: wire.format,
-        size,
-        samples,
-        contents,
-    })
-}
-
-fn clear(wire: &ClearWire, format: TextureFormat) -> Result<Contents, At> {
-    let (has_depth, has_stencil) = (format.has_depth(), format.has_stencil());
-    let contents = match wire {
-        ClearWire::Color(color) if format.is_color() => Contents::Color(*color),
-        ClearWire::Number(depth) if has_depth && !has_stencil => Contents::DepthStencil {
-            depth: *depth as f32,
-            stencil: 0,
-        },
-        ClearWire::Number(stencil) if has_stencil && !has_depth => Contents::DepthStencil {
-            depth: 1.0,
-            stencil: stencil_code(*stencil)?,
-        },
-        ClearWire::DepthStencil(both) if has_depth && has_stencil => Contents::DepthStencil {
-            depth: both.depth,
-            stencil: both.stencil,
-        },
-        _ => {
-            let form = match (has_depth, has_stencil) {
-                (false, false) => "four numbers",
-                (true, true) => "{\"depth\": …, \"stencil\": …}",
-                _ => "a number",
-            };
-            return Err(At::new(format!("the clear value of {format} is {form}")));
-        }
-    };
-    if let Contents::DepthStencil { depth, .. } = contents
-        && !(0.0..=1.0).contains(&depth)
-    {
-        return Err(At::new("a cleared depth lies between 0 and 1"));
-    }
-    Ok(contents)
-}
-
-fn stencil_code(value: f64) -> Result<u8, At> {
-    if value.fract() == 0.0 && (0.0..=255.0).contains(&value) {
-        Ok(value as u8)
-    } else {
-        Err(At::new("a stencil value is an integer from 0 to 255"))
-    }
-}
-
-fn texels(
-    wire: &TexelsWire,
-    format: TextureFormat,
-    size: [u32; 2],
-    samples: u32,
-) -> Result<Contents, At> {
-    if !format.is_color() || samples != 1 {
-        return Err(At::new(
-            "only single-sample colour attachments take texels; use `clear`",
-        ));
-    }
-    let channels = format.color_channels().len();
-    let code = |texel: &[f64; 4]| -> Result<Vec<u32>, At> {
-        let each = format.color_channels().iter().zip(texel).enumerate();
-        each.map(|(c, (encoding, value))| encode(*encoding, *value).map_err(|e| e.index(c)))
-            .collect()
-    };
-    let [width, height] = size.map(|s| s as usize);
-    let right_length = |length: usize, due: usize| {
-        if length == due {
-            return Ok(());
-        }
-        let message = format!("{length} texels are given where the attachment has {due}");
-        Err(At::new(message))
-    };
-    let list = |values: &[[f64; 4]], due: usize| -> Result<Vec<Vec<u32>>, At> {
-        right_length(values.len(), due)?;
-        let each = values.iter().enumerate();
-        each.map(|(i, texel)| code(texel).map_err(|e| e.index(i)))
-            .collect()
-    };
-    let rows = match wire {
-        TexelsWire::Columns { values } => list(values, width).map(|row| vec![row.concat(); height]),
-        TexelsWire::Rows { values } => list(values, height)
-            .map(|column| column.iter().map(|texel| texel.repeat(width)).collect()),
-        TexelsWire::Grid { values } => right_length(values.len(), height).and_then(|()| {
-            let each = values.iter().enumerate();
-            each.map(|(y, row)| {
-                let row = list(row, width).map_err(|e| e.index(y))?;
-                Ok(row.concat())
-            })
-            .collect::<Result<Vec<_>, At>>()
-        }),
-    };
-    let all = rows.map_err(|e| e.key("values"))?.concat();
-    debug_assert_eq!(all.len(), width * height * channels);
-    Ok(Contents::Texels(all))
-}
-
-fn encode(encoding: ChannelEncoding, value: f64) -> Result<u32, At> {
-    match encoding {
-        ChannelEncoding::Unorm(_)
-        | ChannelEncoding::Snorm(_)
-        | ChannelEncoding::Srgb8
-        | ChannelEncoding::Uint(_) => {
-            let (least, most) = (encoding.min_order(), encoding.max_order());
-            if value.fract() == 0.0 && (least as f64..=most as f64).contains(&value) {
-                Ok(encoding.code_of_order(value as i64))
-            } else {
-                Err(At::new(format!(
-                    "an uploaded code of a {encoding} is an integer from {least} to {most}"
-                )))
-            }
-        }
-        ChannelEncoding::Float16 | ChannelEncoding::Float32 | ChannelEncoding::Ufloat(_) => {
-            let code = encoding.nearest_code(value);
-            let found = encoding.value_of_order(encoding.order_of_code(code));
-            let limit = encoding.value_of_order(encoding.max_order());
-            // A 32-bit float is what a decimal number means; a shorter one must be hit exactly.
-            if value.abs() > limit || (encoding != ChannelEncoding::Float32 && found != value) {
-                return Err(At::new(format!("the number is no {encoding}")));
-            }
-            Ok(code)
-        }
-    }
 }
 
 fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Result<Pass, At> {

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 /// The cells side by side and one above the other.
 const CELLS: [u32; 2] = [25, 20];
 
-/// Where the source's weight comes from.
+/// The factors of the source.
 const SOURCE: [BlendFactor; 10] = [
     BlendFactor::Zero,
     BlendFactor::One,
@@ -25,7 +25,7 @@ const SOURCE: [BlendFactor; 10] = [
     BlendFactor::OneMinusDstAlpha,
 ];
 
-/// Where the destination's weight comes from.
+/// The factors of the destination.
 const DESTINATION: [BlendFactor; 5] = [
     BlendFactor::Zero,
     BlendFactor::One,
@@ -114,7 +114,7 @@ fn draw(index: u32, size: [u32; 2]) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::file::parse_scene;
+    use crate::resolve::parse_scene;
 
     #[test]
     fn every_draw_has_a_state_and_a_cell_of_its_own() {

@@ -1,13 +1,21 @@
-//! Variants of a scene, and what their frames have to do with each other.
+//! Variants of a scene.
 
-use crate::draw::write_mask;
 use crate::error::At;
-use crate::file::{Variant, parse_scene, substitute, typed};
-use crate::relation::Relation;
-use crate::wire::{RelationWire, VariantWire};
+use crate::resolve::parse_scene;
+use crate::values::substitute;
+use crate::wire::VariantWire;
 use etalon_scene::Scene;
 use serde_json::Value;
 use std::collections::BTreeMap;
+
+/// A scene with changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variant {
+    /// Its name in records.
+    pub name: String,
+    /// The scene that adapters draw.
+    pub scene: Scene,
+}
 
 /// The value of a scene at a JSON pointer.
 fn value_at<'v>(scene: &'v mut Value, pointer: &str) -> Result<&'v mut Value, At> {
@@ -30,13 +38,6 @@ pub(crate) fn patch(
         change().map_err(|e| e.key(pointer))?;
     }
     Ok(())
-}
-
-/// The attachment of a name that is read back.
-pub(crate) fn read_back(scene: &Scene, name: &str) -> Result<usize, At> {
-    let mut read = scene.read.iter().copied();
-    read.find(|index| scene.attachments[*index].name == name)
-        .ok_or_else(|| At::new(format!("`{name}` is not read back")))
 }
 
 /// The scene with a variant's changes.
@@ -69,59 +70,4 @@ pub(crate) fn variant_scene(
         name: wire.name.clone(),
         scene: parse_scene(&changed)?,
     })
-}
-
-/// What the frames have to do with each other, checked against the scenes.
-pub(crate) fn relation(
-    value: &Value,
-    values: &BTreeMap<&str, &Value>,
-    scene: &Scene,
-    variants: &[Variant],
-) -> Result<Option<Relation>, At> {
-    if value.is_null() {
-        return match variants {
-            [] => Ok(None),
-            _ => Err(At::new(
-                "variants need a relation, or nothing is asserted of them",
-            )),
-        };
-    }
-    let wire: RelationWire = typed(&substitute(value, values)?)?;
-    let mut attachments = Vec::new();
-    for (i, name) in wire.attachments.iter().enumerate() {
-        let index = read_back(scene, name).map_err(|e| e.index(i).key("attachments"))?;
-        attachments.push(index);
-    }
-    let key = |index: &usize| {
-        let a = &scene.attachments[*index];
-        (a.format, a.size, a.samples)
-    };
-    if attachments
-        .windows(2)
-        .any(|pair| key(&pair[0]) != key(&pair[1]))
-    {
-        let message = "the attachments differ in format, size or samples";
-        return Err(At::new(message).key("attachments"));
-    }
-    if attachments.len() < 2 && variants.is_empty() {
-        return Err(At::new("a relation needs variants or two attachments"));
-    }
-    let shape = |scene: &Scene| -> Vec<_> {
-        let read = scene.read.iter().map(|i| &scene.attachments[*i]);
-        read.map(|a| (a.name.clone(), a.format, a.size, a.samples))
-            .collect()
-    };
-    if let Some(other) = variants.iter().find(|v| shape(&v.scene) != shape(scene)) {
-        return Err(At::new(format!(
-            "variant `{}` reads other images back than the scene",
-            other.name
-        )));
-    }
-    Ok(Some(Relation {
-        invariance: wire.same,
-        within: wire.within,
-        channels: write_mask(&wire.channels).map_err(|e| e.key("channels"))?,
-        offset: wire.offset,
-        attachments,
-    }))
 }

@@ -1,13 +1,14 @@
-//! How far the codes of a frame lie from the ideal ones, whether they are legal or not.
+//! The distance of a frame's codes from the ideal ones, legal or not.
 
-use crate::format::{Aspect, ChannelEncoding};
+use crate::encoding::ChannelEncoding;
+use crate::format::Aspect;
 use crate::legal::{CodeInterval, ImageInfo, TexelSet, WorldBox};
 use serde::{Deserialize, Serialize};
 
-/// What a code that stands for no finite value is away from the ideal, in codes.
+/// The distance of a code that stands for no finite value, in codes.
 const NOT_FINITE: f64 = 4_294_967_296.0;
 
-/// How far the channels of one aspect lie from the ideal, which is the middle of the yardstick's
+/// The distance of one aspect's channels from the ideal, which is the middle of the yardstick's
 /// interval. Distances are in codes: where the ideal value lies halfway between two codes, both are
 /// half a code away. A float's code is its step at the ideal value, and never less than its step
 /// just below 1, so that noise around 0 does not outweigh everything else.
@@ -128,7 +129,7 @@ impl<'a> Distances<'a> {
     }
 }
 
-/// How far a code lies from the middle of an interval, in codes.
+/// Returns the distance of a code from the middle of an interval, in codes.
 fn distance(encoding: ChannelEncoding, interval: CodeInterval, order: i64) -> f64 {
     if interval.is_exact() && interval.low == order {
         return 0.0;
@@ -149,7 +150,7 @@ fn distance(encoding: ChannelEncoding, interval: CodeInterval, order: i64) -> f6
     }
 }
 
-/// How many bits of a float follow its leading one.
+/// Returns the number of bits of a float that follow its leading one.
 fn mantissa(encoding: ChannelEncoding) -> Option<u8> {
     match encoding {
         ChannelEncoding::Float16 => Some(10),

@@ -1,21 +1,13 @@
 //! A frame held against its legal set and the yardstick.
 
 use crate::accuracy::{Accuracy, Distances};
+use crate::band::Band;
 use crate::counter::CounterOutcome;
-use crate::format::{Aspect, ChannelEncoding};
+use crate::encoding::ChannelEncoding;
+use crate::format::Aspect;
 use crate::image::{Frame, FrameError};
 use crate::legal::{ImageInfo, LegalSet, TexelSet};
 use serde::{Deserialize, Serialize};
-
-/// Which of the two bands a texel fell out of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Band {
-    /// Legal, but outside the yardstick.
-    Imprecise,
-    /// Outside what the API's text allows.
-    Fail,
-}
 
 /// One channel outside its interval. Codes are bit patterns in the channel's encoding.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -49,11 +41,11 @@ pub struct WrongTexel {
     pub sample: u32,
     /// The worst band left.
     pub band: Band,
-    /// What is wrong.
+    /// The channels that are wrong.
     pub channels: Vec<ChannelMismatch>,
 }
 
-/// How many samples fell where.
+/// Counts of samples by band.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TexelCounts {
@@ -76,7 +68,7 @@ pub struct Comparison {
     pub wrong: Vec<WrongTexel>,
     /// Every counter.
     pub counters: Vec<CounterOutcome>,
-    /// How far the frame lies from the yardstick's middle, per aspect that was read back.
+    /// The distance from the yardstick's middle, per aspect that was read back.
     pub accuracy: Vec<Accuracy>,
 }
 
@@ -98,7 +90,7 @@ impl Comparison {
 /// Holds a frame against both bands, keeping the first `keep` samples that leave one.
 ///
 /// # Errors
-/// When the frame's images are not those that the legal set speaks of.
+/// If the frame's images are not those that the legal set speaks of.
 pub fn compare(
     frame: &Frame,
     legal: &LegalSet,

@@ -1,38 +1,27 @@
-//! What a device counts while it draws, and which counts are legal.
+//! Counters, and the counts that are legal.
 
-use crate::compare::Band;
+use crate::band::Band;
+use crate::state_enum;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// What a counter counts.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum CounterKind {
-    /// Samples that passed all tests, exactly: a precise occlusion query.
-    SamplesPassed,
-    /// 1 when any sample passed all tests, else 0: an occlusion query that is not precise.
-    AnySamplesPassed,
-    /// Runs of the fragment shader that counted themselves in a storage buffer.
-    ShaderRuns,
-    /// Runs of the fragment shader as the pipeline statistics tell them.
-    FragmentInvocations,
+state_enum! {
+    /// What a counter counts.
+    CounterKind {
+        /// Samples that passed all tests, exactly: a precise occlusion query.
+        SamplesPassed = "samples-passed",
+        /// 1 when any sample passed all tests, else 0: an occlusion query that is not precise.
+        AnySamplesPassed = "any-samples-passed",
+        /// Runs of the fragment shader that counted themselves in a storage buffer.
+        ShaderRuns = "shader-runs",
+        /// Runs of the fragment shader as the pipeline statistics tell them.
+        FragmentInvocations = "fragment-invocations",
+    }
 }
 
 impl CounterKind {
-    /// The name in case files and records.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::SamplesPassed => "samples-passed",
-            Self::AnySamplesPassed => "any-samples-passed",
-            Self::ShaderRuns => "shader-runs",
-            Self::FragmentInvocations => "fragment-invocations",
-        }
-    }
-
-    /// Whether it is an occlusion query, of which a draw has one at most.
+    /// True if it is an occlusion query, of which a draw has one at most.
     pub fn is_occlusion(self) -> bool {
         matches!(self, Self::SamplesPassed | Self::AnySamplesPassed)
     }
@@ -48,12 +37,12 @@ pub struct CountRange {
 }
 
 impl CountRange {
-    /// Whether the count is legal.
+    /// True if the count is legal.
     pub fn contains(self, count: u64) -> bool {
         self.low <= count && self.high.is_none_or(|high| count <= high)
     }
 
-    /// Whether every count of this kind is legal, so that nothing is asserted.
+    /// True if every count of this kind is legal, so that nothing is asserted.
     pub fn is_open(self, kind: CounterKind) -> bool {
         let all = match kind {
             CounterKind::AnySamplesPassed => self.high.is_none_or(|high| high >= 1),
@@ -62,7 +51,7 @@ impl CountRange {
         self.low == 0 && all
     }
 
-    /// Whether exactly one count is legal.
+    /// True if exactly one count is legal.
     pub fn is_exact(self) -> bool {
         self.high == Some(self.low)
     }
@@ -78,12 +67,12 @@ impl fmt::Display for CountRange {
     }
 }
 
-/// What the rules allow of one counter.
+/// The counts of one counter that the rules allow.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CounterSet {
     /// The counter's name in the scene.
     pub name: String,
-    /// What it counts.
+    /// The kind of count.
     pub kind: CounterKind,
     /// The legal counts.
     pub range: CountRange,
@@ -95,14 +84,14 @@ pub struct CounterSet {
 pub struct CounterOutcome {
     /// The counter's name in the scene.
     pub name: String,
-    /// What it counts.
+    /// The kind of count.
     pub kind: CounterKind,
     /// At least so many are legal.
     pub low: u64,
     /// At most so many are legal; absent where nothing limits it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub high: Option<u64>,
-    /// What came back.
+    /// The count that came back.
     pub actual: u64,
     /// The worst band that the count fell out of.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -137,7 +126,7 @@ impl CounterOutcome {
         }
     }
 
-    /// Whether anything was asserted of the counter.
+    /// True if anything was asserted of the counter.
     pub fn is_asserted(&self) -> bool {
         !self.range().is_open(self.kind)
     }

@@ -1,4 +1,4 @@
-//! How far a picture lies from what it should be.
+//! The distance of a picture from the truth.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +16,6 @@ pub struct Distance {
     pub flip: f64,
     /// Share of texels that differ by more than 2 of 255 in some channel, 0 to 1.
     pub wrong: f64,
-    /// How far the truth itself may be off in any channel of any texel: 0 where it is closed form.
+    /// The largest error of the truth itself in any channel of any texel: 0 where it is closed form.
     pub truth_error: f64,
 }

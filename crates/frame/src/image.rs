@@ -1,10 +1,11 @@
-//! What came back from a device.
+//! Frames: images and counts that came back from a device.
 
-use crate::format::{Aspect, ChannelEncoding};
+use crate::encoding::ChannelEncoding;
+use crate::format::Aspect;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// How an image reached the processor.
+/// The way an image reached the processor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ReadPath {
@@ -20,7 +21,7 @@ pub enum ReadPath {
 pub struct Image {
     /// The attachment's name in the scene.
     pub attachment: String,
-    /// Which aspect of it this is.
+    /// The aspect.
     pub aspect: Aspect,
     /// Width and height in texels.
     pub size: [u32; 2],
@@ -28,7 +29,7 @@ pub struct Image {
     pub samples: u32,
     /// The encodings of `codes`' channels: as stored, or what a shader read delivers.
     pub channels: Vec<ChannelEncoding>,
-    /// How the codes were read.
+    /// The way the codes were read.
     pub read: ReadPath,
     /// Codes, index `((y * width + x) * samples + sample) * channels + channel`, row 0 at the top.
     pub codes: Vec<u32>,
@@ -59,7 +60,7 @@ pub struct Frame {
     pub counters: Vec<u64>,
 }
 
-/// A frame that is not the one that was asked for. This is our backend's bug, never the driver's.
+/// A frame of another shape than was asked for: a bug of the backend, never of the driver.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum FrameError {
     /// The frame has another number of images than the legal set.
@@ -83,9 +84,9 @@ pub enum FrameError {
     Image {
         /// Position in the frame.
         index: usize,
-        /// What came.
+        /// The image that came.
         actual: String,
-        /// What was asked for.
+        /// The image that was asked for.
         expected: String,
     },
 }

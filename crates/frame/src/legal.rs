@@ -1,7 +1,8 @@
 //! Legal sets: what the rules allow at each sample of each image.
 
 use crate::counter::CounterSet;
-use crate::format::{Aspect, ChannelEncoding};
+use crate::encoding::ChannelEncoding;
+use crate::format::Aspect;
 use crate::image::{Image, ReadPath};
 use smallvec::SmallVec;
 use std::collections::HashMap;
@@ -33,17 +34,17 @@ impl CodeInterval {
         }
     }
 
-    /// Whether the order lies inside.
+    /// True if the order lies inside.
     pub fn contains(self, order: i64) -> bool {
         self.low <= order && order <= self.high
     }
 
-    /// Whether the interval is a single order.
+    /// True if the interval is a single order.
     pub fn is_exact(self) -> bool {
         self.low == self.high
     }
 
-    /// How many orders lie inside.
+    /// Returns the number of orders inside.
     pub fn count(self) -> u64 {
         (self.high - self.low) as u64 + 1
     }
@@ -65,7 +66,7 @@ pub struct WorldBox {
 }
 
 impl WorldBox {
-    /// How many channels of a sample lie outside.
+    /// Returns the number of channels of a sample that lie outside.
     pub fn violations(&self, orders: &[i64]) -> usize {
         self.channels
             .iter()
@@ -75,7 +76,7 @@ impl WorldBox {
     }
 }
 
-/// What is legal at one sample: any of these boxes. No box at all means *open*: nothing is asserted.
+/// The legal values of one sample: any of these boxes. No box at all means *open*: nothing is asserted.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct TexelSet {
     /// The boxes, sorted and without repetition.
@@ -83,12 +84,12 @@ pub struct TexelSet {
 }
 
 impl TexelSet {
-    /// Whether nothing is asserted.
+    /// True if nothing is asserted.
     pub fn is_open(&self) -> bool {
         self.worlds.is_empty()
     }
 
-    /// Whether a sample is legal.
+    /// True if a sample is legal.
     pub fn allows(&self, orders: &[i64]) -> bool {
         self.is_open() || self.worlds.iter().any(|w| w.violations(orders) == 0)
     }
@@ -106,7 +107,7 @@ impl TexelSet {
             .reduce(CodeInterval::hull)
     }
 
-    /// How many codes of one channel lie in some box.
+    /// Returns the number of codes of one channel that lie in some box.
     pub fn count(&self, channel: usize) -> u64 {
         let mut intervals: Vec<CodeInterval> =
             self.worlds.iter().map(|w| w.channels[channel]).collect();
@@ -137,16 +138,16 @@ pub struct ImageInfo {
     pub samples: u32,
     /// Channel encodings as read back.
     pub channels: Vec<ChannelEncoding>,
-    /// How the image must have been read.
+    /// The way the image must have been read.
     pub read: ReadPath,
-    /// Which [`SampleGroup`] holds the image's samples.
+    /// The index of the [`SampleGroup`] that holds the image's samples.
     pub group: usize,
     /// The image's first channel within the group.
     pub first_channel: usize,
 }
 
 impl ImageInfo {
-    /// Whether a frame's image is this one.
+    /// True if a frame's image is this one.
     pub fn matches(&self, image: &Image) -> bool {
         self.attachment == image.attachment
             && self.aspect == image.aspect
@@ -189,7 +190,7 @@ impl SampleGroup {
     }
 }
 
-/// What the rules allow of a whole frame.
+/// The legal values of a whole frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LegalSet {
     /// The images, in the order of the scene's `read` list.
@@ -200,7 +201,7 @@ pub struct LegalSet {
     pub counters: Vec<CounterSet>,
 }
 
-/// How much a legal set asserts of one aspect.
+/// The share of one aspect of which a legal set asserts something.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AspectStatistics {
     /// Channel values in all samples of the aspect.

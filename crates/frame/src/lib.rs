@@ -6,9 +6,13 @@
 //! ([`LegalSet`]) and how the last two are held against each other ([`compare`]).
 
 mod accuracy;
+mod api;
+mod band;
 mod compare;
 mod counter;
 mod distance;
+mod encoding;
+mod feature;
 mod format;
 mod image;
 mod legal;
@@ -19,17 +23,20 @@ mod samples;
 mod story;
 
 pub use accuracy::Accuracy;
-pub use compare::{Band, ChannelMismatch, Comparison, TexelCounts, WrongTexel, compare};
-
+pub use api::Api;
+pub use band::Band;
+pub use compare::{ChannelMismatch, Comparison, TexelCounts, WrongTexel, compare};
 pub use counter::{CountRange, CounterKind, CounterOutcome, CounterSet};
 pub use distance::Distance;
-pub use format::{Aspect, ChannelEncoding, TextureFormat, linear_to_srgb, srgb_to_linear};
+pub use encoding::{ChannelEncoding, linear_to_srgb, srgb_to_linear};
+pub use feature::Feature;
+pub use format::{Aspect, TextureFormat};
 pub use image::{Frame, FrameError, Image, ReadPath};
 pub use legal::{
     AspectStatistics, CodeInterval, ImageInfo, LegalSet, LegalSetBuilder, SampleGroup, TexelSet,
     WorldBox,
 };
-pub use limits::{Api, Feature, FormatSupport, Limits, Requirement};
+pub use limits::{FormatSupport, Limits, Requirement};
 pub use message::shortened;
 pub use samples::standard_sample_positions;
 pub use story::{Story, StoryLine};

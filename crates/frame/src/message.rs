@@ -1,10 +1,10 @@
 //! Messages about input.
 
-/// How much of its beginning and of its end a long message keeps, in bytes.
+/// The bytes kept of the beginning and of the end of a long message.
 const HEAD: usize = 400;
 const TAIL: usize = 200;
 
-/// A message without its middle, where it is long: one that echoes what it does not understand may echo a
+/// Returns a message without its middle where it is long: an error that quotes its input may quote a
 /// whole file.
 pub fn shortened(text: &str) -> String {
     if text.len() <= HEAD + TAIL {

@@ -1,4 +1,4 @@
-//! Where samples lie, where the API or the rasterizer keeps to the standard.
+//! Standard sample positions.
 
 /// The standard sample positions in 1/256 texel from the top left corner; the centre for any count
 /// that the table does not hold (Vulkan, Multisampling; Direct3D 11.3, 19.2.4).

@@ -1,4 +1,4 @@
-//! The story of one texel: what the reference did to it, step by step.
+//! The story of one texel: the reference's operations on it, step by step.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -7,7 +7,7 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StoryLine {
-    /// Where in the scene: `pass 0, draw 2, primitive 1`.
+    /// The place in the scene: `pass 0, draw 2, primitive 1`.
     pub at: String,
     /// The operation: `depth test`, `blend`, `store`.
     pub operation: String,

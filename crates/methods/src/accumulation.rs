@@ -1,13 +1,14 @@
-//! What blending many times adds up to: the same colour laid over a background again and again.
+//! Accumulated rounding: the same colour blended over a background again and again.
 //!
 //! After `n` layers of alpha `a` the background counts `(1 - a)^n` and the colour all the rest. What is
 //! stored in between is rounded each time; a difference from the colour that is less than half a code
 //! over `a` stays for good.
 
-use super::stage::{self, Polygon, Stage};
-use super::{Made, within};
-use crate::error::ParameterError;
-use crate::picture::{Coverage, Truth};
+use crate::error::{ParameterError, within};
+use crate::method_scene::MethodScene;
+use crate::polygon::{self, Polygon};
+use crate::stage::{self, Stage};
+use crate::truth::{Coverage, Truth};
 use etalon_frame::TextureFormat;
 use etalon_scene::Shader;
 use schemars::JsonSchema;
@@ -101,7 +102,7 @@ fn rows() -> Vec<Polygon> {
     (0..CELLS).map(row).collect()
 }
 
-pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let Wire {
         scene: SceneName::Columns,
         method,
@@ -114,9 +115,9 @@ pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
     let picture = stage.color("picture", method.format(), SIZE, [0.0, 0.0, 0.0, 1.0]);
     let back = rows();
     let front = columns(alpha);
-    let mut draws = vec![stage::draw(Shader::FlatColor, stage::mesh(SIZE, &back))];
+    let mut draws = vec![stage::draw(Shader::FlatColor, polygon::mesh(SIZE, &back))];
     let all: Vec<Polygon> = (0..layers).flat_map(|_| front.iter().cloned()).collect();
-    let mut layered = stage::draw(Shader::FlatColor, stage::mesh(SIZE, &all));
+    let mut layered = stage::draw(Shader::FlatColor, polygon::mesh(SIZE, &all));
     layered.targets[0].blend = stage::over();
     draws.push(layered);
     stage.pass(&[picture], None, draws);
@@ -129,7 +130,7 @@ pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
         coverage: Coverage::Center,
         surfaces: back.iter().chain(&seen).map(Polygon::surface).collect(),
     };
-    Ok(Made {
+    Ok(MethodScene {
         scene: stage.read(&[picture]),
         truth,
     })

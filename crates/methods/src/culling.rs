@@ -1,10 +1,12 @@
-//! What culling leaves out: faces by their winding, and whole objects outside of the picture.
+//! Culling: faces by their winding, and whole objects outside of the picture.
 
-use super::stage::{self, Polygon, Stage};
-use super::view::{Face, View, cuboid, settle};
-use super::{Made, SIZE, within};
-use crate::error::ParameterError;
-use crate::picture::{Coverage, Truth};
+use crate::error::{ParameterError, within};
+use crate::grid::settle;
+use crate::method_scene::MethodScene;
+use crate::polygon::{self, Polygon};
+use crate::stage::{self, SIZE, Stage};
+use crate::truth::{Coverage, Truth};
+use crate::view::{Face, View, cuboid};
 use etalon_frame::TextureFormat;
 use etalon_scene::{CompareFunction, CullMode, Draw, FrontFace, Shader};
 use glam::{DMat4, DVec3};
@@ -80,7 +82,7 @@ pub enum MethodName {
     Frustum,
 }
 
-/// What the scene looks like.
+/// The draws of a scene and the polygons that should be seen.
 struct Shown {
     /// The draws.
     draws: Vec<Draw>,
@@ -88,7 +90,7 @@ struct Shown {
     polygons: Vec<Polygon>,
 }
 
-pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let Shown { draws, polygons } = match *wire {
         Wire::FlyThrough { method, eye } => {
             within("eye", eye, 0.0..=8.0)?;
@@ -126,7 +128,7 @@ pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
         coverage: Coverage::Center,
         surfaces: polygons.iter().map(Polygon::surface).collect(),
     };
-    Ok(Made {
+    Ok(MethodScene {
         scene: stage.read(&[picture]),
         truth,
     })
@@ -148,7 +150,7 @@ fn one_pass(method: MethodName) -> Result<CullMode, ParameterError> {
 
 /// A draw of opaque triangles.
 fn opaque(polygons: &[Polygon], cull: CullMode) -> Draw {
-    let mut draw = stage::draw(Shader::FlatColor, stage::mesh(SIZE, polygons));
+    let mut draw = stage::draw(Shader::FlatColor, polygon::mesh(SIZE, polygons));
     draw.depth = stage::depth(CompareFunction::Less, true);
     draw.cull = cull;
     draw

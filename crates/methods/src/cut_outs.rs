@@ -1,9 +1,11 @@
-//! How holes in a texture are drawn: cards of grass.
+//! Cut-outs: holes in a texture, on cards of grass.
 
-use super::stage::{Noise, Polygon, Stage, depth, draw, mesh, over};
-use super::{Made, SIZE, within};
-use crate::error::ParameterError;
-use crate::picture::{Coverage, Paint, Surface, Texture, Truth};
+use crate::error::{ParameterError, within};
+use crate::method_scene::MethodScene;
+use crate::noise::Noise;
+use crate::polygon::{Polygon, mesh};
+use crate::stage::{SIZE, Stage, depth, draw, over};
+use crate::truth::{Coverage, Paint, Surface, Texture, Truth};
 use etalon_frame::TextureFormat;
 use etalon_scene::{
     AddressMode, CompareFunction, Contents, Draw, FilterMode, Params, Sampler, Scene, Shader,
@@ -58,8 +60,8 @@ fn clamp() -> AddressMode {
 /// Draws the scene by the method.
 ///
 /// # Errors
-/// When a parameter is out of its range.
-pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+/// If a parameter is out of its range.
+pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let scale = within("scale", wire.scale.unwrap_or(1.0), 0.25..=4.0)?;
     let cutoff = within("cutoff", wire.cutoff.unwrap_or(0.5), 0.01..=0.99)?;
     let SceneName::Grass = wire.scene;
@@ -69,7 +71,7 @@ pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
         MethodName::BlendSorted => blend_sorted(&cards, wire.address),
         MethodName::AlphaToCoverage => alpha_to_coverage(&cards, wire.address),
     };
-    Ok(Made {
+    Ok(MethodScene {
         scene,
         truth: truth(&cards),
     })

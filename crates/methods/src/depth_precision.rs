@@ -1,14 +1,15 @@
-//! Which depths can be told apart: pairs of surfaces that nearly touch, at many distances.
+//! Depth precision: pairs of surfaces that nearly touch, at many distances.
 //!
 //! The near and the far surface of a pair take turns in being drawn first, so that a depth buffer that
 //! holds both to be equal goes wrong in half of the texels. Vertices come projected, with a depth that
 //! is rounded to 32 bits once, as a vertex shader would hand it on.
 
-use super::stage::{self, Polygon, Stage};
-use super::view::window_depth;
-use super::{Made, SIZE, within};
-use crate::error::ParameterError;
-use crate::picture::{Coverage, Surface, Truth};
+use crate::error::{ParameterError, within};
+use crate::method_scene::MethodScene;
+use crate::polygon::{self, Polygon};
+use crate::stage::{self, SIZE, Stage};
+use crate::truth::{Coverage, Surface, Truth};
+use crate::view::window_depth;
 use etalon_frame::TextureFormat;
 use etalon_scene::{CompareFunction, DepthBias, Draw, Shader};
 use schemars::JsonSchema;
@@ -77,7 +78,7 @@ enum MethodName {
 struct Quad {
     corners: [[f64; 3]; 4],
     color: [f64; 4],
-    /// Whether it lies on another surface.
+    /// True if it lies on another surface.
     is_decal: bool,
 }
 
@@ -171,7 +172,7 @@ fn decal(gap: f64) -> Vec<Quad> {
     vec![lid, plane, decal]
 }
 
-/// How a method keeps depth.
+/// The depth buffer of a method.
 struct Buffer {
     format: TextureFormat,
     near: f64,
@@ -244,7 +245,7 @@ impl Buffer {
     }
 
     fn draw(&self, polygons: &[Polygon], is_decal: bool) -> Draw {
-        let mut draw = stage::draw(self.shader, stage::mesh(SIZE, polygons));
+        let mut draw = stage::draw(self.shader, polygon::mesh(SIZE, polygons));
         // Whatever is rounded to the far plane is still there.
         let compare = match self.reversed {
             false => CompareFunction::LessEqual,
@@ -260,7 +261,7 @@ impl Buffer {
     }
 }
 
-pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let most = match wire.scene {
         SceneName::Planes => 100.0,
         SceneName::Slanted | SceneName::Decal => 0.5,
@@ -291,7 +292,7 @@ pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
         coverage: Coverage::Center,
         surfaces: quads.iter().map(Quad::surface).collect(),
     };
-    Ok(Made {
+    Ok(MethodScene {
         scene: stage.read(&[picture]),
         truth,
     })

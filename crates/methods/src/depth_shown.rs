@@ -1,11 +1,12 @@
-//! How depth is shown, by formulae that have one right result: as grey, as distance, as fog; and two
+//! Depth shown by formulae that have one right result: as grey, as distance, as fog; and two
 //! pictures that dissolve into each other.
 
-use super::stage::{self, Polygon, Stage};
-use super::view::window_depth;
-use super::{Made, SIZE, within};
-use crate::error::ParameterError;
-use crate::picture::{Coverage, Paint, Surface, Truth};
+use crate::error::{ParameterError, within};
+use crate::method_scene::MethodScene;
+use crate::polygon::{self, Polygon};
+use crate::stage::{self, SIZE, Stage};
+use crate::truth::{Coverage, Paint, Surface, Truth};
+use crate::view::window_depth;
 use etalon_frame::TextureFormat;
 use etalon_scene::{BlendFactor, CompareFunction, Contents, Shader};
 use schemars::JsonSchema;
@@ -14,7 +15,7 @@ use serde::Deserialize;
 /// The distance of the far plane.
 const FAR: f64 = 1000.0;
 
-/// What fog looks like.
+/// The colour of fog.
 const FOG: [f64; 3] = [0.75, 0.8, 0.9];
 
 /// Cells of each picture that dissolves, across and down.
@@ -61,7 +62,7 @@ pub enum DissolveMethod {
     Dissolve,
 }
 
-pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     match *wire {
         Wire::Slanted { method, near } => {
             within("near", near, 1e-4..=10.0)?;
@@ -116,14 +117,14 @@ fn planes(near: f64) -> Vec<Polygon> {
     ]
 }
 
-fn slanted(method: DepthMethod, near: f64) -> Made {
+fn slanted(method: DepthMethod, near: f64) -> MethodScene {
     let polygons = planes(near);
     let shader = match method {
         DepthMethod::Grey => Shader::DepthGrey,
         DepthMethod::Linearized => Shader::DepthLinearized,
         DepthMethod::Fog => Shader::Fog,
     };
-    let mut draw = stage::draw(shader, stage::mesh(SIZE, &polygons));
+    let mut draw = stage::draw(shader, polygon::mesh(SIZE, &polygons));
     // What rounds to the far plane is there too.
     draw.depth = stage::depth(CompareFunction::LessEqual, true);
     draw.params.color = [near as f32, FAR as f32, 0.0, 0.0];
@@ -154,8 +155,8 @@ fn slanted(method: DepthMethod, near: f64) -> Made {
 }
 
 /// A picture over nothing.
-fn made(stage: Stage, picture: usize, surfaces: Vec<Surface>) -> Made {
-    Made {
+fn made(stage: Stage, picture: usize, surfaces: Vec<Surface>) -> MethodScene {
+    MethodScene {
         scene: stage.read(&[picture]),
         truth: Truth {
             size: SIZE,
@@ -177,7 +178,7 @@ fn cell(picture: usize, x: u32, y: u32) -> [u32; 3] {
     }
 }
 
-fn dissolve(t: f64) -> Made {
+fn dissolve(t: f64) -> MethodScene {
     let texels_of_cell = SIZE[0] / CELLS;
     let mut stage = Stage::new();
     let format = TextureFormat::Rgba8Unorm;
@@ -192,7 +193,7 @@ fn dissolve(t: f64) -> Made {
         };
         let codes = (0..SIZE[0] * SIZE[1]).flat_map(codes).collect();
         let texture = stage.attachment(name, format, SIZE, 1, Contents::Texels(codes));
-        let mut draw = stage::draw(Shader::TexelColor, stage::cover());
+        let mut draw = stage::draw(Shader::TexelColor, polygon::cover());
         draw.textures = vec![texture];
         if i == 1 {
             let mix = stage::add(BlendFactor::Constant, BlendFactor::OneMinusConstant);

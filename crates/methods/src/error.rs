@@ -1,5 +1,6 @@
 //! Errors in the parameters of a method.
 
+use std::ops::RangeInclusive;
 use thiserror::Error;
 
 /// A parameter that a method cannot draw with.
@@ -8,7 +9,7 @@ use thiserror::Error;
 pub struct ParameterError {
     /// The parameter, as case files name it.
     pub key: String,
-    /// What is wrong with it, and what would be right.
+    /// The error, and the values that are possible.
     pub message: String,
 }
 
@@ -19,4 +20,17 @@ impl ParameterError {
             message: message.into(),
         }
     }
+}
+
+/// Refuses a parameter outside of its range.
+pub(crate) fn within(
+    key: &str,
+    value: f64,
+    range: RangeInclusive<f64>,
+) -> Result<f64, ParameterError> {
+    if range.contains(&value) {
+        return Ok(value);
+    }
+    let message = format!("{} to {} is possible", range.start(), range.end());
+    Err(ParameterError::new(key, message))
 }

@@ -1,15 +1,15 @@
-//! What is done with a stencil: outlines, a mirror, shadow volumes.
+//! Stencil effects: outlines, a mirror, shadow volumes.
 
 mod mirror;
 mod outlines;
 mod shadows;
+mod shown;
 
-use super::stage::{self, Polygon, Stage};
-use super::{Made, SIZE, within};
-use crate::error::ParameterError;
-use crate::picture::{Coverage, Surface, Truth};
+use crate::error::{ParameterError, within};
+use crate::method_scene::MethodScene;
+use crate::stage::{SIZE, Stage};
+use crate::truth::{Coverage, Truth};
 use etalon_frame::TextureFormat;
-use etalon_scene::{CompareFunction, Draw, Shader, StencilFace, StencilOperation, StencilState};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -41,7 +41,7 @@ pub enum Wire {
     },
 }
 
-pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let shown = match *wire {
         Wire::Outlines { method, width } => {
             within("width", width, 0.5..=24.0)?;
@@ -68,61 +68,8 @@ pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
         coverage: Coverage::Center,
         surfaces: shown.surfaces,
     };
-    Ok(Made {
+    Ok(MethodScene {
         scene: stage.read(&[picture]),
         truth,
     })
-}
-
-/// What an effect looks like.
-struct Shown {
-    background: [f64; 3],
-    draws: Vec<Draw>,
-    surfaces: Vec<Surface>,
-}
-
-/// A draw of opaque triangles with a depth test.
-fn opaque(polygons: &[Polygon]) -> Draw {
-    let mut draw = stage::draw(Shader::FlatColor, stage::mesh(SIZE, polygons));
-    draw.depth = stage::depth(CompareFunction::Less, true);
-    draw
-}
-
-/// A stencil test that changes nothing.
-fn test(compare: CompareFunction, reference: u8) -> StencilFace {
-    StencilFace {
-        compare,
-        fail_op: StencilOperation::Keep,
-        depth_fail_op: StencilOperation::Keep,
-        pass_op: StencilOperation::Keep,
-        read_mask: 0xff,
-        write_mask: 0xff,
-        reference,
-    }
-}
-
-/// The same for both faces.
-fn both(face: StencilFace) -> Option<StencilState> {
-    Some(StencilState {
-        front: face,
-        back: face,
-    })
-}
-
-/// Leaves a reference wherever something is drawn.
-fn mark(reference: u8) -> Option<StencilState> {
-    both(StencilFace {
-        pass_op: StencilOperation::Replace,
-        ..test(CompareFunction::Always, reference)
-    })
-}
-
-/// Draws only where there is the reference.
-fn only(reference: u8) -> Option<StencilState> {
-    both(test(CompareFunction::Equal, reference))
-}
-
-/// Draws only where there is something else.
-fn except(reference: u8) -> Option<StencilState> {
-    both(test(CompareFunction::NotEqual, reference))
 }

@@ -1,4 +1,4 @@
-//! What the questions whose scenes are solid or flat promise alike.
+//! Tests of the questions whose scenes are solid or flat.
 
 use super::*;
 use serde_json::{Value, json};
@@ -108,12 +108,12 @@ fn all() -> Vec<Value> {
     all
 }
 
-fn try_make(wire: &Value) -> Result<Made, ParameterError> {
+fn try_make(wire: &Value) -> Result<MethodScene, ParameterError> {
     let wire: MethodWire = serde_json::from_value(wire.clone()).expect("a wire of the right types");
     make(&wire)
 }
 
-fn made(wire: &Value) -> Made {
+fn made(wire: &Value) -> MethodScene {
     match try_make(wire) {
         Ok(made) => made,
         Err(at) => panic!("{wire}: {}", at.message),
@@ -123,7 +123,7 @@ fn made(wire: &Value) -> Made {
 #[test]
 fn every_method_draws_every_scene() {
     for wire in all() {
-        let Made { scene, truth } = made(&wire);
+        let MethodScene { scene, truth } = made(&wire);
         let picture = &scene.attachments[scene.read[0]];
         assert_eq!(picture.size, truth.size, "{wire}");
         assert!(!truth.surfaces.is_empty(), "{wire}");
@@ -224,7 +224,7 @@ fn depth_at(corners: &[[f64; 3]], [x, y]: [f64; 2]) -> Option<f64> {
 }
 
 #[test]
-fn what_the_painter_draws_last_is_nearest() {
+fn without_a_depth_test_the_nearest_is_drawn_last() {
     let scene =
         json!({"question": "visibility-cost", "scene": "rooms", "method": "no-test", "layers": 7});
     // The truth's surfaces stand in the order of the draw without a test.

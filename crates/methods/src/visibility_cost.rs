@@ -1,11 +1,13 @@
-//! What it costs to find out what is in front: rooms behind rooms, seen through openings, with a
+//! The cost of visibility: rooms behind rooms, seen through openings, with a
 //! fragment shader that does much work. All methods give the same picture.
 
-use super::stage::{self, Polygon, Stage};
-use super::view::{Face, View, cuboid, settle};
-use super::{Made, SIZE, within};
-use crate::error::ParameterError;
-use crate::picture::{Coverage, Truth};
+use crate::error::{ParameterError, within};
+use crate::grid::settle;
+use crate::method_scene::MethodScene;
+use crate::polygon::{self, Polygon};
+use crate::stage::{self, SIZE, Stage};
+use crate::truth::{Coverage, Truth};
+use crate::view::{Face, View, cuboid};
 use etalon_frame::TextureFormat;
 use etalon_scene::{CompareFunction, Draw, EarlyTests, Mesh, Shader};
 use glam::DVec3;
@@ -133,7 +135,7 @@ fn behind_first(eye: DVec3, faces: Vec<Face>) -> Vec<Face> {
     all
 }
 
-/// Always the same order without a system.
+/// A fixed pseudo-random order.
 fn shuffled(polygons: &[Polygon]) -> Vec<Polygon> {
     let key = |i: usize| (i as u32).wrapping_mul(0x9e37_79b1) >> 4;
     let mut order: Vec<usize> = (0..polygons.len()).collect();
@@ -149,7 +151,7 @@ fn shade(shader: Shader, mesh: Mesh, compare: CompareFunction) -> Draw {
 }
 
 fn draws(method: MethodName, back_to_front: &[Polygon]) -> Vec<Draw> {
-    let mesh = |polygons: &[Polygon]| stage::mesh(SIZE, polygons);
+    let mesh = |polygons: &[Polygon]| polygon::mesh(SIZE, polygons);
     let unsorted = || mesh(&shuffled(back_to_front));
     let front_to_back = || {
         let polygons: Vec<Polygon> = back_to_front.iter().rev().cloned().collect();
@@ -190,7 +192,7 @@ fn triangles(layers: u32) -> Vec<Polygon> {
     settle(SIZE, &view.see(&rooms(eye, layers)))
 }
 
-pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let Wire {
         scene: SceneName::Rooms,
         method,
@@ -210,7 +212,7 @@ pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
         coverage: Coverage::Center,
         surfaces: triangles.iter().map(Polygon::surface).collect(),
     };
-    Ok(Made {
+    Ok(MethodScene {
         scene: stage.read(&[picture]),
         truth,
     })

@@ -1,4 +1,4 @@
-//! Why two pictures must be the same.
+//! Invariances: reasons why two pictures must be the same.
 
 use etalon_frame::state_enum;
 use schemars::JsonSchema;

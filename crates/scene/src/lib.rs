@@ -1,17 +1,39 @@
-//! What a driver is asked to draw.
+//! Scenes: what a driver is asked to draw.
 //!
 //! A [`Scene`] is data: attachments, passes, draws with all their state, and what is read back. It
 //! names no case and no expected value, so a backend, which depends on this crate and not on the
-//! cases, cannot see what it is judged by.
+//! cases, cannot see what it is judged by. States are spelled as WebGPU spells them, extended where
+//! OpenGL and Vulkan have more.
 
+mod attachment;
+mod blend;
+mod depth_stencil;
+mod draw;
+mod early_tests;
 mod invariance;
 mod mesh;
+mod mesh_source;
+mod rasterization;
+mod requirements;
+mod sampler;
 mod scene;
 mod shader;
-mod state;
 
+pub use attachment::{Attachment, Contents};
+pub use blend::{
+    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, LogicOperation,
+};
+pub use depth_stencil::{
+    CompareFunction, DepthBias, DepthState, StencilFace, StencilOperation, StencilState,
+};
+pub use draw::{Draw, Params};
+pub use early_tests::EarlyTests;
 pub use invariance::Invariance;
-pub use mesh::{MAX_VERTICES, Mesh, MeshSource, Primitive, RESTART, Splat, Units, Vertex};
-pub use scene::*;
+pub use mesh::{MAX_VERTICES, Mesh, Primitive, RESTART, Vertex};
+pub use mesh_source::{MeshSource, Splat, Units};
+pub use rasterization::{
+    CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, Viewport,
+};
+pub use sampler::{AddressMode, FilterMode, Sampler};
+pub use scene::{Counter, Pass, Scene};
 pub use shader::Shader;
-pub use state::*;

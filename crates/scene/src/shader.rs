@@ -1,134 +1,104 @@
-//! The suite's shaders and what each asks of a draw.
+//! The suite's shaders: one row of facts each.
+//!
+//! Validation of scenes, requirements, backends and the judge all ask the same facts, so a shader is
+//! added by one row of the table at the end, one WGSL file and one twin.
 
-use crate::state::EarlyTests;
+use crate::early_tests::EarlyTests;
 use etalon_frame::state_enum;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-state_enum! {
-    /// The suite's shaders. Each has a WGSL file in `shaders/` and a twin in the reference.
-    Shader {
-        /// `params.color` where the first texture coordinate, interpolated inside the primitive, is
-        /// not negative; `params.back_color` where it is.
-        Centroid = "centroid",
-        /// `params.color`; counts its runs.
-        CountedColor = "counted_color",
-        /// As `flat_color_depth`; counts its runs.
-        CountedDepth = "counted_depth",
-        /// As `texel_discard`; counts its runs.
-        CountedDiscard = "counted_discard",
-        /// The fragment's own window depth as grey.
-        DepthGrey = "depth_grey",
-        /// The distance behind the window depth of a perspective projection as grey, between the near
-        /// and far planes in `params.color`'s red and green.
-        DepthLinearized = "depth_linearized",
-        /// Minus the fragment's depth, its depth, 0 and 1.
-        DepthRange = "depth_range",
-        /// One step of dual depth peeling: depths, front and back to locations 0 to 2.
-        DualPeel = "dual_peel",
-        /// The vertex colour with its alpha weighted by the first texture coordinate, the distance from
-        /// an edge in texels, plus a half, held to 0 and 1.
-        EdgeAlpha = "edge_alpha",
-        /// The vertex colour, after `params.back_color`'s red steps of work.
-        ExpensiveColor = "expensive_color",
-        /// As `expensive_color`; writes the fragment's own window depth as depth.
-        ExpensiveDepth = "expensive_depth",
-        /// As `expensive_color`; discards where the vertex colour's alpha is below `params.color`'s.
-        ExpensiveDiscard = "expensive_discard",
-        /// The vertex colour, flat.
-        FlatColor = "flat_color",
-        /// `params.color`; writes the vertex colour's red as depth.
-        FlatColorDepth = "flat_color_depth",
-        /// The vertex colour, faded to `params.back_color` with the distance between the near and far
-        /// planes in `params.color`'s red and green.
-        Fog = "fog",
-        /// The vertex colour, flat; writes the fragment's own window depth as depth.
-        FragCoordDepth = "frag_coord_depth",
-        /// `params.color` on front faces, `params.back_color` on back faces.
-        FrontFacing = "front_facing",
-        /// The vertex colour; writes a depth that grows linearly with the distance, 1 over the first
-        /// texture coordinate, between the planes in `params.color`'s red and green.
-        LinearDepth = "linear_depth",
-        /// The vertex colour; writes as depth the binary logarithm of the distance, 1 over the first
-        /// texture coordinate, over `params.color`'s red, times its blue.
-        LogarithmicDepth = "logarithmic_depth",
-        /// One step of depth peeling: the vertex colour and, to location 1, the depth of fragments behind
-        /// the depth in texture 0; discards all others.
-        Peel = "peel",
-        /// `params.color`; writes the number of the sample being shaded plus 1, in 32nds, as depth. Runs
-        /// once per sample.
-        SampleDepth = "sample_depth",
-        /// The number of the sample being shaded in binary: red its lowest bit, alpha 1. Runs once
-        /// per sample.
-        SampleIndex = "sample_index",
-        /// Texture 0 sampled at the interpolated texture coordinates.
-        SampledColor = "sampled_color",
-        /// As `sampled_color`; discards where the alpha is below `params.color`'s.
-        SampledDiscard = "sampled_discard",
-        /// The vertex colour, opaque; discards where its alpha is below the channel of texture 0 that
-        /// belongs to the sample. Runs once per sample.
-        Stochastic = "stochastic",
-        /// The texel of texture 0 under the fragment.
-        TexelColor = "texel_color",
-        /// The texel of texture 0 under the fragment, to colour locations 0 to 3 alike.
-        TexelColorAll = "texel_color_all",
-        /// The texel of texture 0 under the fragment; discards where its alpha is below
-        /// `params.color`'s.
-        TexelDiscard = "texel_discard",
-        /// The texel of texture 0 under the fragment as source, that of texture 1 as second source.
-        TexelDualSource = "texel_dual_source",
-        /// `params.color` as integers.
-        UintColor = "uint_color",
-        /// `params.color`.
-        UniformColor = "uniform_color",
-        /// Weighted blended transparency: weighted colour to location 0, alpha to location 1.
-        WeightedAccumulate = "weighted_accumulate",
-        /// Weighted blended transparency: the mean of texture 0's sums, and texture 1's red as alpha.
-        WeightedResolve = "weighted_resolve",
-    }
+/// The facts of one shader.
+struct Facts {
+    /// The WGSL text.
+    wgsl: &'static str,
+    /// True if it reads the parameter block.
+    params: bool,
+    /// True if it reads interpolated texture coordinates as numbers.
+    uv: bool,
+    /// True if it interpolates these inside the part of a texel that a primitive covers.
+    centroid: bool,
+    /// The number of textures that it reads.
+    textures: usize,
+    /// True if it samples its texture instead of fetching single texels.
+    sampler: bool,
+    /// The number of colour locations that it writes.
+    outputs: usize,
+    /// True if it writes integers.
+    integers: bool,
+    /// True if it writes a second source for blending.
+    second_source: bool,
+    /// The depth that it writes.
+    depth: Depth,
+    /// True if it may discard fragments.
+    discards: bool,
+    /// True if it counts its runs in a storage buffer.
+    counter: bool,
+    /// True if it runs once per sample.
+    per_sample: bool,
+}
+
+/// The depth that a shader writes.
+#[derive(PartialEq, Eq)]
+enum Depth {
+    /// None: the fragment's own depth counts.
+    Fixed,
+    /// The vertex colour's red.
+    VertexRed,
+    /// Any other value.
+    Computed,
+}
+
+impl Facts {
+    /// A shader that reads no more than vertex attributes and writes one colour.
+    const PLAIN: Self = Self {
+        wgsl: "",
+        params: false,
+        uv: false,
+        centroid: false,
+        textures: 0,
+        sampler: false,
+        outputs: 1,
+        integers: false,
+        second_source: false,
+        depth: Depth::Fixed,
+        discards: false,
+        counter: false,
+        per_sample: false,
+    };
+}
+
+/// Declares [`Shader`] and the facts of each shader, from one table. A row leaves out the facts in which
+/// it is [`Facts::PLAIN`]; its source is `shaders/<name>.wgsl`.
+macro_rules! shaders {
+    ($($(#[$doc:meta])* $variant:ident = $name:literal { $($fact:ident: $value:expr),* }),+ $(,)?) => {
+        state_enum! {
+            /// The suite's shaders. Each has a WGSL file in `shaders/` and a twin in the reference.
+            Shader { $($(#[$doc])* $variant = $name),+ }
+        }
+
+        /// A row per shader, in declaration order.
+        static FACTS: [Facts; [$($name),+].len()] = [
+            $(Facts {
+                wgsl: include_str!(concat!("../../../shaders/", $name, ".wgsl")),
+                $($fact: $value,)*
+                ..Facts::PLAIN
+            }),+
+        ];
+    };
 }
 
 impl Shader {
+    fn facts(self) -> &'static Facts {
+        &FACTS[self as usize]
+    }
+
     /// The WGSL text: a vertex entry point `vs` and a fragment entry point `fs`. Vertex inputs are
     /// location 0 position, 1 colour, 2 uv; group 0 holds the parameters at binding 0, textures at
     /// bindings 1 and 2, the counter of runs at binding 3 and a sampler at binding 4.
     pub fn wgsl(self) -> &'static str {
-        match self {
-            Self::Centroid => include_str!("../../../shaders/centroid.wgsl"),
-            Self::CountedColor => include_str!("../../../shaders/counted_color.wgsl"),
-            Self::CountedDepth => include_str!("../../../shaders/counted_depth.wgsl"),
-            Self::CountedDiscard => include_str!("../../../shaders/counted_discard.wgsl"),
-            Self::DepthGrey => include_str!("../../../shaders/depth_grey.wgsl"),
-            Self::DepthLinearized => include_str!("../../../shaders/depth_linearized.wgsl"),
-            Self::DepthRange => include_str!("../../../shaders/depth_range.wgsl"),
-            Self::DualPeel => include_str!("../../../shaders/dual_peel.wgsl"),
-            Self::EdgeAlpha => include_str!("../../../shaders/edge_alpha.wgsl"),
-            Self::ExpensiveColor => include_str!("../../../shaders/expensive_color.wgsl"),
-            Self::ExpensiveDepth => include_str!("../../../shaders/expensive_depth.wgsl"),
-            Self::ExpensiveDiscard => include_str!("../../../shaders/expensive_discard.wgsl"),
-            Self::FlatColor => include_str!("../../../shaders/flat_color.wgsl"),
-            Self::FlatColorDepth => include_str!("../../../shaders/flat_color_depth.wgsl"),
-            Self::Fog => include_str!("../../../shaders/fog.wgsl"),
-            Self::FragCoordDepth => include_str!("../../../shaders/frag_coord_depth.wgsl"),
-            Self::FrontFacing => include_str!("../../../shaders/front_facing.wgsl"),
-            Self::LinearDepth => include_str!("../../../shaders/linear_depth.wgsl"),
-            Self::LogarithmicDepth => include_str!("../../../shaders/logarithmic_depth.wgsl"),
-            Self::Peel => include_str!("../../../shaders/peel.wgsl"),
-            Self::SampleDepth => include_str!("../../../shaders/sample_depth.wgsl"),
-            Self::SampleIndex => include_str!("../../../shaders/sample_index.wgsl"),
-            Self::SampledColor => include_str!("../../../shaders/sampled_color.wgsl"),
-            Self::SampledDiscard => include_str!("../../../shaders/sampled_discard.wgsl"),
-            Self::Stochastic => include_str!("../../../shaders/stochastic.wgsl"),
-            Self::TexelColor => include_str!("../../../shaders/texel_color.wgsl"),
-            Self::TexelColorAll => include_str!("../../../shaders/texel_color_all.wgsl"),
-            Self::TexelDiscard => include_str!("../../../shaders/texel_discard.wgsl"),
-            Self::TexelDualSource => include_str!("../../../shaders/texel_dual_source.wgsl"),
-            Self::UintColor => include_str!("../../../shaders/uint_color.wgsl"),
-            Self::UniformColor => include_str!("../../../shaders/uniform_color.wgsl"),
-            Self::WeightedAccumulate => include_str!("../../../shaders/weighted_accumulate.wgsl"),
-            Self::WeightedResolve => include_str!("../../../shaders/weighted_resolve.wgsl"),
-        }
+        self.facts().wgsl
     }
 
     /// The WGSL text with the attribute that tells when the fragment tests happen.
@@ -143,127 +113,185 @@ impl Shader {
         }
     }
 
-    /// How many textures the shader reads.
+    /// The number of textures that the shader reads.
     pub fn textures(self) -> usize {
-        match self {
-            Self::TexelColor
-            | Self::TexelColorAll
-            | Self::TexelDiscard
-            | Self::CountedDiscard
-            | Self::Peel
-            | Self::SampledColor
-            | Self::SampledDiscard
-            | Self::Stochastic => 1,
-            Self::DualPeel | Self::TexelDualSource | Self::WeightedResolve => 2,
-            _ => 0,
-        }
+        self.facts().textures
     }
 
-    /// Whether the shader samples its texture instead of fetching single texels.
+    /// True if the shader samples its texture instead of fetching single texels.
     pub fn samples_texture(self) -> bool {
-        matches!(self, Self::SampledColor | Self::SampledDiscard)
+        self.facts().sampler
     }
 
-    /// Whether the fragment shader replaces the fragment's depth.
+    /// True if the fragment shader replaces the fragment's depth.
     pub fn writes_depth(self) -> bool {
-        matches!(
-            self,
-            Self::FlatColorDepth
-                | Self::CountedDepth
-                | Self::ExpensiveDepth
-                | Self::FragCoordDepth
-                | Self::LinearDepth
-                | Self::LogarithmicDepth
-                | Self::SampleDepth
-        )
+        self.facts().depth != Depth::Fixed
     }
 
-    /// Whether the depth that the shader writes is the vertex colour's red.
+    /// True if the depth that the shader writes is the vertex colour's red.
     pub fn depth_from_vertex_color(self) -> bool {
-        matches!(self, Self::FlatColorDepth | Self::CountedDepth)
+        self.facts().depth == Depth::VertexRed
     }
 
-    /// Whether the shader may discard fragments.
+    /// True if the shader may discard fragments.
     pub fn discards(self) -> bool {
-        matches!(
-            self,
-            Self::CountedDiscard
-                | Self::ExpensiveDiscard
-                | Self::Peel
-                | Self::SampledDiscard
-                | Self::Stochastic
-                | Self::TexelDiscard
-        )
+        self.facts().discards
     }
 
-    /// Whether the shader counts its runs in a storage buffer.
+    /// True if the shader counts its runs in a storage buffer.
     pub fn counts_runs(self) -> bool {
-        matches!(
-            self,
-            Self::CountedColor | Self::CountedDepth | Self::CountedDiscard
-        )
+        self.facts().counter
     }
 
-    /// Whether the shader writes integers.
+    /// True if the shader writes integers.
     pub fn writes_integers(self) -> bool {
-        self == Self::UintColor
+        self.facts().integers
     }
 
-    /// How many colour locations the shader writes.
+    /// The number of colour locations that the shader writes.
     pub fn outputs(self) -> usize {
-        match self {
-            Self::TexelColorAll => 4,
-            Self::DualPeel => 3,
-            Self::Peel | Self::WeightedAccumulate => 2,
-            _ => 1,
-        }
+        self.facts().outputs
     }
 
-    /// Whether the shader reads the interpolated texture coordinates, be it to sample a texture or
-    /// as numbers.
+    /// True if the shader reads the interpolated texture coordinates, to sample a texture or as
+    /// numbers.
     pub fn uses_uv(self) -> bool {
-        self.samples_texture()
-            || matches!(
-                self,
-                Self::Centroid | Self::EdgeAlpha | Self::LinearDepth | Self::LogarithmicDepth
-            )
+        self.facts().uv || self.facts().sampler
     }
 
-    /// Whether the shader gives a second source for blending.
+    /// True if the shader interpolates its texture coordinates inside the part of a texel that a
+    /// primitive covers.
+    pub fn interpolates_at_centroid(self) -> bool {
+        self.facts().centroid
+    }
+
+    /// True if the shader writes a second source for blending.
     pub fn has_second_source(self) -> bool {
-        self == Self::TexelDualSource
+        self.facts().second_source
     }
 
-    /// Whether the shader runs once per sample.
+    /// True if the shader runs once per sample.
     pub fn runs_per_sample(self) -> bool {
-        matches!(
-            self,
-            Self::SampleDepth | Self::SampleIndex | Self::Stochastic
-        )
+        self.facts().per_sample
     }
 
-    /// Whether the shader reads the parameter block.
+    /// True if the shader reads the parameter block.
     pub fn uses_params(self) -> bool {
-        matches!(
-            self,
-            Self::Centroid
-                | Self::CountedColor
-                | Self::CountedDepth
-                | Self::CountedDiscard
-                | Self::DepthLinearized
-                | Self::ExpensiveColor
-                | Self::ExpensiveDepth
-                | Self::ExpensiveDiscard
-                | Self::FlatColorDepth
-                | Self::Fog
-                | Self::FrontFacing
-                | Self::LinearDepth
-                | Self::LogarithmicDepth
-                | Self::SampleDepth
-                | Self::SampledDiscard
-                | Self::TexelDiscard
-                | Self::UintColor
-                | Self::UniformColor
-        )
+        self.facts().params
+    }
+}
+
+shaders! {
+    /// `params.color` where the first texture coordinate, interpolated inside the primitive, is
+    /// not negative; `params.back_color` where it is.
+    Centroid = "centroid" { params: true, uv: true, centroid: true },
+    /// `params.color`; counts its runs.
+    CountedColor = "counted_color" { params: true, counter: true },
+    /// As `flat_color_depth`; counts its runs.
+    CountedDepth = "counted_depth" { params: true, depth: Depth::VertexRed, counter: true },
+    /// As `texel_discard`; counts its runs.
+    CountedDiscard = "counted_discard" { params: true, textures: 1, discards: true, counter: true },
+    /// The fragment's own window depth as grey.
+    DepthGrey = "depth_grey" {},
+    /// The distance behind the window depth of a perspective projection as grey, between the near
+    /// and far planes in `params.color`'s red and green.
+    DepthLinearized = "depth_linearized" { params: true },
+    /// Minus the fragment's depth, its depth, 0 and 1.
+    DepthRange = "depth_range" {},
+    /// One step of dual depth peeling: depths, front and back to locations 0 to 2.
+    DualPeel = "dual_peel" { textures: 2, outputs: 3 },
+    /// The vertex colour with its alpha weighted by the first texture coordinate, the distance from
+    /// an edge in texels, plus a half, held to 0 and 1.
+    EdgeAlpha = "edge_alpha" { uv: true },
+    /// The vertex colour, after `params.back_color`'s red steps of work.
+    ExpensiveColor = "expensive_color" { params: true },
+    /// As `expensive_color`; writes the fragment's own window depth as depth.
+    ExpensiveDepth = "expensive_depth" { params: true, depth: Depth::Computed },
+    /// As `expensive_color`; discards where the vertex colour's alpha is below `params.color`'s.
+    ExpensiveDiscard = "expensive_discard" { params: true, discards: true },
+    /// The vertex colour, flat.
+    FlatColor = "flat_color" {},
+    /// `params.color`; writes the vertex colour's red as depth.
+    FlatColorDepth = "flat_color_depth" { params: true, depth: Depth::VertexRed },
+    /// The vertex colour, faded to `params.back_color` with the distance between the near and far
+    /// planes in `params.color`'s red and green.
+    Fog = "fog" { params: true },
+    /// The vertex colour, flat; writes the fragment's own window depth as depth.
+    FragCoordDepth = "frag_coord_depth" { depth: Depth::Computed },
+    /// `params.color` on front faces, `params.back_color` on back faces.
+    FrontFacing = "front_facing" { params: true },
+    /// The vertex colour; writes a depth that grows linearly with the distance, 1 over the first
+    /// texture coordinate, between the planes in `params.color`'s red and green.
+    LinearDepth = "linear_depth" { params: true, uv: true, depth: Depth::Computed },
+    /// The vertex colour; writes as depth the binary logarithm of the distance, 1 over the first
+    /// texture coordinate, over `params.color`'s red, times its blue.
+    LogarithmicDepth = "logarithmic_depth" { params: true, uv: true, depth: Depth::Computed },
+    /// One step of depth peeling: the vertex colour and, to location 1, the depth of fragments behind
+    /// the depth in texture 0; discards all others.
+    Peel = "peel" { textures: 1, outputs: 2, discards: true },
+    /// `params.color`; writes the number of the sample being shaded plus 1, in 32nds, as depth. Runs
+    /// once per sample.
+    SampleDepth = "sample_depth" { params: true, depth: Depth::Computed, per_sample: true },
+    /// The number of the sample being shaded in binary: red its lowest bit, alpha 1. Runs once
+    /// per sample.
+    SampleIndex = "sample_index" { per_sample: true },
+    /// Texture 0 sampled at the interpolated texture coordinates.
+    SampledColor = "sampled_color" { textures: 1, sampler: true },
+    /// As `sampled_color`; discards where the alpha is below `params.color`'s.
+    SampledDiscard = "sampled_discard" { params: true, textures: 1, sampler: true, discards: true },
+    /// The vertex colour, opaque; discards where its alpha is below the channel of texture 0 that
+    /// belongs to the sample. Runs once per sample.
+    Stochastic = "stochastic" { textures: 1, discards: true, per_sample: true },
+    /// The texel of texture 0 under the fragment.
+    TexelColor = "texel_color" { textures: 1 },
+    /// The texel of texture 0 under the fragment, to colour locations 0 to 3 alike.
+    TexelColorAll = "texel_color_all" { textures: 1, outputs: 4 },
+    /// The texel of texture 0 under the fragment; discards where its alpha is below
+    /// `params.color`'s.
+    TexelDiscard = "texel_discard" { params: true, textures: 1, discards: true },
+    /// The texel of texture 0 under the fragment as source, that of texture 1 as second source.
+    TexelDualSource = "texel_dual_source" { textures: 2, second_source: true },
+    /// `params.color` as integers.
+    UintColor = "uint_color" { params: true, integers: true },
+    /// `params.color`.
+    UniformColor = "uniform_color" { params: true },
+    /// Weighted blended transparency: weighted colour to location 0, alpha to location 1.
+    WeightedAccumulate = "weighted_accumulate" { outputs: 2 },
+    /// Weighted blended transparency: the mean of texture 0's sums, and texture 1's red as alpha.
+    WeightedResolve = "weighted_resolve" { textures: 2 },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn facts_agree_with_the_source() {
+        for shader in Shader::ALL {
+            let text = shader.wgsl();
+            let has = |word: &str| text.contains(word);
+            let name = shader.name();
+            assert_eq!(shader.uses_params(), has("@binding(0)"), "{name}");
+            assert_eq!(
+                shader.textures(),
+                text.matches("texture_2d<f32>;").count(),
+                "{name}"
+            );
+            assert_eq!(shader.counts_runs(), has("@binding(3)"), "{name}");
+            assert_eq!(shader.samples_texture(), has("@binding(4)"), "{name}");
+            assert_eq!(shader.writes_depth(), has("@builtin(frag_depth)"), "{name}");
+            assert_eq!(shader.discards(), has("discard;"), "{name}");
+            assert_eq!(shader.has_second_source(), has("@blend_src(1)"), "{name}");
+            assert_eq!(
+                shader.interpolates_at_centroid(),
+                has("centroid)"),
+                "{name}"
+            );
+            assert_eq!(
+                shader.runs_per_sample(),
+                has("@builtin(sample_index)"),
+                "{name}"
+            );
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Whether one bench is faster than another.
+//! Comparison of two benches.
 
 use crate::rank::{MIN_ROUNDS, Shift, shift};
 use crate::samples::Samples;
@@ -13,7 +13,7 @@ pub const LEVEL: f64 = 0.001;
 /// exceeds it.
 pub const MINIMUM: f64 = 1.01;
 
-/// How many times as far as the ruler, in logarithms, times must have moved to count as changed.
+/// The factor by which times must have moved farther than the ruler, in logarithms, to count as changed.
 pub const BEYOND_RULER: f64 = 2.0;
 
 /// A ratio of times, after over before, with the interval that holds it with a confidence of
@@ -38,18 +38,18 @@ impl From<Shift> for Ratio {
     }
 }
 
-/// What two benches say of each other.
+/// The comparison of two benches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
     /// The ratio of the times as measured.
     pub ratio: Ratio,
     /// The ratio of the times in units of the ruler, where both benches have one.
     pub ruled: Option<Ratio>,
-    /// What may be said.
+    /// The conclusion.
     pub outcome: Outcome,
 }
 
-/// What may be said about two benches.
+/// The conclusion that two benches allow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// The second one takes less time.
@@ -71,7 +71,7 @@ impl Outcome {
     }
 }
 
-/// Why neither faster nor slower is shown.
+/// The reason why neither faster nor slower is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {
     /// One bench has fewer than [`MIN_ROUNDS`] rounds.
@@ -150,7 +150,7 @@ fn drift(before: &Samples, after: &Samples) -> Option<f64> {
     Some(shift(&before.rulers(), &after.rulers(), LEVEL).estimate)
 }
 
-/// Why times that differ do not in units of the ruler.
+/// The reason why times that differ do not in units of the ruler.
 fn moved(before: &Samples, after: &Samples) -> Why {
     let (before, after) = (before.rulers(), after.rulers());
     match shift(&before, &after, LEVEL) {
@@ -159,7 +159,7 @@ fn moved(before: &Samples, after: &Samples) -> Why {
     }
 }
 
-/// Where an interval lies.
+/// The position of an interval.
 enum Side {
     Slower,
     Faster,

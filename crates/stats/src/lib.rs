@@ -1,4 +1,4 @@
-//! What frame times say: medians with intervals, and whether one bench is faster than another.
+//! Statistics of frame times: medians with intervals, and comparisons of two benches.
 //!
 //! Frames that follow each other are no independent samples: they share the state of the machine, the
 //! addresses that the process got, the clock that the processor chose. So the **round**, one fresh

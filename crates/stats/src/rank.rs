@@ -15,7 +15,7 @@ pub const MIN_ROUNDS: usize = 7;
 /// normal distribution, so that errs on the side of the wider interval.
 const COUNTED: usize = 120;
 
-/// How many of the ordered differences of pairs lie outside the interval of a level at each end, plus
+/// The number of ordered differences of pairs outside the interval of a level at each end, plus
 /// one: the largest k with P(U < k) <= level / 2. 0 where no interval has that level.
 pub(crate) fn rank_of_bound(m: usize, n: usize, level: f64) -> usize {
     if m == 0 || n == 0 {

@@ -13,7 +13,7 @@ pub struct Samples {
     ruled: Option<Vec<f64>>,
 }
 
-/// Why times are no samples.
+/// The reasons why times are no samples.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum SampleError {
     /// There is no round.
@@ -44,7 +44,7 @@ impl Samples {
     /// Samples of the given rounds, in seconds or any other unit.
     ///
     /// # Errors
-    /// When there is no round, a round is empty, or a time is not finite and above zero.
+    /// If there is no round, a round is empty, or a time is not finite and above zero.
     pub fn new<R: AsRef<[f64]>>(rounds: &[R]) -> Result<Self, SampleError> {
         if rounds.is_empty() {
             return Err(SampleError::None);
@@ -69,7 +69,7 @@ impl Samples {
     /// The same samples with the ruler's time of each round.
     ///
     /// # Errors
-    /// When there is not one for each round, or one is not finite and above zero.
+    /// If there is not one for each round, or one is not finite and above zero.
     pub fn with_ruler(mut self, rulers: &[f64]) -> Result<Self, SampleError> {
         if rulers.len() != self.rounds.len() {
             return Err(SampleError::Rulers {
@@ -85,7 +85,7 @@ impl Samples {
         Ok(self)
     }
 
-    /// How many rounds there are; at least one.
+    /// Returns the number of rounds; at least one.
     pub fn rounds(&self) -> usize {
         self.rounds.len()
     }

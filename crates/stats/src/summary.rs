@@ -1,4 +1,4 @@
-//! What one bench says.
+//! Summaries of one bench.
 
 use crate::rank::MIN_ROUNDS;
 use crate::samples::{Samples, quantile};
@@ -12,7 +12,7 @@ const RESAMPLES: usize = 2000;
 /// Any number: the same samples give the same interval.
 const SEED: u128 = 0x6574_616c_6f6e;
 
-/// What one bench says of a case on an adapter. Times are in the unit of the samples.
+/// The summary of one bench of a case on an adapter. Times are in the unit of the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
     /// Rounds.

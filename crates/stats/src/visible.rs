@@ -83,7 +83,7 @@ fn residuals(logs: &[f64]) -> Vec<f64> {
     logs.iter().map(|v| (v - middle) * stretch).collect()
 }
 
-/// How much residuals of a few rounds are stretched: the deviation of values drawn with replacement is
+/// The stretch of residuals of a few rounds: the deviation of values drawn with replacement is
 /// smaller by sqrt((n - 1) / n) than that of the rounds they come from, and the rounds' own is known
 /// only to about one part in sqrt(2 (n - 1)), of which this takes one on the safe side.
 fn stretch(rounds: usize) -> f64 {

@@ -1,4 +1,4 @@
-//! How edges are smoothed.
+//! Anti-aliasing.
 //!
 //! Each scene is a ground on texel borders and pieces with slanted edges on it, everything opaque.
 
@@ -6,65 +6,24 @@ mod pieces;
 mod scenes;
 #[cfg(test)]
 mod tests;
+mod wire;
 
-use super::stage::{Polygon, Stage, cover, draw, mesh, over};
-use super::{Made, SIZE};
+pub(crate) use wire::Wire;
+
 use crate::error::ParameterError;
+use crate::method_scene::MethodScene;
+use crate::polygon::{Polygon, cover, mesh};
+use crate::stage::{SIZE, Stage, draw, over};
 use etalon_frame::TextureFormat;
 use etalon_scene::{AddressMode, Contents, FilterMode, Sampler, Scene, Shader};
-use scenes::{Edges, SceneName};
-use schemars::JsonSchema;
-use serde::Deserialize;
-
-/// Edges and how they are drawn.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Wire {
-    /// What is seen.
-    pub(crate) scene: SceneName,
-    /// How it is drawn.
-    pub(crate) method: MethodName,
-    /// The angle of the edges of half planes to the rows of texels in degrees, 0 to 90.
-    pub(crate) angle: Option<f64>,
-    /// How far wedges open in degrees, 0.25 to 60.
-    pub(crate) opening: Option<f64>,
-}
-
-/// How it is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum MethodName {
-    /// One sample.
-    None,
-    /// The mean of two samples.
-    #[serde(rename = "msaa-2")]
-    Msaa2,
-    /// The mean of four samples.
-    #[serde(rename = "msaa-4")]
-    Msaa4,
-    /// The mean of eight samples.
-    #[serde(rename = "msaa-8")]
-    Msaa8,
-    /// The mean of sixteen samples.
-    #[serde(rename = "msaa-16")]
-    Msaa16,
-    /// The mean of 2 by 2 texels.
-    #[serde(rename = "supersampling-2x2")]
-    Supersampling2x2,
-    /// The mean of 4 by 4 texels, in two steps.
-    #[serde(rename = "supersampling-4x4")]
-    Supersampling4x4,
-    /// Alpha from the distance to the nearest edge, blended over a neighbour that reaches below.
-    CoverageToAlpha,
-    /// The same where neighbours share edges and each blends its own side, and where lines end.
-    CoverageToAlphaOverlap,
-}
+use scenes::Edges;
+use wire::MethodName;
 
 /// Draws the scene by the method.
 ///
 /// # Errors
-/// When a parameter is out of its range.
-pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
+/// If a parameter is out of its range.
+pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let edges = Edges::new(wire)?;
     let scene = match wire.method {
         MethodName::None => plain(&edges),
@@ -77,7 +36,7 @@ pub(crate) fn make(wire: &Wire) -> Result<Made, ParameterError> {
         MethodName::CoverageToAlpha => coverage_to_alpha(&edges),
         MethodName::CoverageToAlphaOverlap => coverage_to_alpha_overlap(&edges),
     };
-    Ok(Made {
+    Ok(MethodScene {
         scene,
         truth: edges.truth(),
     })

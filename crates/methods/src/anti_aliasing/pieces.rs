@@ -1,6 +1,6 @@
 //! Convex pieces as what lies on one side of several lines.
 
-use crate::stage::Polygon;
+use crate::polygon::Polygon;
 
 /// A line, by the distance from it.
 #[derive(Clone, Copy, Debug)]
@@ -9,7 +9,7 @@ pub(super) struct Line {
     normal: [f64; 2],
     /// The distance of the picture's corner.
     offset: f64,
-    /// Whether it is the end of a line segment where the next one begins.
+    /// True if it is the end of a line segment where the next one begins.
     end: bool,
 }
 
@@ -39,7 +39,7 @@ impl Line {
         }
     }
 
-    /// How far a point lies inside, in texels.
+    /// Returns the distance of a point to the inside, in texels.
     pub(super) fn distance(&self, point: [f64; 2]) -> f64 {
         point[0] * self.normal[0] + point[1] * self.normal[1] + self.offset
     }
@@ -59,7 +59,7 @@ pub(super) struct Piece {
 /// The depth of everything: nothing is in front of anything.
 pub(super) const DEPTH: f64 = 0.5;
 
-/// How far outside of an edge its texels are still drawn.
+/// The distance outside of an edge up to which texels are drawn.
 const MARGIN: f64 = 1.0;
 
 impl Piece {
@@ -71,7 +71,7 @@ impl Piece {
 
     /// The piece in parts, one for each edge that is smoothed, of what is nearer to it than to the
     /// others, a texel beyond the edges included. Texture coordinates hold the distance from it.
-    /// Where `overlap` is not set, the ends of line segments are none of these edges.
+    /// Unless `overlap` is set, the ends of line segments are none of these edges.
     pub(super) fn smooth(&self, overlap: bool) -> Vec<Polygon> {
         let (smooth, hard): (Vec<Line>, Vec<Line>) =
             self.lines.iter().partition(|l| overlap || !l.end);

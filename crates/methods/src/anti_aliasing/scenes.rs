@@ -1,38 +1,23 @@
 //! Scenes of edges.
 
-use super::Wire;
 use super::pieces::{DEPTH, Line, Piece};
-use crate::error::ParameterError;
-use crate::picture::{Coverage, Truth};
-use crate::{SIZE, stage::Polygon, within};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use super::wire::{SceneName, Wire};
+use crate::error::{ParameterError, within};
+use crate::polygon::Polygon;
+use crate::stage::SIZE;
+use crate::truth::{Coverage, Truth};
 use std::f64::consts::TAU;
-
-/// What is seen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum SceneName {
-    /// Sixteen half planes whose edges lie at `angle` and at different parts of a texel.
-    HalfPlanes,
-    /// Four wedges that open by `opening`, in different directions.
-    ThinWedge,
-    /// Sectors and rings around a point in two colours by turns.
-    CheckerFan,
-    /// The wires of a torus, as quads a little wider than a texel.
-    WireTorus,
-}
 
 /// A ground on texel borders and pieces on it.
 #[derive(Clone, Debug)]
 pub(super) struct Edges {
     /// Red, green and blue where nothing is; where the ground is everywhere, it shows in seams alone.
     pub(super) background: [f64; 3],
-    /// What lies below the pieces.
+    /// The polygons below the pieces.
     pub(super) ground: Vec<Polygon>,
     /// The pieces that are seen.
     pub(super) front: Vec<Piece>,
-    /// What is seen of the ground, as pieces that fill the gaps between those in front.
+    /// The visible ground, as pieces that fill the gaps between those in front.
     pub(super) back: Vec<Piece>,
 }
 
@@ -46,7 +31,7 @@ impl Edges {
     /// The scene of a case.
     ///
     /// # Errors
-    /// When a parameter is out of its range.
+    /// If a parameter is out of its range.
     pub(super) fn new(wire: &Wire) -> Result<Self, ParameterError> {
         Ok(match wire.scene {
             SceneName::HalfPlanes => {
@@ -66,7 +51,7 @@ impl Edges {
         self.ground.iter().cloned().chain(front).collect()
     }
 
-    /// What should be seen.
+    /// Returns the truth.
     pub(super) fn truth(&self) -> Truth {
         Truth {
             size: SIZE,

@@ -1,9 +1,11 @@
-//! What methods draw, as scenes: the pictures are drawn and measured elsewhere.
+//! Tests of the methods' scenes; the pictures are drawn and measured elsewhere.
 
-use super::scenes::{Edges, SceneName};
-use super::{MethodName, Wire, make};
-use crate::SIZE;
-use crate::stage::{Polygon, assert_valid};
+use super::make;
+use super::scenes::Edges;
+use super::wire::{MethodName, SceneName, Wire};
+use crate::polygon::Polygon;
+use crate::stage::SIZE;
+use crate::validity::assert_valid;
 
 const SCENES: [SceneName; 4] = [
     SceneName::HalfPlanes,

@@ -1,7 +1,7 @@
-//! What methods draw, as scenes: the pictures are drawn and measured elsewhere.
+//! Tests of the methods' scenes; the pictures are drawn and measured elsewhere.
 
 use super::*;
-use crate::stage::assert_valid;
+use crate::validity::assert_valid;
 
 fn wire(method: MethodName, address: AddressMode) -> Wire {
     Wire {

@@ -1,10 +1,11 @@
 //! A mirror: the scene is drawn once more, upside down, where the stencil holds the mirror.
 
-use super::{Shown, mark, only, opaque};
-use crate::picture::Surface;
-use crate::{
-    SIZE, stage, stage::Polygon, view::Face, view::View, view::clip, view::cuboid, view::settle,
-};
+use super::shown::{Shown, mark, only, opaque};
+use crate::grid::settle;
+use crate::polygon::Polygon;
+use crate::stage::{self, SIZE};
+use crate::truth::Surface;
+use crate::view::{Face, View, clip, cuboid};
 use etalon_scene::CompareFunction;
 use glam::{DMat4, DVec3};
 use schemars::JsonSchema;

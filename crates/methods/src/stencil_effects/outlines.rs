@@ -1,7 +1,9 @@
 //! Outlines: each object is drawn into the stencil, then, larger, where the stencil does not hold it.
 
-use super::{Shown, except, mark, opaque};
-use crate::{SIZE, stage, stage::Polygon, view::settle};
+use super::shown::{Shown, except, mark, opaque};
+use crate::grid::settle;
+use crate::polygon::Polygon;
+use crate::stage::{self, SIZE};
 use etalon_scene::CompareFunction;
 use glam::DVec2;
 use schemars::JsonSchema;

@@ -5,9 +5,12 @@
 //! is the card moved. Cards stand on whole texels and light moves them by whole texels, so the edges of
 //! all shadows keep half a texel away from all centres.
 
-use super::{Shown, except, opaque, test};
-use crate::picture::Surface;
-use crate::{SIZE, stage, stage::Polygon, view::clip, view::settle};
+use super::shown::{Shown, except, opaque, test};
+use crate::grid::settle;
+use crate::polygon::{self, Polygon};
+use crate::stage::{self, SIZE};
+use crate::truth::Surface;
+use crate::view::clip;
 use etalon_scene::{CompareFunction, Draw, Shader, StencilOperation, StencilState};
 use glam::DVec3;
 use schemars::JsonSchema;
@@ -60,13 +63,13 @@ const CARDS: [Card; 4] = [
 /// By how many texels light moves right and down on its way from z 0 to 1: 5 and 4 in a tenth.
 const LIGHT: [f64; 2] = [50.0, 40.0];
 
-/// Where volumes end: behind the wall, before the far plane at 1.
+/// The end of volumes: behind the wall, before the far plane at 1.
 const END: f64 = 0.97;
 
-/// How far behind its card a volume begins, so that the two do not touch.
+/// The distance of a volume from its card, so that the two do not touch.
 const BEHIND: f64 = 0.004;
 
-/// How much of its light a shadow keeps.
+/// The share of light in a shadow.
 const SHADE: f64 = 0.5;
 
 impl Card {
@@ -100,7 +103,7 @@ fn window_depth(z: f64, eye: f64) -> f64 {
     (z - eye) / (1.0 - eye)
 }
 
-/// What is left of faces behind the near plane, in the picture.
+/// Projects faces, clipped to the near plane and to the picture.
 fn seen(faces: &[Vec<DVec3>], eye: f64, color: [f64; 4]) -> Vec<Polygon> {
     let [width, height] = SIZE.map(f64::from);
     let polygon = |face: &Vec<DVec3>| {
@@ -118,7 +121,7 @@ fn seen(faces: &[Vec<DVec3>], eye: f64, color: [f64; 4]) -> Vec<Polygon> {
 
 /// Counts the sides of a volume.
 fn count(method: MethodName, volume: &[Polygon]) -> Draw {
-    let mut draw = stage::draw(Shader::FlatColor, stage::mesh(SIZE, volume));
+    let mut draw = stage::draw(Shader::FlatColor, polygon::mesh(SIZE, volume));
     draw.depth = stage::depth(CompareFunction::Less, false);
     draw.targets[0].write_mask = 0;
     let [mut front, mut back] = [test(CompareFunction::Always, 0); 2];
@@ -142,14 +145,14 @@ fn count(method: MethodName, volume: &[Polygon]) -> Draw {
 
 /// Takes light away wherever a count is left.
 fn darken() -> Draw {
-    let mut draw = stage::draw(Shader::UniformColor, stage::cover());
+    let mut draw = stage::draw(Shader::UniformColor, polygon::cover());
     draw.params.color = [0.0, 0.0, 0.0, 1.0 - SHADE as f32];
     draw.targets[0].blend = stage::over();
     draw.stencil = except(0);
     draw
 }
 
-/// What the cards behind the near plane look like, each followed by the shadows on it.
+/// The cards behind the near plane, each followed by the shadows on it.
 fn surfaces(eye: f64) -> Vec<Surface> {
     let mut all = Vec::new();
     for on in CARDS.iter().filter(|card| card.z > eye) {

@@ -1,17 +1,17 @@
-//! Methods that spread what is seen through over four samples.
+//! Methods that spread transparent surfaces over four samples.
 
+use super::draws::{PICTURE, clear, depths, opaque};
 use super::scenes::Glass;
-use super::{PICTURE, clear, depths, opaque};
-use crate::{
-    SIZE, stage::Noise, stage::Polygon, stage::Stage, stage::depth, stage::draw, stage::mesh,
-};
+use crate::noise::Noise;
+use crate::polygon::{Polygon, mesh};
+use crate::stage::{SIZE, Stage, depth, draw};
 use etalon_frame::TextureFormat;
 use etalon_scene::{CompareFunction, Contents, Draw, Scene, Shader};
 
 /// Samples of a texel. The shader `stochastic` knows no more.
 const SAMPLES: u32 = 4;
 
-/// Alpha says how many samples are drawn.
+/// Draws a number of samples that follows alpha.
 pub(super) fn alpha_to_coverage(glass: &Glass, polygons: &[Polygon]) -> Scene {
     let mut glassy = draw(Shader::FlatColor, mesh(SIZE, polygons));
     glassy.multisample.alpha_to_coverage = true;
@@ -66,7 +66,7 @@ pub(super) fn layers(polygons: &[Polygon]) -> Vec<Vec<Polygon>> {
     layers
 }
 
-/// Whether two convex polygons have a point of the picture in common: no edge of either separates
+/// True if two convex polygons have a point of the picture in common: no edge of either separates
 /// them.
 fn overlap(a: &Polygon, b: &Polygon) -> bool {
     let range = |polygon: &Polygon, [x, y]: [f64; 2]| {

@@ -1,11 +1,9 @@
 //! Methods of one pass that differ in order and depth.
 
+use super::draws::{PICTURE, clear, depths, opaque, premultiplied};
 use super::scenes::{Glass, Object};
-use super::{PICTURE, clear, depths, opaque, premultiplied};
-use crate::{
-    SIZE, stage::Polygon, stage::Stage, stage::add, stage::both, stage::depth, stage::draw,
-    stage::mesh, stage::over,
-};
+use crate::polygon::{Polygon, mesh};
+use crate::stage::{SIZE, Stage, add, both, depth, draw, over};
 use etalon_scene::{BlendFactor, BlendState, CompareFunction, Params, Scene, Shader};
 
 /// The polygons of all objects, the farthest object first.
@@ -31,7 +29,7 @@ pub(super) fn by_triangle(glass: &Glass) -> Vec<Polygon> {
     triangles
 }
 
-/// Blends polygons in their order over what is opaque.
+/// Blends polygons in their order over the opaque ones.
 pub(super) fn blended(glass: &Glass, polygons: &[Polygon], write: bool) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
@@ -44,7 +42,7 @@ pub(super) fn blended(glass: &Glass, polygons: &[Polygon], write: bool) -> Scene
     stage.read(&[picture])
 }
 
-/// Draws what has an alpha of at least a half, and all of that as if it were opaque.
+/// Draws polygons with an alpha of at least a half as opaque, and no others.
 pub(super) fn alpha_test(glass: &Glass, polygons: &[Polygon]) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));

@@ -1,12 +1,10 @@
 //! Depth peeling, from the front and from both sides.
 
+use super::draws::{PICTURE, clear, depths, opaque_color, opaque_depth, premultiplied};
 use super::ordered::{behind, under};
 use super::scenes::Glass;
-use super::{PICTURE, clear, depths, opaque_color, opaque_depth, premultiplied};
-use crate::{
-    SIZE, stage::Polygon, stage::Stage, stage::add, stage::both, stage::cover, stage::depth,
-    stage::draw, stage::mesh, stage::over,
-};
+use crate::polygon::{Polygon, cover, mesh};
+use crate::stage::{SIZE, Stage, add, both, depth, draw, over};
 use etalon_frame::TextureFormat;
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction, Draw, Scene, Shader,

@@ -1,33 +1,13 @@
-//! What there is to see through.
+//! Transparent scenes.
 
-use super::Wire;
-use crate::error::ParameterError;
-use crate::picture::{Coverage, Truth};
-use crate::{SIZE, stage::Noise, stage::Polygon, within};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use super::wire::{SceneName, Wire};
+use crate::error::{ParameterError, within};
+use crate::noise::Noise;
+use crate::polygon::Polygon;
+use crate::stage::SIZE;
+use crate::truth::{Coverage, Truth};
 
-/// What is seen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum SceneName {
-    /// Six panes beside and over each other, each at a depth of its own, and an opaque one between
-    /// them. `alpha` is theirs.
-    Windows,
-    /// Three panes, two of which are turned by `angle` degrees, so that they pass through each other
-    /// where it is large.
-    IntersectingPanes,
-    /// Three boxes of glass, one in the other, and something opaque in the innermost.
-    NestedGlass,
-    /// So many panes of low `alpha` as `layers` says.
-    ThinLayers,
-    /// A bundle of thin slanted strips.
-    Hair,
-    /// A stack of large quads around something opaque. `alpha` is theirs.
-    Smoke,
-}
-
-/// What is put together as one thing: sorted as a whole.
+/// Polygons that are sorted as a whole.
 #[derive(Clone, Debug)]
 pub(super) struct Object {
     /// Its faces, in the order in which it is drawn.
@@ -42,24 +22,24 @@ impl Object {
     }
 }
 
-/// A scene with things to see through.
+/// A scene with transparent objects.
 #[derive(Clone, Debug)]
 pub(super) struct Glass {
     /// Red, green and blue behind everything.
     pub(super) background: [f64; 3],
-    /// What hides, at constant depths.
+    /// Opaque polygons, at constant depths.
     pub(super) opaque: Vec<Polygon>,
-    /// What is seen through, in the order of an application that does not care.
+    /// Transparent objects, unsorted.
     pub(super) objects: Vec<Object>,
-    /// Whether edges are part of the question.
+    /// The part of a texel that counts: its area where edges are part of the question.
     pub(super) coverage: Coverage,
 }
 
 impl Glass {
-    /// The scene of a case.
+    /// Returns the scene of a case.
     ///
     /// # Errors
-    /// When a parameter is out of its range.
+    /// If a parameter is out of its range.
     pub(super) fn new(wire: &Wire) -> Result<Self, ParameterError> {
         let alpha = |default: f64| within("alpha", wire.alpha.unwrap_or(default), 0.01..=0.99);
         let scene = match wire.scene {
@@ -85,7 +65,7 @@ impl Glass {
         self.objects.iter().flat_map(|o| &o.polygons)
     }
 
-    /// What should be seen.
+    /// Returns the truth.
     pub(super) fn truth(&self) -> Truth {
         Truth {
             size: SIZE,
@@ -101,7 +81,7 @@ impl Glass {
     }
 }
 
-/// Six colours that are easy to tell apart.
+/// Six distinct colours.
 const HUES: [[f64; 3]; 6] = [
     [0.85, 0.2, 0.15],
     [0.15, 0.65, 0.25],
@@ -175,7 +155,7 @@ fn intersecting_panes(angle: f64, alpha: f64) -> Glass {
     }
 }
 
-/// A box that is looked into: its front face, and its back face and sides in the middle of it.
+/// A box that is open to the viewer: its front face, and its back face and sides in the middle of it.
 fn glass_box(front: [f64; 4], near: f64, back: [f64; 4], far: f64, color: [f64; 4]) -> Object {
     let corners = |[left, top, right, bottom]: [f64; 4], depth: f64| {
         [

@@ -1,11 +1,13 @@
-//! What methods draw, as scenes: the pictures are drawn and measured elsewhere.
+//! Tests of the methods' scenes; the pictures are drawn and measured elsewhere.
 
 use super::ordered::{behind, by_object, by_triangle};
-use super::scenes::{Glass, SceneName};
-use super::{MethodName, Wire, make, many_samples};
-use crate::SIZE;
-use crate::picture::Coverage;
-use crate::stage::{Polygon, assert_valid};
+use super::scenes::Glass;
+use super::wire::{MethodName, SceneName, Wire};
+use super::{make, many_samples};
+use crate::polygon::Polygon;
+use crate::stage::SIZE;
+use crate::truth::Coverage;
+use crate::validity::assert_valid;
 use etalon_scene::{Contents, Scene, Shader};
 
 const SCENES: [SceneName; 6] = [

@@ -1,11 +1,9 @@
 //! Weighted blended order-independent transparency (McGuire and Bavoil 2013).
 
+use super::draws::{PICTURE, clear, depths, opaque_color, opaque_depth};
 use super::scenes::Glass;
-use super::{PICTURE, clear, depths, opaque_color, opaque_depth};
-use crate::{
-    SIZE, stage::Polygon, stage::Stage, stage::add, stage::both, stage::cover, stage::depth,
-    stage::draw, stage::mesh,
-};
+use crate::polygon::{Polygon, cover, mesh};
+use crate::stage::{SIZE, Stage, add, both, depth, draw};
 use etalon_frame::TextureFormat;
 use etalon_scene::{BlendFactor, BlendState, ColorTarget, CompareFunction, Scene, Shader};
 

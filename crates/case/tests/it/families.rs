@@ -1,4 +1,4 @@
-//! What the built-in families of cases promise, checked with a plain simulation of the pipeline
+//! Properties of the built-in families of cases, checked with a plain simulation of the pipeline
 //! that shares nothing with the one that judges: single samples, one value per channel, codes
 //! rounded to the nearest.
 
@@ -354,7 +354,7 @@ fn a_wrong_blend_factor_shows() {
     assert!(shown > 30_000, "{shown} wrong factors were tried");
 }
 
-/// Whether two equations give the same for whatever source and destination.
+/// True if two equations give the same for any source and destination.
 fn agree(a: BlendComponent, b: BlendComponent, constant: [f64; 4], channel: usize) -> bool {
     let steps = [0.0, 0.25, 0.5, 1.0];
     let each = (0..256).map(|i| [i & 3, i >> 2 & 3, i >> 4 & 3, i >> 6].map(|n| steps[n]));

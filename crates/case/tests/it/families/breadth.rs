@@ -1,4 +1,4 @@
-//! What the families promise that the plain simulation cannot follow: which states they try.
+//! Properties of the families that the plain simulation cannot follow: the states that they try.
 
 use etalon_case::{Case, Library, Profile};
 use etalon_scene::{Contents, LogicOperation};

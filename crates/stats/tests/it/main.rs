@@ -1,4 +1,4 @@
-//! What is said of simulated and of recorded samples.
+//! Tests on simulated and on recorded samples.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 mod recorded;

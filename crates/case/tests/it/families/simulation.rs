@@ -21,7 +21,7 @@ pub(crate) enum Path {
     Pass,
 }
 
-/// What happened to one fragment.
+/// The tests of one fragment.
 pub(crate) struct Event<'a> {
     pub(crate) draw: &'a Draw,
     pub(crate) front: bool,
@@ -56,7 +56,7 @@ fn indices(draw: &Draw) -> Vec<[usize; 3]> {
     triangles.collect()
 }
 
-/// Whether the simulation has everything that a scene uses: one sample, 8-bit colour, flat
+/// True if the simulation has everything that a scene uses: one sample, 8-bit colour, flat
 /// triangles over the whole attachment.
 pub(crate) fn knows(scene: &Scene) -> bool {
     let formats = scene.attachments.iter().enumerate().all(|(i, a)| {

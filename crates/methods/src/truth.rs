@@ -1,4 +1,4 @@
-//! What a method's picture should show, as geometry: what the truth mode computes its picture from.
+//! The truth of a method's scene as geometry, from which the exact picture is computed.
 
 use etalon_scene::AddressMode;
 
@@ -9,13 +9,13 @@ pub struct Truth {
     pub size: [u32; 2],
     /// Red, green and blue behind everything, 0 to 1.
     pub background: [f64; 3],
-    /// Where in a texel is looked.
+    /// The part of a texel that counts.
     pub coverage: Coverage,
-    /// What there is to be seen, in any order. Of two at the same depth the later one is in front.
+    /// The surfaces, in any order. Of two at the same depth the later one is in front.
     pub surfaces: Vec<Surface>,
 }
 
-/// Where in a texel the picture is looked at.
+/// The part of a texel that its colour stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
     /// At its centre: for questions in which edges play no part, or where methods take one sample.
@@ -35,7 +35,7 @@ pub struct Surface {
     pub paint: Paint,
 }
 
-/// How a surface is coloured. Colours are straight (not premultiplied), 0 to 1.
+/// The colours of a surface: straight (not premultiplied), 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Paint {
     /// Red, green, blue and alpha.
@@ -77,30 +77,6 @@ pub struct Texture {
     pub size: [u32; 2],
     /// Red, green, blue and alpha, row by row from the top.
     pub texels: Vec<[f64; 4]>,
-    /// What lies beyond its edges, across and down.
+    /// The address modes, across and down.
     pub address: [AddressMode; 2],
-}
-
-/// What a method case asks: which method draws which scene, and what should come of it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Method {
-    /// The question, the second part of the id: `transparency`.
-    pub question: String,
-    /// The scene, the third part of the id: `windows`.
-    pub scene: String,
-    /// The method, as the id names it: `depth-peeling`.
-    pub name: String,
-    /// What the stability curve runs along.
-    pub parameter: Option<Parameter>,
-    /// What should be seen in the first attachment that is read back, whose alpha does not count.
-    pub truth: Truth,
-}
-
-/// A parameter of a family of method cases.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Parameter {
-    /// The axis.
-    pub name: String,
-    /// Its value in this case.
-    pub value: f64,
 }

@@ -3,7 +3,7 @@
 //! `PROPTEST_CASES` says how many inputs are taken.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-#[path = "../../record/tests/spoil/mod.rs"]
+#[path = "../../../record/tests/spoil/mod.rs"]
 mod spoil;
 
 use etalon_case::{Library, Profile};

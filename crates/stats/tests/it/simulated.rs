@@ -6,7 +6,7 @@ use etalon_stats::{
 };
 use oorandom::Rand64;
 
-/// How a machine disturbs its frame times; deviations and drifts are of the logarithm.
+/// The noise of a machine's frame times; deviations and drifts are of the logarithm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Noise {
     /// Deviation between rounds.
@@ -17,7 +17,7 @@ struct Noise {
     outliers: f64,
     /// The share of rounds in which a neighbour slows down everything, the ruler too.
     disturbed: f64,
-    /// How much everything slows down from the first round to the last, the ruler too.
+    /// The slow-down of everything from the first round to the last, the ruler too.
     drift: f64,
     /// Deviation of a bench's own pace, the ruler's too.
     pace: f64,

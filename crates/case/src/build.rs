@@ -1,0 +1,192 @@
+//! Building a case from its place in a file.
+
+use crate::attachment::read_back;
+use crate::case::{Case, Expect};
+use crate::error::{At, CaseError};
+use crate::file::{CaseRef, METHOD};
+use crate::random;
+use crate::relation::relation;
+use crate::resolve::parse_scene;
+use crate::states;
+use crate::values::{substitute, typed};
+use crate::variants::{patch, variant_scene};
+use crate::wire::{ExpectWire, RandomWire};
+use etalon_methods::{Method, MethodScene, MethodWire, Parameter};
+use etalon_scene::Scene;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+impl CaseRef<'_> {
+    /// Builds the case.
+    ///
+    /// # Errors
+    /// With file, line and key, when a value is of the wrong type or a state is impossible.
+    pub fn build(&self) -> Result<Case, CaseError> {
+        self.try_build()
+            .map_err(|at| at.locate(self.file.name(), &self.file.text))
+    }
+
+    fn try_build(&self) -> Result<Case, At> {
+        let wire = &self.file.wire;
+        let values = self.values();
+        if self.file.is_method() {
+            return self.method_case(&values);
+        }
+        if wire.parameter.is_some() {
+            return Err(At::new("only methods have a parameter").key("parameter"));
+        }
+        let scene_value = self.scene_value(&values)?;
+        let scene = parse_scene(&scene_value).map_err(|e| e.key("scene"))?;
+        let variants = wire
+            .variants
+            .iter()
+            .enumerate()
+            .map(|(i, variant)| {
+                variant_scene(&scene_value, variant, &values)
+                    .map_err(|e| e.index(i).key("variants"))
+            })
+            .collect::<Result<Vec<_>, At>>()?;
+        let relation =
+            relation(&wire.relation, &values, &scene, &variants).map_err(|e| e.key("relation"))?;
+        let judged_as = if wire.judged_as.is_empty() {
+            None
+        } else {
+            let mut judged = scene_value;
+            patch(&mut judged, &wire.judged_as, &values).map_err(|e| e.key("judged_as"))?;
+            Some(parse_scene(&judged).map_err(|e| e.key("judged_as"))?)
+        };
+        let expect = self.expect(&scene, &values).map_err(|e| e.key("expect"))?;
+        Ok(Case {
+            id: self.id(),
+            about: wire.about.clone(),
+            spec: wire.spec.clone(),
+            scene,
+            judged_as,
+            variants,
+            relation,
+            expect,
+            method: None,
+        })
+    }
+
+    /// A scene drawn by a method.
+    fn method_case(&self, values: &BTreeMap<&str, &Value>) -> Result<Case, At> {
+        let wire = &self.file.wire;
+        let others = [
+            &wire.scene,
+            &wire.random,
+            &wire.states,
+            &wire.relation,
+            &wire.expect,
+        ];
+        let alone = others.into_iter().all(Value::is_null)
+            && wire.variants.is_empty()
+            && wire.judged_as.is_empty();
+        if !alone {
+            return Err(
+                At::new("`method` stands alone, without a scene or relations").key("method"),
+            );
+        }
+        let place: Vec<&str> = self.file.stem.split('/').collect();
+        let ["methods", question, scene] = place[..] else {
+            let message = "a method's file is methods/<question>/<scene>.json";
+            return Err(At::new(message).key("method"));
+        };
+        let positions = self.file.positions(self.index);
+        let named = |axis: &str| Some(&self.file.wire.axes[axis][*positions.get(axis)?]);
+        let name = named(METHOD).ok_or_else(|| At::new("there is no axis `method`").key("axes"))?;
+        let parameter = match &wire.parameter {
+            None => None,
+            Some(axis) => {
+                let number = || named(axis)?.value.as_f64();
+                let value = number().ok_or_else(|| {
+                    At::new(format!("there is no axis `{axis}` with numbers")).key("parameter")
+                })?;
+                Some(Parameter {
+                    name: axis.clone(),
+                    value,
+                })
+            }
+        };
+        let make = || -> Result<MethodScene, At> {
+            let wire: MethodWire = typed(&substitute(&wire.method, values)?)?;
+            etalon_methods::make(&wire).map_err(|e| At::new(e.message).key(&e.key))
+        };
+        let made = make().map_err(|e| e.key("method"))?;
+        Ok(Case {
+            id: self.id(),
+            about: wire.about.clone(),
+            spec: wire.spec.clone(),
+            scene: made.scene,
+            judged_as: None,
+            variants: Vec::new(),
+            relation: None,
+            expect: Vec::new(),
+            method: Some(Method {
+                question: question.to_owned(),
+                scene: scene.to_owned(),
+                name: name.name.clone(),
+                parameter,
+                truth: made.truth,
+            }),
+        })
+    }
+
+    /// The scene with all values in their places.
+    fn scene_value(&self, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
+        let wire = &self.file.wire;
+        match (
+            wire.scene.is_null(),
+            wire.random.is_null(),
+            wire.states.is_null(),
+        ) {
+            (false, true, true) => substitute(&wire.scene, values).map_err(|e| e.key("scene")),
+            (true, true, false) => {
+                let made = || states::scene(&typed(&substitute(&wire.states, values)?)?);
+                made().map_err(|e| e.key("states"))
+            }
+            (true, false, true) => {
+                let made = || -> Result<Value, At> {
+                    let random: RandomWire = typed(&substitute(&wire.random, values)?)?;
+                    Ok(random::scene(random.flavor, random.seed))
+                };
+                made().map_err(|e| e.key("random"))
+            }
+            (true, true, true) => Err(At::new("a case file needs a scene").key("scene")),
+            (_, false, _) => Err(At::new("`random` stands instead of `scene`").key("random")),
+            _ => Err(At::new("`states` stands instead of `scene`").key("states")),
+        }
+    }
+
+    fn expect(&self, scene: &Scene, values: &BTreeMap<&str, &Value>) -> Result<Vec<Expect>, At> {
+        let wire = &self.file.wire;
+        if wire.expect.is_null() {
+            return Ok(Vec::new());
+        }
+        let value = substitute(&wire.expect, values)?;
+        let list: Vec<ExpectWire> = typed(&value)?;
+        let mut result = Vec::new();
+        for (i, e) in list.into_iter().enumerate() {
+            let attachment =
+                read_back(scene, &e.attachment).map_err(|e| e.key("attachment").index(i))?;
+            let target = &scene.attachments[attachment];
+            let channels = target.format.color_channels().len();
+            if channels == 0 || e.value.len() != channels {
+                return Err(
+                    At::new(format!("{} has {channels} colour channels", target.format))
+                        .key("value")
+                        .index(i),
+                );
+            }
+            if e.texel[0] >= target.size[0] || e.texel[1] >= target.size[1] {
+                return Err(At::new("the texel lies outside").key("texel").index(i));
+            }
+            result.push(Expect {
+                attachment,
+                texel: e.texel,
+                value: e.value,
+            });
+        }
+        Ok(result)
+    }
+}

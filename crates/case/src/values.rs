@@ -1,0 +1,45 @@
+//! Values of case files: types, and names of axes that stand for values.
+
+use crate::error::At;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// Parses a value.
+pub(crate) fn typed<T: DeserializeOwned>(value: &Value) -> Result<T, At> {
+    serde_path_to_error::deserialize(value).map_err(At::from_typed)
+}
+
+/// Replaces every string `"$name"` by the value of that name.
+pub(crate) fn substitute(value: &Value, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
+    Ok(match value {
+        Value::String(text) => match text.strip_prefix('$') {
+            None => value.clone(),
+            Some(name) => match values.get(name) {
+                Some(found) => (*found).clone(),
+                None => {
+                    let known: Vec<&str> = values.keys().copied().collect();
+                    return Err(At::new(format!(
+                        "there is no axis or derived value `{name}`; there are: {}",
+                        known.join(", ")
+                    )));
+                }
+            },
+        },
+        Value::Array(list) => Value::Array(
+            list.iter()
+                .enumerate()
+                .map(|(i, v)| substitute(v, values).map_err(|e| e.index(i)))
+                .collect::<Result<_, _>>()?,
+        ),
+        Value::Object(map) => Value::Object(
+            map.iter()
+                .map(|(k, v)| {
+                    let v = substitute(v, values).map_err(|e| e.key(k))?;
+                    Ok((k.clone(), v))
+                })
+                .collect::<Result<_, At>>()?,
+        ),
+        Value::Null | Value::Bool(_) | Value::Number(_) => value.clone(),
+    })
+}

@@ -1,0 +1,143 @@
+//! Axes, and values that follow from them.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::Value;
+
+/// The values of an axis: a list, or so many integers from one on.
+#[derive(Clone, Debug)]
+pub(crate) struct Axis(Vec<AxisValue>);
+
+impl std::ops::Deref for Axis {
+    type Target = [AxisValue];
+
+    fn deref(&self) -> &[AxisValue] {
+        &self.0
+    }
+}
+
+/// So many integers from one on.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Count {
+    from: u32,
+    count: u16,
+}
+
+impl<'de> Deserialize<'de> for Axis {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+        use serde::de::{MapAccess, SeqAccess, Visitor};
+        struct Values;
+        impl<'de> Visitor<'de> for Values {
+            type Value = Axis;
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a list of values or {\"from\": …, \"count\": …}")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Axis, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(seq)).map(Axis)
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Axis, A::Error> {
+                let range = Count::deserialize(MapAccessDeserializer::new(map))?;
+                let all = (0..u64::from(range.count)).map(|i| {
+                    let number = u64::from(range.from) + i;
+                    AxisValue {
+                        name: number.to_string(),
+                        value: number.into(),
+                    }
+                });
+                Ok(Axis(all.collect()))
+            }
+        }
+        deserializer.deserialize_any(Values)
+    }
+}
+
+impl JsonSchema for Axis {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Axis".into()
+    }
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let value = generator.subschema_for::<AxisValue>();
+        let range = generator.subschema_for::<Count>();
+        schemars::json_schema!({
+            "description": "The values of an axis: a list, or so many integers from one on.",
+            "anyOf": [{ "type": "array", "items": value }, range]
+        })
+    }
+}
+
+/// One value of an axis: a string, number or boolean, or a named value of any kind.
+#[derive(Clone, Debug)]
+pub(crate) struct AxisValue {
+    pub(crate) name: String,
+    pub(crate) value: Value,
+}
+
+impl<'de> Deserialize<'de> for AxisValue {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Named {
+            name: String,
+            value: Value,
+        }
+        use serde::de::Error;
+        let value = Value::deserialize(deserializer)?;
+        let name = match &value {
+            Value::String(text) => text.clone(),
+            Value::Bool(flag) => flag.to_string(),
+            Value::Number(number) => match number.as_f64() {
+                Some(float) if !number.is_i64() && !number.is_u64() => float.to_string(),
+                _ => number.to_string(),
+            },
+            Value::Object(_) => {
+                let named: Named = serde_json::from_value(value).map_err(D::Error::custom)?;
+                return Ok(Self {
+                    name: named.name,
+                    value: named.value,
+                });
+            }
+            Value::Null | Value::Array(_) => {
+                return Err(D::Error::custom(
+                    "an axis value is a string, number, boolean or {\"name\": …, \"value\": …}",
+                ));
+            }
+        };
+        Ok(Self { name, value })
+    }
+}
+
+impl JsonSchema for AxisValue {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "AxisValue".into()
+    }
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({
+            "description": "A value of an axis, or any value with a name for the id.",
+            "anyOf": [
+                { "type": ["string", "number", "boolean"] },
+                {
+                    "type": "object",
+                    "properties": { "name": { "type": "string" }, "value": {} },
+                    "required": ["name", "value"],
+                    "additionalProperties": false
+                }
+            ]
+        })
+    }
+}
+
+/// A value that follows from an axis: the axis's own some places further on, so that two states differ
+/// in every case, or one of a list beside the axis.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DerivedWire {
+    /// The axis.
+    pub(crate) axis: String,
+    /// How many values further on, past the end from the start again.
+    #[serde(default)]
+    pub(crate) shift: usize,
+    /// As many values as the axis has, each instead of the axis's own.
+    pub(crate) values: Option<Vec<Value>>,
+}

@@ -1,0 +1,145 @@
+//! The keys of a case file.
+
+use super::axis::{Axis, DerivedWire};
+use super::scene::{SceneWire, all_channels};
+use crate::random::Flavor;
+use etalon_methods::MethodWire;
+use etalon_scene::Invariance;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+
+/// A case file. In `scene`, `judged_as` and `expect`, the string `"$name"` stands for the value of
+/// the axis or derived value of that name.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct FileWire {
+    /// What the cases prove, in a sentence.
+    pub(crate) about: String,
+    /// The clauses of the specifications that bind, each as `API: section`.
+    pub(crate) spec: Vec<String>,
+    /// Which cases of the product the quick profile takes; without it, all.
+    pub(crate) quick: Option<QuickWire>,
+    /// The axes; the file stands for their whole product.
+    #[serde(default)]
+    pub(crate) axes: BTreeMap<String, Axis>,
+    /// Values that follow from an axis and are no part of the id.
+    #[serde(default)]
+    pub(crate) derived: BTreeMap<String, DerivedWire>,
+    /// What is drawn.
+    #[serde(default)]
+    #[schemars(with = "SceneWire")]
+    pub(crate) scene: Value,
+    /// Instead of `scene`: a scene that is made from a seed.
+    #[serde(default)]
+    #[schemars(with = "RandomWire")]
+    pub(crate) random: Value,
+    /// Instead of `scene`: many draws, each with a state of its own.
+    #[serde(default)]
+    #[schemars(with = "StatesWire")]
+    pub(crate) states: Value,
+    /// Instead of `scene`: a scene that is drawn by a rendering method, whose picture is held against
+    /// the truth. The file lies in `methods/<question>/<scene>.json` and has an axis `method`.
+    #[serde(default)]
+    #[schemars(with = "MethodWire")]
+    pub(crate) method: Value,
+    /// Methods only: the axis with numbers along which the methods' errors are followed.
+    pub(crate) parameter: Option<String>,
+    /// Changes to the scene, each of which is drawn too.
+    #[serde(default)]
+    pub(crate) variants: Vec<VariantWire>,
+    /// What the frames of the variants have to do with the scene's own.
+    #[serde(default)]
+    #[schemars(with = "Option<RelationWire>")]
+    pub(crate) relation: Value,
+    /// Selftests only: changes to the scene, as JSON pointers and values, that the judge sees and
+    /// the adapter does not. A Fail is then due.
+    #[serde(default)]
+    pub(crate) judged_as: BTreeMap<String, Value>,
+    /// Literal values that must come back.
+    #[serde(default)]
+    #[schemars(with = "Vec<ExpectWire>")]
+    pub(crate) expect: Value,
+}
+
+/// A scene that is made from a seed: the same in every run and every release.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RandomWire {
+    /// What the scene is made of.
+    pub(crate) flavor: Flavor,
+    /// The seed.
+    pub(crate) seed: u64,
+}
+
+/// A scene of many draws, each with a state and a place of its own.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StatesWire {
+    /// How many draws.
+    pub(crate) count: u32,
+    /// Width and height in texels.
+    pub(crate) size: [u32; 2],
+}
+
+/// The scene again with some changes.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct VariantWire {
+    /// Its name in records.
+    pub(crate) name: String,
+    /// JSON pointers into the scene and what stands there instead.
+    #[serde(default)]
+    pub(crate) patch: BTreeMap<String, Value>,
+    /// JSON pointers to lists and the order in which their items stand instead.
+    #[serde(default)]
+    pub(crate) permute: BTreeMap<String, Vec<usize>>,
+}
+
+/// Frames, or attachments of one frame, that must be the same.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RelationWire {
+    /// Why they must.
+    pub(crate) same: Invariance,
+    /// Left, top, width and height of the texels that are compared; without it, all.
+    pub(crate) within: Option<[u32; 4]>,
+    /// The colour channels that are compared, as letters of `rgba`.
+    #[serde(default = "all_channels")]
+    pub(crate) channels: String,
+    /// How many texels the variants' pictures are moved to the right and down.
+    #[serde(default)]
+    pub(crate) offset: [i32; 2],
+    /// Attachments of each frame that are compared with each other, instead of frames.
+    #[serde(default)]
+    pub(crate) attachments: Vec<String>,
+}
+
+/// Which cases of a product the quick profile takes: `"pairwise"`, `{ "each": n }`, `{ "first": n }` or
+/// `{ "where": { axis: value } }`.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum QuickWire {
+    /// So many that every two values of every two axes meet.
+    Pairwise,
+    /// So many that every value of every axis stands in this many, beside different others: for
+    /// products of two long axes, of which pairs leave nothing out.
+    Each(NonZeroUsize),
+    /// So many from the first on: for seeds, of which one is as good as another.
+    First(NonZeroUsize),
+    /// Those in which these axes have the values of these names: for sizes that only a benchmark wants.
+    Where(BTreeMap<String, String>),
+}
+
+/// One literal colour that must come back.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ExpectWire {
+    pub(crate) attachment: String,
+    /// Column and row.
+    pub(crate) texel: [u32; 2],
+    /// The values, channel by channel, as the textbook gives them; the nearest code is meant.
+    pub(crate) value: Vec<f64>,
+}

@@ -1,0 +1,270 @@
+//! The keys of a scene.
+
+use etalon_frame::{CounterKind, TextureFormat};
+use etalon_scene::{
+    BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace,
+    LogicOperation, MeshSource, Multisample, PolygonMode, PrimitiveTopology, Sampler, Shader,
+    Splat, StencilOperation, Viewport,
+};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SceneWire {
+    /// Textures by name.
+    pub(crate) attachments: BTreeMap<String, AttachmentWire>,
+    /// Passes, in order.
+    pub(crate) passes: Vec<PassWire>,
+    /// The attachments to read back.
+    pub(crate) read: Vec<String>,
+    /// Counters by name; all are read back.
+    #[serde(default)]
+    pub(crate) counters: BTreeMap<String, CounterKind>,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AttachmentWire {
+    pub(crate) format: TextureFormat,
+    /// Width and height in texels; without it, what the scene's other attachments say, or 16 by 16.
+    pub(crate) size: Option<[u32; 2]>,
+    /// Samples per texel.
+    pub(crate) samples: Option<u32>,
+    /// A list of four numbers for colour, a number for depth or for stencil alone, both for both.
+    pub(crate) clear: Option<ClearWire>,
+    /// Uploaded values, instead of a clear.
+    pub(crate) texels: Option<TexelsWire>,
+}
+
+/// A clear value, whose form follows the format.
+#[derive(Clone, Debug)]
+pub(crate) enum ClearWire {
+    Number(f64),
+    Color([f32; 4]),
+    DepthStencil(DepthStencilWire),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DepthStencilWire {
+    pub(crate) depth: f32,
+    pub(crate) stencil: u8,
+}
+
+impl<'de> Deserialize<'de> for ClearWire {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        use serde::de::Error;
+        let value = Value::deserialize(deserializer)?;
+        match &value {
+            Value::Number(number) => number
+                .as_f64()
+                .map(Self::Number)
+                .ok_or_else(|| D::Error::custom("the number is too large")),
+            Value::Array(_) => serde_json::from_value(value)
+                .map(Self::Color)
+                .map_err(D::Error::custom),
+            Value::Object(_) => serde_json::from_value(value)
+                .map(Self::DepthStencil)
+                .map_err(D::Error::custom),
+            _ => Err(D::Error::custom(
+                "a clear value is a number, four numbers or {\"depth\": …, \"stencil\": …}",
+            )),
+        }
+    }
+}
+
+impl JsonSchema for ClearWire {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Clear".into()
+    }
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let both = generator.subschema_for::<DepthStencilWire>();
+        schemars::json_schema!({
+            "anyOf": [
+                { "type": "number" },
+                { "type": "array", "items": { "type": "number" }, "minItems": 4, "maxItems": 4 },
+                both
+            ]
+        })
+    }
+}
+
+/// Uploaded values: integer codes for normalized formats, numbers for float formats.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub(crate) enum TexelsWire {
+    /// One texel per column, the same in all rows.
+    Columns {
+        /// As many texels as the attachment is wide.
+        values: Vec<[f64; 4]>,
+    },
+    /// One texel per row, the same in all columns.
+    Rows {
+        /// As many texels as the attachment is high.
+        values: Vec<[f64; 4]>,
+    },
+    /// Every texel, row by row from the top.
+    Grid {
+        /// As many rows as the attachment is high, each of as many texels as it is wide.
+        values: Vec<Vec<[f64; 4]>>,
+    },
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PassWire {
+    /// Names of the colour attachments.
+    #[serde(default)]
+    pub(crate) color: Vec<String>,
+    /// Names of the attachments that the colour attachments are averaged to, `null` for none.
+    #[serde(default)]
+    pub(crate) resolve: Vec<Option<String>>,
+    /// Name of the depth-stencil attachment.
+    pub(crate) depth_stencil: Option<String>,
+    /// Whether the pass promises to write neither depth nor stencil.
+    #[serde(default)]
+    pub(crate) depth_stencil_read_only: bool,
+    /// Draws, in order.
+    pub(crate) draws: Vec<DrawWire>,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DrawWire {
+    pub(crate) mesh: MeshSource,
+    #[serde(default = "triangle_list")]
+    pub(crate) topology: PrimitiveTopology,
+    pub(crate) shader: Shader,
+    #[serde(default)]
+    pub(crate) params: ParamsWire,
+    /// When the fragment tests happen.
+    #[serde(default = "implicit")]
+    pub(crate) early_tests: EarlyTests,
+    /// Names of the attachments that the shader reads.
+    #[serde(default)]
+    pub(crate) textures: Vec<String>,
+    /// How the shader samples its texture.
+    pub(crate) sampler: Option<Sampler>,
+    /// Names of the counters that the draw adds to.
+    #[serde(default)]
+    pub(crate) counters: Vec<String>,
+    #[serde(default = "cull_none")]
+    pub(crate) cull: CullMode,
+    #[serde(default = "ccw")]
+    pub(crate) front_face: FrontFace,
+    #[serde(default = "fill")]
+    pub(crate) polygon_mode: PolygonMode,
+    #[serde(default)]
+    pub(crate) rasterizer_discard: bool,
+    /// Without it, the whole attachments and depths 0 to 1.
+    pub(crate) viewport: Option<Viewport>,
+    /// Left, top, width and height in texels; without it, everything.
+    pub(crate) scissor: Option<[u32; 4]>,
+    #[serde(default)]
+    pub(crate) depth_bias: DepthBias,
+    #[serde(default)]
+    pub(crate) depth_clamp: bool,
+    /// Least and greatest stored depth that lets fragments through; without it, off.
+    pub(crate) depth_bounds: Option<[f32; 2]>,
+    /// The depth test; without it, off.
+    pub(crate) depth: Option<DepthState>,
+    /// The stencil test; without it, off.
+    pub(crate) stencil: Option<StencilWire>,
+    /// Blending; without it, off.
+    pub(crate) blend: Option<BlendState>,
+    /// Written channels, as letters of `rgba`.
+    #[serde(default = "all_channels")]
+    pub(crate) write_mask: String,
+    /// Blending and write mask of each colour attachment apart, instead of `blend` and `write_mask`.
+    pub(crate) targets: Option<Vec<TargetWire>>,
+    /// A logic operation instead of blending; without it, off.
+    pub(crate) logic: Option<LogicOperation>,
+    #[serde(default)]
+    pub(crate) multisample: Multisample,
+    /// The blend constant.
+    #[serde(default)]
+    pub(crate) blend_constant: Splat,
+}
+
+/// Blending and write mask of one colour attachment.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TargetWire {
+    pub(crate) blend: Option<BlendState>,
+    #[serde(default = "all_channels")]
+    pub(crate) write_mask: String,
+}
+
+fn implicit() -> EarlyTests {
+    EarlyTests::Implicit
+}
+
+fn fill() -> PolygonMode {
+    PolygonMode::Fill
+}
+
+fn triangle_list() -> PrimitiveTopology {
+    PrimitiveTopology::TriangleList
+}
+
+fn cull_none() -> CullMode {
+    CullMode::None
+}
+
+fn ccw() -> FrontFace {
+    FrontFace::Ccw
+}
+
+pub(super) fn all_channels() -> String {
+    "rgba".to_owned()
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ParamsWire {
+    #[serde(default)]
+    pub(crate) color: Splat,
+    #[serde(default)]
+    pub(crate) back_color: Splat,
+}
+
+/// The stencil test. Masks and reference hold for both faces unless a face has its own.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StencilWire {
+    pub(crate) front: StencilFaceWire,
+    /// Without it, as the front.
+    pub(crate) back: Option<StencilFaceWire>,
+    #[serde(default = "all_bits")]
+    pub(crate) read_mask: u8,
+    #[serde(default = "all_bits")]
+    pub(crate) write_mask: u8,
+    #[serde(default)]
+    pub(crate) reference: u8,
+}
+
+fn all_bits() -> u8 {
+    0xff
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StencilFaceWire {
+    pub(crate) compare: CompareFunction,
+    #[serde(default = "keep")]
+    pub(crate) fail_op: StencilOperation,
+    #[serde(default = "keep")]
+    pub(crate) depth_fail_op: StencilOperation,
+    #[serde(default = "keep")]
+    pub(crate) pass_op: StencilOperation,
+    pub(crate) read_mask: Option<u8>,
+    pub(crate) write_mask: Option<u8>,
+    pub(crate) reference: Option<u8>,
+}
+
+fn keep() -> StencilOperation {
+    StencilOperation::Keep
+}

@@ -1,0 +1,4 @@
+//! Tests of case files and of the built-in families.
+
+mod damage;
+mod families;

@@ -1,0 +1,274 @@
+//! The encodings of a texel's channels.
+
+use half::f16;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// The encoding of one channel: which code stands for which value.
+///
+/// A *code* is the channel's bit pattern in the low bits of a `u32`. Its *order* is an integer that
+/// grows with the value the code stands for, one step per neighbouring code, so that intervals of
+/// values are intervals of integers and distances are counted in codes (ULPs for floats).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ChannelEncoding {
+    /// Unsigned normalized integer of so many bits: code `c` stands for `c / (2^bits - 1)`.
+    Unorm(u8),
+    /// Signed normalized integer of so many bits in two's complement: code `c` stands for
+    /// `max(c / (2^(bits - 1) - 1), -1)`, so -1 has two codes.
+    Snorm(u8),
+    /// 8-bit unsigned normalized integer that holds a linear value in sRGB (IEC 61966-2-1).
+    Srgb8,
+    /// Unsigned integer of so many bits.
+    Uint(u8),
+    /// IEEE 754 binary16.
+    Float16,
+    /// IEEE 754 binary32.
+    Float32,
+    /// Unsigned float of 5 exponent bits and so many mantissa bits.
+    Ufloat(u8),
+}
+
+impl ChannelEncoding {
+    /// The largest order of any finite code.
+    pub fn max_order(self) -> i64 {
+        match self {
+            Self::Unorm(bits) | Self::Uint(bits) => (1_i64 << bits) - 1,
+            Self::Snorm(bits) => (1_i64 << (bits - 1)) - 1,
+            Self::Srgb8 => 255,
+            Self::Float16 => i64::from(f16::MAX.to_bits()),
+            Self::Float32 => i64::from(f32::MAX.to_bits()),
+            Self::Ufloat(mantissa) => (31 << mantissa) - 1,
+        }
+    }
+
+    /// The smallest order of any finite code.
+    pub fn min_order(self) -> i64 {
+        match self {
+            Self::Unorm(_) | Self::Uint(_) | Self::Srgb8 | Self::Ufloat(_) => 0,
+            Self::Snorm(_) => -self.max_order() - 1,
+            Self::Float16 | Self::Float32 => -self.max_order(),
+        }
+    }
+
+    /// True if the encoding is a float.
+    pub fn is_float(self) -> bool {
+        matches!(self, Self::Float16 | Self::Float32 | Self::Ufloat(_))
+    }
+
+    /// The range of values that a normalized encoding can hold; `None` for floats and integers.
+    pub fn normalized_range(self) -> Option<(f32, f32)> {
+        match self {
+            Self::Unorm(_) | Self::Srgb8 => Some((0.0, 1.0)),
+            Self::Snorm(_) => Some((-1.0, 1.0)),
+            Self::Uint(_) | Self::Float16 | Self::Float32 | Self::Ufloat(_) => None,
+        }
+    }
+
+    /// The order of a code. Both float zeros have order 0: the specifications leave the sign of
+    /// zero open (SPIR-V's default float controls; OpenGL 4.6, 2.3.4.1).
+    pub fn order_of_code(self, code: u32) -> i64 {
+        let signed = |magnitude: u32, negative: bool| {
+            let magnitude = i64::from(magnitude);
+            if negative { -magnitude } else { magnitude }
+        };
+        match self {
+            Self::Unorm(_) | Self::Uint(_) | Self::Srgb8 | Self::Ufloat(_) => i64::from(code),
+            Self::Snorm(bits) => {
+                let shift = 32 - u32::from(bits);
+                i64::from(((code << shift) as i32) >> shift)
+            }
+            Self::Float16 => signed(code & 0x7fff, code & 0x8000 != 0),
+            Self::Float32 => signed(code & 0x7fff_ffff, code >> 31 != 0),
+        }
+    }
+
+    /// The code of an order, the inverse of [`ChannelEncoding::order_of_code`].
+    pub fn code_of_order(self, order: i64) -> u32 {
+        let magnitude = u32::try_from(order.unsigned_abs()).unwrap_or(u32::MAX);
+        match self {
+            Self::Unorm(_) | Self::Uint(_) | Self::Srgb8 | Self::Ufloat(_) => magnitude,
+            Self::Snorm(bits) => (order as u32) & ((1 << bits) - 1),
+            Self::Float16 if order < 0 => magnitude | 0x8000,
+            Self::Float32 if order < 0 => magnitude | 0x8000_0000,
+            Self::Float16 | Self::Float32 => magnitude,
+        }
+    }
+
+    /// The real value that the code of this order stands for; of an sRGB code the linear one.
+    pub fn value_of_order(self, order: i64) -> f64 {
+        match self {
+            Self::Unorm(_) => order as f64 / self.max_order() as f64,
+            Self::Snorm(_) => (order as f64 / self.max_order() as f64).max(-1.0),
+            Self::Srgb8 => srgb_to_linear(order as f64 / 255.0),
+            Self::Uint(_) => order as f64,
+            Self::Float16 => f16::from_bits(self.code_of_order(order) as u16).to_f64(),
+            Self::Float32 => f64::from(f32::from_bits(self.code_of_order(order))),
+            Self::Ufloat(mantissa) => {
+                let (exponent, fraction) = (order >> mantissa, order & ((1 << mantissa) - 1));
+                let fraction = fraction as f64 / f64::from(1_u32 << mantissa);
+                match exponent {
+                    0 => fraction * 2_f64.powi(-14),
+                    31 if fraction > 0.0 => f64::NAN,
+                    31 => f64::INFINITY,
+                    _ => (1.0 + fraction) * 2_f64.powi(exponent as i32 - 15),
+                }
+            }
+        }
+    }
+
+    /// The position of a value on the scale of orders, for encodings whose codes are equidistant in the
+    /// stored (for sRGB: encoded) value: the scale times the value, not rounded.
+    pub fn position(self, value: f64) -> Option<f64> {
+        match self {
+            Self::Unorm(_) | Self::Snorm(_) => Some(value * self.max_order() as f64),
+            Self::Srgb8 => Some(linear_to_srgb(value) * 255.0),
+            Self::Uint(_) => Some(value),
+            Self::Float16 | Self::Float32 | Self::Ufloat(_) => None,
+        }
+    }
+
+    /// The code whose value is nearest to a real number; the nearest end where it is out of range.
+    pub fn nearest_code(self, value: f64) -> u32 {
+        if let Some(position) = self.position(value) {
+            let (low, high) = (self.min_order() as f64, self.max_order() as f64);
+            return self.code_of_order(position.round().clamp(low, high) as i64);
+        }
+        let (below, above) = (self.order_below(value), self.order_above(value));
+        let distance = |order: i64| (self.value_of_order(order) - value).abs();
+        let nearest = if distance(below) <= distance(above) {
+            below
+        } else {
+            above
+        };
+        self.code_of_order(nearest)
+    }
+
+    /// The largest order whose value is not above a number; the lowest where all are above.
+    pub fn order_below(self, value: f64) -> i64 {
+        self.search(|order| self.value_of_order(order) <= value)
+    }
+
+    /// The smallest order whose value is not below a number; the highest where all are below.
+    pub fn order_above(self, value: f64) -> i64 {
+        let below = self.search(|order| self.value_of_order(order) < value);
+        match self.value_of_order(below) {
+            v if v >= value => below,
+            _ => (below + 1).min(self.max_order()),
+        }
+    }
+
+    /// The largest order for which a condition holds that holds up to some order and not beyond.
+    fn search(self, holds: impl Fn(i64) -> bool) -> i64 {
+        let (mut low, mut high) = (self.min_order(), self.max_order());
+        while low < high {
+            let middle = low + (high - low + 1) / 2;
+            if holds(middle) {
+                low = middle;
+            } else {
+                high = middle - 1;
+            }
+        }
+        low
+    }
+
+    /// True if the code is a NaN.
+    pub fn is_nan(self, code: u32) -> bool {
+        match self {
+            Self::Float16 => f16::from_bits(code as u16).is_nan(),
+            Self::Float32 => f32::from_bits(code).is_nan(),
+            Self::Ufloat(mantissa) => code > 31 << mantissa,
+            Self::Unorm(_) | Self::Snorm(_) | Self::Srgb8 | Self::Uint(_) => false,
+        }
+    }
+}
+
+/// The linear value of an sRGB-encoded one in 0..=1 (IEC 61966-2-1; Khronos Data Format, 13.3.2).
+pub fn srgb_to_linear(value: f64) -> f64 {
+    if value <= 0.04045 {
+        value / 12.92
+    } else {
+        ((value + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// The inverse of [`srgb_to_linear`].
+pub fn linear_to_srgb(value: f64) -> f64 {
+    if value <= 0.003_130_8 {
+        value * 12.92
+    } else {
+        1.055 * value.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+impl fmt::Display for ChannelEncoding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unorm(bits) => write!(f, "{bits}-bit unorm"),
+            Self::Snorm(bits) => write!(f, "{bits}-bit snorm"),
+            Self::Srgb8 => f.write_str("8-bit sRGB"),
+            Self::Uint(bits) => write!(f, "{bits}-bit uint"),
+            Self::Float16 => f.write_str("16-bit float"),
+            Self::Float32 => f.write_str("32-bit float"),
+            Self::Ufloat(mantissa) => write!(f, "{}-bit unsigned float", mantissa + 5),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn float_order_is_monotone_and_inverts() {
+        let e = ChannelEncoding::Float32;
+        let values = [-f32::MAX, -1.0, -1e-40, 0.0, 1e-45, 0.5, 1.0, f32::MAX];
+        let orders: Vec<i64> = values
+            .iter()
+            .map(|v| e.order_of_code(v.to_bits()))
+            .collect();
+        assert!(orders.is_sorted());
+        for (value, order) in values.iter().zip(orders) {
+            assert_eq!(e.value_of_order(order), f64::from(*value));
+        }
+    }
+
+    #[test]
+    fn every_encoding_orders_its_values_and_finds_its_codes() {
+        let encodings = [
+            ChannelEncoding::Unorm(5),
+            ChannelEncoding::Snorm(8),
+            ChannelEncoding::Srgb8,
+            ChannelEncoding::Float16,
+            ChannelEncoding::Ufloat(6),
+            ChannelEncoding::Ufloat(5),
+        ];
+        for e in encodings {
+            let orders: Vec<i64> = (e.min_order()..=e.max_order()).collect();
+            for pair in orders.windows(2) {
+                assert!(
+                    e.value_of_order(pair[0]) <= e.value_of_order(pair[1]),
+                    "{e}"
+                );
+            }
+            for order in orders {
+                assert_eq!(e.order_of_code(e.code_of_order(order)), order, "{e}");
+                let value = e.value_of_order(order);
+                let found = e.order_of_code(e.nearest_code(value));
+                assert_eq!(e.value_of_order(found), value, "{e} {order}");
+            }
+        }
+    }
+
+    #[test]
+    fn golden_values_of_packed_encodings() {
+        let value = |e: ChannelEncoding, code| e.value_of_order(e.order_of_code(code));
+        assert_eq!(value(ChannelEncoding::Ufloat(6), 0x3c0), 1.0);
+        assert_eq!(value(ChannelEncoding::Ufloat(5), 0x1e0), 1.0);
+        assert_eq!(value(ChannelEncoding::Ufloat(6), 0x7bf), 65024.0);
+        assert_eq!(value(ChannelEncoding::Float16, 0x3555), 0.333_251_953_125);
+        assert_eq!(value(ChannelEncoding::Snorm(8), 0x80), -1.0);
+        assert_eq!(value(ChannelEncoding::Snorm(8), 0x81), -1.0);
+        assert!((value(ChannelEncoding::Srgb8, 188) - 0.502_886_5).abs() < 1e-6);
+    }
+}

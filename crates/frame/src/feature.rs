@@ -1,0 +1,61 @@
+//! Capabilities that an adapter may lack.
+
+use crate::state_enum;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+state_enum! {
+    /// A capability that not every adapter has and that a scene may need.
+    Feature: array {
+        /// Alpha counting as 1 after alpha to coverage.
+        AlphaToOne = "alpha-to-one",
+        /// Attributes interpolated inside the part of a texel that a primitive covers.
+        CentroidInterpolation = "centroid-interpolation",
+        /// Shaders that promise on which side of the fragment's own depth theirs lies.
+        ConservativeDepth = "conservative-depth",
+        /// The factors `constant-alpha` and `one-minus-constant-alpha` for colour.
+        ConstantAlphaBlendFactor = "constant-alpha-blend-factor",
+        /// A limit on depth bias.
+        DepthBiasClamp = "depth-bias-clamp",
+        /// Rejecting fragments by the stored depth.
+        DepthBounds = "depth-bounds",
+        /// Depths beyond the viewport's range moved to its ends.
+        DepthClamp = "depth-clamp",
+        /// Blending with two sources.
+        DualSourceBlending = "dual-source-blending",
+        /// Shaders that run after the depth and stencil tests, whatever they do.
+        ForcedEarlyTests = "forced-early-tests",
+        /// Pipeline statistics of fragment shader runs.
+        FragmentInvocations = "fragment-invocations",
+        /// Culling front and back faces together.
+        FrontAndBackCulling = "front-and-back-culling",
+        /// Blending and write masks that differ between colour attachments.
+        IndependentBlend = "independent-blend",
+        /// Logic operations.
+        LogicOperations = "logic-operations",
+        /// The operations `min` and `max` with factors other than `one` (which they ignore).
+        MinMaxBlendFactors = "min-max-blend-factors",
+        /// A viewport of negative height, which turns the picture over.
+        MirroredViewport = "mirrored-viewport",
+        /// Drawing the edges of polygons.
+        PolygonModeLine = "polygon-mode-line",
+        /// Occlusion queries that count samples exactly.
+        PreciseOcclusion = "precise-occlusion",
+        /// Throwing primitives away before rasterization.
+        RasterizerDiscard = "rasterizer-discard",
+        /// A viewport whose near depth is above its far depth.
+        ReversedDepthRange = "reversed-depth-range",
+        /// Shaders that run once per sample and know which.
+        SampleShading = "sample-shading",
+        /// A scissor rectangle that reaches beyond the attachments.
+        ScissorOutside = "scissor-outside",
+        /// Stencil masks or references that differ between front and back faces.
+        SeparateStencilMasks = "separate-stencil-masks",
+        /// Fragment shaders that count in storage buffers.
+        StorageCounters = "storage-counters",
+        /// Triangle fans.
+        TriangleFans = "triangle-fans",
+        /// A viewport that reaches beyond the attachments.
+        ViewportOutside = "viewport-outside",
+    }
+}

@@ -1,0 +1,52 @@
+//! The questions that methods answer, each with its scenes and methods.
+
+use crate::error::ParameterError;
+use crate::method_scene::MethodScene;
+use crate::{
+    accumulation, anti_aliasing, culling, cut_outs, depth_precision, depth_shown, stencil_effects,
+    transparency, visibility_cost,
+};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A scene drawn by a method, by question.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(tag = "question", rename_all = "kebab-case")]
+pub enum MethodWire {
+    /// How see-through surfaces are put together.
+    Transparency(transparency::Wire),
+    /// How holes in a texture are drawn.
+    CutOuts(cut_outs::Wire),
+    /// How edges are smoothed.
+    AntiAliasing(anti_aliasing::Wire),
+    /// Which depths can be told apart.
+    DepthPrecision(depth_precision::Wire),
+    /// What it costs to find out what is in front.
+    VisibilityCost(visibility_cost::Wire),
+    /// What culling leaves out.
+    Culling(culling::Wire),
+    /// What is done with a stencil.
+    StencilEffects(stencil_effects::Wire),
+    /// What blending many times adds up to.
+    Accumulation(accumulation::Wire),
+    /// How depth is shown.
+    DepthShown(depth_shown::Wire),
+}
+
+/// Draws a scene by a method.
+///
+/// # Errors
+/// If a parameter is out of its range, or a method does not know the scene.
+pub fn make(wire: &MethodWire) -> Result<MethodScene, ParameterError> {
+    match wire {
+        MethodWire::Transparency(wire) => transparency::make(wire),
+        MethodWire::CutOuts(wire) => cut_outs::make(wire),
+        MethodWire::AntiAliasing(wire) => anti_aliasing::make(wire),
+        MethodWire::DepthPrecision(wire) => depth_precision::make(wire),
+        MethodWire::VisibilityCost(wire) => visibility_cost::make(wire),
+        MethodWire::Culling(wire) => culling::make(wire),
+        MethodWire::StencilEffects(wire) => stencil_effects::make(wire),
+        MethodWire::Accumulation(wire) => accumulation::make(wire),
+        MethodWire::DepthShown(wire) => depth_shown::make(wire),
+    }
+}

@@ -1,0 +1,60 @@
+//! Attachments and draws that several methods share.
+
+use super::scenes::Glass;
+use crate::polygon::{Polygon, mesh};
+use crate::stage::{SIZE, Stage, depth, draw};
+use etalon_frame::TextureFormat;
+use etalon_scene::{CompareFunction, Draw, Shader};
+
+/// The format of pictures.
+pub(super) const PICTURE: TextureFormat = TextureFormat::Rgba8Unorm;
+
+/// The format of depths.
+pub(super) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
+
+/// The background's colour, opaque.
+pub(super) fn clear(glass: &Glass) -> [f64; 4] {
+    let [r, g, b] = glass.background;
+    [r, g, b, 1.0]
+}
+
+/// Adds a cleared depth attachment.
+pub(super) fn depths(stage: &mut Stage, samples: u32) -> usize {
+    stage.depth("depth", DEPTH, SIZE, samples, 1.0)
+}
+
+/// A draw of the opaque polygons, with depth; `None` where there are none.
+pub(super) fn opaque(glass: &Glass, shader: Shader) -> Option<Draw> {
+    if glass.opaque.is_empty() {
+        return None;
+    }
+    let mut draw = draw(shader, mesh(SIZE, &glass.opaque));
+    draw.depth = depth(CompareFunction::Less, true);
+    Some(draw)
+}
+
+/// A draw of the opaque polygons for their depth alone.
+pub(super) fn opaque_depth(glass: &Glass, shader: Shader) -> Option<Draw> {
+    let mut draw = opaque(glass, shader)?;
+    for target in &mut draw.targets {
+        target.write_mask = 0;
+    }
+    Some(draw)
+}
+
+/// A draw of the opaque polygons' colours, the farthest first, without depth.
+pub(super) fn opaque_color(glass: &Glass) -> Option<Draw> {
+    let mut polygons = glass.opaque.clone();
+    polygons.sort_by(|a, b| b.corners[0][2].total_cmp(&a.corners[0][2]));
+    let some = !polygons.is_empty();
+    some.then(|| draw(Shader::FlatColor, mesh(SIZE, &polygons)))
+}
+
+/// The polygon with its colour multiplied by its alpha.
+pub(super) fn premultiplied(polygon: &Polygon) -> Polygon {
+    let [r, g, b, a] = polygon.color;
+    Polygon {
+        color: [r * a, g * a, b * a, a],
+        ..polygon.clone()
+    }
+}

@@ -1,0 +1,36 @@
+//! Attachments.
+
+use etalon_frame::TextureFormat;
+use serde::{Deserialize, Serialize};
+
+/// One texture.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Attachment {
+    /// Name in the case file.
+    pub name: String,
+    /// Format.
+    pub format: TextureFormat,
+    /// Width and height in texels.
+    pub size: [u32; 2],
+    /// Samples per texel.
+    pub samples: u32,
+    /// The initial contents. Every attachment is initialised before the first pass.
+    pub contents: Contents,
+}
+
+/// The initial contents of an attachment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Contents {
+    /// A colour clear in red, green, blue, alpha, converted by the API.
+    Color([f32; 4]),
+    /// A depth and stencil clear; the part that the format lacks is ignored.
+    DepthStencil {
+        /// Depth in 0..=1.
+        depth: f32,
+        /// Stencil.
+        stencil: u8,
+    },
+    /// Uploaded codes, index `(y * width + x) * channels + channel`, row 0 at the top. Only
+    /// single-sample colour.
+    Texels(Vec<u32>),
+}

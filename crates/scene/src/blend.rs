@@ -1,0 +1,154 @@
+//! Blending, logic operations and write masks.
+
+use etalon_frame::state_enum;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+state_enum! {
+    /// A factor of a blend equation.
+    BlendFactor {
+        /// 0.
+        Zero = "zero",
+        /// 1.
+        One = "one",
+        /// The source, channel by channel.
+        Src = "src",
+        /// 1 minus the source.
+        OneMinusSrc = "one-minus-src",
+        /// The source's alpha.
+        SrcAlpha = "src-alpha",
+        /// 1 minus the source's alpha.
+        OneMinusSrcAlpha = "one-minus-src-alpha",
+        /// The destination, channel by channel.
+        Dst = "dst",
+        /// 1 minus the destination.
+        OneMinusDst = "one-minus-dst",
+        /// The destination's alpha.
+        DstAlpha = "dst-alpha",
+        /// 1 minus the destination's alpha.
+        OneMinusDstAlpha = "one-minus-dst-alpha",
+        /// min(source alpha, 1 - destination alpha); 1 for alpha.
+        SrcAlphaSaturated = "src-alpha-saturated",
+        /// The blend constant, channel by channel.
+        Constant = "constant",
+        /// 1 minus the blend constant.
+        OneMinusConstant = "one-minus-constant",
+        /// The blend constant's alpha.
+        ConstantAlpha = "constant-alpha",
+        /// 1 minus the blend constant's alpha.
+        OneMinusConstantAlpha = "one-minus-constant-alpha",
+        /// The second source, channel by channel.
+        Src1 = "src1",
+        /// 1 minus the second source.
+        OneMinusSrc1 = "one-minus-src1",
+        /// The second source's alpha.
+        Src1Alpha = "src1-alpha",
+        /// 1 minus the second source's alpha.
+        OneMinusSrc1Alpha = "one-minus-src1-alpha",
+    }
+}
+
+impl BlendFactor {
+    /// True if the factor comes from the second source.
+    pub fn is_second_source(self) -> bool {
+        matches!(
+            self,
+            Self::Src1 | Self::OneMinusSrc1 | Self::Src1Alpha | Self::OneMinusSrc1Alpha
+        )
+    }
+}
+
+state_enum! {
+    /// How the two weighted sides of a blend equation are joined.
+    BlendOperation {
+        /// Source plus destination.
+        Add = "add",
+        /// Source minus destination.
+        Subtract = "subtract",
+        /// Destination minus source.
+        ReverseSubtract = "reverse-subtract",
+        /// The smaller of the two, factors ignored.
+        Min = "min",
+        /// The larger of the two, factors ignored.
+        Max = "max",
+    }
+}
+
+/// One blend equation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BlendComponent {
+    /// The operation.
+    pub operation: BlendOperation,
+    /// The source's factor.
+    pub src_factor: BlendFactor,
+    /// The destination's factor.
+    pub dst_factor: BlendFactor,
+}
+
+/// Blending of one attachment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BlendState {
+    /// Red, green and blue.
+    pub color: BlendComponent,
+    /// Alpha.
+    pub alpha: BlendComponent,
+}
+
+/// The state of a draw for one colour attachment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct ColorTarget {
+    /// Blending; `None` is off.
+    pub blend: Option<BlendState>,
+    /// Written channels: bit 0 red to bit 3 alpha.
+    pub write_mask: u8,
+}
+
+impl Default for ColorTarget {
+    /// All channels, not blended.
+    fn default() -> Self {
+        Self {
+            blend: None,
+            write_mask: 0b1111,
+        }
+    }
+}
+
+state_enum! {
+    /// What a logic operation makes of the bits of source `s` and destination `d`.
+    LogicOperation {
+        /// 0.
+        Clear = "clear",
+        /// `s & d`.
+        And = "and",
+        /// `s & !d`.
+        AndReverse = "and-reverse",
+        /// `s`.
+        Copy = "copy",
+        /// `!s & d`.
+        AndInverted = "and-inverted",
+        /// `d`.
+        Noop = "noop",
+        /// `s ^ d`.
+        Xor = "xor",
+        /// `s | d`.
+        Or = "or",
+        /// `!(s | d)`.
+        Nor = "nor",
+        /// `!(s ^ d)`.
+        Equivalent = "equivalent",
+        /// `!d`.
+        Invert = "invert",
+        /// `s | !d`.
+        OrReverse = "or-reverse",
+        /// `!s`.
+        CopyInverted = "copy-inverted",
+        /// `!s | d`.
+        OrInverted = "or-inverted",
+        /// `!(s & d)`.
+        Nand = "nand",
+        /// All bits.
+        Set = "set",
+    }
+}

@@ -1,0 +1,101 @@
+//! Depth and stencil tests.
+
+use etalon_frame::state_enum;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+state_enum! {
+    /// A depth or stencil comparison: incoming (reference) value on the left, stored on the right.
+    CompareFunction {
+        /// Never true.
+        Never = "never",
+        /// Incoming below stored.
+        Less = "less",
+        /// Incoming equals stored.
+        Equal = "equal",
+        /// Incoming not above stored.
+        LessEqual = "less-equal",
+        /// Incoming above stored.
+        Greater = "greater",
+        /// Incoming differs from stored.
+        NotEqual = "not-equal",
+        /// Incoming not below stored.
+        GreaterEqual = "greater-equal",
+        /// Always true.
+        Always = "always",
+    }
+}
+
+/// The depth test of a draw. A draw without one neither tests nor writes depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DepthState {
+    /// The comparison, incoming depth on the left.
+    pub compare: CompareFunction,
+    /// Whether passing fragments store their depth.
+    pub write: bool,
+}
+
+/// What is added to a polygon's depth: `constant * r + slope * m`, where `r` is the least step of
+/// the attachment's depth and `m` the polygon's steepest slope, then held to `clamp` where that is
+/// not 0. Off when all are 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct DepthBias {
+    /// In least steps; WebGPU wants an integer.
+    pub constant: i32,
+    /// Per unit of slope.
+    pub slope: f32,
+    /// The most that is added, or with a minus sign the least.
+    pub clamp: f32,
+}
+
+state_enum! {
+    /// What happens to a stored stencil value.
+    StencilOperation {
+        /// Unchanged.
+        Keep = "keep",
+        /// Set to 0.
+        Zero = "zero",
+        /// Set to the reference.
+        Replace = "replace",
+        /// All bits inverted.
+        Invert = "invert",
+        /// Plus one, held at the largest value.
+        IncrementClamp = "increment-clamp",
+        /// Minus one, held at 0.
+        DecrementClamp = "decrement-clamp",
+        /// Plus one, the largest value becoming 0.
+        IncrementWrap = "increment-wrap",
+        /// Minus one, 0 becoming the largest value.
+        DecrementWrap = "decrement-wrap",
+    }
+}
+
+/// The stencil test of a draw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct StencilState {
+    /// For front faces.
+    pub front: StencilFace,
+    /// For back faces.
+    pub back: StencilFace,
+}
+
+/// The stencil test for one face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct StencilFace {
+    /// The comparison: masked reference on the left, masked stored value on the right.
+    pub compare: CompareFunction,
+    /// The operation where the stencil test fails.
+    pub fail_op: StencilOperation,
+    /// The operation where the stencil test passes and the depth test fails.
+    pub depth_fail_op: StencilOperation,
+    /// The operation where both pass.
+    pub pass_op: StencilOperation,
+    /// Bits that take part in the comparison.
+    pub read_mask: u8,
+    /// Bits that an operation may change.
+    pub write_mask: u8,
+    /// The reference.
+    pub reference: u8,
+}

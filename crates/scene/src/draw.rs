@@ -1,0 +1,118 @@
+//! Draws and their state.
+
+use crate::blend::{ColorTarget, LogicOperation};
+use crate::depth_stencil::{DepthBias, DepthState, StencilState};
+use crate::early_tests::EarlyTests;
+use crate::mesh::Mesh;
+use crate::rasterization::{
+    CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, Viewport,
+};
+use crate::sampler::Sampler;
+use crate::shader::Shader;
+use serde::{Deserialize, Serialize};
+
+/// One draw call with all its state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Draw {
+    /// Vertices.
+    pub mesh: Mesh,
+    /// The topology.
+    pub topology: PrimitiveTopology,
+    /// Vertex and fragment shader.
+    pub shader: Shader,
+    /// The shader's parameters.
+    pub params: Params,
+    /// When the fragment tests happen.
+    pub early_tests: EarlyTests,
+    /// Indices of the attachments that the shader reads: single-sample colour, as it was uploaded,
+    /// cleared or left by earlier passes, and no part of the pass.
+    pub textures: Vec<usize>,
+    /// The sampler of the textures; `None` where the shader fetches single texels.
+    pub sampler: Option<Sampler>,
+    /// Indices of the scene's counters that this draw adds to: one of each kind at most, and one
+    /// occlusion query at most.
+    pub counters: Vec<usize>,
+    /// Culled faces.
+    pub cull: CullMode,
+    /// The front face's winding.
+    pub front_face: FrontFace,
+    /// Inside or edges.
+    pub polygon_mode: PolygonMode,
+    /// True if primitives are discarded before rasterization.
+    pub rasterizer_discard: bool,
+    /// The viewport.
+    pub viewport: Viewport,
+    /// Left, top, width and height of the texels that may be written; `None` is all.
+    pub scissor: Option<[u32; 4]>,
+    /// The depth bias of polygons.
+    pub depth_bias: DepthBias,
+    /// True if depths beyond the viewport's range are clamped instead of clipped.
+    pub depth_clamp: bool,
+    /// Stored depths outside this range reject fragments; `None` is off.
+    pub depth_bounds: Option<[f32; 2]>,
+    /// Depth test; `None` is off.
+    pub depth: Option<DepthState>,
+    /// Stencil test; `None` is off.
+    pub stencil: Option<StencilState>,
+    /// One per colour attachment of the pass.
+    pub targets: Vec<ColorTarget>,
+    /// The logic operation of all targets, instead of blending; `None` is off.
+    pub logic: Option<LogicOperation>,
+    /// The samples that are drawn.
+    pub multisample: Multisample,
+    /// The blend constant in red, green, blue, alpha.
+    pub blend_constant: [f32; 4],
+}
+
+impl Draw {
+    /// A draw of triangles with every test off and no blending, to one colour attachment.
+    pub fn new(shader: Shader, mesh: Mesh, viewport: Viewport) -> Self {
+        Self {
+            mesh,
+            topology: PrimitiveTopology::TriangleList,
+            shader,
+            params: Params::default(),
+            early_tests: EarlyTests::Implicit,
+            textures: Vec::new(),
+            sampler: None,
+            counters: Vec::new(),
+            cull: CullMode::None,
+            front_face: FrontFace::Ccw,
+            polygon_mode: PolygonMode::Fill,
+            rasterizer_discard: false,
+            viewport,
+            scissor: None,
+            depth_bias: DepthBias::default(),
+            depth_clamp: false,
+            depth_bounds: None,
+            depth: None,
+            stencil: None,
+            targets: vec![ColorTarget::default()],
+            logic: None,
+            multisample: Multisample::default(),
+            blend_constant: [0.0; 4],
+        }
+    }
+}
+
+/// The parameter block: 32 bytes of uniform memory, in this order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[repr(C)]
+pub struct Params {
+    /// A colour.
+    pub color: [f32; 4],
+    /// A second colour, of back faces.
+    pub back_color: [f32; 4],
+}
+
+impl Params {
+    /// The block as the shader sees it: two `vec4f`, little endian.
+    pub fn to_bytes(self) -> [u8; 32] {
+        let mut bytes = [0; 32];
+        let values = self.color.iter().chain(&self.back_color);
+        for (chunk, value) in bytes.chunks_exact_mut(4).zip(values) {
+            chunk.copy_from_slice(&value.to_le_bytes());
+        }
+        bytes
+    }
+}

@@ -1,0 +1,262 @@
+//! Meshes as case files describe them, and their expansion.
+
+mod builder;
+mod splat;
+mod surface;
+#[cfg(test)]
+mod tests;
+
+pub use splat::Splat;
+
+use crate::mesh::{Mesh, RESTART, Vertex};
+use crate::rasterization::FrontFace;
+use builder::Builder;
+use glam::DVec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A mesh as a case file describes it.
+///
+/// Rectangles are given in texels of the draw's viewport and cover the samples at texel centres
+/// of a single-sample attachment, no others: every edge keeps at least 0.17 texels away from every
+/// centre, so that no legal snapping of vertices changes what is covered. Attributes are constant
+/// over each triangle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum MeshSource {
+    /// The whole attachment.
+    Full {
+        /// Vertex depth.
+        #[serde(default)]
+        z: f32,
+        /// The vertex colour.
+        #[serde(default)]
+        value: Splat,
+        /// The winding.
+        #[serde(default = "ccw")]
+        winding: FrontFace,
+    },
+    /// Everything, every sample of every texel: one triangle that reaches far beyond the viewport.
+    Cover {
+        /// Vertex depth.
+        #[serde(default)]
+        z: f32,
+        /// The vertex colour.
+        #[serde(default)]
+        value: Splat,
+        /// Texture coordinates at the viewport's left, top, right and bottom edge.
+        #[serde(default)]
+        uv: [f32; 4],
+    },
+    /// A rectangle.
+    Rect {
+        /// Left, top, right and bottom edge in texels.
+        texels: [u32; 4],
+        /// Vertex depth.
+        #[serde(default)]
+        z: f32,
+        /// The vertex colour.
+        #[serde(default)]
+        value: Splat,
+        /// The winding.
+        #[serde(default = "ccw")]
+        winding: FrontFace,
+    },
+    /// The attachment divided into columns of equal width as far as whole texels allow.
+    Columns {
+        /// The vertex colour of each column.
+        values: Vec<Splat>,
+        /// Vertex depths of the columns, repeated as needed.
+        #[serde(default = "zero")]
+        z: Vec<f32>,
+        /// Windings of the columns, repeated as needed.
+        #[serde(default = "one_ccw")]
+        windings: Vec<FrontFace>,
+    },
+    /// The attachment divided into rows of equal height as far as whole texels allow.
+    Rows {
+        /// The vertex colour of each row.
+        values: Vec<Splat>,
+        /// Vertex depths of the rows, repeated as needed.
+        #[serde(default = "zero")]
+        z: Vec<f32>,
+        /// Windings of the rows, repeated as needed.
+        #[serde(default = "one_ccw")]
+        windings: Vec<FrontFace>,
+    },
+    /// Several layers over everything, one [`MeshSource::Cover`] after the other.
+    Stack {
+        /// Vertex depth of each layer, in the order of drawing.
+        z: Vec<f32>,
+        /// Vertex colours of the layers, repeated as needed.
+        #[serde(default = "one_splat")]
+        values: Vec<Splat>,
+    },
+    /// The whole viewport as a sheet of triangles that share their vertices, two to a cell.
+    ///
+    /// Cells are alike but for the first of each row and column, which is narrower: so the lines between
+    /// cells keep a quarter of a cell or of a texel, whichever is less, away from texel centres, where the
+    /// cells' sides are whole texels or whole parts of one. Elsewhere edges may pass through centres, and
+    /// two triangles share what they cover there.
+    Grid {
+        /// How many cells lie side by side and one above the other.
+        cells: [u32; 2],
+        /// Vertex depth.
+        #[serde(default)]
+        z: f32,
+        /// The vertex colour.
+        #[serde(default)]
+        value: Splat,
+    },
+    /// A torus seen along its axis: a closed mesh whose front half hides the back half. Triangles share
+    /// their vertices; seen from outside, they are counter-clockwise. Its middle lies in the viewport's
+    /// middle, at depth 0.5.
+    Torus {
+        /// How many segments lie around the axis and around the tube, each at least 3.
+        segments: [u32; 2],
+        /// The vertex colour.
+        #[serde(default)]
+        value: Splat,
+    },
+    /// Vertices one by one.
+    Vertices {
+        /// Positions x, y, z.
+        positions: Vec<[f32; 3]>,
+        /// What x and y count: clip space, or texels from the top left corner.
+        #[serde(default)]
+        units: Units,
+        /// Which vertices are drawn, in order; `null` ends a strip. Without it, all in order.
+        #[serde(default)]
+        indices: Option<Vec<Option<u32>>>,
+        /// Vertex colours, repeated as needed.
+        #[serde(default = "one_splat")]
+        values: Vec<Splat>,
+        /// Texture coordinates, repeated as needed.
+        #[serde(default = "one_uv")]
+        uv: Vec<[f32; 2]>,
+    },
+}
+
+/// What the positions of single vertices count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Units {
+    /// Clip space: -1 to 1, y up.
+    #[default]
+    Clip,
+    /// Texels from the top left corner, y down.
+    Texels,
+}
+
+fn ccw() -> FrontFace {
+    FrontFace::Ccw
+}
+
+fn one_ccw() -> Vec<FrontFace> {
+    vec![FrontFace::Ccw]
+}
+
+fn zero() -> Vec<f32> {
+    vec![0.0]
+}
+
+fn one_uv() -> Vec<[f32; 2]> {
+    vec![[0.0; 2]]
+}
+
+fn one_splat() -> Vec<Splat> {
+    vec![Splat::default()]
+}
+
+impl MeshSource {
+    /// The mesh for a viewport of a size in texels, or what is wrong with the description.
+    ///
+    /// # Errors
+    /// A sentence when a list is empty, a rectangle is empty or reaches outside, or a part would
+    /// be narrower than a texel.
+    pub fn expand(&self, size: [u32; 2]) -> Result<Mesh, String> {
+        let mut builder = Builder::new(size);
+        let mut indices = None;
+        match self {
+            Self::Full { z, value, winding } => {
+                builder.rect([0, 0, size[0], size[1]], *z, value.0, *winding)?;
+            }
+            Self::Cover { z, value, uv } => builder.cover(*z, value.0, *uv),
+            Self::Stack { z, values } => {
+                if z.is_empty() || values.is_empty() {
+                    return Err("`z` and `values` must not be empty".to_owned());
+                }
+                for (z, value) in z.iter().zip(values.iter().cycle()) {
+                    builder.cover(*z, value.0, [0.0; 4]);
+                }
+            }
+            Self::Grid { cells, z, value } => {
+                indices = Some(builder.grid(*cells, *z, value.0)?);
+            }
+            Self::Torus { segments, value } => {
+                indices = Some(builder.torus(*segments, value.0)?);
+            }
+            Self::Rect {
+                texels,
+                z,
+                value,
+                winding,
+            } => builder.rect(*texels, *z, value.0, *winding)?,
+            Self::Columns {
+                values,
+                z,
+                windings,
+            } => builder.bands(values, z, windings, true)?,
+            Self::Rows {
+                values,
+                z,
+                windings,
+            } => builder.bands(values, z, windings, false)?,
+            Self::Vertices {
+                positions,
+                units,
+                indices: list,
+                values,
+                uv,
+            } => {
+                if values.is_empty() || uv.is_empty() {
+                    return Err("`values` and `uv` must not be empty".to_owned());
+                }
+                let attributes = values.iter().cycle().zip(uv.iter().cycle());
+                for (position, (value, uv)) in positions.iter().zip(attributes) {
+                    let [x, y, z] = *position;
+                    let position = match units {
+                        Units::Clip => [x, y, z, 1.0],
+                        Units::Texels => {
+                            let corner = DVec2::new(f64::from(x), f64::from(y));
+                            builder.clip(corner, z)
+                        }
+                    };
+                    builder.vertices.push(Vertex {
+                        position,
+                        color: value.0,
+                        uv: *uv,
+                    });
+                }
+                if let Some(list) = list {
+                    let count = positions.len() as u32;
+                    if let Some(wrong) = list.iter().flatten().find(|i| **i >= count) {
+                        return Err(format!("index {wrong} names none of {count} vertices"));
+                    }
+                    indices = Some(list.iter().map(|i| i.unwrap_or(RESTART)).collect());
+                }
+            }
+        }
+        let finite = |v: &Vertex| {
+            let all = v.position.iter().chain(&v.color).chain(&v.uv);
+            all.into_iter().all(|c| c.is_finite())
+        };
+        if !builder.vertices.iter().all(finite) {
+            return Err("a vertex holds a value that is not a finite 32-bit float".to_owned());
+        }
+        Ok(Mesh {
+            vertices: builder.vertices,
+            indices,
+        })
+    }
+}

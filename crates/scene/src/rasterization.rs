@@ -1,0 +1,111 @@
+//! Rasterization: topology, faces, viewport and samples.
+
+use etalon_frame::state_enum;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+state_enum! {
+    /// How vertices become primitives.
+    PrimitiveTopology {
+        /// Each vertex a point of one texel.
+        PointList = "point-list",
+        /// Two vertices a line one texel wide.
+        LineList = "line-list",
+        /// A line from each vertex to the next.
+        LineStrip = "line-strip",
+        /// Three vertices a triangle.
+        TriangleList = "triangle-list",
+        /// Each vertex after the second makes a triangle with the two before it.
+        TriangleStrip = "triangle-strip",
+        /// Each vertex after the second makes a triangle with the first and the one before it.
+        TriangleFan = "triangle-fan",
+    }
+}
+
+state_enum! {
+    /// What becomes of a polygon.
+    PolygonMode {
+        /// Its inside.
+        Fill = "fill",
+        /// Its edges, one texel wide.
+        Line = "line",
+    }
+}
+
+state_enum! {
+    /// Which faces are culled.
+    CullMode {
+        /// None.
+        None = "none",
+        /// Front faces.
+        Front = "front",
+        /// Back faces.
+        Back = "back",
+        /// Both; points and lines remain.
+        FrontAndBack = "front-and-back",
+    }
+}
+
+state_enum! {
+    /// Which winding is a front face.
+    FrontFace {
+        /// Counter-clockwise.
+        Ccw = "ccw",
+        /// Clockwise.
+        Cw = "cw",
+    }
+}
+
+/// Where clip space lies in the attachments.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Viewport {
+    /// Left, top, width and height in texels. With a height below 0 the picture is turned over and
+    /// the second number is its bottom (Vulkan, Controlling the Viewport).
+    pub rect: [f32; 4],
+    /// Window depths of clip depths 0 and 1; reversed when the first is larger.
+    pub depth: [f32; 2],
+}
+
+impl Viewport {
+    /// The viewport over all of attachments of a size, with depths 0 to 1.
+    pub fn whole(size: [u32; 2]) -> Self {
+        Self {
+            rect: [0.0, 0.0, size[0] as f32, size[1] as f32],
+            depth: [0.0, 1.0],
+        }
+    }
+
+    /// Left, top, width and height of what the viewport covers, whichever way the picture stands.
+    pub fn area(&self) -> [f32; 4] {
+        let [x, y, w, h] = self.rect;
+        [x, y.min(y + h), w, h.abs()]
+    }
+
+    /// True if the picture is flipped.
+    pub fn is_mirrored(&self) -> bool {
+        self.rect[3] < 0.0
+    }
+}
+
+/// Which samples of a fragment are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Multisample {
+    /// Bit `i` lets sample `i` through.
+    pub mask: u32,
+    /// Whether alpha takes samples away.
+    pub alpha_to_coverage: bool,
+    /// Whether alpha then counts as 1.
+    pub alpha_to_one: bool,
+}
+
+impl Default for Multisample {
+    fn default() -> Self {
+        Self {
+            mask: u32::MAX,
+            alpha_to_coverage: false,
+            alpha_to_one: false,
+        }
+    }
+}

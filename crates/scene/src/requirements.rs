@@ -1,0 +1,133 @@
+//! Requirements of a scene: the formats, sizes, counts and features that an adapter must have.
+
+use crate::blend::{BlendFactor, BlendOperation};
+use crate::depth_stencil::StencilFace;
+use crate::draw::Draw;
+use crate::early_tests::EarlyTests;
+use crate::rasterization::{CullMode, PolygonMode, PrimitiveTopology};
+use crate::scene::Scene;
+use etalon_frame::{CounterKind, Feature, Requirement};
+use std::collections::BTreeSet;
+
+impl Scene {
+    /// Returns the requirements of the scene, without repetition, in ascending order.
+    pub fn requirements(&self) -> Vec<Requirement> {
+        let mut needed = BTreeSet::new();
+        for attachment in &self.attachments {
+            needed.insert(Requirement::Format(attachment.format));
+            if attachment.samples > 1 {
+                needed.insert(Requirement::Samples(attachment.format, attachment.samples));
+            }
+            let largest = attachment.size[0].max(attachment.size[1]);
+            needed.insert(Requirement::Size(largest));
+        }
+        for counter in &self.counters {
+            needed.extend(match counter.kind {
+                CounterKind::SamplesPassed => Some(Requirement::Feature(Feature::PreciseOcclusion)),
+                CounterKind::AnySamplesPassed => None,
+                CounterKind::ShaderRuns => Some(Requirement::Feature(Feature::StorageCounters)),
+                CounterKind::FragmentInvocations => {
+                    Some(Requirement::Feature(Feature::FragmentInvocations))
+                }
+            });
+        }
+        for pass in &self.passes {
+            let size = self.pass_size(pass);
+            needed.insert(Requirement::ColorAttachments(pass.color.len() as u32));
+            for draw in &pass.draws {
+                needed.extend(features(draw, size).into_iter().map(Requirement::Feature));
+                for (target, index) in draw.targets.iter().zip(&pass.color) {
+                    if target.blend.is_some() {
+                        needed.insert(Requirement::Blending(self.attachments[*index].format));
+                    }
+                }
+            }
+            for index in pass.color.iter().chain(&pass.depth_stencil) {
+                needed.insert(Requirement::Drawing(self.attachments[*index].format));
+            }
+        }
+        needed.into_iter().collect()
+    }
+}
+
+/// The features that a draw needs over attachments of a size.
+fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
+    let mut needed = Vec::new();
+    let mut need = |when: bool, feature: Feature| {
+        if when {
+            needed.push(feature);
+        }
+    };
+    need(
+        draw.cull == CullMode::FrontAndBack,
+        Feature::FrontAndBackCulling,
+    );
+    need(
+        draw.topology == PrimitiveTopology::TriangleFan,
+        Feature::TriangleFans,
+    );
+    need(
+        draw.polygon_mode == PolygonMode::Line,
+        Feature::PolygonModeLine,
+    );
+    need(draw.rasterizer_discard, Feature::RasterizerDiscard);
+    need(draw.logic.is_some(), Feature::LogicOperations);
+    need(draw.depth_clamp, Feature::DepthClamp);
+    need(draw.depth_bounds.is_some(), Feature::DepthBounds);
+    need(draw.depth_bias.clamp != 0.0, Feature::DepthBiasClamp);
+    need(
+        draw.viewport.depth[0] > draw.viewport.depth[1],
+        Feature::ReversedDepthRange,
+    );
+    need(draw.viewport.is_mirrored(), Feature::MirroredViewport);
+    let [x, y, w, h] = draw.viewport.area();
+    let outside = x < 0.0 || y < 0.0 || x + w > size[0] as f32 || y + h > size[1] as f32;
+    need(outside, Feature::ViewportOutside);
+    if let Some([x, y, w, h]) = draw.scissor {
+        let outside = x.saturating_add(w) > size[0] || y.saturating_add(h) > size[1];
+        need(outside, Feature::ScissorOutside);
+    }
+    let early = draw.early_tests;
+    need(early == EarlyTests::Forced, Feature::ForcedEarlyTests);
+    need(early.is_conservative(), Feature::ConservativeDepth);
+    need(
+        draw.shader.interpolates_at_centroid(),
+        Feature::CentroidInterpolation,
+    );
+    need(draw.multisample.alpha_to_one, Feature::AlphaToOne);
+    need(draw.shader.runs_per_sample(), Feature::SampleShading);
+    need(draw.shader.has_second_source(), Feature::DualSourceBlending);
+    need(
+        draw.targets.windows(2).any(|pair| pair[0] != pair[1]),
+        Feature::IndependentBlend,
+    );
+    if let Some(stencil) = &draw.stencil {
+        let key = |f: &StencilFace| (f.read_mask, f.write_mask, f.reference);
+        need(
+            key(&stencil.front) != key(&stencil.back),
+            Feature::SeparateStencilMasks,
+        );
+    }
+    for blend in draw.targets.iter().filter_map(|t| t.blend) {
+        let constant_alpha = [
+            BlendFactor::ConstantAlpha,
+            BlendFactor::OneMinusConstantAlpha,
+        ];
+        for (component, is_color) in [(blend.color, true), (blend.alpha, false)] {
+            let factors = [component.src_factor, component.dst_factor];
+            let ignores = matches!(
+                component.operation,
+                BlendOperation::Min | BlendOperation::Max
+            );
+            need(
+                ignores && factors != [BlendFactor::One; 2],
+                Feature::MinMaxBlendFactors,
+            );
+            need(
+                is_color && factors.iter().any(|f| constant_alpha.contains(f)),
+                Feature::ConstantAlphaBlendFactor,
+            );
+        }
+    }
+    needed
+}

@@ -1,0 +1,37 @@
+//! Samplers.
+
+use etalon_frame::state_enum;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How a shader samples its texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Sampler {
+    /// The filter, for magnification and minification alike.
+    pub filter: FilterMode,
+    /// Across and down.
+    pub address: [AddressMode; 2],
+}
+
+state_enum! {
+    /// How a sampler makes a value of the texels around a coordinate.
+    FilterMode {
+        /// The nearest texel.
+        Nearest = "nearest",
+        /// The weighted average of the four texels around it.
+        Linear = "linear",
+    }
+}
+
+state_enum! {
+    /// What a texture coordinate beyond the texture means.
+    AddressMode {
+        /// The outermost texel.
+        ClampToEdge = "clamp-to-edge",
+        /// The texture again.
+        Repeat = "repeat",
+        /// The texture again, every other time mirrored.
+        MirrorRepeat = "mirror-repeat",
+    }
+}
