@@ -119,7 +119,7 @@ fn counters(list: &mut List) {
     );
     list.add(
         "counts-for-the-draw-before",
-        "state left from the draw before",
+        "state of the previous draw",
         "A draw counts for the counters of the draw before it.",
         from_draw(|before, draw| {
             if !before.counters.is_empty() && !draw.counters.is_empty() {
@@ -129,7 +129,7 @@ fn counters(list: &mut List) {
     );
     list.add(
         "query-never-ends",
-        "state left from the draw before",
+        "state of the previous draw",
         "A counter continues through later draws.",
         Plant::Scene(Box::new(|scene| {
             let scene_counters = scene.counters.clone();

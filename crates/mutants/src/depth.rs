@@ -153,7 +153,7 @@ fn writes(list: &mut List) {
     );
     list.add(
         "shader-depth-ignored",
-        "the vertex depth kept in spite of a written one",
+        "the vertex depth kept despite a written one",
         "The depth that the shader writes is ignored.",
         draws(|draw| {
             if draw.shader == Shader::FlatColorDepth {

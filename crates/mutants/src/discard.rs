@@ -37,5 +37,5 @@ fn discards(list: &mut List) {
     fn plant(bug: Keeps) -> Plant {
         kept(bug)
     }
-    list.rows("a discard that is not done as written", plant, &rows);
+    list.rows("a wrong discard condition", plant, &rows);
 }

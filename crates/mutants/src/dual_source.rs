@@ -81,5 +81,5 @@ fn second_sources(list: &mut List) {
             faithful_blend(state, encodings, &changed)
         })
     }
-    list.rows("a second source lost on its way", sources, &rows);
+    list.rows("a lost second source", sources, &rows);
 }

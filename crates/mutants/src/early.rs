@@ -43,7 +43,7 @@ fn tests(list: &mut List) {
         ),
         (
             "tested-before-side-effects",
-            "softpipe: late tests that come early",
+            "softpipe: late tests performed early",
             "Shaders that count their runs are tested early.",
             |draw| draw.shader.counts_runs(),
         ),
@@ -88,7 +88,7 @@ fn tests(list: &mut List) {
     );
     list.add(
         "sticky-forced",
-        "state left from the draw before",
+        "state of the previous draw",
         "A draw after one with forced early tests has them too.",
         from_draw(|before, draw| {
             if before.early_tests == EarlyTests::Forced {

@@ -139,7 +139,7 @@ fn positions(list: &mut List) {
     ] {
         list.add(
             name,
-            "texel centres at whole numbers, as in Direct3D 9",
+            "texel centres at integers, as in Direct3D 9",
             "Everything is drawn half a texel off.",
             shifted(right, down),
         );
@@ -180,7 +180,7 @@ fn vertex_depth(list: &mut List) {
     };
     list.add(
         "depth-from-minus-one",
-        "OpenGL's range of -1 to 1 left on",
+        "OpenGL's depth range of -1 to 1",
         "Vertex depths are mapped from -1 to 1.",
         depths(|z| z * 0.5 + 0.5),
     );

@@ -196,7 +196,7 @@ fn multisampled(list: &mut List, aspect: Aspect) {
     for (bug, about, from) in orders {
         list.add(
             &format!("{name}-{bug}"),
-            "a sample index that is off",
+            "a wrong sample index",
             format!("The {name} image is read back {about}."),
             samples(aspect, from),
         );

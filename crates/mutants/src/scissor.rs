@@ -112,11 +112,7 @@ fn rects(list: &mut List) {
             },
         ),
     ];
-    list.rows(
-        "ANGLE: y flip, and other readings of a rectangle",
-        scissors,
-        &confused,
-    );
+    list.rows("ANGLE: y flip; misread rectangles", scissors, &confused);
     list.add(
         "kept-where-none-is-set",
         CONFUSION,

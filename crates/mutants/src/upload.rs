@@ -92,7 +92,7 @@ fn uploads(list: &mut List) {
             },
         ),
     ];
-    list.rows("a row pitch or origin that is off", texels, &places);
+    list.rows("a wrong row pitch or origin", texels, &places);
     type Code = (&'static str, TextureFormat, &'static str, fn(u32) -> u32);
     let precisions: [Code; 5] = [
         (

@@ -110,11 +110,7 @@ fn viewports(list: &mut List) {
             },
         ),
     ];
-    list.rows(
-        "ANGLE: y flip, and other readings of a rectangle",
-        rects,
-        &confused,
-    );
+    list.rows("ANGLE: y flip; misread rectangles", rects, &confused);
     list.add(
         "not-clipping",
         "a guard band without clipping",

@@ -28,7 +28,7 @@ fn constants(list: &mut List) {
             draws(move |draw| draw.blend_constant = bug(draw.blend_constant)),
         );
     };
-    let fuzzy = "a blend constant that dEQP's own groups do not see to be wrong";
+    let fuzzy = "a wrong blend constant, which dEQP's groups do not see";
     add(
         "constant-in-5-bits",
         fuzzy,
