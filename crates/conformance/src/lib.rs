@@ -20,7 +20,8 @@ mod subject;
 pub use checks::{CHECKS, Check};
 pub use child::in_child;
 pub use driver::{
-    Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, ZINK, in_driver, run, run_all, variables,
+    Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, SOFTPIPE_DEFECTS, ZINK, in_driver, run, run_all,
+    variables,
 };
 pub use library::{Share, draw_library};
 pub use scenes::scene;

@@ -139,13 +139,10 @@ pub(crate) fn what_was_resolved_is_read(s: &Subject) -> Checked {
         &["shown"],
     );
     let frame = s.draw(&scene)?;
-    check(color(&frame, "shown"), |x, y| {
-        let due = match y {
-            0..3 if x < 5 => RED,
-            3.. if x >= 2 => GREEN,
-            _ => NONE,
-        };
-        due
+    check(color(&frame, "shown"), |x, y| match y {
+        0..3 if x < 5 => RED,
+        3.. if x >= 2 => GREEN,
+        _ => NONE,
     });
     Ok(())
 }

@@ -154,7 +154,7 @@ pub(crate) fn invocations_are_counted(s: &Subject) -> Checked {
         panic!("three counters are due");
     };
     println!("{one} fragment invocations for 15 texels");
-    assert!((15..=60).contains(&one), "{one}");
+    assert!(one >= 15, "{one}");
     assert_eq!((two, none), (2 * one, 0));
     Ok(())
 }

@@ -146,10 +146,12 @@ fn drawn_over(
     Ok(texel)
 }
 
-/// Operation and factors for colour and for alpha, the constant, and what comes of blue at 0.6 over
-/// opaque red.
+/// Operation and factors for colour and for alpha, the constant, and the result.
+type Blend = ([&'static str; 3], [&'static str; 3], [f64; 4], [u32; 4]);
+
+/// Blue at 0.6 over opaque red.
 #[rustfmt::skip]
-const BLENDS: [([&str; 3], [&str; 3], [f64; 4], [u32; 4]); 8] = [
+const BLENDS: [Blend; 8] = [
     (["add", "src-alpha", "one-minus-src-alpha"], ["add", "src-alpha", "one-minus-src-alpha"], [0.0; 4], [102, 0, 153, 194]),
     (["add", "src-alpha", "one-minus-src-alpha"], ["add", "one", "zero"], [0.0; 4], [102, 0, 153, 153]),
     (["add", "src-alpha", "one-minus-src-alpha"], ["add", "one", "one-minus-src-alpha"], [0.0; 4], [102, 0, 153, 255]),

@@ -85,7 +85,7 @@ fn promise(s: &Subject, shader: &str, (early, z, written): (&str, f32, [f32; 2])
     });
     assert_eq!(
         frame.counters,
-        vec![256; usize::from(names != "")],
+        vec![256; usize::from(!names.is_empty())],
         "{early}"
     );
     Ok(())

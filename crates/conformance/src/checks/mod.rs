@@ -156,7 +156,7 @@ registry! {
     }
 }
 
-/// Makes a test of every subject for each driver `NAME`, which a function `crate::drivers::NAME`
+/// Makes a test of every subject for each driver `NAME`, which a function `drivers::NAME`
 /// describes as a [`Driver`](crate::Driver); and one of each function in brackets, which takes the
 /// open backend.
 #[macro_export]
@@ -177,7 +177,7 @@ macro_rules! subject_tests {
         $(#[test]
         fn $subject() {
             let test = concat!(module_path!(), "::", stringify!($subject));
-            $crate::run(test, stringify!($subject), &crate::drivers::$driver());
+            $crate::run(test, stringify!($subject), &super::drivers::$driver());
         })+
     };
 }
@@ -190,7 +190,7 @@ macro_rules! more_tests {
         $(#[test]
         fn $more() {
             let test = concat!(module_path!(), "::", stringify!($more));
-            $crate::in_driver(test, &crate::drivers::$driver(), crate::$module::$more);
+            $crate::in_driver(test, &super::drivers::$driver(), super::$module::$more);
         })*
     };
 }

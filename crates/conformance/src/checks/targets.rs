@@ -230,7 +230,7 @@ pub(crate) fn the_second_source_weighs_one_side(s: &Subject) -> Checked {
             &format!(
                 r#""a": {{ "format": "rgba8unorm", "size": [4, 4], "clear": [1, 1, 0, 1] }},
                    "s": {{ "format": "rgba8unorm", "texels": {{ "kind": "rows", "values": [
-                        [255, 255, 255, 255], [255, 255, 255, 255], 0, 0] }} }},
+                        [255, 255, 255, 255], [255, 255, 255, 255], [0, 0, 0, 0], [0, 0, 0, 0]] }} }},
                    "t": {{ "format": "rgba8unorm", "texels": {{ "kind": "rows", "values": {ROWS:?} }} }}"#
             ),
             &format!(

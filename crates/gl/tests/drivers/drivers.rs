@@ -1,7 +1,9 @@
 //! The contexts under test. A missing driver is a failure: nothing would have been tested.
 
 use etalon_backend::Backend;
-use etalon_conformance::{Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, ZINK, variables};
+use etalon_conformance::{
+    Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, SOFTPIPE_DEFECTS, ZINK, variables,
+};
 use etalon_frame::Api;
 use etalon_gl::{GlBackend, Options, Platform, Profile, open};
 
@@ -36,7 +38,11 @@ pub(crate) fn is_softpipe(backend: &dyn Backend) -> bool {
 }
 
 /// No driver of OpenGL stores blue first.
-const CORE: &[&str] = &["feature mirrored-viewport", "format bgra8unorm"];
+const CORE: &[&str] = &[
+    "feature mirrored-viewport",
+    "feature depth-bounds",
+    "format bgra8unorm",
+];
 
 fn driver(
     environment: &'static [(&'static str, &'static str)],
@@ -47,7 +53,7 @@ fn driver(
         environment: variables(environment),
         open,
         lacks,
-        defects: &[],
+        defects: Vec::new(),
         tolerated: &[],
     }
 }
@@ -66,7 +72,7 @@ pub(crate) fn llvmpipe_es() -> Driver<'static> {
 
 pub(crate) fn softpipe() -> Driver<'static> {
     Driver {
-        defects: CLAMPS,
+        defects: defects(),
         ..driver(
             SOFTPIPE,
             |_| Box::new(context(Profile::Core, "softpipe")),
@@ -77,7 +83,7 @@ pub(crate) fn softpipe() -> Driver<'static> {
 
 pub(crate) fn softpipe_es() -> Driver<'static> {
     Driver {
-        defects: CLAMPS,
+        defects: defects(),
         ..driver(
             SOFTPIPE,
             |_| Box::new(context(Profile::Es, "softpipe")),
@@ -98,9 +104,14 @@ const ES: &[&str] = &["feature", "format", "drawing", "4 samples"];
 const SOFT: &[&str] = &["feature", "format", "4 samples"];
 const SOFT_ES: &[&str] = &["feature", "format", "drawing", "4 samples"];
 
-const CLAMPS: &[(&str, &str)] = &[
-    ("depth::depths_outside_are_clamped", CLAMP),
-    ("depth::depths_are_clamped_to_a_reversed_range", CLAMP),
-];
+/// Those of softpipe, and those that it has under clip control.
+fn defects() -> Vec<(&'static str, &'static str)> {
+    let clamps = [
+        ("depth::depths_outside_are_clamped", CLAMP),
+        ("depth::depths_are_clamped_to_a_reversed_range", CLAMP),
+    ];
+    [SOFTPIPE_DEFECTS, &clamps].concat()
+}
+
 /// Near = translate - scale in `sp_quad_depth_test.c`.
 const CLAMP: &str = "depths are clamped to the range that clip depths from -1 on would have";

@@ -37,7 +37,7 @@ pub(crate) fn lavapipe() -> Driver<'static> {
             // Another driver may lack anything.
             false => &[""],
         },
-        defects: &[],
+        defects: Vec::new(),
         tolerated: &[],
     }
 }

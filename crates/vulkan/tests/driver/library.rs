@@ -18,7 +18,7 @@ fn the_validation_layer_is_silent() {
         run_all(
             &backend,
             &lavapipe(),
-            &["depth::bounds_reject_by_the_stored_depth"],
+            Some(&["depth::bounds_reject_by_the_stored_depth"]),
         );
     }
     draw_library(
