@@ -1,0 +1,14 @@
+//! The binary as a user meets it, and the rules of the workspace. One test binary: each one links the
+//! whole suite.
+
+mod adapters;
+mod bench;
+mod ci_files;
+mod commands;
+mod diff;
+mod expectations;
+mod house;
+mod methods;
+mod parts;
+mod runs;
+mod survive;
