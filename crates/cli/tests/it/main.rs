@@ -9,6 +9,7 @@ mod diff;
 mod expectations;
 mod house;
 mod methods;
+mod mutants;
 mod parts;
 mod runs;
 mod survive;
