@@ -6,23 +6,28 @@
 )]
 
 mod adapters;
-mod args;
+mod blessing;
+mod cases;
+mod command_line;
 mod commands;
+mod expectations;
 mod failure;
-mod faults;
+mod flags;
+mod interruption;
 mod output;
+mod progress;
+mod provenance;
 mod shard;
-mod slower;
 mod worker;
 
-use args::{Arguments, Command};
 use clap::Parser;
+use command_line::{Command, CommandLine};
 use failure::{Failure, USAGE};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
-        Ok(arguments) => arguments,
+    let command_line = match CommandLine::try_parse() {
+        Ok(command_line) => command_line,
         Err(error) => {
             let code = if error.use_stderr() { USAGE } else { 0 };
             // Where even this cannot be printed, the exit code still speaks.
@@ -30,10 +35,10 @@ fn main() -> ExitCode {
             return ExitCode::from(code);
         }
     };
-    let outcome = match arguments.command {
+    let outcome = match command_line.command {
         Command::Adapters(arguments) => commands::adapters::run(&arguments),
         Command::List(arguments) => commands::list::run(&arguments),
-        Command::Schema => commands::list::schema(),
+        Command::Schema => commands::schema::run(),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
         Command::Merge(arguments) => commands::merge::run(&arguments),

@@ -3,6 +3,7 @@
 
 use crate::failure::Failure;
 use etalon_record::Shard;
+use std::fs;
 use std::path::PathBuf;
 
 /// A shard as `--shard` takes it: `2/5`.
@@ -18,6 +19,24 @@ pub(crate) fn parse(text: &str) -> Result<Shard, String> {
         .contains(&shard.index)
         .then_some(shard)
         .ok_or_else(wrong)
+}
+
+/// The part of the cases that the flag or the environment asks for.
+pub(crate) fn chosen(flag: Option<Shard>) -> Result<Option<Shard>, Failure> {
+    if let Some(shard) = flag {
+        return Ok((shard.count > 1).then_some(shard));
+    }
+    let asked = asked(|name| std::env::var(name).ok())?;
+    if let Some(path) = asked.status_file {
+        // Bazel wants to see that the process knows of shards.
+        fs::write(&path, "").map_err(|e| {
+            Failure::usage(format!(
+                "cannot write {}, which TEST_SHARD_STATUS_FILE names: {e}",
+                path.display()
+            ))
+        })?;
+    }
+    Ok(asked.shard)
 }
 
 /// What the environment asks for.

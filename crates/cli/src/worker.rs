@@ -1,15 +1,25 @@
 //! The hidden side of the binary: opening one backend, or listing a backend's devices.
 
-use crate::adapters::{BackendName, Found, Open};
-use crate::args::WorkerArguments;
+use crate::adapters::{BackendName, HardwareDevice, Open};
 use crate::failure::Failure;
+use clap::Args;
 use etalon_backend::{Backend, Unavailable};
 use etalon_cpu::CpuBackend;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Write};
 
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// What to open, as JSON
+    #[arg(long)]
+    pub(crate) open: Option<String>,
+    /// List the devices of a backend as JSON
+    #[arg(long)]
+    pub(crate) enumerate: Option<String>,
+}
+
 /// Serves one adapter, or prints what a backend finds.
-pub(crate) fn run(arguments: &WorkerArguments) -> Result<u8, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut output = private_output()?;
     if let Some(name) = &arguments.enumerate {
         let name: BackendName = parse(&format!("\"{name}\""))?;
@@ -83,12 +93,12 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
 }
 
 /// The devices that are not the processor: software drivers are described in the data file.
-fn enumerate(backend: BackendName) -> Result<Vec<Found>, Unavailable> {
+fn enumerate(backend: BackendName) -> Result<Vec<HardwareDevice>, Unavailable> {
     let infos = |all: Vec<etalon_backend::AdapterInfo>| {
         all.into_iter()
             .enumerate()
             .filter(|(_, info)| !info.software)
-            .map(|(device, info)| Found {
+            .map(|(device, info)| HardwareDevice {
                 name: info.name,
                 device,
             })
@@ -106,7 +116,7 @@ fn enumerate(backend: BackendName) -> Result<Vec<Found>, Unavailable> {
             let devices = etalon_gl::enumerate()?;
             let hardware = devices.into_iter().filter(|d| !d.software);
             Ok(hardware
-                .map(|d| Found {
+                .map(|d| HardwareDevice {
                     name: format!("{prefix}:{}", d.driver.as_deref().unwrap_or("gpu")),
                     device: d.index,
                 })

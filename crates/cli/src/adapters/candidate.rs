@@ -1,7 +1,14 @@
 //! An adapter that may be there, and starting it.
 
-use super::description::{Resolved, Unresolved};
-use super::{BackendName, Description, Found, Hidden, Open, Origin, Wanted, cache, quiet};
+use super::backend_name::BackendName;
+use super::cache;
+use super::description::{Description, Resolved, Unresolved};
+use super::devices::HardwareDevice;
+use super::hidden::Hidden;
+use super::open::Open;
+use super::origin::Origin;
+use super::query::Query;
+use super::runtime_folder::quiet;
 use etalon_backend::AdapterInfo;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, StartError, Worker};
@@ -58,7 +65,7 @@ impl Candidate {
         Self::Described(description, file.map(Path::to_owned))
     }
 
-    pub(super) fn found(device: Found, backend: BackendName) -> Self {
+    pub(super) fn found(device: HardwareDevice, backend: BackendName) -> Self {
         Self::Found(Open {
             device: Some(device.device),
             ..open(&device.name, backend)
@@ -95,10 +102,10 @@ impl Candidate {
     }
 
     /// Starts the worker and holds that the driver is the one that the description means.
-    pub(super) fn start(&self, wanted: &Wanted<'_>) -> Result<Started, NoStart> {
+    pub(super) fn start(&self, query: &Query<'_>) -> Result<Started, NoStart> {
         let resolved = self.resolve()?;
         let launch = self
-            .launch(&resolved, wanted)
+            .launch(&resolved, query)
             .map_err(|reason| NoStart::Absent(self.absent(reason, self.remedy())))?;
         // A driver that does not start is tried once more before it is blamed, but not one that hangs.
         let begun = Instant::now();
@@ -109,12 +116,12 @@ impl Candidate {
         let worker = started.map_err(|error| match error {
             StartError::Unavailable(u) => {
                 // The file knows the packages better than the backend does, but nothing of validation.
-                let own = wanted.validate || self.remedy().is_empty();
+                let own = query.validate || self.remedy().is_empty();
                 let remedy = if own { &u.remedy } else { self.remedy() };
                 NoStart::Absent(self.absent(&u.reason, remedy))
             }
             StartError::Broken(reason) => {
-                let backend = self.open(&resolved, wanted.validate).backend;
+                let backend = self.open(&resolved, query.validate).backend;
                 NoStart::Dead(backend, self.absent(reason, self.remedy()))
             }
         })?;
@@ -183,7 +190,7 @@ impl Candidate {
         open
     }
 
-    fn launch(&self, resolved: &Resolved, wanted: &Wanted<'_>) -> Result<Launch, String> {
+    fn launch(&self, resolved: &Resolved, query: &Query<'_>) -> Result<Launch, String> {
         let program =
             std::env::current_exe().map_err(|e| format!("etalon cannot find itself: {e}"))?;
         let mut environment = resolved.environment.clone();
@@ -206,11 +213,11 @@ impl Candidate {
             let path = path.to_string_lossy().into_owned();
             environment.push((LIBRARY_PATH.to_owned(), Some(path)));
         }
-        if wanted.cold {
+        if query.cold {
             environment.extend(cache::off());
         }
         environment.extend(quiet().map(|(name, value)| (name, Some(value))));
-        let open = serde_json::to_string(&self.open(resolved, wanted.validate))
+        let open = serde_json::to_string(&self.open(resolved, query.validate))
             .map_err(|e| e.to_string())?;
         Ok(Launch {
             adapter: self.name().to_owned(),

@@ -1,8 +1,8 @@
 //! Adapters that no list names, for they are nobody's driver: the rasterizer with something planted
 //! around it, to be watched while it is found.
 
-use crate::faults::{Fault, Faulty};
-use crate::slower::{self, Slower};
+use super::faulty::{Fault, Faulty};
+use super::slower::{self, Slower};
 use etalon_backend::Backend;
 use etalon_cpu::CpuBackend;
 use serde::{Deserialize, Serialize};

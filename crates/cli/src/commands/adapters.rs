@@ -1,11 +1,21 @@
 //! `etalon adapters`.
 
-use crate::adapters::{Origin, Wanted, discover};
-use crate::args::{AdaptersArguments, Format};
+use crate::adapters::{Origin, Query, discover};
 use crate::failure::Failure;
+use crate::flags::{AdapterFileArguments, Format};
 use crate::output::{print, print_json};
+use clap::Args;
 use etalon_record::AdapterRecord;
 use serde::Serialize;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// For people or for programs (a JSON array, one object per adapter that can be used)
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
 
 /// All that is known of an adapter: who it is, what it can do, and how it is reached.
 #[derive(Serialize)]
@@ -17,10 +27,10 @@ struct Facts<'a> {
 }
 
 /// Lists what can be used and what cannot, why, and what would help.
-pub(crate) fn run(arguments: &AdaptersArguments) -> Result<u8, Failure> {
-    let adapters = discover(&Wanted {
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let adapters = discover(&Query {
         file: arguments.file.adapter_file.as_deref(),
-        ..Wanted::default()
+        ..Query::default()
     })?;
     let ready: Vec<Facts<'_>> = adapters
         .ready

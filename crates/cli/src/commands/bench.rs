@@ -1,33 +1,62 @@
 //! `etalon bench`.
 
-use crate::adapters::{Wanted, cache, discover};
-use crate::args::{BenchArguments, CaseProfile, Format};
-use crate::commands::run::{expectations, machine, progress};
-use crate::commands::{chosen, refuse_absent};
+use crate::adapters::{Query, cache, discover, refuse_absent};
+use crate::cases::chosen;
 use crate::failure::{Failure, UNEXPECTED};
+use crate::flags::{AdapterFileArguments, CaseArguments, CaseProfile, Format};
 use crate::output::{print, print_json, table_options};
+use crate::progress::progress;
+use crate::{expectations, provenance};
+use clap::Args;
 use etalon_record::{BENCH_FORMAT, Bench, BenchHeader, ShaderCache};
 use etalon_runner::{BenchError, BenchEvent, BenchPlan};
 use serde_json::json;
 use std::collections::BTreeSet;
-use std::time::{Duration, SystemTime};
+use std::path::PathBuf;
+use std::time::Duration;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) selection: CaseArguments,
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// Time this adapter (repeat for several); without it, all that are found
+    #[arg(long = "adapter", value_name = "NAME")]
+    pub(crate) adapters: Vec<String>,
+    /// Where samples and reports go
+    #[arg(long, value_name = "DIR", default_value = "reports/bench-latest")]
+    pub(crate) out: PathBuf,
+    /// How often each case is prepared and timed anew, in new processes; fewer than 7 tell no difference
+    #[arg(long, value_name = "N", default_value = "12", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub(crate) rounds: u32,
+    /// How long the timed frames of a case take on an adapter in each round, about
+    #[arg(long, value_name = "S", default_value = "0.1", value_parser = parse_seconds)]
+    pub(crate) seconds: f64,
+    /// Switch off the drivers' shader caches on disk, so that each round's first frame compiles everything
+    #[arg(long)]
+    pub(crate) cold: bool,
+    /// For people or for programs
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
 
 /// What is timed where nothing is named.
 const DEFAULT: &str = "perf/*";
 
 /// Judges the chosen cases' pictures, times those that are right, records and reports.
-pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut selection = arguments.selection.clone();
     if selection.globs.is_empty() {
         selection.globs.push(DEFAULT.to_owned());
     }
     let cases = chosen(&selection)?;
-    let expectations = expectations(None)?;
-    let adapters = discover(&Wanted {
+    let expectations = expectations::read(None)?;
+    let adapters = discover(&Query {
         names: &arguments.adapters,
         file: arguments.file.adapter_file.as_deref(),
         cold: arguments.cold,
-        ..Wanted::default()
+        ..Query::default()
     })?;
     refuse_absent(&arguments.adapters, &adapters.absent)?;
     let mut names = BTreeSet::new();
@@ -42,13 +71,11 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
     }
     let header = BenchHeader {
         format: BENCH_FORMAT,
-        etalon: env!("CARGO_PKG_VERSION").to_owned(),
-        commit: option_env!("ETALON_COMMIT").map(str::to_owned),
-        machine: machine(),
-        started: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-        command: std::iter::once("etalon".to_owned())
-            .chain(std::env::args().skip(1))
-            .collect(),
+        etalon: provenance::VERSION.to_owned(),
+        commit: provenance::commit(),
+        machine: provenance::machine(),
+        started: provenance::now(),
+        command: provenance::command(),
         profile: match selection.profile {
             CaseProfile::Quick => "quick".to_owned(),
             CaseProfile::Full => "full".to_owned(),
@@ -129,4 +156,13 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
     } else {
         0
     })
+}
+
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().unwrap_or(f64::NAN);
+    if (0.001..=30.0).contains(&seconds) {
+        Ok(seconds)
+    } else {
+        Err("seconds lie between 0.001 and 30".to_owned())
+    }
 }

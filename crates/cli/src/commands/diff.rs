@@ -1,15 +1,59 @@
 //! `etalon diff`.
 
-use crate::args::{DiffArguments, DiffTime, Format};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
+use crate::flags::Format;
 use crate::output::{print, print_json, table_options};
+use clap::{Args, ValueEnum};
 use etalon_record::{Bench, FolderKind, Time};
 use etalon_report::runs::{self, RunDiff};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
+/// Which time of a bench is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DiffTime {
+    /// A frame until the device was done.
+    Wall,
+    /// A frame until the last call that submits work returned.
+    Cpu,
+    /// A frame between GPU timestamps.
+    Gpu,
+    /// Reading a frame back.
+    ReadBack,
+    /// Preparing the scene.
+    Prepare,
+    /// The first frame after preparing.
+    First,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The run or bench folder to compare with
+    #[arg(value_name = "BEFORE")]
+    pub(crate) before: PathBuf,
+    /// The run or bench folder to judge
+    #[arg(value_name = "AFTER")]
+    pub(crate) after: PathBuf,
+    /// Of runs: hold this adapter of the first against that of the second; without both, adapters of the
+    /// same name, or the only one of each
+    #[arg(long, value_name = "NAME", requires = "adapter_after")]
+    pub(crate) adapter_before: Option<String>,
+    /// Of runs: the adapter of the second
+    #[arg(long, value_name = "NAME", requires = "adapter_before")]
+    pub(crate) adapter_after: Option<String>,
+    /// Of benches: which time (wall, where none is named)
+    #[arg(long, value_enum)]
+    pub(crate) time: Option<DiffTime>,
+    /// Also write a page here
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) out: Option<PathBuf>,
+    /// For people or for programs
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
 /// Says what changed from one run to another, or what became faster or slower from one bench to another.
-pub(crate) fn run(arguments: &DiffArguments) -> Result<u8, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let [before, after] = [&arguments.before, &arguments.after];
     match [before, after].map(|folder| FolderKind::of(folder)) {
         [Some(FolderKind::Run), Some(FolderKind::Run)] => of_runs(arguments),
@@ -35,7 +79,7 @@ fn mixed(run: &Path, bench: &Path) -> Failure {
     ))
 }
 
-fn of_runs(arguments: &DiffArguments) -> Result<u8, Failure> {
+fn of_runs(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.time.is_some() {
         return Err(Failure::usage(
             "--time is for two benches; a run takes each time once, beside other work, and proves none",
@@ -72,7 +116,7 @@ fn code(diff: &RunDiff) -> u8 {
     }
 }
 
-fn of_benches(arguments: &DiffArguments) -> Result<u8, Failure> {
+fn of_benches(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.adapter_before.is_some() {
         return Err(Failure::usage(
             "--adapter-before and --adapter-after are for two runs; benches are compared adapter by adapter",
@@ -100,7 +144,7 @@ fn of_benches(arguments: &DiffArguments) -> Result<u8, Failure> {
 
 /// Prints a comparison, and where its page lies.
 fn tell(
-    arguments: &DiffArguments,
+    arguments: &Arguments,
     diff: &impl Serialize,
     page: Option<PathBuf>,
     table: impl FnOnce() -> String,

@@ -1,21 +1,40 @@
 //! `etalon explain`.
 
-use crate::adapters::{Wanted, discover};
-use crate::args::ExplainArguments;
-use crate::commands::library;
+use crate::adapters::{Query, discover, refuse_absent};
+use crate::cases::library;
 use crate::failure::{Failure, UNEXPECTED};
+use crate::flags::AdapterFileArguments;
 use crate::output::print;
+use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::{Case, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Frame, LegalSet, Limits};
 use etalon_reference::{Rules, Sample, explain, judge};
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// The case's id
+    #[arg(value_name = "CASE")]
+    pub(crate) case: String,
+    /// Column and row, from the top left corner
+    #[arg(long, value_name = "X,Y", value_parser = parse_texel)]
+    pub(crate) texel: [u32; 2],
+    /// Draw the case on this adapter and hold its texel against the story
+    #[arg(long, value_name = "NAME")]
+    pub(crate) adapter: Option<String>,
+    /// Read case files from this folder instead of those built in
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
+}
 
 /// Tells the story of one texel by the rules and by the yardstick; with an adapter, also what came
 /// back and whether it is legal.
-pub(crate) fn run(arguments: &ExplainArguments) -> Result<u8, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let library = library(arguments.cases.as_ref())?;
     let Some(found) = library
         .cases(Profile::Full)
@@ -174,17 +193,12 @@ fn fits(
 }
 
 fn draw(name: &str, file: Option<&Path>, case: &Case) -> Result<(Limits, Frame), Failure> {
-    let adapters = discover(&Wanted {
+    let adapters = discover(&Query {
         names: &[name.to_owned()],
         file,
-        ..Wanted::default()
+        ..Query::default()
     })?;
-    if let Some(absent) = adapters.absent.first() {
-        return Err(Failure::usage(format!(
-            "adapter {name} cannot be used: {}; {}",
-            absent.reason, absent.remedy
-        )));
-    }
+    refuse_absent(std::slice::from_ref(&name.to_owned()), &adapters.absent)?;
     let Some((_, mut worker)) = adapters.ready.into_iter().next() else {
         return Err(Failure::usage(format!("adapter {name} cannot be used")));
     };
@@ -197,4 +211,11 @@ fn draw(name: &str, file: Option<&Path>, case: &Case) -> Result<(Limits, Frame),
     let frame = frames.into_iter().next();
     let frame = frame.ok_or_else(|| Failure::incomplete("no frame came back"))?;
     Ok((limits, frame))
+}
+
+fn parse_texel(text: &str) -> Result<[u32; 2], String> {
+    let wrong = || "a texel is given as X,Y, two whole numbers".to_owned();
+    let (x, y) = text.split_once(',').ok_or_else(wrong)?;
+    let number = |t: &str| t.trim().parse().map_err(|_| wrong());
+    Ok([number(x)?, number(y)?])
 }

@@ -1,18 +1,36 @@
 //! `etalon merge`.
 
-use crate::args::{Format, MergeArguments};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
+use crate::flags::Format;
 use crate::output::{print, print_json, table_options};
+use crate::provenance;
+use clap::Args;
 use etalon_record::{FolderKind, FolderLock, MISSING_FILE, Merge, Merged, RecordError, Run};
 use serde_json::json;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Run folders of one selection of cases
+    #[arg(value_name = "DIR", required = true)]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Where the merged run goes
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Replace the run that the folder holds
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// For people or for programs
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
 
 /// How many missing records are named on the terminal.
 const NAMED: usize = 20;
 
 /// Makes one run of several, and proves that nothing is missing.
-pub(crate) fn run(arguments: &MergeArguments) -> Result<u8, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let out = &arguments.out;
     for folder in &arguments.folders {
         if same(folder, out) {
@@ -23,9 +41,7 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<u8, Failure> {
         }
     }
     let mut merge = Merge::read(&arguments.folders).map_err(Failure::usage)?;
-    merge.header_mut().command = std::iter::once("etalon".to_owned())
-        .chain(std::env::args().skip(1))
-        .collect();
+    merge.header_mut().command = provenance::command();
     let _lock = FolderLock::acquire(out).map_err(Failure::usage)?;
     if FolderKind::of(out) == Some(FolderKind::Run) && !arguments.force {
         return Err(Failure::usage(occupied(out)));

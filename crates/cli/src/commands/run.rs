@@ -1,33 +1,105 @@
 //! `etalon run`.
 
-use crate::adapters::{Adapters, BackendName, Wanted, cache, discover};
-use crate::args::{CacheState, Format, RunArguments};
-use crate::commands::expectations::{bless, to_bless};
-use crate::commands::{chosen, is_measuring, refuse_absent};
-use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
+use crate::adapters::{Adapters, Query, cache, discover, refuse_absent, take_unstarted};
+use crate::blessing::{bless, to_bless};
+use crate::cases::{chosen, is_measuring};
+use crate::expectations::{self, today};
+use crate::failure::{Failure, IMPROVED, UNEXPECTED};
+use crate::flags::{AdapterFileArguments, CaseArguments, Format};
+use crate::interruption::{how_to_resume, listen};
 use crate::output::{print, print_json, table_options};
-use crate::shard;
+use crate::progress::progress;
+use crate::{provenance, shard};
+use clap::{Args, ValueEnum};
 use etalon_case::Case;
-use etalon_frame::{Api, Limits};
 use etalon_record::{
-    AbsentAdapter, AdapterRecord, Expectations, FolderKind, FolderLock, Header, Machine,
-    RecordError, Run, Settings, ShaderCache, Shard, selection_digest, shard_of,
+    AdapterRecord, Expectations, FolderKind, FolderLock, Header, RecordError, Run, Settings,
+    ShaderCache, Shard, selection_digest, shard_of,
 };
-use etalon_report::quoted;
 use etalon_runner::{Event, Options, Outcome, Plan, RunError};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use serde_json::json;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, SystemTime};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// The folder that each run without `--out` replaces.
 const LATEST: &str = "reports/latest";
 
+/// What the drivers' shader caches on disk hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CacheState {
+    /// Nothing, and nothing is kept: every process compiles everything.
+    Cold,
+    /// What earlier processes left.
+    Warm,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) selection: CaseArguments,
+    /// Run on this adapter (repeat for several); without it, on all that are found
+    #[arg(long = "adapter", value_name = "NAME")]
+    pub(crate) adapters: Vec<String>,
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// Where records and reports go
+    #[arg(long, value_name = "DIR", default_value = "reports/latest")]
+    pub(crate) out: PathBuf,
+    /// Go on with the run that the folder holds: draw what is missing
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+    /// Replace the run that the folder holds
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Expectations to hold verdicts against, instead of those built in
+    #[arg(long, value_name = "FILE")]
+    pub(crate) expect: Option<PathBuf>,
+    /// Write what this run showed into the expectations file: what was unexpected is expected from now
+    /// on, what is better goes. Refused where the variable CI is set
+    #[arg(long)]
+    pub(crate) bless: bool,
+    /// Draw part M of N, chosen by a hash of the id; without it, the part that GitLab, Bazel, Slurm or a
+    /// Kubernetes indexed job asks for in its variables; 1/1 for all
+    #[arg(long, value_name = "M/N", value_parser = crate::shard::parse)]
+    pub(crate) shard: Option<Shard>,
+    /// Seconds that one case may take before its process is given up (methods and perf: four times that)
+    #[arg(long, value_name = "S", default_value = "60", value_parser = parse_timeout)]
+    pub(crate) timeout: f64,
+    /// MiB of memory that one worker may hold before it is given up
+    #[arg(long, value_name = "MIB", default_value = "4096", value_parser = clap::value_parser!(u64).range(64..=1 << 20))]
+    pub(crate) memory: u64,
+    /// How many workers draw at the same time; without it, one per processor
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) jobs: Option<u16>,
+    /// Draw each case so many times, each time in a fresh process; verdicts that differ make it flaky
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(crate) repeat: u32,
+    /// Draw the cases in the order of this seed; a case that fails only after others names them
+    #[arg(long, value_name = "SEED")]
+    pub(crate) shuffle: Option<u64>,
+    /// Whether the drivers' shader caches on disk may be used
+    #[arg(long, value_enum, default_value = "warm")]
+    pub(crate) shader_cache: CacheState,
+    /// Have validation layers and GL debug output listen; a case of which they say something is an error
+    #[arg(long)]
+    pub(crate) validate: bool,
+    /// For people or for programs
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+fn parse_timeout(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().unwrap_or(f64::NAN);
+    if (0.1..=86_400.0).contains(&seconds) {
+        Ok(seconds)
+    } else {
+        Err("seconds lie between 0.1 and 86400".to_owned())
+    }
+}
+
 /// Draws the chosen cases on the chosen adapters, judges, records and reports.
-pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut cases = chosen(&arguments.selection)?;
     if arguments.selection.globs.is_empty() {
         // A folder that holds nothing else means them.
@@ -35,7 +107,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
         cases.retain(|case| measuring_alone || !is_measuring(case));
     }
     let selection: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
-    let shard = shard(arguments)?;
+    let shard = shard::chosen(arguments.shard)?;
     if let Some(shard) = shard {
         cases.retain(|case| shard_of(&case.id, shard.count) == shard.index);
         eprintln!(
@@ -55,22 +127,22 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
         // What is to be written need not be there yet.
         Some(path) if !path.exists() => Expectations::default(),
         Some(path) => Expectations::read(path).map_err(Failure::usage)?,
-        None => expectations(arguments.expect.as_deref())?,
+        None => expectations::read(arguments.expect.as_deref())?,
     }
     .on(&today());
     // Nothing may be lost that another run, or one before, has written.
     let lock = || FolderLock::acquire(&arguments.out).map_err(Failure::usage);
     let early = arguments.out.exists().then(lock).transpose()?;
     let resume = resumes(arguments)?;
-    let stop = interrupts()?;
-    let mut adapters = discover(&Wanted {
+    let stop = listen()?;
+    let mut adapters = discover(&Query {
         names: &arguments.adapters,
         file: arguments.file.adapter_file.as_deref(),
         validate: arguments.validate,
         cold: arguments.shader_cache == CacheState::Cold,
     })?;
     // A driver that is there and does not start has its records like any other.
-    let dead = dead(&mut adapters);
+    let dead = take_unstarted(&mut adapters);
     for (adapter, how) in &dead {
         eprintln!("{} does not start: {how}", adapter.name);
     }
@@ -151,24 +223,6 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
     })
 }
 
-/// The part of the cases that the flag or the environment asks for.
-fn shard(arguments: &RunArguments) -> Result<Option<Shard>, Failure> {
-    if let Some(shard) = arguments.shard {
-        return Ok((shard.count > 1).then_some(shard));
-    }
-    let asked = shard::asked(|name| std::env::var(name).ok())?;
-    if let Some(path) = asked.status_file {
-        // Bazel wants to see that the process knows of shards.
-        fs::write(&path, "").map_err(|e| {
-            Failure::usage(format!(
-                "cannot write {}, which TEST_SHARD_STATUS_FILE names: {e}",
-                path.display()
-            ))
-        })?;
-    }
-    Ok(asked.shard)
-}
-
 /// Fisher and Yates' shuffle.
 fn shuffle(cases: &mut [Case], seed: u64) {
     let mut random = oorandom::Rand64::new(u128::from(seed));
@@ -179,7 +233,7 @@ fn shuffle(cases: &mut [Case], seed: u64) {
 }
 
 /// Whether to go on with the run in the folder; refuses to replace one without being told.
-fn resumes(arguments: &RunArguments) -> Result<bool, Failure> {
+fn resumes(arguments: &Arguments) -> Result<bool, Failure> {
     let folder = &arguments.out;
     if FolderKind::of(folder) != Some(FolderKind::Run) {
         return Ok(false);
@@ -201,43 +255,12 @@ fn resumes(arguments: &RunArguments) -> Result<bool, Failure> {
     }))
 }
 
-/// The command that goes on with this run.
-fn how_to_resume() -> String {
-    let own = std::env::args()
-        .skip(1)
-        .filter(|a| a != "--force" && a != "--resume");
-    let words = std::iter::once("etalon".to_owned())
-        .chain(own)
-        .chain(["--resume".to_owned()]);
-    let quoted: Vec<String> = words.map(|w| quoted(&w)).collect();
-    format!("go on with: {}", quoted.join(" "))
-}
-
-/// Set at the first Ctrl-C, or when the process is asked to terminate; a second one ends it at once.
-fn interrupts() -> Result<&'static AtomicBool, Failure> {
-    static STOP: AtomicBool = AtomicBool::new(false);
-    ctrlc::set_handler(|| {
-        if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(INCOMPLETE));
-        }
-        eprintln!("\nstopping; once more to stop at once");
-    })
-    .map_err(|e| Failure::incomplete(format!("cannot listen for interrupts: {e}")))?;
-    Ok(&STOP)
-}
-
 fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// The day, in UTC, as `2027-01-31`.
-pub(crate) fn today() -> String {
-    let now = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
-    now.chars().take(10).collect()
-}
-
 fn header(
-    arguments: &RunArguments,
+    arguments: &Arguments,
     cases: &[Case],
     selection: &[String],
     shard: Option<Shard>,
@@ -246,13 +269,11 @@ fn header(
 ) -> Header {
     Header {
         format: etalon_record::FORMAT,
-        etalon: env!("CARGO_PKG_VERSION").to_owned(),
-        commit: option_env!("ETALON_COMMIT").map(str::to_owned),
-        machine: machine(),
-        started: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-        command: std::iter::once("etalon".to_owned())
-            .chain(std::env::args().skip(1))
-            .collect(),
+        etalon: provenance::VERSION.to_owned(),
+        commit: provenance::commit(),
+        machine: provenance::machine(),
+        started: provenance::now(),
+        command: provenance::command(),
         cases: cases.len() as u64,
         settings: Settings {
             selection: selection_digest(selection.iter().map(String::as_str)),
@@ -277,55 +298,6 @@ fn header(
     }
 }
 
-/// The adapters whose drivers do not start, as far as they are known, and how that showed; they are absent
-/// no longer.
-fn dead(adapters: &mut Adapters) -> Vec<(AdapterRecord, String)> {
-    let record = |(backend, absent): (BackendName, AbsentAdapter)| {
-        let (backend, api) = match backend {
-            BackendName::Cpu => ("cpu", Api::Vulkan),
-            BackendName::Vulkan => ("vulkan", Api::Vulkan),
-            BackendName::Gl => ("gl", Api::OpenGl),
-            BackendName::GlEs => ("gl", Api::OpenGlEs),
-            BackendName::WgpuVulkan | BackendName::WgpuGl => ("wgpu", Api::WebGpu),
-        };
-        let adapter = AdapterRecord {
-            name: absent.name,
-            backend: backend.to_owned(),
-            device: String::new(),
-            driver: String::new(),
-            driver_version: String::new(),
-            driver_id: String::new(),
-            api_version: String::new(),
-            software: false,
-            limits: Limits {
-                api,
-                sub_pixel_bits: 0,
-                max_size: 0,
-                max_color_attachments: 0,
-                formats: BTreeMap::new(),
-                features: BTreeSet::new(),
-                sample_positions: BTreeMap::new(),
-            },
-        };
-        (adapter, absent.reason)
-    };
-    let dead: Vec<(AdapterRecord, String)> = adapters.dead.drain(..).map(record).collect();
-    let is_dead = |name: &str| dead.iter().any(|(adapter, _)| adapter.name == name);
-    adapters.absent.retain(|absent| !is_dead(&absent.name));
-    dead
-}
-
-pub(crate) fn expectations(file: Option<&Path>) -> Result<Expectations, Failure> {
-    match file {
-        Some(file) => Expectations::read(file),
-        None => Expectations::parse(
-            include_str!("../../../../ci/expectations.json"),
-            Path::new("ci/expectations.json"),
-        ),
-    }
-    .map_err(Failure::usage)
-}
-
 fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<Outcome, RunError> {
     let before = if plan.resume {
         Run::read(plan.folder).map_or(0, |run| run.records.len() as u64)
@@ -348,32 +320,4 @@ fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<Outcome, RunError> {
             eprintln!("{adapter} done in {:.1} s", wall.as_secs_f64());
         }),
     })
-}
-
-pub(crate) fn progress(total: u64) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta} {msg}");
-    if let Ok(style) = style {
-        bar.set_style(style);
-    }
-    bar
-}
-
-/// The machine as it names itself, without its owner's names for it.
-pub(crate) fn machine() -> Machine {
-    let field = |path: &str, key: &str, separator: char| {
-        let text = std::fs::read_to_string(path).ok()?;
-        let value = text.lines().find_map(|line| {
-            let (name, value) = line.split_once(separator)?;
-            (name.trim() == key).then(|| value.trim().trim_matches('"').to_owned())
-        })?;
-        (!value.is_empty()).then_some(value)
-    };
-    Machine {
-        os: field("/etc/os-release", "PRETTY_NAME", '=')
-            .unwrap_or_else(|| std::env::consts::OS.to_owned()),
-        cpu: field("/proc/cpuinfo", "model name", ':')
-            .unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
-        cores: std::thread::available_parallelism().map_or(1, |n| n.get() as u32),
-    }
 }

@@ -1,7 +1,8 @@
 //! Devices that backends find by themselves, and what they are called.
 
-use super::description::{MAX_NAME, is_name};
-use super::{BackendName, quiet};
+use super::backend_name::BackendName;
+use super::names::{is_name, plain};
+use super::runtime_folder::quiet;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::io::Read;
@@ -18,7 +19,7 @@ const MAX_BYTES: u64 = 1 << 20;
 /// A device that a backend's enumeration found; its name is not unique yet.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Found {
+pub(crate) struct HardwareDevice {
     pub(crate) name: String,
     pub(crate) device: usize,
 }
@@ -36,7 +37,7 @@ pub(super) const BACKENDS: [(&str, &str, BackendName); 5] = [
 ///
 /// # Errors
 /// How the process ended, where it did not end well.
-pub(super) fn enumerate(backend: &str) -> Result<Vec<Found>, String> {
+pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
     let program = std::env::current_exe().map_err(|e| format!("etalon cannot find itself: {e}"))?;
     let mut child = Command::new(program)
         .args(["worker", "--enumerate", backend])
@@ -77,7 +78,7 @@ pub(super) fn enumerate(backend: &str) -> Result<Vec<Found>, String> {
 
 /// Gives devices names that nobody else has: the second of a name is called `-2`, the third `-3`. `taken`
 /// are the names of described adapters, which keep theirs.
-pub(super) fn name(taken: &BTreeSet<String>, found: Vec<Found>) -> Vec<Found> {
+pub(super) fn name(taken: &BTreeSet<String>, found: Vec<HardwareDevice>) -> Vec<HardwareDevice> {
     let mut taken = taken.clone();
     found
         .into_iter()
@@ -91,23 +92,9 @@ pub(super) fn name(taken: &BTreeSet<String>, found: Vec<Found>) -> Vec<Found> {
                 .find(|name| !taken.contains(name))
                 .unwrap_or_else(|| base.clone());
             taken.insert(name.clone());
-            Found { name, ..found }
+            HardwareDevice { name, ..found }
         })
         .collect()
-}
-
-/// A driver's words as a name can have them, with room for a number.
-fn plain(name: &str) -> String {
-    let plain: String = name
-        .chars()
-        .map(|c| if is_name(&format!("a{c}")) { c } else { '-' })
-        .take(MAX_NAME - 4)
-        .collect();
-    if is_name(&plain) {
-        plain
-    } else {
-        "gpu".to_owned()
-    }
 }
 
 #[cfg(test)]
@@ -116,10 +103,13 @@ mod tests {
 
     fn named(taken: &[&str], found: &[&str]) -> Vec<String> {
         let taken = taken.iter().map(|n| (*n).to_owned()).collect();
-        let found = found.iter().enumerate().map(|(device, name)| Found {
-            name: (*name).to_owned(),
-            device,
-        });
+        let found = found
+            .iter()
+            .enumerate()
+            .map(|(device, name)| HardwareDevice {
+                name: (*name).to_owned(),
+                device,
+            });
         let named = name(&taken, found.collect());
         for (device, found) in named.iter().enumerate() {
             assert_eq!(found.device, device);
