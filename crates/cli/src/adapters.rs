@@ -1,4 +1,4 @@
-//! Which adapters there are, and how each is reached.
+//! Adapters: their descriptions, discovery and worker processes.
 
 mod backend_name;
 pub(crate) mod cache;

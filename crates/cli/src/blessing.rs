@@ -1,4 +1,4 @@
-//! `etalon run --bless`: what a run showed is expected from now on.
+//! `etalon run --bless`: the expectations file follows the verdicts of a run.
 
 use crate::cases::ids;
 use crate::expectations::{today, write};
@@ -6,19 +6,19 @@ use crate::failure::Failure;
 use etalon_record::{Expectations, Run};
 use std::path::{Path, PathBuf};
 
-/// The file that is blessed where none is named.
+/// The file that is updated by default.
 const DEFAULT: &str = "ci/expectations.json";
 
-/// The file that `--bless` is to write.
+/// Returns the file that `--bless` writes.
 ///
 /// # Errors
-/// In CI, which never writes what it is held against, and where no file is named or found.
+/// In CI, where expectations are never written, and if no file is named or found.
 pub(crate) fn to_bless(named: Option<&Path>) -> Result<PathBuf, Failure> {
     let ci = std::env::var("CI").unwrap_or_default();
     if !matches!(ci.to_lowercase().as_str(), "" | "0" | "false" | "no") {
         return Err(Failure::usage(
-            "--bless writes what runs are held against, which CI never does (the variable CI is set); \
-             bless on your own machine and have the change reviewed",
+            "--bless writes expectations, which CI never does (the variable CI is set); bless on your \
+             own machine and have the change reviewed",
         ));
     }
     match named {
@@ -30,7 +30,7 @@ pub(crate) fn to_bless(named: Option<&Path>) -> Result<PathBuf, Failure> {
     }
 }
 
-/// Writes into the file what a run showed.
+/// Updates the file from the verdicts of a run.
 pub(crate) fn bless(
     path: &Path,
     run: &Run,
@@ -48,17 +48,17 @@ pub(crate) fn bless(
         blessing.removed.len()
     );
     if blessing.added > 0 {
-        eprintln!("each new entry wants its reason written before it is reviewed");
+        eprintln!("write the reason of each new entry before it is reviewed");
     }
     for entry in &blessing.to_narrow {
         eprintln!(
-            "to narrow by hand: some of what it names is better now: {} {} {}",
+            "narrow by hand, since some of its cases improved: {} {} {}",
             entry.adapter, entry.verdict, entry.case
         );
     }
     if blessing.unblessed > 0 {
         eprintln!(
-            "{} selftests that do not fail cannot be blessed",
+            "{} selftests that do not fail cannot be expected",
             blessing.unblessed
         );
     }

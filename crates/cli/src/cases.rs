@@ -1,20 +1,20 @@
-//! The cases that a command is about.
+//! The cases of a command: library, selection, building.
 
 use crate::failure::Failure;
 use crate::flags::CaseArguments;
 use etalon_case::{Case, Library, Profile};
 use std::path::PathBuf;
 
-/// Areas that take part in runs and hunts only where they are named: they measure what the other areas
-/// have proven, on pictures so large that one of them takes as long as hundreds of cases.
+/// The areas that runs and hunts leave out unless they are selected: they measure, on pictures so large that one takes
+/// as long as hundreds of cases.
 const MEASURING: [&str; 2] = ["methods", "perf"];
 
-/// Whether a case is there to be measured.
+/// True if a case belongs to an area that measures.
 pub(crate) fn is_measuring(case: &Case) -> bool {
     MEASURING.contains(&case.area())
 }
 
-/// The chosen cases, built: what is wrong with a case file shows before anything is done.
+/// Returns the selected cases, built, so that errors of case files show before anything is drawn.
 pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
     let library = library(arguments.cases.as_ref())?;
     let globs = &arguments.globs;
@@ -24,7 +24,7 @@ pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
             "there are no cases".to_owned()
         } else {
             format!(
-                "no case matches {}; `etalon list` names them all",
+                "no case matches {}; `etalon list` lists all",
                 globs.join(" ")
             )
         }));
@@ -32,7 +32,7 @@ pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
     Ok(cases)
 }
 
-/// The cases of a folder, or those built in.
+/// Returns the cases of a folder, or the built-in ones.
 pub(crate) fn library(folder: Option<&PathBuf>) -> Result<Library, Failure> {
     match folder {
         Some(folder) => Library::from_folder(folder),
@@ -41,7 +41,7 @@ pub(crate) fn library(folder: Option<&PathBuf>) -> Result<Library, Failure> {
     .map_err(Failure::usage)
 }
 
-/// The cases of a library whose ids match, built.
+/// Returns the cases of a library whose ids match, built.
 pub(crate) fn build(
     library: &Library,
     profile: Profile,
@@ -54,7 +54,7 @@ pub(crate) fn build(
         .collect()
 }
 
-/// The ids of all cases there are.
+/// Returns the ids of all cases.
 pub(crate) fn ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
     let library = library(cases)?;
     let all = build(&library, Profile::Full, &[])?;

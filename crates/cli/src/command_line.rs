@@ -1,4 +1,4 @@
-//! Commands.
+//! The command line: one subcommand per file of `commands`.
 
 use crate::commands::{
     adapters, bench, diff, expectations, explain, list, merge, mutants, report, run,
@@ -6,13 +6,13 @@ use crate::commands::{
 use crate::worker;
 use clap::{Parser, Subcommand};
 
-/// Tells whether a graphics driver does per-fragment operations right: draws cases on every driver
-/// that can be reached and judges each texel by what the specification allows.
+/// Tests whether graphics drivers perform per-fragment operations correctly: draws cases on every driver
+/// found and judges each texel by the values that the specification allows.
 #[derive(Debug, Parser)]
 #[command(
     version,
     arg_required_else_help = true,
-    after_help = "Exit codes: 0 fine, 1 an unexpected bad verdict or something worse in diff, 2 only improvements, 3 incomplete, \
+    after_help = "Exit codes: 0 success, 1 unexpected bad verdicts or something worse in diff, 2 improvements only, 3 incomplete, \
                   4 nothing selected, 64 wrong usage or bad input."
 )]
 pub(crate) struct CommandLine {
@@ -22,30 +22,30 @@ pub(crate) struct CommandLine {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// List the adapters that can be used, and why others cannot
+    /// List the adapters that can be used, and why others cannot be
     Adapters(adapters::Arguments),
-    /// List cases, one id per line
+    /// List case ids, one per line
     List(list::Arguments),
     /// Print the JSON schema of case files
     Schema,
-    /// Draw cases on adapters, judge every texel, write records and a report
+    /// Draw cases on adapters, judge every texel, write records and reports
     Run(run::Arguments),
-    /// Make the reports of run and bench folders anew
+    /// Rebuild the reports of run and bench folders
     Report(report::Arguments),
-    /// Make one run of several, shards or adapters, and prove that nothing is missing
+    /// Combine shards, or runs on several adapters, into one run and name what is missing
     Merge(merge::Arguments),
-    /// Exchange expectations with deqp-runner
+    /// Import and export expectations in the formats of deqp-runner
     #[command(subcommand)]
     Expectations(expectations::Command),
-    /// Time the frames of cases whose pictures are right, interleaved over adapters
+    /// Measure frame times of cases whose pictures are correct, interleaved over adapters
     Bench(bench::Arguments),
-    /// Say what changed from one run or bench to another: verdicts, pixels, times
+    /// Compare two runs or two benches: verdicts, pixels, times
     Diff(diff::Arguments),
-    /// Tell the story of one texel, operation by operation, with rule and citation
+    /// Explain one texel, operation by operation, with rules and citations
     Explain(explain::Arguments),
-    /// Plant bugs in the cpu rasterizer and tell which of them the cases see
+    /// Plant bugs in the cpu rasterizer and report which of them the cases catch
     Mutants(mutants::Arguments),
-    /// Draw what a parent process asks for (used by etalon itself)
+    /// Draw scenes for a parent process (used by etalon itself)
     #[command(hide = true)]
     Worker(worker::Arguments),
 }

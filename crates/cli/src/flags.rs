@@ -1,31 +1,31 @@
-//! Flags that several commands take.
+//! Flags shared by several commands.
 
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
-/// How results are printed.
+/// The form of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
-    /// For people.
+    /// Tables for people.
     Text,
-    /// For programs.
+    /// JSON for programs.
     Json,
 }
 
-/// Which adapters there are.
+/// A file of further adapters.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct AdapterFileArguments {
-    /// Also know the adapters that this JSON file describes, in the form of the built-in adapters.json
+    /// Add the adapters described in this JSON file, which has the form of the built-in adapters.json
     #[arg(long = "adapters", value_name = "FILE")]
     pub(crate) adapter_file: Option<PathBuf>,
 }
 
-/// How much of each family of cases is taken.
+/// The share of each family of cases that is selected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum CaseProfile {
-    /// Of large families so many cases that every two values meet; of others all.
+    /// A covering array of each large family, in which every two values meet; all of the others.
     Quick,
-    /// All.
+    /// All cases.
     Full,
 }
 
@@ -40,14 +40,14 @@ impl From<CaseProfile> for etalon_case::Profile {
 
 #[derive(Clone, Debug, Args)]
 pub(crate) struct CaseArguments {
-    /// Which cases: globs over ids in which `*` also matches `/`; a plain name stands for all below
-    /// it; none for all (`run`: for all but the areas `methods` and `perf`, which want to be named)
+    /// Globs over case ids; `*` also matches `/`, and a plain name selects everything below it. Default:
+    /// all cases (`run`: all but the areas `methods` and `perf`)
     #[arg(value_name = "GLOB")]
     pub(crate) globs: Vec<String>,
-    /// Read case files from this folder instead of those built in
+    /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
-    /// How much of each family of cases
+    /// Share of each family of cases
     #[arg(long, value_enum, default_value = "quick")]
     pub(crate) profile: CaseProfile,
 }

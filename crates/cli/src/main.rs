@@ -1,4 +1,5 @@
-//! The `etalon` binary: flags and wiring.
+//! The `etalon` binary. Each command is a file of `commands` that holds its flags and its steps; the files beside it
+//! hold what several commands share.
 
 #![cfg_attr(
     test,
@@ -30,7 +31,7 @@ fn main() -> ExitCode {
         Ok(command_line) => command_line,
         Err(error) => {
             let code = if error.use_stderr() { USAGE } else { 0 };
-            // Where even this cannot be printed, the exit code still speaks.
+            // If printing fails, the exit code remains.
             let _ = error.print();
             return ExitCode::from(code);
         }
@@ -51,9 +52,9 @@ fn main() -> ExitCode {
     };
     match outcome {
         Ok(code) => ExitCode::from(code),
-        // The reader has gone, as `head` does; there is nobody left to tell.
+        // The reader has closed the pipe, as `head` does.
         Err(Failure::Closed) => ExitCode::SUCCESS,
-        Err(Failure::Told { code, message }) => {
+        Err(Failure::Message { code, message }) => {
             eprintln!("etalon: {message}");
             ExitCode::from(code)
         }

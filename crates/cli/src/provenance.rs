@@ -1,22 +1,22 @@
-//! What a record of any kind states about the process that wrote it: suite, machine, time, command.
+//! The origin of records: version, commit, machine, time and command.
 
 use etalon_record::Machine;
 use std::time::SystemTime;
 
-/// The suite's version.
+/// The version of the suite.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// The commit that the binary was built from, where that is known.
+/// Returns the commit that the binary was built from, if it is known.
 pub(crate) fn commit() -> Option<String> {
     option_env!("ETALON_COMMIT").map(str::to_owned)
 }
 
-/// The time, in UTC, as `2027-01-31T12:00:00Z`.
+/// Returns the current time in UTC, such as `2027-01-31T12:00:00Z`.
 pub(crate) fn now() -> String {
     humantime::format_rfc3339_seconds(SystemTime::now()).to_string()
 }
 
-/// The command line, as the program is called and not where it lies.
+/// Returns the words of the command line, with the name of the program instead of its path.
 pub(crate) fn command() -> Vec<String> {
     let own = std::env::args_os().skip(1);
     std::iter::once("etalon".to_owned())
@@ -24,7 +24,7 @@ pub(crate) fn command() -> Vec<String> {
         .collect()
 }
 
-/// The machine as it names itself, without its owner's names for it.
+/// Returns the operating system and processor, without the host name.
 pub(crate) fn machine() -> Machine {
     let field = |path: &str, key: &str, separator: char| {
         let text = std::fs::read_to_string(path).ok()?;

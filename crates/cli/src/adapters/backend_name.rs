@@ -1,8 +1,8 @@
-//! The backends by name.
+//! The names of the backends.
 
 use serde::{Deserialize, Serialize};
 
-/// The backends, GL's profiles and wgpu's APIs counted apart.
+/// A backend; the profiles of OpenGL and the APIs of `wgpu` count separately.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum BackendName {

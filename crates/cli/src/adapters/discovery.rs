@@ -1,5 +1,5 @@
-//! Finding adapters and starting their workers: software drivers from the data file, hardware by enumeration, and
-//! those that a user's own file describes.
+//! Discovery of adapters: software drivers from the built-in file, hardware by enumeration, further ones from the file
+//! of the user. The worker of each starts at once, since a driver is known to work only when it answers.
 
 use super::backend_name::BackendName;
 use super::candidate::{Candidate, NoStart, Started};
@@ -15,34 +15,34 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::thread;
 
-/// What discovery came to.
+/// The adapters that were found.
 pub(crate) struct Adapters {
-    /// Adapters that can be used, their workers up.
+    /// Usable adapters, with running workers.
     pub(crate) ready: Vec<(Launch, Worker)>,
-    /// Adapters that cannot, and why.
+    /// Adapters that cannot be used, with reasons.
     pub(crate) absent: Vec<AbsentAdapter>,
-    /// Those of them whose driver is there and ends or hangs while it starts, with their backends.
+    /// Those of them whose driver is installed and ends or hangs while it starts.
     pub(crate) dead: Vec<(BackendName, AbsentAdapter)>,
-    /// Adapters that are there only where a variable names them, and does not.
-    pub(crate) unasked: Vec<AbsentAdapter>,
-    /// How each usable adapter is reached, by its name.
+    /// Adapters that a variable enables which is not set.
+    pub(crate) not_enabled: Vec<AbsentAdapter>,
+    /// The origin of each usable adapter, by name.
     pub(crate) origins: BTreeMap<String, Origin>,
 }
 
-/// Finds adapters and starts their workers; only those named, or all.
+/// Finds adapters and starts their workers.
 ///
 /// # Errors
-/// When a name is nobody's, or the user's file is wrong or describes what is not there.
+/// If a name is unknown, or the file of the user is wrong or describes something that does not exist.
 pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
     let mut adapters = Adapters {
         ready: Vec::new(),
         absent: Vec::new(),
         dead: Vec::new(),
-        unasked: Vec::new(),
+        not_enabled: Vec::new(),
         origins: BTreeMap::new(),
     };
     let chosen = chosen(query, &mut adapters.absent)?;
-    // Drivers start side by side: most of the time goes into loading them.
+    // In parallel: most of the time goes into loading drivers.
     let started: Vec<Result<Started, NoStart>> = thread::scope(|scope| {
         let handles: Vec<_> = chosen
             .iter()
@@ -61,22 +61,22 @@ pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
                 adapters.ready.push((started.launch, started.worker));
             }
             Err(NoStart::Absent(absent)) => adapters.absent.push(absent),
-            Err(NoStart::Dead(backend, absent)) => {
+            Err(NoStart::Failed(backend, absent)) => {
                 adapters.dead.push((backend, absent.clone()));
                 adapters.absent.push(absent);
             }
-            // Whoever names it is told why it cannot be had.
-            Err(NoStart::Unasked(absent)) if query.names.is_empty() => {
-                adapters.unasked.push(absent);
+            // An adapter that was asked for by name is reported with the reason.
+            Err(NoStart::NotEnabled(absent)) if query.names.is_empty() => {
+                adapters.not_enabled.push(absent);
             }
-            Err(NoStart::Unasked(absent)) => adapters.absent.push(absent),
+            Err(NoStart::NotEnabled(absent)) => adapters.absent.push(absent),
             Err(NoStart::Wrong(message)) => return Err(Failure::usage(message)),
         }
     }
     Ok(adapters)
 }
 
-/// The adapters to start. Devices are listed only where a name or none asks for them.
+/// Returns the adapters to start. Devices are enumerated only if no name is given or one is not described.
 fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Candidate>, Failure> {
     let mut candidates = described(query.file)?;
     for name in query.names {
@@ -95,7 +95,7 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
         if !is_known(&candidates, name) {
             let known: Vec<&str> = candidates.iter().map(Candidate::name).collect();
             return Err(Failure::usage(format!(
-                "there is no adapter `{}`; known here are: {}",
+                "there is no adapter `{}`; known are: {}",
                 name.escape_default(),
                 known.join(", ")
             )));
@@ -108,8 +108,7 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
     Ok(candidates)
 }
 
-/// The built-in descriptions and the user's, whose entries take the place of built-in ones of the same
-/// name.
+/// Returns the built-in descriptions and those of the user, which replace built-in ones of equal names.
 fn described(file: Option<&Path>) -> Result<Vec<Candidate>, Failure> {
     let built_in = description::built_in()?;
     let mut all: Vec<Candidate> = built_in
@@ -129,7 +128,7 @@ fn described(file: Option<&Path>) -> Result<Vec<Candidate>, Failure> {
     Ok(all)
 }
 
-/// The devices that backends find, and those backends whose search ended badly.
+/// Returns the devices that backends enumerate, and adds the backends that fail to `absent`.
 fn hardware(taken: &BTreeSet<String>, absent: &mut Vec<AbsentAdapter>) -> Vec<Candidate> {
     let found: Vec<Result<Vec<HardwareDevice>, String>> = thread::scope(|scope| {
         let handles: Vec<_> = BACKENDS
@@ -146,17 +145,17 @@ fn hardware(taken: &BTreeSet<String>, absent: &mut Vec<AbsentAdapter>) -> Vec<Ca
     for ((_, prefix, backend), found) in BACKENDS.into_iter().zip(found) {
         match found {
             Ok(found) => {
-                for device in devices::name(&taken, found) {
+                for device in devices::unique_names(&taken, found) {
                     taken.insert(device.name.clone());
-                    all.push(Candidate::found(device, backend));
+                    all.push(Candidate::enumerated(device, backend));
                 }
             }
             Err(reason) => absent.push(AbsentAdapter {
                 name: format!("{prefix}:*"),
                 reason,
                 remedy:
-                    "look for a driver that fails while its devices are listed, as vulkaninfo or \
-                         eglinfo do"
+                    "find the driver that fails to list its devices, for instance with vulkaninfo \
+                         or eglinfo"
                         .to_owned(),
             }),
         }
@@ -164,7 +163,10 @@ fn hardware(taken: &BTreeSet<String>, absent: &mut Vec<AbsentAdapter>) -> Vec<Ca
     all
 }
 
-/// Refuses to go on without an adapter that was named; of others that are absent it tells.
+/// Prints the adapters that are absent.
+///
+/// # Errors
+/// If an adapter that was named is absent.
 pub(crate) fn refuse_absent(named: &[String], absent: &[AbsentAdapter]) -> Result<(), Failure> {
     if !named.is_empty()
         && let Some(absent) = absent.first()
@@ -176,7 +178,7 @@ pub(crate) fn refuse_absent(named: &[String], absent: &[AbsentAdapter]) -> Resul
     }
     for absent in absent {
         eprintln!(
-            "not here: {}: {}; {}",
+            "unavailable: {}: {}; {}",
             absent.name, absent.reason, absent.remedy
         );
     }

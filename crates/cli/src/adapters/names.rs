@@ -1,9 +1,9 @@
-//! What an adapter may be called.
+//! The names of adapters.
 
-/// The longest name of an adapter, in characters.
+/// The maximum length of a name in characters.
 pub(super) const MAX_NAME: usize = 64;
 
-/// Whether a text can be an adapter's name.
+/// True if a text is a valid name.
 pub(super) fn is_name(text: &str) -> bool {
     let inside = |c: char| c.is_ascii_alphanumeric() || [':', '-', '_', '.'].contains(&c);
     text.len() <= MAX_NAME
@@ -11,8 +11,8 @@ pub(super) fn is_name(text: &str) -> bool {
         && text.chars().all(inside)
 }
 
-/// A driver's words as a name can have them, with room for a number.
-pub(super) fn plain(name: &str) -> String {
+/// Returns the words of a driver as a valid name, with space for a number.
+pub(super) fn sanitized(name: &str) -> String {
     let plain: String = name
         .chars()
         .map(|c| if is_name(&format!("a{c}")) { c } else { '-' })

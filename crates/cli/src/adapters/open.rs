@@ -1,25 +1,25 @@
-//! What a worker process is asked to open, as the parent writes it on its command line.
+//! The request that a worker process gets on its command line.
 
 use super::backend_name::BackendName;
 use super::hidden::Hidden;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// What a worker is to open.
+/// The adapter that a worker opens.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Open {
     pub(crate) name: String,
     pub(crate) backend: BackendName,
-    /// The device in the backend's own order; without it, the default one.
+    /// The index of the device in the order of the backend; by default, the default device.
     pub(crate) device: Option<usize>,
-    /// The EGL library; without it, the system's.
+    /// The EGL library; by default, that of the system.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) egl: Option<PathBuf>,
-    /// Whether validation layers and debug output listen.
+    /// True if validation layers and debug output are enabled.
     #[serde(default)]
     pub(crate) validate: bool,
-    /// What is planted in an adapter that no list names.
+    /// The fault of a hidden adapter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) hidden: Option<Hidden>,
 }

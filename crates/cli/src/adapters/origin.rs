@@ -1,22 +1,22 @@
-//! Where an adapter comes from.
+//! The origin of an adapter.
 
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// Where an adapter comes from, and what was set to reach it.
+/// The description of an adapter and the environment of its worker.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Origin {
     /// `built-in`, `found` by enumeration, or the path of the user's file.
     pub(crate) described_in: String,
-    /// Environment variables of its worker; `null` is one taken away.
+    /// Environment variables of the worker; `null` is one that is removed.
     pub(crate) environment: BTreeMap<String, Option<String>>,
-    /// The Vulkan driver's manifest, where one was chosen.
+    /// The manifest of the Vulkan driver, if one was chosen.
     pub(crate) manifest: Option<PathBuf>,
-    /// The EGL library, where it is not the system's.
+    /// The EGL library, if it is not that of the system.
     pub(crate) egl: Option<PathBuf>,
-    /// Folders in which libraries were looked for first.
+    /// Folders searched for libraries before those of the system.
     pub(crate) library_path: Vec<PathBuf>,
-    /// The device's place in the backend's order, where one was chosen.
+    /// The index of the device in the order of the backend, if one was chosen.
     pub(crate) device_index: Option<usize>,
 }

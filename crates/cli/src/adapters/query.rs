@@ -1,16 +1,16 @@
-//! What discovery is asked for.
+//! The parameters of discovery.
 
 use std::path::Path;
 
-/// What is looked for.
+/// The adapters to find, and how their workers start.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Query<'a> {
-    /// Only these; all where there are none.
+    /// The names to find; all if empty.
     pub(crate) names: &'a [String],
-    /// A user's own file of descriptions.
+    /// The file of the user with further descriptions.
     pub(crate) file: Option<&'a Path>,
-    /// Whether validation layers and debug output listen.
+    /// True if validation layers and debug output are enabled.
     pub(crate) validate: bool,
-    /// Whether the drivers' shader caches on disk are switched off.
+    /// True if the drivers' shader caches on disk are disabled.
     pub(crate) cold: bool,
 }

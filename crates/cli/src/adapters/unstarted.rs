@@ -1,4 +1,4 @@
-//! Drivers that are there and do not start, as records name them.
+//! Drivers that are installed and do not start.
 
 use super::backend_name::BackendName;
 use super::discovery::Adapters;
@@ -6,8 +6,8 @@ use etalon_frame::{Api, Limits};
 use etalon_record::{AbsentAdapter, AdapterRecord};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The adapters whose drivers do not start, as far as they are known, and how that showed; they are absent
-/// no longer.
+/// Takes the adapters whose drivers do not start out of those that are absent. Returns each with the little that is
+/// known of it, and the reason.
 pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, String)> {
     let record = |(backend, absent): (BackendName, AbsentAdapter)| {
         let (backend, api) = match backend {

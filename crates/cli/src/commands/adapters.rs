@@ -12,12 +12,12 @@ use serde::Serialize;
 pub(crate) struct Arguments {
     #[command(flatten)]
     pub(crate) file: AdapterFileArguments,
-    /// For people or for programs (a JSON array, one object per adapter that can be used)
+    /// Output format; JSON is an array with one object per adapter that can be used
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
 }
 
-/// All that is known of an adapter: who it is, what it can do, and how it is reached.
+/// All facts of an adapter: identity, limits and origin.
 #[derive(Serialize)]
 struct Facts<'a> {
     #[serde(flatten)]
@@ -26,7 +26,7 @@ struct Facts<'a> {
     origin: Option<&'a Origin>,
 }
 
-/// Lists what can be used and what cannot, why, and what would help.
+/// Lists the adapters that can be used, and the others with reason and remedy.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let adapters = discover(&Query {
         file: arguments.file.adapter_file.as_deref(),
@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         ));
     }
     if !adapters.absent.is_empty() {
-        text.push_str("\nNot here:\n");
+        text.push_str("\nUnavailable:\n");
         for absent in &adapters.absent {
             text.push_str(&format!(
                 "  {}: {}\n      {}\n",
@@ -65,12 +65,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             ));
         }
     }
-    if !adapters.unasked.is_empty() {
+    if !adapters.not_enabled.is_empty() {
         text.push('\n');
-        for unasked in &adapters.unasked {
+        for adapter in &adapters.not_enabled {
             text.push_str(&format!(
-                "Not asked for: {}: {}\n",
-                unasked.name, unasked.remedy
+                "Not enabled: {}: {}\n",
+                adapter.name, adapter.remedy
             ));
         }
     }

@@ -21,30 +21,30 @@ pub(crate) struct Arguments {
     pub(crate) selection: CaseArguments,
     #[command(flatten)]
     pub(crate) file: AdapterFileArguments,
-    /// Time this adapter (repeat for several); without it, all that are found
+    /// Measure this adapter; may be repeated. Default: all adapters found
     #[arg(long = "adapter", value_name = "NAME")]
     pub(crate) adapters: Vec<String>,
-    /// Where samples and reports go
+    /// Folder for samples and reports
     #[arg(long, value_name = "DIR", default_value = "reports/bench-latest")]
     pub(crate) out: PathBuf,
-    /// How often each case is prepared and timed anew, in new processes; fewer than 7 tell no difference
+    /// Number of rounds, each in new processes; fewer than 7 cannot show a difference
     #[arg(long, value_name = "N", default_value = "12", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub(crate) rounds: u32,
-    /// How long the timed frames of a case take on an adapter in each round, about
+    /// Approximate time in seconds that the frames of a case take on an adapter in each round
     #[arg(long, value_name = "S", default_value = "0.1", value_parser = parse_seconds)]
     pub(crate) seconds: f64,
-    /// Switch off the drivers' shader caches on disk, so that each round's first frame compiles everything
+    /// Disable the drivers' shader caches on disk: the first frame of each round compiles every shader
     #[arg(long)]
     pub(crate) cold: bool,
-    /// For people or for programs
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
 }
 
-/// What is timed where nothing is named.
+/// The cases that are measured by default.
 const DEFAULT: &str = "perf/*";
 
-/// Judges the chosen cases' pictures, times those that are right, records and reports.
+/// Judges the pictures of the selected cases, measures the correct ones, writes samples and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut selection = arguments.selection.clone();
     if selection.globs.is_empty() {
@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         let name = &worker.hello.info.name;
         if !names.insert(name.clone()) {
             return Err(Failure::usage(format!(
-                "two of the adapters answer as {name}; bench one after the other and compare them with \
+                "two adapters report the name {name}; bench one after the other and compare them with \
                  `etalon diff`"
             )));
         }
@@ -82,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         },
         cases: cases.len() as u64,
         rounds: arguments.rounds,
-        shader_cache: match arguments.cold || cache::is_off() {
+        shader_cache: match arguments.cold || cache::is_disabled() {
             true => ShaderCache::Cold,
             false => ShaderCache::Warm,
         },
@@ -91,7 +91,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         absent: adapters.absent,
     };
     let rounds = u64::from(arguments.rounds);
-    // A picture counts as much as a round.
+    // A picture counts as one step, like a round.
     let bar = progress((cases.len() * adapters.ready.len()) as u64 * (1 + rounds));
     let plan = BenchPlan {
         cases: &cases,
@@ -163,6 +163,6 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
     if (0.001..=30.0).contains(&seconds) {
         Ok(seconds)
     } else {
-        Err("seconds lie between 0.001 and 30".to_owned())
+        Err("expected a number of seconds from 0.001 to 30".to_owned())
     }
 }

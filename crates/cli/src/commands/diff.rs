@@ -9,20 +9,20 @@ use etalon_report::runs::{self, RunDiff};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Which time of a bench is compared.
+/// The time of a bench that is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum DiffTime {
-    /// A frame until the device was done.
+    /// From the start of a frame until the device is done.
     Wall,
-    /// A frame until the last call that submits work returned.
+    /// From the start of a frame until the last call that submits work returns.
     Cpu,
-    /// A frame between GPU timestamps.
+    /// Between the GPU timestamps of a frame.
     Gpu,
     /// Reading a frame back.
     ReadBack,
     /// Preparing the scene.
     Prepare,
-    /// The first frame after preparing.
+    /// The first frame after preparation.
     First,
 }
 
@@ -34,25 +34,25 @@ pub(crate) struct Arguments {
     /// The run or bench folder to judge
     #[arg(value_name = "AFTER")]
     pub(crate) after: PathBuf,
-    /// Of runs: hold this adapter of the first against that of the second; without both, adapters of the
-    /// same name, or the only one of each
+    /// Runs only: the adapter of the first run. Default: adapters of equal names are compared, or the
+    /// only one of each run
     #[arg(long, value_name = "NAME", requires = "adapter_after")]
     pub(crate) adapter_before: Option<String>,
-    /// Of runs: the adapter of the second
+    /// Runs only: the adapter of the second run
     #[arg(long, value_name = "NAME", requires = "adapter_before")]
     pub(crate) adapter_after: Option<String>,
-    /// Of benches: which time (wall, where none is named)
+    /// Benches only: the time to compare. Default: wall
     #[arg(long, value_enum)]
     pub(crate) time: Option<DiffTime>,
-    /// Also write a page here
+    /// Also write an HTML page to this file
     #[arg(long, value_name = "FILE.html")]
     pub(crate) out: Option<PathBuf>,
-    /// For people or for programs
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
 }
 
-/// Says what changed from one run to another, or what became faster or slower from one bench to another.
+/// Compares two runs or two benches.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let [before, after] = [&arguments.before, &arguments.after];
     match [before, after].map(|folder| FolderKind::of(folder)) {
@@ -82,7 +82,7 @@ fn mixed(run: &Path, bench: &Path) -> Failure {
 fn of_runs(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.time.is_some() {
         return Err(Failure::usage(
-            "--time is for two benches; a run takes each time once, beside other work, and proves none",
+            "--time is for two benches; the times of a run are single samples taken beside other work",
         ));
     }
     let adapters = (&arguments.adapter_before, &arguments.adapter_after);
@@ -99,13 +99,13 @@ fn of_runs(arguments: &Arguments) -> Result<u8, Failure> {
         Some(path) => Some(runs::write_page(path, &diff, folders).map_err(Failure::incomplete)?),
         None => None,
     };
-    tell(arguments, &diff, page, || {
+    report(arguments, &diff, page, || {
         runs::table(&diff, table_options())
     })?;
     Ok(code(&diff))
 }
 
-/// 1 for anything worse, 2 for improvements alone, 0 for everything else.
+/// Returns 1 for anything worse, 2 for improvements alone, 0 otherwise.
 fn code(diff: &RunDiff) -> u8 {
     if diff.worse() {
         UNEXPECTED
@@ -136,14 +136,14 @@ fn of_benches(arguments: &Arguments) -> Result<u8, Failure> {
         Some(path) => Some(etalon_report::write_diff(path, &diff).map_err(Failure::incomplete)?),
         None => None,
     };
-    tell(arguments, &diff, page, || {
+    report(arguments, &diff, page, || {
         etalon_report::diff_table(&diff, table_options())
     })?;
     Ok(if diff.worse() { UNEXPECTED } else { 0 })
 }
 
-/// Prints a comparison, and where its page lies.
-fn tell(
+/// Prints a comparison, and the path of its page.
+fn report(
     arguments: &Arguments,
     diff: &impl Serialize,
     page: Option<PathBuf>,

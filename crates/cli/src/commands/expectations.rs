@@ -11,78 +11,78 @@ use etalon_record::{About, AdapterRecord, Expectations, Imported, ListKind};
 use std::fs;
 use std::path::PathBuf;
 
-/// Lists of deqp-runner in and out.
+/// Conversions from and to the lists of deqp-runner.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Add what deqp-runner's lists expect to an expectations file
+    /// Add the contents of deqp-runner's lists to an expectations file
     Import(ImportArguments),
-    /// Write what is expected of an adapter as deqp-runner's lists: fails.txt, flakes.txt, skips.txt
+    /// Write the expectations of an adapter as deqp-runner's lists: fails.txt, flakes.txt, skips.txt
     Export(ExportArguments),
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct ImportArguments {
-    /// A list of failures: lines `name,status` (repeat for several)
+    /// List of failures, with lines `name,status`; may be repeated
     #[arg(long, value_name = "FILE")]
     pub(crate) fails: Vec<PathBuf>,
-    /// A list of flaky cases: a regular expression per line (repeat for several)
+    /// List of flaky cases, with one regular expression per line; may be repeated
     #[arg(long, value_name = "FILE")]
     pub(crate) flakes: Vec<PathBuf>,
-    /// A list of cases not to be drawn: a regular expression per line (repeat for several)
+    /// List of cases to skip, with one regular expression per line; may be repeated
     #[arg(long, value_name = "FILE")]
     pub(crate) skips: Vec<PathBuf>,
-    /// A results.csv, whose bad verdicts are expected from now on (repeat for several)
+    /// A results.csv whose bad verdicts become expected; may be repeated
     #[arg(long, value_name = "FILE")]
     pub(crate) results: Vec<PathBuf>,
-    /// The adapters that the entries are about: a glob over names
+    /// Glob over the names of the adapters that the entries apply to
     #[arg(long, value_name = "GLOB")]
     pub(crate) adapter: String,
-    /// Their driver: a glob over driver and version
+    /// Glob over driver and version
     #[arg(long, value_name = "GLOB", default_value = "*")]
     pub(crate) driver: String,
-    /// The driver's versions, as `>=22.3, <25.1`
+    /// Range of driver versions, such as `>=22.3, <25.1`
     #[arg(long, value_name = "RANGE")]
     pub(crate) version: Option<String>,
-    /// Why the verdicts are accepted
+    /// Reason for which the verdicts are accepted
     #[arg(long, value_name = "TEXT")]
     pub(crate) reason: String,
-    /// Where that is shown
+    /// Evidence for the reason
     #[arg(long, value_name = "TEXT")]
     pub(crate) evidence: String,
-    /// A bug report's address
+    /// Address of a bug report
     #[arg(long, value_name = "URL")]
     pub(crate) link: Option<String>,
-    /// The last day on which the entries count, as 2027-01-31
+    /// Last day on which the entries apply, such as 2027-01-31
     #[arg(long, value_name = "DAY")]
     pub(crate) expires: Option<String>,
-    /// The expectations file to add to; it is made where it does not exist
+    /// Expectations file to add to, created if it does not exist
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
-    /// Read case files from this folder instead of those built in
+    /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct ExportArguments {
-    /// The adapter that the lists are for
+    /// Adapter that the lists are for
     #[arg(long, value_name = "NAME")]
     pub(crate) adapter: String,
     #[command(flatten)]
     pub(crate) file: AdapterFileArguments,
-    /// Expectations to write, instead of those built in
+    /// Export the expectations of this file instead of the built-in ones
     #[arg(long, value_name = "FILE")]
     pub(crate) expect: Option<PathBuf>,
-    /// The folder that the lists go to
+    /// Folder for the lists
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// Read case files from this folder instead of those built in
+    /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
 }
 
-/// How many lines that name nothing are told.
-const TOLD: usize = 20;
+/// The number of unmatched lines that are printed.
+const PRINTED: usize = 20;
 
 /// Exchanges expectations with deqp-runner.
 pub(crate) fn run(command: &Command) -> Result<u8, Failure> {
@@ -120,16 +120,16 @@ fn import(arguments: &ImportArguments) -> Result<u8, Failure> {
                 .map_err(Failure::usage)?;
         }
     }
-    for (list, line) in imported.unmatched.iter().take(TOLD) {
-        eprintln!("{list}: no case here is meant by: {line}");
+    for (list, line) in imported.unmatched.iter().take(PRINTED) {
+        eprintln!("{list}: no case matches: {line}");
     }
-    let more = imported.unmatched.len().saturating_sub(TOLD);
+    let more = imported.unmatched.len().saturating_sub(PRINTED);
     if more > 0 {
-        eprintln!("and {more} more lines that mean no case here");
+        eprintln!("and {more} more lines that match no case");
     }
     if imported.entries.is_empty() {
         return Err(Failure::nothing(
-            "the lists name no bad verdict of any case here",
+            "the lists contain no bad verdict of a known case",
         ));
     }
     let mut entries = match arguments.out.exists() {

@@ -1,4 +1,4 @@
-//! `etalon list` and `etalon schema`.
+//! `etalon list`.
 
 use crate::cases::chosen;
 use crate::failure::Failure;
@@ -12,7 +12,7 @@ pub(crate) struct Arguments {
     pub(crate) selection: CaseArguments,
 }
 
-/// Prints the ids of the chosen cases.
+/// Prints the ids of the selected cases.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let cases = chosen(&arguments.selection)?;
     let mut text = String::new();

@@ -17,33 +17,33 @@ use std::time::Instant;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Which planted bugs: globs over their names, as `blend/*`; none for all
+    /// Globs over the names of planted bugs, such as `blend/*`. Default: all
     #[arg(value_name = "GLOB")]
     pub(crate) globs: Vec<String>,
-    /// Print the names and what each does, and hunt nothing
+    /// Print names and descriptions only
     #[arg(long)]
     pub(crate) list: bool,
-    /// Hunt with these cases alone: a glob over ids (repeat for several)
+    /// Hunt with the cases that match this glob only; may be repeated
     #[arg(long = "case", value_name = "GLOB")]
     pub(crate) case_globs: Vec<String>,
-    /// How much of each family of cases
+    /// Share of each family of cases
     #[arg(long, value_enum, default_value = "quick")]
     pub(crate) profile: CaseProfile,
-    /// Read case files from this folder instead of those built in
+    /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
-    /// Draw every case with every bug, instead of ending an area at a bug's first Fail there
+    /// Draw every case with every bug, instead of leaving an area after the first Fail of a bug
     #[arg(long)]
     pub(crate) full: bool,
-    /// Where mutants.json and mutants.html go
+    /// Folder for mutants.json and mutants.html
     #[arg(long, value_name = "DIR", default_value = "reports/mutants-latest")]
     pub(crate) out: PathBuf,
-    /// For people or for programs
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
 }
 
-/// Hunts the chosen bugs, or lists them.
+/// Hunts the selected bugs, or lists them.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let chosen = chosen(&arguments.globs)?;
     if arguments.list {
@@ -58,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         .collect();
     if cases.is_empty() {
         return Err(Failure::nothing(format!(
-            "no case to hunt with matches {}; selftests take no part",
+            "no case matches {}; selftests are excluded",
             arguments.case_globs.join(" ")
         )));
     }
@@ -78,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     })
 }
 
-/// The registry's bugs whose names match.
+/// Returns the bugs of the registry whose names match.
 fn chosen(globs: &[String]) -> Result<Vec<MutantInfo>, Failure> {
     let set = Globs::new(globs).map_err(Failure::usage)?;
     let chosen: Vec<MutantInfo> = mutants()
@@ -94,7 +94,7 @@ fn chosen(globs: &[String]) -> Result<Vec<MutantInfo>, Failure> {
         .collect();
     if chosen.is_empty() {
         return Err(Failure::nothing(format!(
-            "no planted bug matches {}; `etalon mutants --list` names them all",
+            "no planted bug matches {}; `etalon mutants --list` lists all",
             globs.join(" ")
         )));
     }

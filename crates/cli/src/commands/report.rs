@@ -14,13 +14,13 @@ pub(crate) struct Arguments {
     pub(crate) folders: Vec<PathBuf>,
 }
 
-/// Makes the reports of run and bench folders anew, from the folders alone.
+/// Rebuilds the reports of run and bench folders from the folders alone.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let options = table_options();
     for folder in &arguments.folders {
         match FolderKind::of(folder) {
             Some(FolderKind::Bench) => bench(folder, options)?,
-            // What is neither is told as a missing run.
+            // A folder that is neither is reported as a missing run.
             Some(FolderKind::Run) | None => of_run(folder, options)?,
         }
     }

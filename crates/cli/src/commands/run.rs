@@ -25,12 +25,12 @@ use std::time::Duration;
 /// The folder that each run without `--out` replaces.
 const LATEST: &str = "reports/latest";
 
-/// What the drivers' shader caches on disk hold.
+/// The state of the drivers' shader caches on disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum CacheState {
-    /// Nothing, and nothing is kept: every process compiles everything.
+    /// Disabled: every process compiles every shader.
     Cold,
-    /// What earlier processes left.
+    /// Enabled.
     Warm,
 }
 
@@ -38,53 +38,53 @@ pub(crate) enum CacheState {
 pub(crate) struct Arguments {
     #[command(flatten)]
     pub(crate) selection: CaseArguments,
-    /// Run on this adapter (repeat for several); without it, on all that are found
+    /// Run on this adapter; may be repeated. Default: all adapters found
     #[arg(long = "adapter", value_name = "NAME")]
     pub(crate) adapters: Vec<String>,
     #[command(flatten)]
     pub(crate) file: AdapterFileArguments,
-    /// Where records and reports go
+    /// Folder for records and reports
     #[arg(long, value_name = "DIR", default_value = "reports/latest")]
     pub(crate) out: PathBuf,
-    /// Go on with the run that the folder holds: draw what is missing
+    /// Continue the run in the folder: draw what is missing
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
-    /// Replace the run that the folder holds
+    /// Replace the run in the folder
     #[arg(long)]
     pub(crate) force: bool,
-    /// Expectations to hold verdicts against, instead of those built in
+    /// Use the expectations of this file instead of the built-in ones
     #[arg(long, value_name = "FILE")]
     pub(crate) expect: Option<PathBuf>,
-    /// Write what this run showed into the expectations file: what was unexpected is expected from now
-    /// on, what is better goes. Refused where the variable CI is set
+    /// Update the expectations file from this run: add unexpected verdicts, remove improved ones. Refused
+    /// if the variable CI is set
     #[arg(long)]
     pub(crate) bless: bool,
-    /// Draw part M of N, chosen by a hash of the id; without it, the part that GitLab, Bazel, Slurm or a
-    /// Kubernetes indexed job asks for in its variables; 1/1 for all
+    /// Draw shard M of N, chosen by a hash of the id; 1/1 is everything. Default: the shard given by the
+    /// variables of GitLab, Bazel, Slurm or a Kubernetes indexed job
     #[arg(long, value_name = "M/N", value_parser = crate::shard::parse)]
     pub(crate) shard: Option<Shard>,
-    /// Seconds that one case may take before its process is given up (methods and perf: four times that)
+    /// Time limit of a case in seconds (methods and perf: four times as long)
     #[arg(long, value_name = "S", default_value = "60", value_parser = parse_timeout)]
     pub(crate) timeout: f64,
-    /// MiB of memory that one worker may hold before it is given up
+    /// Memory limit of a worker in MiB
     #[arg(long, value_name = "MIB", default_value = "4096", value_parser = clap::value_parser!(u64).range(64..=1 << 20))]
     pub(crate) memory: u64,
-    /// How many workers draw at the same time; without it, one per processor
+    /// Number of workers that draw at the same time. Default: one per processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) jobs: Option<u16>,
-    /// Draw each case so many times, each time in a fresh process; verdicts that differ make it flaky
+    /// Draw each case N times, each time in a new process; a case whose verdicts differ is flaky
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(crate) repeat: u32,
-    /// Draw the cases in the order of this seed; a case that fails only after others names them
+    /// Draw the cases in a random order with this seed; a case that fails only after others names them
     #[arg(long, value_name = "SEED")]
     pub(crate) shuffle: Option<u64>,
-    /// Whether the drivers' shader caches on disk may be used
+    /// State of the drivers' shader caches on disk
     #[arg(long, value_enum, default_value = "warm")]
     pub(crate) shader_cache: CacheState,
-    /// Have validation layers and GL debug output listen; a case of which they say something is an error
+    /// Enable validation layers and GL debug output; a case that causes messages is an error
     #[arg(long)]
     pub(crate) validate: bool,
-    /// For people or for programs
+    /// Output format
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
 }
@@ -94,15 +94,15 @@ fn parse_timeout(text: &str) -> Result<f64, String> {
     if (0.1..=86_400.0).contains(&seconds) {
         Ok(seconds)
     } else {
-        Err("seconds lie between 0.1 and 86400".to_owned())
+        Err("expected a number of seconds from 0.1 to 86400".to_owned())
     }
 }
 
-/// Draws the chosen cases on the chosen adapters, judges, records and reports.
+/// Draws the selected cases on the selected adapters, judges them, writes records and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut cases = chosen(&arguments.selection)?;
     if arguments.selection.globs.is_empty() {
-        // A folder that holds nothing else means them.
+        // A folder with nothing else in it means them.
         let measuring_alone = cases.iter().all(is_measuring);
         cases.retain(|case| measuring_alone || !is_measuring(case));
     }
@@ -124,13 +124,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         false => None,
     };
     let expectations = match &blessed {
-        // What is to be written need not be there yet.
+        // The file to write need not exist yet.
         Some(path) if !path.exists() => Expectations::default(),
         Some(path) => Expectations::read(path).map_err(Failure::usage)?,
         None => expectations::read(arguments.expect.as_deref())?,
     }
     .on(&today());
-    // Nothing may be lost that another run, or one before, has written.
+    // The records of a concurrent or an earlier run must not be lost.
     let lock = || FolderLock::acquire(&arguments.out).map_err(Failure::usage);
     let early = arguments.out.exists().then(lock).transpose()?;
     let resume = resumes(arguments)?;
@@ -141,13 +141,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         validate: arguments.validate,
         cold: arguments.shader_cache == CacheState::Cold,
     })?;
-    // A driver that is there and does not start has its records like any other.
+    // A driver that is installed and does not start has a record for each case like any other.
     let dead = take_unstarted(&mut adapters);
     for (adapter, how) in &dead {
         eprintln!("{} does not start: {how}", adapter.name);
     }
     refuse_absent(&arguments.adapters, &adapters.absent)?;
-    // A folder is not made before it is clear that there is something to put into it.
+    // A new folder is created only once there is something to write.
     let _lock = early.map_or_else(lock, Ok)?;
     let header = header(arguments, &cases, &selection, shard, &adapters, &dead);
     let names: Vec<String> = header.adapters.iter().map(|a| a.name.clone()).collect();
@@ -232,7 +232,7 @@ fn shuffle(cases: &mut [Case], seed: u64) {
     }
 }
 
-/// Whether to go on with the run in the folder; refuses to replace one without being told.
+/// Returns true if the run in the folder is continued; refuses to replace it without `--force`.
 fn resumes(arguments: &Arguments) -> Result<bool, Failure> {
     let folder = &arguments.out;
     if FolderKind::of(folder) != Some(FolderKind::Run) {
@@ -281,7 +281,7 @@ fn header(
             shuffle: arguments.shuffle,
             repeat: (arguments.repeat > 1).then_some(arguments.repeat),
             shader_cache: Some(
-                match arguments.shader_cache == CacheState::Cold || cache::is_off() {
+                match arguments.shader_cache == CacheState::Cold || cache::is_disabled() {
                     true => ShaderCache::Cold,
                     false => ShaderCache::Warm,
                 },

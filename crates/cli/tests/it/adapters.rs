@@ -138,7 +138,7 @@ fn a_users_own_adapter_runs_beside_the_built_in_one_and_is_named() {
     .arg(&path)
     .assert()
     .code(0)
-    .stdout(contains("came back"));
+    .stdout(contains("returned"));
 }
 
 #[test]
@@ -322,15 +322,15 @@ fn an_adapter_that_a_variable_names_is_told_with_its_remedy_or_in_one_quiet_line
     let text = String::from_utf8_lossy(&quiet.get_output().stdout).into_owned();
     let told: Vec<&str> = text.lines().filter(|l| l.contains("gl:es:angle")).collect();
     assert_eq!(told.len(), 1, "{text}");
-    assert!(told[0].starts_with("Not asked for: "), "{text}");
+    assert!(told[0].starts_with("Not enabled: "), "{text}");
     assert!(told[0].contains("ETALON_ANGLE"), "{text}");
     etalon(&["adapters"])
         .env("ETALON_ANGLE", "/none")
         .assert()
         .code(0)
-        .stdout(contains("gl:es:angle: the folder /none is not there"))
+        .stdout(contains("gl:es:angle: the folder /none does not exist"))
         .stdout(contains("ci/adapters/angle"))
-        .stdout(contains("Not asked for").not());
+        .stdout(contains("Not enabled").not());
     let out = tempfile::tempdir().unwrap();
     etalon(&["run", CASE, "--adapter", "gl:es:angle", "--out"])
         .arg(out.path().join("out"))

@@ -100,7 +100,7 @@ fn a_slower_rasterizer_answers_as_cpu_and_is_not_listed() {
     let both = ["--adapter", "cpu", "--adapter", "cpu:slower=5%"];
     bench(cases.path(), out.path(), &both)
         .code(64)
-        .stderr(contains("answer as cpu"));
+        .stderr(contains("report the name cpu"));
     etalon(&["adapters"])
         .assert()
         .stdout(contains("slower").not());
@@ -113,8 +113,8 @@ fn wrong_usage_is_64_and_nothing_chosen_is_4() {
     for (arguments, words) in [
         (&["--rounds", "0"][..], "rounds"),
         (&["--rounds", "many"], "rounds"),
-        (&["--seconds", "0"], "seconds lie between"),
-        (&["--seconds", "nan"], "seconds lie between"),
+        (&["--seconds", "0"], "expected a number of seconds"),
+        (&["--seconds", "nan"], "expected a number of seconds"),
         (&["--adapter", "nothing"], "there is no adapter `nothing`"),
         (
             &["--adapter", "cpu:slower=x%"],

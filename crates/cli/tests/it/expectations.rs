@@ -176,7 +176,7 @@ fn blessing_expects_what_was_seen_and_takes_away_what_is_better() {
         "cpu:fault=flaky",
     ])
     .code(0)
-    .stderr(contains("to narrow by hand"));
+    .stderr(contains("narrow by hand"));
     assert!(
         read()
             .entries()
@@ -247,7 +247,7 @@ fn lists_of_deqp_runner_go_in_and_out() {
     };
     import(&[])
         .code(0)
-        .stderr(contains("no case here is meant by: no/such,Fail"));
+        .stderr(contains("no case matches: no/such,Fail"));
     let read = Expectations::read(&file).unwrap();
     let count = |v: Verdict| read.entries().iter().filter(|e| e.verdict == v).count();
     assert_eq!(

@@ -113,7 +113,7 @@ fn a_merge_with_holes_names_them() {
         .args(["--format", "json"])
         .assert()
         .code(3)
-        .stderr(contains("shard-2 holds no run").and(contains("missing: cpu cull/")));
+        .stderr(contains("shard-2 contains no run").and(contains("missing: cpu cull/")));
     let said: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
     let run = Run::read(&out).unwrap();
     let missing = said["missing"].as_array().unwrap();

@@ -516,7 +516,7 @@ fn a_machine_without_drivers_still_has_the_cpu() {
     bare(&["adapters"])
         .assert()
         .code(0)
-        .stdout(contains("Not here:"))
+        .stdout(contains("Unavailable:"))
         .stdout(contains("vulkan:lavapipe: libvulkan.so.1"))
         .stdout(contains("gl:softpipe: libEGL.so.1"))
         .stdout(contains("apt-get install mesa-vulkan-drivers"));
@@ -527,7 +527,7 @@ fn a_machine_without_drivers_still_has_the_cpu() {
         .arg(out)
         .assert()
         .code(0)
-        .stderr(contains("not here: gl:softpipe: ").and(contains("apt-get install")));
+        .stderr(contains("unavailable: gl:softpipe: ").and(contains("apt-get install")));
     let run = whole(out);
     assert_eq!(run.records.len(), count(&["depth/clear"]));
     for due in DUE.iter().filter(|name| **name != "cpu") {

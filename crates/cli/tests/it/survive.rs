@@ -434,7 +434,7 @@ fn an_interrupted_run_says_how_to_go_on_and_does() {
             "nothing is blamed"
         );
         // The words that it says are a command.
-        let command = said.rsplit("go on with: etalon ").next().unwrap();
+        let command = said.rsplit("resume with: etalon ").next().unwrap();
         let words = command.split_whitespace().map(|w| w.trim_matches('\''));
         let words: Vec<&str> = words.collect();
         etalon(&words).assert().code(0);
