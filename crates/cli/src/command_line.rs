@@ -1,7 +1,8 @@
 //! The command line: one subcommand per file of `commands`.
 
 use crate::commands::{
-    adapters, bench, diff, expectations, explain, list, merge, mutants, report, run,
+    adapters, bench, completions, diff, expectations, explain, list, man, merge, mutants, report,
+    run,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -10,7 +11,7 @@ use clap::{Parser, Subcommand};
 /// found and judges each texel by the values that the specification allows.
 #[derive(Debug, Parser)]
 #[command(
-    version,
+    version = env!("ETALON_VERSION"),
     arg_required_else_help = true,
     after_help = "Exit codes: 0 success, 1 unexpected bad verdicts or something worse in diff, 2 improvements only, 3 incomplete, \
                   4 nothing selected, 64 wrong usage or bad input."
@@ -45,6 +46,10 @@ pub(crate) enum Command {
     Explain(explain::Arguments),
     /// Plant bugs in the cpu rasterizer and report which of them the cases catch
     Mutants(mutants::Arguments),
+    /// Print a completion script for a shell
+    Completions(completions::Arguments),
+    /// Print or write manual pages
+    Man(man::Arguments),
     /// Draw scenes for a parent process (used by etalon itself)
     #[command(hide = true)]
     Worker(worker::Arguments),

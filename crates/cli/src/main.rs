@@ -21,7 +21,7 @@ mod provenance;
 mod shard;
 mod worker;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use command_line::{Command, CommandLine};
 use failure::{Failure, USAGE};
 use std::process::ExitCode;
@@ -48,6 +48,10 @@ fn main() -> ExitCode {
         Command::Diff(arguments) => commands::diff::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Mutants(arguments) => commands::mutants::run(&arguments),
+        Command::Completions(arguments) => {
+            commands::completions::run(&arguments, &CommandLine::command())
+        }
+        Command::Man(arguments) => commands::man::run(&arguments, CommandLine::command()),
         Command::Worker(arguments) => worker::run(&arguments),
     };
     match outcome {

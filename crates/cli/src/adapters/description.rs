@@ -141,7 +141,7 @@ impl Description {
     fn check(&self) -> Result<(), String> {
         if !is_name(&self.name) {
             return Err(format!(
-                "a name starts with an ASCII letter or digit and goes on with letters, digits, `:`, `-`, `_` \
+                "a name starts with an ASCII letter or digit and continues with letters, digits, `:`, `-`, `_` \
                  and `.`, at most {MAX_NAME} in all"
             ));
         }

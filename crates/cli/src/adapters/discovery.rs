@@ -1,5 +1,5 @@
 //! Discovery of adapters: software drivers from the built-in file, hardware by enumeration, further ones from the file
-//! of the user. The worker of each starts at once, since a driver is known to work only when it answers.
+//! of the user. The worker of each starts immediately, since a driver is known to work only when it answers.
 
 use super::backend_name::BackendName;
 use super::candidate::{Candidate, NoStart, Started};

@@ -2,10 +2,12 @@
 
 pub(crate) mod adapters;
 pub(crate) mod bench;
+pub(crate) mod completions;
 pub(crate) mod diff;
 pub(crate) mod expectations;
 pub(crate) mod explain;
 pub(crate) mod list;
+pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod mutants;
 pub(crate) mod report;
