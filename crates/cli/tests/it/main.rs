@@ -4,6 +4,7 @@
 mod adapters;
 mod bench;
 mod ci_files;
+mod circles;
 mod commands;
 mod diff;
 mod etalon;
