@@ -1,22 +1,32 @@
-//! Tells the binary which commit it was built from, where there is a repository to ask.
+//! Records the version, with the commit if the sources lie in their repository. Source archives have no commit, not even
+//! inside the repository of something else.
 
 use std::path::Path;
 use std::process::Command;
 
+/// The output of git in this folder.
+fn git(arguments: &[&str]) -> Option<String> {
+    let output = Command::new("git").args(arguments).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    output.status.success().then(|| text.trim().to_owned())
+}
+
 fn main() {
-    // The log of HEAD grows with every commit and checkout.
-    for name in ["../../.git/HEAD", "../../.git/logs/HEAD"] {
-        if Path::new(name).exists() {
-            println!("cargo:rerun-if-changed={name}");
+    println!("cargo:rerun-if-changed=build.rs");
+    let mut version = std::env::var("CARGO_PKG_VERSION").unwrap_or_default();
+    if git(&["rev-parse", "--show-prefix"]).as_deref() == Some("crates/cli/") {
+        // The log of HEAD grows with every commit and checkout.
+        for name in ["HEAD", "logs/HEAD"] {
+            let path = git(&["rev-parse", "--git-path", name]).unwrap_or_default();
+            if Path::new(&path).is_file() {
+                println!("cargo:rerun-if-changed={path}");
+            }
+        }
+        let commit = git(&["log", "-1", "--format=%H %cs"]).unwrap_or_default();
+        if let Some((commit, day)) = commit.split_once(' ') {
+            println!("cargo:rustc-env=ETALON_COMMIT={commit}");
+            version.push_str(&format!(" ({} {day})", &commit[..12]));
         }
     }
-    println!("cargo:rerun-if-changed=build.rs");
-    let output = Command::new("git").args(["rev-parse", "HEAD"]).output();
-    let commit = output
-        .ok()
-        .filter(|o| o.status.success())
-        .and_then(|o| String::from_utf8(o.stdout).ok());
-    if let Some(commit) = commit {
-        println!("cargo:rustc-env=ETALON_COMMIT={}", commit.trim());
-    }
+    println!("cargo:rustc-env=ETALON_VERSION={version}");
 }

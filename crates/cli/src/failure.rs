@@ -1,4 +1,4 @@
-//! Errors as the user meets them: one message and an exit code.
+//! Errors of commands: a message and an exit code.
 
 use std::fmt::Display;
 use std::io;
@@ -11,16 +11,16 @@ pub(crate) const NOTHING: u8 = 4;
 pub(crate) const INCOMPLETE: u8 = 3;
 /// Only improvements.
 pub(crate) const IMPROVED: u8 = 2;
-/// Something unexpected and bad.
+/// An unexpected bad result.
 pub(crate) const UNEXPECTED: u8 = 1;
 
-/// Why a command did not come to its end.
+/// The reason for which a command ended early.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// Standard output was closed by its reader.
+    /// The reader closed standard output.
     Closed,
-    /// Anything that the user is told.
-    Told {
+    /// An error that is printed.
+    Message {
         /// The exit code.
         code: u8,
         /// The message.
@@ -30,21 +30,21 @@ pub(crate) enum Failure {
 
 impl Failure {
     pub(crate) fn usage(message: impl Display) -> Self {
-        Self::Told {
+        Self::Message {
             code: USAGE,
             message: message.to_string(),
         }
     }
 
     pub(crate) fn incomplete(message: impl Display) -> Self {
-        Self::Told {
+        Self::Message {
             code: INCOMPLETE,
             message: message.to_string(),
         }
     }
 
     pub(crate) fn nothing(message: impl Display) -> Self {
-        Self::Told {
+        Self::Message {
             code: NOTHING,
             message: message.to_string(),
         }
@@ -52,7 +52,7 @@ impl Failure {
 }
 
 impl From<io::Error> for Failure {
-    /// From writing to standard output.
+    /// Converts an error of writing to standard output.
     fn from(error: io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {
             Self::Closed

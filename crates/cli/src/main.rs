@@ -1,4 +1,5 @@
-//! The `etalon` binary: flags and wiring.
+//! The `etalon` binary. Each command is a file of `commands` that holds its flags and its steps; the files beside it
+//! hold what several commands share.
 
 #![cfg_attr(
     test,
@@ -6,34 +7,40 @@
 )]
 
 mod adapters;
-mod args;
+mod blessing;
+mod cases;
+mod command_line;
 mod commands;
+mod expectations;
 mod failure;
-mod faults;
+mod flags;
+mod interruption;
 mod output;
+mod progress;
+mod provenance;
+mod report_files;
 mod shard;
-mod slower;
 mod worker;
 
-use args::{Arguments, Command};
-use clap::Parser;
+use clap::{CommandFactory, Parser};
+use command_line::{Command, CommandLine};
 use failure::{Failure, USAGE};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
-        Ok(arguments) => arguments,
+    let command_line = match CommandLine::try_parse() {
+        Ok(command_line) => command_line,
         Err(error) => {
             let code = if error.use_stderr() { USAGE } else { 0 };
-            // Where even this cannot be printed, the exit code still speaks.
+            // If printing fails, the exit code remains.
             let _ = error.print();
             return ExitCode::from(code);
         }
     };
-    let outcome = match arguments.command {
+    let outcome = match command_line.command {
         Command::Adapters(arguments) => commands::adapters::run(&arguments),
         Command::List(arguments) => commands::list::run(&arguments),
-        Command::Schema => commands::list::schema(),
+        Command::Schema => commands::schema::run(),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
         Command::Merge(arguments) => commands::merge::run(&arguments),
@@ -42,13 +49,17 @@ fn main() -> ExitCode {
         Command::Diff(arguments) => commands::diff::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Mutants(arguments) => commands::mutants::run(&arguments),
+        Command::Completions(arguments) => {
+            commands::completions::run(&arguments, &CommandLine::command())
+        }
+        Command::Man(arguments) => commands::man::run(&arguments, CommandLine::command()),
         Command::Worker(arguments) => worker::run(&arguments),
     };
     match outcome {
         Ok(code) => ExitCode::from(code),
-        // The reader has gone, as `head` does; there is nobody left to tell.
+        // The reader has closed the pipe, as `head` does.
         Err(Failure::Closed) => ExitCode::SUCCESS,
-        Err(Failure::Told { code, message }) => {
+        Err(Failure::Message { code, message }) => {
             eprintln!("etalon: {message}");
             ExitCode::from(code)
         }

@@ -21,13 +21,13 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     print(&text)
 }
 
-/// Whether colours are welcome on standard output (<https://no-color.org>).
+/// True if standard output takes colours (<https://no-color.org>).
 pub(crate) fn color() -> bool {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
     !refused && io::stdout().is_terminal()
 }
 
-/// The terminal's width in columns; 120 where there is none.
+/// Returns the width of the terminal in columns, 120 without a terminal.
 pub(crate) fn width() -> usize {
     let known = rustix::termios::tcgetwinsize(io::stdout())
         .ok()
@@ -36,7 +36,7 @@ pub(crate) fn width() -> usize {
     known.unwrap_or(120)
 }
 
-/// How tables are drawn on this terminal.
+/// Returns the width and colours of tables on this terminal.
 pub(crate) fn table_options() -> TableOptions {
     TableOptions {
         width: width(),

@@ -1,13 +1,13 @@
-//! Which part of the cases this process draws: from the flag, or from the variables of the systems that
-//! start many processes.
+//! The shard of this process: from the flag, or from the variables of systems that start many processes.
 
 use crate::failure::Failure;
 use etalon_record::Shard;
+use std::fs;
 use std::path::PathBuf;
 
-/// A shard as `--shard` takes it: `2/5`.
+/// Parses the argument of `--shard`, such as `2/5`.
 pub(crate) fn parse(text: &str) -> Result<Shard, String> {
-    let wrong = || "a shard is given as M/N with 1 <= M <= N, as 2/5".to_owned();
+    let wrong = || "expected M/N with 1 <= M <= N, such as 2/5".to_owned();
     let (index, count) = text.split_once('/').ok_or_else(wrong)?;
     let number = |t: &str| t.parse::<u32>().map_err(|_| wrong());
     let shard = Shard {
@@ -20,41 +20,63 @@ pub(crate) fn parse(text: &str) -> Result<Shard, String> {
         .ok_or_else(wrong)
 }
 
-/// What the environment asks for.
+/// Returns the shard that the flag or the environment gives; none if it is everything.
+pub(crate) fn chosen(flag: Option<Shard>) -> Result<Option<Shard>, Failure> {
+    if let Some(shard) = flag {
+        return Ok((shard.count > 1).then_some(shard));
+    }
+    let given = from_environment(|name| std::env::var(name).ok())?;
+    if let Some(path) = given.status_file {
+        // The file tells Bazel that the process supports sharding.
+        fs::write(&path, "").map_err(|e| {
+            Failure::usage(format!(
+                "cannot write {}, which TEST_SHARD_STATUS_FILE names: {e}",
+                path.display()
+            ))
+        })?;
+    }
+    Ok(given.shard)
+}
+
+/// The shard that the environment gives.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(crate) struct Asked {
+pub(crate) struct FromEnvironment {
     /// The shard, where there is more than one.
     pub(crate) shard: Option<Shard>,
-    /// A file that tells Bazel that shards are known here.
+    /// A file to create, which tells Bazel that the process supports sharding.
     pub(crate) status_file: Option<PathBuf>,
 }
 
-/// The shard that the variables of GitLab, Bazel, Slurm arrays and Kubernetes indexed jobs ask for.
-/// `variable` looks one up.
+/// Reads the variables of GitLab, Bazel, Slurm arrays and Kubernetes indexed jobs. `variable` looks one up.
 ///
 /// # Errors
-/// When a system's variables contradict themselves or each other.
-pub(crate) fn asked(variable: impl Fn(&str) -> Option<String>) -> Result<Asked, Failure> {
+/// If the variables contradict each other.
+pub(crate) fn from_environment(
+    variable: impl Fn(&str) -> Option<String>,
+) -> Result<FromEnvironment, Failure> {
     let number = |name: &str| -> Result<Option<u32>, Failure> {
         match variable(name).filter(|v| !v.is_empty()) {
             None => Ok(None),
             Some(text) => text.parse().map(Some).map_err(|_| {
                 Failure::usage(format!(
-                    "the variable {name} is `{text}`, no whole number; give --shard M/N, or 1/1 for all"
+                    "the variable {name} is `{text}`, not a whole number; give --shard M/N, or 1/1 for all"
                 ))
             }),
         }
     };
     let mut found: Vec<(&str, Shard)> = Vec::new();
-    let mut add = |system: &'static str, index: Option<u32>, count: Option<u32>, wants: &str| {
+    let mut add = |system: &'static str,
+                   index: Option<u32>,
+                   count: Option<u32>,
+                   count_name: &str| {
         let (Some(index), Some(count)) = (index, count) else {
             return Err(Failure::usage(format!(
-                "{system} asks for a shard, but {wants} is not set; set it, or give --shard M/N"
+                "{system} sets a shard, but {count_name} is not set; set it, or give --shard M/N"
             )));
         };
         if !(1..=count).contains(&index) {
             return Err(Failure::usage(format!(
-                "{system} asks for shard {index} of {count}; give --shard M/N"
+                "{system} sets shard {index} of {count}; give --shard M/N"
             )));
         }
         found.push((system, Shard { index, count }));
@@ -94,7 +116,7 @@ pub(crate) fn asked(variable: impl Fn(&str) -> Option<String>) -> Result<Asked, 
         )?;
     }
     if let Some(index) = number("JOB_COMPLETION_INDEX")? {
-        // Kubernetes tells the index alone; the job's file sets the total beside it.
+        // Kubernetes sets the index alone; the job file sets the total.
         let index = index.checked_add(1);
         add(
             "Kubernetes",
@@ -107,10 +129,10 @@ pub(crate) fn asked(variable: impl Fn(&str) -> Option<String>) -> Result<Asked, 
         && a != b
     {
         return Err(Failure::usage(format!(
-            "{one} asks for shard {a}, {other} for shard {b}; give --shard M/N, or 1/1 for all"
+            "{one} sets shard {a}, {other} shard {b}; give --shard M/N, or 1/1 for all"
         )));
     }
-    Ok(Asked {
+    Ok(FromEnvironment {
         shard: found.first().map(|(_, s)| *s).filter(|s| s.count > 1),
         status_file,
     })
@@ -120,16 +142,18 @@ pub(crate) fn asked(variable: impl Fn(&str) -> Option<String>) -> Result<Asked, 
 mod tests {
     use super::*;
 
-    fn asked_with(variables: &[(&str, &str)]) -> Result<Option<Shard>, String> {
+    fn given_by(variables: &[(&str, &str)]) -> Result<Option<Shard>, String> {
         let find = |name: &str| {
             let found = variables.iter().find(|(n, _)| *n == name);
             found.map(|(_, value)| (*value).to_owned())
         };
-        asked(find).map(|a| a.shard).map_err(|e| format!("{e:?}"))
+        from_environment(find)
+            .map(|a| a.shard)
+            .map_err(|e| format!("{e:?}"))
     }
 
     #[test]
-    fn each_system_counts_in_its_own_way() {
+    fn each_system_counts_differently() {
         let two_of_five = Some(Shard { index: 2, count: 5 });
         for variables in [
             &[("CI_NODE_INDEX", "2"), ("CI_NODE_TOTAL", "5")][..],
@@ -147,15 +171,15 @@ mod tests {
             ],
             &[("JOB_COMPLETION_INDEX", "1"), ("JOB_COMPLETIONS", "5")],
         ] {
-            assert_eq!(asked_with(variables), Ok(two_of_five), "{variables:?}");
+            assert_eq!(given_by(variables), Ok(two_of_five), "{variables:?}");
         }
-        assert_eq!(asked_with(&[]), Ok(None));
+        assert_eq!(given_by(&[]), Ok(None));
         // A GitLab job without `parallel`.
-        assert_eq!(asked_with(&[("CI_NODE_TOTAL", "1")]), Ok(None));
+        assert_eq!(given_by(&[("CI_NODE_TOTAL", "1")]), Ok(None));
     }
 
     #[test]
-    fn what_cannot_be_meant_is_refused() {
+    fn contradictions_are_refused() {
         for variables in [
             &[("CI_NODE_INDEX", "6"), ("CI_NODE_TOTAL", "5")][..],
             &[("CI_NODE_INDEX", "0"), ("CI_NODE_TOTAL", "5")],
@@ -177,7 +201,7 @@ mod tests {
                 ("JOB_COMPLETIONS", "5"),
             ],
         ] {
-            assert!(asked_with(variables).is_err(), "{variables:?}");
+            assert!(given_by(variables).is_err(), "{variables:?}");
         }
     }
 

@@ -1,15 +1,25 @@
-//! The hidden side of the binary: opening one backend, or listing a backend's devices.
+//! `etalon worker`, the child process: it opens one backend, or lists the devices of a backend.
 
-use crate::adapters::{BackendName, Found, Open};
-use crate::args::WorkerArguments;
+use crate::adapters::{BackendName, HardwareDevice, Open};
 use crate::failure::Failure;
+use clap::Args;
 use etalon_backend::{Backend, Unavailable};
 use etalon_cpu::CpuBackend;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Write};
 
-/// Serves one adapter, or prints what a backend finds.
-pub(crate) fn run(arguments: &WorkerArguments) -> Result<u8, Failure> {
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The request to open an adapter, as JSON
+    #[arg(long)]
+    pub(crate) open: Option<String>,
+    /// List the devices of this backend as JSON
+    #[arg(long)]
+    pub(crate) enumerate: Option<String>,
+}
+
+/// Serves one adapter, or prints the devices of a backend.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut output = private_output()?;
     if let Some(name) = &arguments.enumerate {
         let name: BackendName = parse(&format!("\"{name}\""))?;
@@ -33,7 +43,7 @@ fn parse<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Failure> {
     serde_json::from_str(text).map_err(|e| Failure::usage(format!("--open or --enumerate: {e}")))
 }
 
-/// Keeps standard output for the protocol alone: what a driver prints goes to standard error.
+/// Returns standard output for the protocol alone; output of the driver goes to standard error.
 fn private_output() -> Result<File, Failure> {
     let private = rustix::io::dup(io::stdout()).map_err(io::Error::from)?;
     rustix::stdio::dup2_stdout(io::stderr()).map_err(io::Error::from)?;
@@ -82,13 +92,13 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
     }
 }
 
-/// The devices that are not the processor: software drivers are described in the data file.
-fn enumerate(backend: BackendName) -> Result<Vec<Found>, Unavailable> {
+/// Returns the hardware devices; software drivers are described in the data file.
+fn enumerate(backend: BackendName) -> Result<Vec<HardwareDevice>, Unavailable> {
     let infos = |all: Vec<etalon_backend::AdapterInfo>| {
         all.into_iter()
             .enumerate()
             .filter(|(_, info)| !info.software)
-            .map(|(device, info)| Found {
+            .map(|(device, info)| HardwareDevice {
                 name: info.name,
                 device,
             })
@@ -106,7 +116,7 @@ fn enumerate(backend: BackendName) -> Result<Vec<Found>, Unavailable> {
             let devices = etalon_gl::enumerate()?;
             let hardware = devices.into_iter().filter(|d| !d.software);
             Ok(hardware
-                .map(|d| Found {
+                .map(|d| HardwareDevice {
                     name: format!("{prefix}:{}", d.driver.as_deref().unwrap_or("gpu")),
                     device: d.index,
                 })

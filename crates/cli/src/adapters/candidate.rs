@@ -1,44 +1,51 @@
-//! An adapter that may be there, and starting it.
+//! Starting the worker of an adapter that may be usable.
 
-use super::description::{Resolved, Unresolved};
-use super::{BackendName, Description, Found, Hidden, Open, Origin, Wanted, cache, quiet};
+use super::backend_name::BackendName;
+use super::cache;
+use super::description::{Description, Resolved, Unresolved};
+use super::devices::HardwareDevice;
+use super::hidden::Hidden;
+use super::open::Open;
+use super::origin::Origin;
+use super::query::Query;
+use super::runtime_folder::default_runtime_folder;
 use etalon_backend::AdapterInfo;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, StartError, Worker};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// A driver that takes longer to fail is not tried again.
-const TRIED_AGAIN: Duration = Duration::from_secs(10);
-/// Where the system's loader looks for libraries first.
+/// A driver that takes longer to fail is not started a second time.
+const RETRY_LIMIT: Duration = Duration::from_secs(10);
+/// The folders that the system's loader searches first.
 const LIBRARY_PATH: &str = "LD_LIBRARY_PATH";
 
-/// An adapter that may be there.
+/// An adapter that may be usable.
 pub(super) enum Candidate {
-    /// An entry of a file; `None` is the built-in one.
+    /// An entry of this file; `None` is the built-in one.
     Described(Description, Option<PathBuf>),
-    /// A device that a backend found.
-    Found(Open),
-    /// One that no list names.
+    /// A device that a backend enumerated.
+    Enumerated(Open),
+    /// An adapter that is not listed.
     Hidden(Open),
 }
 
-/// An adapter that can be used.
+/// A usable adapter.
 pub(super) struct Started {
     pub(super) launch: Launch,
     pub(super) worker: Worker,
     pub(super) origin: Origin,
 }
 
-/// Why an adapter did not start.
+/// The reason for which an adapter did not start.
 pub(super) enum NoStart {
     /// It cannot be used.
     Absent(AbsentAdapter),
-    /// Its driver is there and ends or hangs while it starts.
-    Dead(BackendName, AbsentAdapter),
-    /// A built-in entry wants a variable that is not set.
-    Unasked(AbsentAdapter),
-    /// The user's file describes what is not there.
+    /// Its driver is installed and ends or hangs while it starts.
+    Failed(BackendName, AbsentAdapter),
+    /// A built-in entry needs a variable that is not set.
+    NotEnabled(AbsentAdapter),
+    /// The file of the user describes something that does not exist.
     Wrong(String),
 }
 
@@ -58,8 +65,8 @@ impl Candidate {
         Self::Described(description, file.map(Path::to_owned))
     }
 
-    pub(super) fn found(device: Found, backend: BackendName) -> Self {
-        Self::Found(Open {
+    pub(super) fn enumerated(device: HardwareDevice, backend: BackendName) -> Self {
+        Self::Enumerated(Open {
             device: Some(device.device),
             ..open(&device.name, backend)
         })
@@ -75,14 +82,14 @@ impl Candidate {
     pub(super) fn name(&self) -> &str {
         match self {
             Self::Described(description, _) => &description.name,
-            Self::Found(open) | Self::Hidden(open) => &open.name,
+            Self::Enumerated(open) | Self::Hidden(open) => &open.name,
         }
     }
 
     fn remedy(&self) -> &str {
         match self {
             Self::Described(description, _) => &description.remedy,
-            Self::Found(_) | Self::Hidden(_) => "see the driver's own log",
+            Self::Enumerated(_) | Self::Hidden(_) => "see the driver's own log",
         }
     }
 
@@ -94,28 +101,28 @@ impl Candidate {
         }
     }
 
-    /// Starts the worker and holds that the driver is the one that the description means.
-    pub(super) fn start(&self, wanted: &Wanted<'_>) -> Result<Started, NoStart> {
+    /// Starts the worker and checks that the driver is the one described.
+    pub(super) fn start(&self, query: &Query<'_>) -> Result<Started, NoStart> {
         let resolved = self.resolve()?;
         let launch = self
-            .launch(&resolved, wanted)
+            .launch(&resolved, query)
             .map_err(|reason| NoStart::Absent(self.absent(reason, self.remedy())))?;
-        // A driver that does not start is tried once more before it is blamed, but not one that hangs.
+        // A driver that fails to start gets a second attempt, one that hangs does not.
         let begun = Instant::now();
         let started = match Worker::start(&launch) {
-            Err(StartError::Broken(_)) if begun.elapsed() < TRIED_AGAIN => Worker::start(&launch),
+            Err(StartError::Broken(_)) if begun.elapsed() < RETRY_LIMIT => Worker::start(&launch),
             other => other,
         };
         let worker = started.map_err(|error| match error {
             StartError::Unavailable(u) => {
-                // The file knows the packages better than the backend does, but nothing of validation.
-                let own = wanted.validate || self.remedy().is_empty();
+                // The file names packages, but not those of validation layers.
+                let own = query.validate || self.remedy().is_empty();
                 let remedy = if own { &u.remedy } else { self.remedy() };
                 NoStart::Absent(self.absent(&u.reason, remedy))
             }
             StartError::Broken(reason) => {
-                let backend = self.open(&resolved, wanted.validate).backend;
-                NoStart::Dead(backend, self.absent(reason, self.remedy()))
+                let backend = self.open(&resolved, query.validate).backend;
+                NoStart::Failed(backend, self.absent(reason, self.remedy()))
             }
         })?;
         if let Self::Described(
@@ -147,7 +154,7 @@ impl Candidate {
             .as_deref()
             .and_then(Path::parent)
             .unwrap_or(Path::new(""));
-        // The loader of a worker that starts elsewhere would not find what is relative.
+        // Relative paths would depend on the folder that the worker starts in.
         let folder = std::path::absolute(folder.join(".")).unwrap_or_else(|_| folder.to_owned());
         let variable = |name: &str| std::env::var(name).ok();
         description.resolve(&folder, &variable).map_err(|why| {
@@ -164,7 +171,7 @@ impl Candidate {
                     file.display(),
                     description.name
                 )),
-                (None, Unresolved::Variable(_)) => NoStart::Unasked(self.absent(why, &remedy)),
+                (None, Unresolved::Variable(_)) => NoStart::NotEnabled(self.absent(why, &remedy)),
                 (None, _) => NoStart::Absent(self.absent(why, &remedy)),
             }
         })
@@ -177,23 +184,23 @@ impl Candidate {
                 egl: resolved.egl.clone(),
                 ..open(&description.name, description.backend)
             },
-            Self::Found(open) | Self::Hidden(open) => open.clone(),
+            Self::Enumerated(open) | Self::Hidden(open) => open.clone(),
         };
         open.validate = validate;
         open
     }
 
-    fn launch(&self, resolved: &Resolved, wanted: &Wanted<'_>) -> Result<Launch, String> {
-        let program =
-            std::env::current_exe().map_err(|e| format!("etalon cannot find itself: {e}"))?;
+    fn launch(&self, resolved: &Resolved, query: &Query<'_>) -> Result<Launch, String> {
+        let program = std::env::current_exe()
+            .map_err(|e| format!("cannot find the program file of etalon: {e}"))?;
         let mut environment = resolved.environment.clone();
         if let Some(manifest) = &resolved.manifest {
             let manifest = manifest.to_string_lossy().into_owned();
-            // The loader before 1.3.207 knows the second name only.
+            // Loaders before 1.3.207 know the second name only.
             for name in ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
                 environment.push((name.to_owned(), Some(manifest.clone())));
             }
-            // The user's choice among drivers, which is not made here.
+            // The user's selection among drivers does not apply here.
             for name in ["VK_LOADER_DRIVERS_SELECT", "VK_LOADER_DRIVERS_DISABLE"] {
                 environment.push((name.to_owned(), None));
             }
@@ -206,11 +213,11 @@ impl Candidate {
             let path = path.to_string_lossy().into_owned();
             environment.push((LIBRARY_PATH.to_owned(), Some(path)));
         }
-        if wanted.cold {
-            environment.extend(cache::off());
+        if query.cold {
+            environment.extend(cache::disable());
         }
-        environment.extend(quiet().map(|(name, value)| (name, Some(value))));
-        let open = serde_json::to_string(&self.open(resolved, wanted.validate))
+        environment.extend(default_runtime_folder().map(|(name, value)| (name, Some(value))));
+        let open = serde_json::to_string(&self.open(resolved, query.validate))
             .map_err(|e| e.to_string())?;
         Ok(Launch {
             adapter: self.name().to_owned(),
@@ -226,7 +233,7 @@ impl Candidate {
             Self::Described(description, Some(file)) => {
                 (file.display().to_string(), description.device)
             }
-            Self::Found(open) => ("found".to_owned(), open.device),
+            Self::Enumerated(open) => ("found".to_owned(), open.device),
             Self::Hidden(_) => ("hidden".to_owned(), None),
         };
         Origin {
@@ -240,7 +247,7 @@ impl Candidate {
     }
 }
 
-/// Whether device or driver name themselves by the word, whatever its case.
+/// True if the name of the device or driver contains the word, ignoring case.
 fn answers(info: &AdapterInfo, word: &str) -> bool {
     let word = word.to_lowercase();
     [&info.device, &info.driver, &info.driver_version]

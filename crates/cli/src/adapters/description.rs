@@ -1,6 +1,7 @@
-//! The form of files that describe adapters: the built-in one and a user's own.
+//! Files that describe adapters, built in or given by `--adapters`.
 
-use super::BackendName;
+use super::backend_name::BackendName;
+use super::names::{MAX_NAME, is_name};
 use crate::failure::Failure;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -9,14 +10,12 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// The longest file that is read, in bytes.
+/// The maximum size of a file in bytes.
 const MAX_BYTES: u64 = 1 << 20;
-/// The most entries of a file; each is a process at start.
+/// The maximum number of entries of a file; each starts a process.
 const MAX_ENTRIES: usize = 64;
-/// The longest name of an adapter, in characters.
-pub(super) const MAX_NAME: usize = 64;
 
-/// Where Vulkan driver manifests lie, beside what the environment names.
+/// The folders of Vulkan driver manifests, besides those of the environment.
 const MANIFEST_FOLDERS: [&str; 6] = [
     "/etc/vulkan/icd.d",
     "/usr/local/etc/vulkan/icd.d",
@@ -26,38 +25,38 @@ const MANIFEST_FOLDERS: [&str; 6] = [
     "/usr/lib64/chromium",
 ];
 
-/// An entry of such a file. `${NAME}` in paths and in values of the environment stands for a variable of
-/// the user's; a relative path with a `/` starts at the file's folder.
+/// An entry of such a file. `${NAME}` in paths and in values of the environment is replaced by an environment variable; a
+/// relative path with a `/` starts at the folder of the file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Description {
     /// The adapter's name: ASCII letters, digits, `:`, `-`, `_` and `.`, at most [`MAX_NAME`].
     pub(super) name: String,
     pub(super) backend: BackendName,
-    /// Environment variables of the worker; `null` takes one away that the user may have set.
+    /// Environment variables of the worker; `null` removes a variable.
     #[serde(default)]
     environment: BTreeMap<String, Option<String>>,
-    /// Vulkan driver manifests, of which the first one found is used: paths, or file names that are
-    /// looked for where manifests lie.
+    /// Vulkan driver manifests, of which the first one found is used: paths, or file names that are searched in
+    /// the folders of manifests.
     #[serde(default)]
     manifests: Vec<String>,
-    /// The EGL library to open instead of `libEGL.so.1`; of the backends `gl` and `gl-es`.
+    /// The EGL library to open instead of `libEGL.so.1`; for the backends `gl` and `gl-es`.
     egl: Option<String>,
-    /// Folders in which libraries are looked for before the system's.
+    /// Folders searched for libraries before those of the system.
     #[serde(default)]
     library_path: Vec<String>,
-    /// The device's place in the backend's own order; without it, the first, and in OpenGL whatever the
-    /// environment chooses.
+    /// The index of the device in the order of the backend; by default the first one, and in OpenGL the one that the
+    /// environment selects.
     pub(super) device: Option<usize>,
-    /// A word that device or driver must name themselves by: an environment that chooses a driver is
-    /// ignored where that driver is missing, and another one answers.
+    /// A word that the name of the device or driver must contain: if the driver that the environment selects is
+    /// missing, another one answers.
     pub(super) answers: Option<String>,
-    /// How to get the driver.
+    /// The way to get the driver.
     #[serde(default)]
     pub(super) remedy: String,
 }
 
-/// What an entry comes to on this machine.
+/// An entry with the paths and variables of this machine.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Resolved {
     pub(super) environment: Vec<(String, Option<String>)>,
@@ -66,21 +65,21 @@ pub(super) struct Resolved {
     pub(super) library_path: Vec<PathBuf>,
 }
 
-/// Why an entry comes to nothing here.
+/// The reason for which an entry cannot be used on this machine.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum Unresolved {
-    /// A variable of the user's is not set.
+    /// An environment variable is not set.
     #[error("the variable {0} is not set")]
     Variable(String),
     /// `${` without a name and `}` behind it.
     #[error("`{0}` holds `${{` without the name of a variable and `}}`")]
     Form(String),
-    /// A file or folder is not there.
+    /// A file or folder does not exist.
     #[error("{0}")]
     Missing(String),
 }
 
-/// The built-in file's entries.
+/// Returns the entries of the built-in file.
 pub(super) fn built_in() -> Result<Vec<Description>, Failure> {
     parse(
         include_str!("../../adapters.json"),
@@ -88,7 +87,7 @@ pub(super) fn built_in() -> Result<Vec<Description>, Failure> {
     )
 }
 
-/// The entries of a user's file.
+/// Reads the entries of a file.
 pub(super) fn read(path: &Path) -> Result<Vec<Description>, Failure> {
     let what = path.display().to_string();
     let unreadable = |e: std::io::Error| {
@@ -102,16 +101,14 @@ pub(super) fn read(path: &Path) -> Result<Vec<Description>, Failure> {
         .read_to_end(&mut bytes)
         .map_err(unreadable)?;
     if bytes.len() as u64 > MAX_BYTES {
-        return Err(Failure::usage(format!(
-            "{what}: longer than 1 MiB, which is no list of adapters"
-        )));
+        return Err(Failure::usage(format!("{what}: longer than 1 MiB")));
     }
-    let text = String::from_utf8(bytes)
-        .map_err(|e| Failure::usage(format!("{what}: not a text in UTF-8: {e}")))?;
+    let text =
+        String::from_utf8(bytes).map_err(|e| Failure::usage(format!("{what}: not UTF-8: {e}")))?;
     parse(&text, &what)
 }
 
-/// The entries of a text; `what` is its name in messages.
+/// Parses the entries of a text; `what` is its name in messages.
 fn parse(text: &str, what: &str) -> Result<Vec<Description>, Failure> {
     let entries: Vec<Description> = serde_json::from_str(text).map_err(|e| {
         Failure::usage(format!(
@@ -120,14 +117,14 @@ fn parse(text: &str, what: &str) -> Result<Vec<Description>, Failure> {
     })?;
     if entries.len() > MAX_ENTRIES {
         return Err(Failure::usage(format!(
-            "{what}: {} entries, and at most {MAX_ENTRIES} are taken; make two files of it",
+            "{what}: {} entries, at most {MAX_ENTRIES} are allowed; split the file",
             entries.len()
         )));
     }
     let mut names = BTreeSet::new();
     for (index, entry) in entries.iter().enumerate() {
         let refused = |why: &str| {
-            // What is wrong with a name must not reach a terminal as it is.
+            // Control characters must not reach the terminal.
             let name = entry.name.escape_default();
             Failure::usage(format!("{what}: entry {} (`{name}`): {why}", index + 1))
         };
@@ -139,20 +136,12 @@ fn parse(text: &str, what: &str) -> Result<Vec<Description>, Failure> {
     Ok(entries)
 }
 
-/// Whether a text can be an adapter's name.
-pub(super) fn is_name(text: &str) -> bool {
-    let inside = |c: char| c.is_ascii_alphanumeric() || [':', '-', '_', '.'].contains(&c);
-    text.len() <= MAX_NAME
-        && text.starts_with(|c: char| c.is_ascii_alphanumeric())
-        && text.chars().all(inside)
-}
-
 impl Description {
-    /// What no machine could make sense of.
+    /// Checks what does not depend on the machine.
     fn check(&self) -> Result<(), String> {
         if !is_name(&self.name) {
             return Err(format!(
-                "a name starts with an ASCII letter or digit and goes on with letters, digits, `:`, `-`, `_` \
+                "a name starts with an ASCII letter or digit and continues with letters, digits, `:`, `-`, `_` \
                  and `.`, at most {MAX_NAME} in all"
             ));
         }
@@ -188,7 +177,7 @@ impl Description {
         Ok(())
     }
 
-    /// The entry on this machine; `folder` is where the file that it stands in lies.
+    /// Resolves the entry on this machine; `folder` is the folder of its file.
     pub(super) fn resolve(
         &self,
         folder: &Path,
@@ -201,7 +190,7 @@ impl Description {
         }
         let path = |text: &str| -> Result<PathBuf, Unresolved> {
             let text = expand(text, variable)?;
-            // A name without a folder is looked for by whoever opens it.
+            // A name without a folder is searched by the loader.
             let is_path = text.contains('/');
             Ok(if is_path {
                 folder.join(text)
@@ -213,7 +202,7 @@ impl Description {
             let found = folder.join(path(text)?);
             if !found.is_dir() {
                 return Err(missing(format!(
-                    "the folder {} is not there",
+                    "the folder {} does not exist",
                     found.display()
                 )));
             }
@@ -223,7 +212,7 @@ impl Description {
             let found = path(text)?;
             if found.components().count() > 1 && !found.is_file() {
                 return Err(missing(format!(
-                    "the library {} is not there",
+                    "the library {} does not exist",
                     found.display()
                 )));
             }
@@ -248,8 +237,7 @@ fn missing(what: String) -> Unresolved {
     Unresolved::Missing(what)
 }
 
-/// The first manifest that exists: as a path, in the folder the user's data variable names, then in the
-/// system's.
+/// Returns the first manifest that exists: as a path, in the data folder of the user, then in those of the system.
 fn manifest(wanted: &[PathBuf], variable: &dyn Fn(&str) -> Option<String>) -> Option<PathBuf> {
     let home = variable("XDG_DATA_HOME")
         .map(PathBuf::from)
@@ -271,7 +259,7 @@ fn manifest(wanted: &[PathBuf], variable: &dyn Fn(&str) -> Option<String>) -> Op
         .find(|path| path.is_file())
 }
 
-/// The text with the user's variables in it.
+/// Replaces the variables in a text.
 fn expand(text: &str, variable: &dyn Fn(&str) -> Option<String>) -> Result<String, Unresolved> {
     let mut expanded = String::new();
     let mut rest = text;
@@ -318,21 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn names_are_plain() {
-        let longest = "a".repeat(MAX_NAME);
-        for good in ["cpu", "gl:es:llvmpipe-25", "vulkan:radv_1.2", "9", &longest] {
-            assert!(is_name(good), "{good}");
-        }
-        let longer = "a".repeat(MAX_NAME + 1);
-        for bad in [
-            "", "-v", ":", ".", "..", "a b", "a/b", "a\n", "a,b", "ä", "a%", "<b>", &longer,
-        ] {
-            assert!(!is_name(bad), "{bad:?}");
-        }
-    }
-
-    #[test]
-    fn variables_are_put_in() {
+    fn variables_are_replaced() {
         assert_eq!(expand("x", &variable), Ok("x".to_owned()));
         assert_eq!(expand("${A}/$/${A}$", &variable), Ok("a/$/a$".to_owned()));
         for unset in ["EMPTY", "B"] {
@@ -396,7 +370,7 @@ mod tests {
             (&long, "at most 64"),
         ] {
             let error = parse(text, "mine.json").map(|_| ()).unwrap_err();
-            let Failure::Told {
+            let Failure::Message {
                 code: USAGE,
                 message,
             } = error
@@ -430,8 +404,8 @@ mod tests {
             }
         );
         for (key, word) in [
-            (r#""egl":"./none.so""#, "none.so is not there"),
-            (r#""library_path":["none"]"#, "none is not there"),
+            (r#""egl":"./none.so""#, "none.so does not exist"),
+            (r#""library_path":["none"]"#, "none does not exist"),
             (
                 r#""manifests":["nobody_has_this.json"]"#,
                 "no Vulkan driver manifest",

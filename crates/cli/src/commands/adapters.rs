@@ -1,13 +1,23 @@
 //! `etalon adapters`.
 
-use crate::adapters::{Origin, Wanted, discover};
-use crate::args::{AdaptersArguments, Format};
+use crate::adapters::{Origin, Query, discover};
 use crate::failure::Failure;
+use crate::flags::{AdapterFileArguments, Format};
 use crate::output::{print, print_json};
+use clap::Args;
 use etalon_record::AdapterRecord;
 use serde::Serialize;
 
-/// All that is known of an adapter: who it is, what it can do, and how it is reached.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// Output format; JSON is an array with one object per adapter that can be used
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+/// All facts of an adapter: identity, limits and origin.
 #[derive(Serialize)]
 struct Facts<'a> {
     #[serde(flatten)]
@@ -16,11 +26,11 @@ struct Facts<'a> {
     origin: Option<&'a Origin>,
 }
 
-/// Lists what can be used and what cannot, why, and what would help.
-pub(crate) fn run(arguments: &AdaptersArguments) -> Result<u8, Failure> {
-    let adapters = discover(&Wanted {
+/// Lists the adapters that can be used, and the others with reason and remedy.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let adapters = discover(&Query {
         file: arguments.file.adapter_file.as_deref(),
-        ..Wanted::default()
+        ..Query::default()
     })?;
     let ready: Vec<Facts<'_>> = adapters
         .ready
@@ -47,7 +57,7 @@ pub(crate) fn run(arguments: &AdaptersArguments) -> Result<u8, Failure> {
         ));
     }
     if !adapters.absent.is_empty() {
-        text.push_str("\nNot here:\n");
+        text.push_str("\nUnavailable:\n");
         for absent in &adapters.absent {
             text.push_str(&format!(
                 "  {}: {}\n      {}\n",
@@ -55,12 +65,12 @@ pub(crate) fn run(arguments: &AdaptersArguments) -> Result<u8, Failure> {
             ));
         }
     }
-    if !adapters.unasked.is_empty() {
+    if !adapters.not_enabled.is_empty() {
         text.push('\n');
-        for unasked in &adapters.unasked {
+        for adapter in &adapters.not_enabled {
             text.push_str(&format!(
-                "Not asked for: {}: {}\n",
-                unasked.name, unasked.remedy
+                "Not enabled: {}: {}\n",
+                adapter.name, adapter.remedy
             ));
         }
     }

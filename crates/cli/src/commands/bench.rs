@@ -1,33 +1,62 @@
 //! `etalon bench`.
 
-use crate::adapters::{Wanted, cache, discover};
-use crate::args::{BenchArguments, CaseProfile, Format};
-use crate::commands::run::{expectations, machine, progress};
-use crate::commands::{chosen, refuse_absent};
+use crate::adapters::{Query, cache, discover, refuse_absent};
+use crate::cases::chosen;
 use crate::failure::{Failure, UNEXPECTED};
+use crate::flags::{AdapterFileArguments, CaseArguments, CaseProfile, Format};
 use crate::output::{print, print_json, table_options};
-use etalon_record::{BENCH_FORMAT, Bench, BenchHeader, ReportFiles, ShaderCache};
+use crate::progress::progress;
+use crate::{expectations, provenance, report_files};
+use clap::Args;
+use etalon_record::{BENCH_FORMAT, Bench, BenchHeader, ShaderCache};
 use etalon_runner::{BenchError, BenchEvent, BenchPlan};
 use serde_json::json;
 use std::collections::BTreeSet;
-use std::time::{Duration, SystemTime};
+use std::path::PathBuf;
+use std::time::Duration;
 
-/// What is timed where nothing is named.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) selection: CaseArguments,
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// Measure this adapter; may be repeated. Default: all adapters found
+    #[arg(long = "adapter", value_name = "NAME")]
+    pub(crate) adapters: Vec<String>,
+    /// Folder for samples and reports
+    #[arg(long, value_name = "DIR", default_value = "reports/bench-latest")]
+    pub(crate) out: PathBuf,
+    /// Number of rounds, each in new processes; fewer than 7 cannot show a difference
+    #[arg(long, value_name = "N", default_value = "12", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub(crate) rounds: u32,
+    /// Approximate time in seconds that the frames of a case take on an adapter in each round
+    #[arg(long, value_name = "S", default_value = "0.1", value_parser = parse_seconds)]
+    pub(crate) seconds: f64,
+    /// Disable the drivers' shader caches on disk: the first frame of each round compiles every shader
+    #[arg(long)]
+    pub(crate) cold: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+/// The cases that are measured by default.
 const DEFAULT: &str = "perf/*";
 
-/// Judges the chosen cases' pictures, times those that are right, records and reports.
-pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
+/// Judges the pictures of the selected cases, measures the correct ones, writes samples and reports.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut selection = arguments.selection.clone();
     if selection.globs.is_empty() {
         selection.globs.push(DEFAULT.to_owned());
     }
     let cases = chosen(&selection)?;
-    let expectations = expectations(None)?;
-    let adapters = discover(&Wanted {
+    let expectations = expectations::read(None)?;
+    let adapters = discover(&Query {
         names: &arguments.adapters,
         file: arguments.file.adapter_file.as_deref(),
         cold: arguments.cold,
-        ..Wanted::default()
+        ..Query::default()
     })?;
     refuse_absent(&arguments.adapters, &adapters.absent)?;
     let mut names = BTreeSet::new();
@@ -35,27 +64,25 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
         let name = &worker.hello.info.name;
         if !names.insert(name.clone()) {
             return Err(Failure::usage(format!(
-                "two of the adapters answer as {name}; bench one after the other and compare them with \
+                "two adapters report the name {name}; bench one after the other and compare them with \
                  `etalon diff`"
             )));
         }
     }
     let header = BenchHeader {
         format: BENCH_FORMAT,
-        etalon: env!("CARGO_PKG_VERSION").to_owned(),
-        commit: option_env!("ETALON_COMMIT").map(str::to_owned),
-        machine: machine(),
-        started: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-        command: std::iter::once("etalon".to_owned())
-            .chain(std::env::args().skip(1))
-            .collect(),
+        etalon: provenance::VERSION.to_owned(),
+        commit: provenance::commit(),
+        machine: provenance::machine(),
+        started: provenance::now(),
+        command: provenance::command(),
         profile: match selection.profile {
             CaseProfile::Quick => "quick".to_owned(),
             CaseProfile::Full => "full".to_owned(),
         },
         cases: cases.len() as u64,
         rounds: arguments.rounds,
-        shader_cache: match arguments.cold || cache::is_off() {
+        shader_cache: match arguments.cold || cache::is_disabled() {
             true => ShaderCache::Cold,
             false => ShaderCache::Warm,
         },
@@ -64,18 +91,15 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
         absent: adapters.absent,
     };
     let rounds = u64::from(arguments.rounds);
-    // A picture counts as much as a round.
+    // A picture counts as one step, like a round.
     let bar = progress((cases.len() * adapters.ready.len()) as u64 * (1 + rounds));
     let plan = BenchPlan {
+        reports: report_files::BENCH,
         cases: &cases,
         adapters: adapters.ready,
         budget: Duration::from_secs_f64(arguments.seconds),
         expectations: &expectations,
         folder: &arguments.out,
-        reports: ReportFiles {
-            files: &etalon_report::BENCH_FILES,
-            folders: &[],
-        },
         header,
     };
     let outcome = etalon_runner::bench(plan, &mut |event| match event {
@@ -133,4 +157,13 @@ pub(crate) fn run(arguments: &BenchArguments) -> Result<u8, Failure> {
     } else {
         0
     })
+}
+
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().unwrap_or(f64::NAN);
+    if (0.001..=30.0).contains(&seconds) {
+        Ok(seconds)
+    } else {
+        Err("expected a number of seconds from 0.001 to 30".to_owned())
+    }
 }

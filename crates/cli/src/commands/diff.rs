@@ -1,15 +1,59 @@
 //! `etalon diff`.
 
-use crate::args::{DiffArguments, DiffTime, Format};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
+use crate::flags::Format;
 use crate::output::{print, print_json, table_options};
+use clap::{Args, ValueEnum};
 use etalon_record::{Bench, FolderKind, Time};
 use etalon_report::runs::{self, RunDiff};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Says what changed from one run to another, or what became faster or slower from one bench to another.
-pub(crate) fn run(arguments: &DiffArguments) -> Result<u8, Failure> {
+/// The time of a bench that is compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DiffTime {
+    /// From the start of a frame until the device is done.
+    Wall,
+    /// From the start of a frame until the last call that submits work returns.
+    Cpu,
+    /// Between the GPU timestamps of a frame.
+    Gpu,
+    /// Reading a frame back.
+    ReadBack,
+    /// Preparing the scene.
+    Prepare,
+    /// The first frame after preparation.
+    First,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The run or bench folder to compare with
+    #[arg(value_name = "BEFORE")]
+    pub(crate) before: PathBuf,
+    /// The run or bench folder to judge
+    #[arg(value_name = "AFTER")]
+    pub(crate) after: PathBuf,
+    /// Runs only: the adapter of the first run. Default: adapters of equal names are compared, or the
+    /// only one of each run
+    #[arg(long, value_name = "NAME", requires = "adapter_after")]
+    pub(crate) adapter_before: Option<String>,
+    /// Runs only: the adapter of the second run
+    #[arg(long, value_name = "NAME", requires = "adapter_before")]
+    pub(crate) adapter_after: Option<String>,
+    /// Benches only: the time to compare. Default: wall
+    #[arg(long, value_enum)]
+    pub(crate) time: Option<DiffTime>,
+    /// Also write an HTML page to this file
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) out: Option<PathBuf>,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+/// Compares two runs or two benches.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let [before, after] = [&arguments.before, &arguments.after];
     match [before, after].map(|folder| FolderKind::of(folder)) {
         [Some(FolderKind::Run), Some(FolderKind::Run)] => of_runs(arguments),
@@ -35,10 +79,10 @@ fn mixed(run: &Path, bench: &Path) -> Failure {
     ))
 }
 
-fn of_runs(arguments: &DiffArguments) -> Result<u8, Failure> {
+fn of_runs(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.time.is_some() {
         return Err(Failure::usage(
-            "--time is for two benches; a run takes each time once, beside other work, and proves none",
+            "--time is for two benches; the times of a run are single samples taken beside other work",
         ));
     }
     let adapters = (&arguments.adapter_before, &arguments.adapter_after);
@@ -55,13 +99,13 @@ fn of_runs(arguments: &DiffArguments) -> Result<u8, Failure> {
         Some(path) => Some(runs::write_page(path, &diff, folders).map_err(Failure::incomplete)?),
         None => None,
     };
-    tell(arguments, &diff, page, || {
+    report(arguments, &diff, page, || {
         runs::table(&diff, table_options())
     })?;
     Ok(code(&diff))
 }
 
-/// 1 for anything worse, 2 for improvements alone, 0 for everything else.
+/// Returns 1 for anything worse, 2 for improvements alone, 0 otherwise.
 fn code(diff: &RunDiff) -> u8 {
     if diff.worse() {
         UNEXPECTED
@@ -72,7 +116,7 @@ fn code(diff: &RunDiff) -> u8 {
     }
 }
 
-fn of_benches(arguments: &DiffArguments) -> Result<u8, Failure> {
+fn of_benches(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.adapter_before.is_some() {
         return Err(Failure::usage(
             "--adapter-before and --adapter-after are for two runs; benches are compared adapter by adapter",
@@ -92,15 +136,15 @@ fn of_benches(arguments: &DiffArguments) -> Result<u8, Failure> {
         Some(path) => Some(etalon_report::write_diff(path, &diff).map_err(Failure::incomplete)?),
         None => None,
     };
-    tell(arguments, &diff, page, || {
+    report(arguments, &diff, page, || {
         etalon_report::diff_table(&diff, table_options())
     })?;
     Ok(if diff.worse() { UNEXPECTED } else { 0 })
 }
 
-/// Prints a comparison, and where its page lies.
-fn tell(
-    arguments: &DiffArguments,
+/// Prints a comparison, and the path of its page.
+fn report(
+    arguments: &Arguments,
     diff: &impl Serialize,
     page: Option<PathBuf>,
     table: impl FnOnce() -> String,

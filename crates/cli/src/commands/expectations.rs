@@ -1,36 +1,95 @@
 //! `etalon expectations` and `etalon run --bless`.
 
-use crate::adapters::{Wanted, discover};
-use crate::args::{ExpectationsCommand, ExportArguments, ImportArguments};
-use crate::commands::run::{expectations, today};
-use crate::commands::{build, library, refuse_absent};
+use crate::adapters::{Query, discover, refuse_absent};
+use crate::cases::ids;
+use crate::expectations::{read, replace, today, write};
 use crate::failure::Failure;
+use crate::flags::AdapterFileArguments;
 use crate::output::print;
-use etalon_case::Profile;
-use etalon_record::{
-    About, AdapterRecord, Entry, Expectations, Imported, ListKind, RecordError, Run,
-};
+use clap::{Args, Subcommand};
+use etalon_record::{About, AdapterRecord, Expectations, Imported, ListKind};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// The file that is blessed where none is named.
-const DEFAULT: &str = "ci/expectations.json";
-/// How many lines that name nothing are told.
-const TOLD: usize = 20;
-
-/// Exchanges expectations with deqp-runner.
-pub(crate) fn run(command: &ExpectationsCommand) -> Result<u8, Failure> {
-    match command {
-        ExpectationsCommand::Import(arguments) => import(arguments),
-        ExpectationsCommand::Export(arguments) => export(arguments),
-    }
+/// Conversions from and to the lists of deqp-runner.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Add the contents of deqp-runner's lists to an expectations file
+    Import(ImportArguments),
+    /// Write the expectations of an adapter as deqp-runner's lists: fails.txt, flakes.txt, skips.txt
+    Export(ExportArguments),
 }
 
-/// The ids of all cases there are.
-fn ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
-    let library = library(cases)?;
-    let all = build(&library, Profile::Full, &[])?;
-    Ok(all.into_iter().map(|case| case.id).collect())
+#[derive(Debug, Args)]
+pub(crate) struct ImportArguments {
+    /// List of failures, with lines `name,status`; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub(crate) fails: Vec<PathBuf>,
+    /// List of flaky cases, with one regular expression per line; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub(crate) flakes: Vec<PathBuf>,
+    /// List of cases to skip, with one regular expression per line; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub(crate) skips: Vec<PathBuf>,
+    /// A results.csv whose bad verdicts become expected; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub(crate) results: Vec<PathBuf>,
+    /// Glob over the names of the adapters that the entries apply to
+    #[arg(long, value_name = "GLOB")]
+    pub(crate) adapter: String,
+    /// Glob over driver and version
+    #[arg(long, value_name = "GLOB", default_value = "*")]
+    pub(crate) driver: String,
+    /// Range of driver versions, such as `>=22.3, <25.1`
+    #[arg(long, value_name = "RANGE")]
+    pub(crate) version: Option<String>,
+    /// Reason for which the verdicts are accepted
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) reason: String,
+    /// Evidence for the reason
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) evidence: String,
+    /// Address of a bug report
+    #[arg(long, value_name = "URL")]
+    pub(crate) link: Option<String>,
+    /// Last day on which the entries apply, such as 2027-01-31
+    #[arg(long, value_name = "DAY")]
+    pub(crate) expires: Option<String>,
+    /// Expectations file to add to, created if it does not exist
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+    /// Read case files from this folder instead of the built-in ones
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ExportArguments {
+    /// Adapter that the lists are for
+    #[arg(long, value_name = "NAME")]
+    pub(crate) adapter: String,
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// Export the expectations of this file instead of the built-in ones
+    #[arg(long, value_name = "FILE")]
+    pub(crate) expect: Option<PathBuf>,
+    /// Folder for the lists
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Read case files from this folder instead of the built-in ones
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
+}
+
+/// The number of unmatched lines that are printed.
+const PRINTED: usize = 20;
+
+/// Exchanges expectations with deqp-runner.
+pub(crate) fn run(command: &Command) -> Result<u8, Failure> {
+    match command {
+        Command::Import(arguments) => import(arguments),
+        Command::Export(arguments) => export(arguments),
+    }
 }
 
 fn import(arguments: &ImportArguments) -> Result<u8, Failure> {
@@ -61,16 +120,16 @@ fn import(arguments: &ImportArguments) -> Result<u8, Failure> {
                 .map_err(Failure::usage)?;
         }
     }
-    for (list, line) in imported.unmatched.iter().take(TOLD) {
-        eprintln!("{list}: no case here is meant by: {line}");
+    for (list, line) in imported.unmatched.iter().take(PRINTED) {
+        eprintln!("{list}: no case matches: {line}");
     }
-    let more = imported.unmatched.len().saturating_sub(TOLD);
+    let more = imported.unmatched.len().saturating_sub(PRINTED);
     if more > 0 {
-        eprintln!("and {more} more lines that mean no case here");
+        eprintln!("and {more} more lines that match no case");
     }
     if imported.entries.is_empty() {
         return Err(Failure::nothing(
-            "the lists name no bad verdict of any case here",
+            "the lists contain no bad verdict of a known case",
         ));
     }
     let mut entries = match arguments.out.exists() {
@@ -96,13 +155,13 @@ fn import(arguments: &ImportArguments) -> Result<u8, Failure> {
 }
 
 fn export(arguments: &ExportArguments) -> Result<u8, Failure> {
-    let expected = expectations(arguments.expect.as_deref())?.on(&today());
+    let expected = read(arguments.expect.as_deref())?.on(&today());
     let ids = ids(arguments.cases.as_ref())?;
     let name = std::slice::from_ref(&arguments.adapter);
-    let adapters = discover(&Wanted {
+    let adapters = discover(&Query {
         names: name,
         file: arguments.file.adapter_file.as_deref(),
-        ..Wanted::default()
+        ..Query::default()
     })?;
     refuse_absent(name, &adapters.absent)?;
     let Some((_, worker)) = adapters.ready.first() else {
@@ -125,80 +184,4 @@ fn export(arguments: &ExportArguments) -> Result<u8, Failure> {
         ))?;
     }
     Ok(0)
-}
-
-/// The file that `--bless` is to write.
-///
-/// # Errors
-/// In CI, which never writes what it is held against, and where no file is named or found.
-pub(crate) fn to_bless(named: Option<&Path>) -> Result<PathBuf, Failure> {
-    let ci = std::env::var("CI").unwrap_or_default();
-    if !matches!(ci.to_lowercase().as_str(), "" | "0" | "false" | "no") {
-        return Err(Failure::usage(
-            "--bless writes what runs are held against, which CI never does (the variable CI is set); \
-             bless on your own machine and have the change reviewed",
-        ));
-    }
-    match named {
-        Some(path) => Ok(path.to_owned()),
-        None if Path::new(DEFAULT).is_file() => Ok(PathBuf::from(DEFAULT)),
-        None => Err(Failure::usage(format!(
-            "there is no {DEFAULT} here; name the file to write with --expect"
-        ))),
-    }
-}
-
-/// Writes into the file what a run showed.
-pub(crate) fn bless(
-    path: &Path,
-    run: &Run,
-    expected: &Expectations,
-    cases: Option<&PathBuf>,
-    all_adapters: bool,
-) -> Result<(), Failure> {
-    let ids = ids(cases)?;
-    let blessing = expected.bless(run, &ids, all_adapters, &today());
-    write(path, &blessing.entries)?;
-    eprintln!(
-        "{}: {} entries added, {} removed",
-        path.display(),
-        blessing.added,
-        blessing.removed.len()
-    );
-    if blessing.added > 0 {
-        eprintln!("each new entry wants its reason written before it is reviewed");
-    }
-    for entry in &blessing.to_narrow {
-        eprintln!(
-            "to narrow by hand: some of what it names is better now: {} {} {}",
-            entry.adapter, entry.verdict, entry.case
-        );
-    }
-    if blessing.unblessed > 0 {
-        eprintln!(
-            "{} selftests that do not fail cannot be blessed",
-            blessing.unblessed
-        );
-    }
-    Ok(())
-}
-
-fn write(path: &Path, entries: &[Entry]) -> Result<(), Failure> {
-    let text = Expectations::to_text(entries).map_err(Failure::usage)?;
-    // What cannot be read again must not take the place of what can.
-    Expectations::parse(&text, path).map_err(|error: RecordError| Failure::usage(error))?;
-    replace(path, &text)
-}
-
-/// Writes a file beside its place and renames it.
-fn replace(path: &Path, text: &str) -> Result<(), Failure> {
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(format!(".{}", std::process::id()));
-    let beside = PathBuf::from(beside);
-    let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, path));
-    written.map_err(|e| {
-        // Best effort: the first error is the one to tell.
-        let _ = fs::remove_file(&beside);
-        Failure::incomplete(format!("cannot write {}: {e}", path.display()))
-    })
 }

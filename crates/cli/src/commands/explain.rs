@@ -1,28 +1,47 @@
 //! `etalon explain`.
 
-use crate::adapters::{Wanted, discover};
-use crate::args::ExplainArguments;
-use crate::commands::library;
+use crate::adapters::{Query, discover, refuse_absent};
+use crate::cases::library;
 use crate::failure::{Failure, UNEXPECTED};
+use crate::flags::AdapterFileArguments;
 use crate::output::print;
+use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::{Case, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Frame, LegalSet, Limits};
 use etalon_reference::{Rules, Sample, explain, judge};
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Tells the story of one texel by the rules and by the yardstick; with an adapter, also what came
-/// back and whether it is legal.
-pub(crate) fn run(arguments: &ExplainArguments) -> Result<u8, Failure> {
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// Id of the case
+    #[arg(value_name = "CASE")]
+    pub(crate) case: String,
+    /// Column and row of the texel, counted from the top left corner
+    #[arg(long, value_name = "X,Y", value_parser = parse_texel)]
+    pub(crate) texel: [u32; 2],
+    /// Draw the case on this adapter and judge its texel
+    #[arg(long, value_name = "NAME")]
+    pub(crate) adapter: Option<String>,
+    /// Read case files from this folder instead of the built-in ones
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
+}
+
+/// Explains one texel by the rules and by the yardstick; with an adapter, also judges the value that it
+/// returned.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let library = library(arguments.cases.as_ref())?;
     let Some(found) = library
         .cases(Profile::Full)
         .find(|c| c.id() == arguments.case)
     else {
         return Err(Failure::usage(format!(
-            "there is no case `{}`; `etalon list` names them all",
+            "there is no case `{}`; `etalon list --profile full` lists all cases",
             arguments.case
         )));
     };
@@ -35,7 +54,7 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<u8, Failure> {
     };
     if !scene.read.iter().any(inside) {
         return Err(Failure::usage(format!(
-            "texel {x},{y} lies outside everything that the case reads back"
+            "texel {x},{y} lies outside every attachment that the case reads back"
         )));
     }
     let (limits, frame) = match &arguments.adapter {
@@ -48,15 +67,15 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<u8, Failure> {
     let mut text = format!("{}\n{}\n\n", case.id, case.about);
     let mut legal_everywhere = false;
     for limits in limits.alternatives(&scene.formats()) {
-        legal_everywhere |= tell(&mut text, &case, &limits, [x, y], frame.as_ref());
+        legal_everywhere |= explain_texel(&mut text, &case, &limits, [x, y], frame.as_ref());
     }
     print(&text)?;
     let wrong = frame.is_some() && !legal_everywhere && case.judged_as.is_none();
     Ok(if wrong { UNEXPECTED } else { 0 })
 }
 
-/// Adds both stories; whether the frame's texel is legal.
-fn tell(
+/// Appends both explanations. Returns true if the texel of the frame is legal.
+fn explain_texel(
     text: &mut String,
     case: &Case,
     limits: &Limits,
@@ -106,7 +125,7 @@ fn tell(
     legal
 }
 
-/// Adds what came back at a texel; whether the set allows it.
+/// Appends the values of a texel of the frame. Returns true if the set allows them.
 fn fits(
     text: &mut String,
     set: &LegalSet,
@@ -159,7 +178,7 @@ fn fits(
             let allowed =
                 orders.len() == group.channels.len() && group.sample(x, y, sample).allows(&orders);
             let word = word(allowed);
-            let _ = writeln!(text, "came back: {}: {word}", parts.join("; "));
+            let _ = writeln!(text, "returned: {}: {word}", parts.join("; "));
             all &= allowed;
         }
     }
@@ -174,17 +193,12 @@ fn fits(
 }
 
 fn draw(name: &str, file: Option<&Path>, case: &Case) -> Result<(Limits, Frame), Failure> {
-    let adapters = discover(&Wanted {
+    let adapters = discover(&Query {
         names: &[name.to_owned()],
         file,
-        ..Wanted::default()
+        ..Query::default()
     })?;
-    if let Some(absent) = adapters.absent.first() {
-        return Err(Failure::usage(format!(
-            "adapter {name} cannot be used: {}; {}",
-            absent.reason, absent.remedy
-        )));
-    }
+    refuse_absent(std::slice::from_ref(&name.to_owned()), &adapters.absent)?;
     let Some((_, mut worker)) = adapters.ready.into_iter().next() else {
         return Err(Failure::usage(format!("adapter {name} cannot be used")));
     };
@@ -193,8 +207,15 @@ fn draw(name: &str, file: Option<&Path>, case: &Case) -> Result<(Limits, Frame),
         return Err(Failure::usage(format!("{name} does not support {missing}")));
     }
     let frames = worker.draw(case).map_err(Failure::incomplete)?;
-    // The case's own scene comes first; variants are explained by what they have in common with it.
+    // The scene of the case itself comes first, then its variants.
     let frame = frames.into_iter().next();
-    let frame = frame.ok_or_else(|| Failure::incomplete("no frame came back"))?;
+    let frame = frame.ok_or_else(|| Failure::incomplete("no frame was returned"))?;
     Ok((limits, frame))
+}
+
+fn parse_texel(text: &str) -> Result<[u32; 2], String> {
+    let wrong = || "expected X,Y: two whole numbers".to_owned();
+    let (x, y) = text.split_once(',').ok_or_else(wrong)?;
+    let number = |t: &str| t.trim().parse().map_err(|_| wrong());
+    Ok([number(x)?, number(y)?])
 }

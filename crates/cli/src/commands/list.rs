@@ -1,12 +1,19 @@
-//! `etalon list` and `etalon schema`.
+//! `etalon list`.
 
-use crate::args::ListArguments;
-use crate::commands::chosen;
+use crate::cases::chosen;
 use crate::failure::Failure;
-use crate::output::{print, print_json};
+use crate::flags::CaseArguments;
+use crate::output::print;
+use clap::Args;
 
-/// Prints the ids of the chosen cases.
-pub(crate) fn run(arguments: &ListArguments) -> Result<u8, Failure> {
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) selection: CaseArguments,
+}
+
+/// Prints the ids of the selected cases.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let cases = chosen(&arguments.selection)?;
     let mut text = String::new();
     for case in &cases {
@@ -14,11 +21,5 @@ pub(crate) fn run(arguments: &ListArguments) -> Result<u8, Failure> {
         text.push('\n');
     }
     print(&text)?;
-    Ok(0)
-}
-
-/// Prints the JSON schema of case files.
-pub(crate) fn schema() -> Result<u8, Failure> {
-    print_json(&etalon_case::schema())?;
     Ok(0)
 }

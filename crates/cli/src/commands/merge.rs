@@ -1,37 +1,54 @@
 //! `etalon merge`.
 
-use crate::args::{Format, MergeArguments};
-use crate::commands::run::RUN_REPORTS;
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
+use crate::flags::Format;
 use crate::output::{print, print_json, table_options};
+use crate::{provenance, report_files};
+use clap::Args;
 use etalon_record::{FolderKind, FolderLock, MISSING_FILE, Merge, Merged, RecordError, Run};
 use serde_json::json;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// How many missing records are named on the terminal.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Run folders of one selection of cases
+    #[arg(value_name = "DIR", required = true)]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Folder for the merged run
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Replace the run in the folder
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+/// The number of missing records that are printed.
 const NAMED: usize = 20;
 
-/// Makes one run of several, and proves that nothing is missing.
-pub(crate) fn run(arguments: &MergeArguments) -> Result<u8, Failure> {
+/// Merges runs into one and names the records that are missing.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let out = &arguments.out;
     for folder in &arguments.folders {
         if same(folder, out) {
             return Err(Failure::usage(format!(
-                "{} is a part and cannot be the whole; choose another --out",
+                "{} is one of the parts; choose another --out",
                 out.display()
             )));
         }
     }
     let mut merge = Merge::read(&arguments.folders).map_err(Failure::usage)?;
-    merge.header_mut().command = std::iter::once("etalon".to_owned())
-        .chain(std::env::args().skip(1))
-        .collect();
+    merge.header_mut().command = provenance::command();
     let _lock = FolderLock::acquire(out).map_err(Failure::usage)?;
     if FolderKind::of(out) == Some(FolderKind::Run) && !arguments.force {
         return Err(Failure::usage(occupied(out)));
     }
-    let merged = merge.write(out, RUN_REPORTS).map_err(Failure::incomplete)?;
+    let merged = merge
+        .write(out, report_files::RUN)
+        .map_err(Failure::incomplete)?;
     let written = etalon_report::write(out).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
@@ -51,7 +68,7 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<u8, Failure> {
         print(&etalon_report::table(&run, table_options()))?;
         print(&format!("\nReport: {}\n", written.html.display()))?;
     }
-    tell(&merged);
+    print_overlap(&merged);
     if !merged.missing.is_empty() || !merged.empty.is_empty() {
         return Err(Failure::incomplete(holes(&merged, out)));
     }
@@ -66,7 +83,7 @@ pub(crate) fn run(arguments: &MergeArguments) -> Result<u8, Failure> {
     })
 }
 
-/// Whether two paths name one folder.
+/// True if both paths name one folder.
 fn same(one: &Path, other: &Path) -> bool {
     match (fs::canonicalize(one), fs::canonicalize(other)) {
         (Ok(one), Ok(other)) => one == other,
@@ -84,13 +101,13 @@ fn occupied(out: &Path) -> String {
         records,
         expected,
     };
-    // Parts are merged anew, never gone on with.
+    // A merge starts from its parts each time and cannot be resumed.
     error
         .to_string()
         .replace("--resume draws what is missing, ", "")
 }
 
-fn tell(merged: &Merged) {
+fn print_overlap(merged: &Merged) {
     if merged.twice > 0 {
         eprintln!(
             "{} records are in more than one part, with the same verdict; one of each was kept",
@@ -98,14 +115,14 @@ fn tell(merged: &Merged) {
         );
     }
     for (adapter, case) in merged.disagreeing.iter().take(NAMED) {
-        eprintln!("flaky: parts disagree about {case} on {adapter}");
+        eprintln!("flaky: the parts disagree on {case} on {adapter}");
     }
 }
 
 fn holes(merged: &Merged, out: &Path) -> String {
     let mut text = String::new();
     for folder in &merged.empty {
-        text.push_str(&format!("{} holds no run\n", folder.display()));
+        text.push_str(&format!("{} contains no run\n", folder.display()));
     }
     for (adapter, case) in merged.missing.iter().take(NAMED) {
         text.push_str(&format!("missing: {adapter} {case}\n"));

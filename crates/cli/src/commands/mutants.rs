@@ -1,19 +1,50 @@
 //! `etalon mutants`.
 
-use crate::args::{Format, MutantsArguments};
-use crate::commands::run::{machine, progress};
-use crate::commands::{build, is_measuring, library};
+use crate::cases::{build, is_measuring, library};
 use crate::failure::{Failure, UNEXPECTED};
+use crate::flags::{CaseProfile, Format};
 use crate::output::{print, print_json, table_options};
+use crate::progress::progress;
+use crate::provenance;
+use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::Case;
 use etalon_mutants::{MutantBackend, mutants};
 use etalon_record::{HUNT_FORMAT, Hunt, MutantInfo};
 use etalon_runner::{Globs, HuntPlan};
-use std::time::{Instant, SystemTime};
+use std::path::PathBuf;
+use std::time::Instant;
 
-/// Hunts the chosen bugs, or lists them.
-pub(crate) fn run(arguments: &MutantsArguments) -> Result<u8, Failure> {
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Globs over the names of planted bugs, such as `blend/*`. Default: all
+    #[arg(value_name = "GLOB")]
+    pub(crate) globs: Vec<String>,
+    /// Print names and descriptions only
+    #[arg(long)]
+    pub(crate) list: bool,
+    /// Hunt with the cases that match this glob only; may be repeated
+    #[arg(long = "case", value_name = "GLOB")]
+    pub(crate) case_globs: Vec<String>,
+    /// Share of each family of cases
+    #[arg(long, value_enum, default_value = "quick")]
+    pub(crate) profile: CaseProfile,
+    /// Read case files from this folder instead of the built-in ones
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
+    /// Draw every case with every bug, instead of leaving an area after the first Fail of a bug
+    #[arg(long)]
+    pub(crate) full: bool,
+    /// Folder for mutants.json and mutants.html
+    #[arg(long, value_name = "DIR", default_value = "reports/mutants-latest")]
+    pub(crate) out: PathBuf,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+/// Hunts the selected bugs, or lists them.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let chosen = chosen(&arguments.globs)?;
     if arguments.list {
         return list(&chosen, arguments.format);
@@ -27,7 +58,7 @@ pub(crate) fn run(arguments: &MutantsArguments) -> Result<u8, Failure> {
         .collect();
     if cases.is_empty() {
         return Err(Failure::nothing(format!(
-            "no case to hunt with matches {}; selftests take no part",
+            "no case matches {}; selftests are excluded",
             arguments.case_globs.join(" ")
         )));
     }
@@ -47,7 +78,7 @@ pub(crate) fn run(arguments: &MutantsArguments) -> Result<u8, Failure> {
     })
 }
 
-/// The registry's bugs whose names match.
+/// Returns the bugs of the registry whose names match.
 fn chosen(globs: &[String]) -> Result<Vec<MutantInfo>, Failure> {
     let set = Globs::new(globs).map_err(Failure::usage)?;
     let chosen: Vec<MutantInfo> = mutants()
@@ -63,7 +94,7 @@ fn chosen(globs: &[String]) -> Result<Vec<MutantInfo>, Failure> {
         .collect();
     if chosen.is_empty() {
         return Err(Failure::nothing(format!(
-            "no planted bug matches {}; `etalon mutants --list` names them all",
+            "no planted bug matches {}; `etalon mutants --list` lists all",
             globs.join(" ")
         )));
     }
@@ -84,10 +115,10 @@ fn list(chosen: &[MutantInfo], format: Format) -> Result<u8, Failure> {
     Ok(0)
 }
 
-fn hunt(arguments: &MutantsArguments, cases: &[Case], chosen: &[MutantInfo]) -> Hunt {
+fn hunt(arguments: &Arguments, cases: &[Case], chosen: &[MutantInfo]) -> Hunt {
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
     let bar = progress(cases.len() as u64 * jobs.min(chosen.len()) as u64);
-    let started = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
+    let started = provenance::now();
     let start = Instant::now();
     let plan = HuntPlan {
         cases,
@@ -101,13 +132,11 @@ fn hunt(arguments: &MutantsArguments, cases: &[Case], chosen: &[MutantInfo]) -> 
     bar.finish_and_clear();
     Hunt {
         format: HUNT_FORMAT,
-        etalon: env!("CARGO_PKG_VERSION").to_owned(),
-        commit: option_env!("ETALON_COMMIT").map(str::to_owned),
-        machine: machine(),
+        etalon: provenance::VERSION.to_owned(),
+        commit: provenance::commit(),
+        machine: provenance::machine(),
         started,
-        command: std::iter::once("etalon".to_owned())
-            .chain(std::env::args().skip(1))
-            .collect(),
+        command: provenance::command(),
         seconds: start.elapsed().as_secs_f64(),
         cases: cases.len() as u64,
         full: arguments.full,

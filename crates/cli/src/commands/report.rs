@@ -1,19 +1,26 @@
 //! `etalon report`.
 
-use crate::args::ReportArguments;
 use crate::failure::Failure;
 use crate::output::{print, table_options};
+use clap::Args;
 use etalon_record::{Bench, FolderKind, Run};
 use etalon_report::TableOptions;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// Makes the reports of run and bench folders anew, from the folders alone.
-pub(crate) fn run(arguments: &ReportArguments) -> Result<u8, Failure> {
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Run and bench folders
+    #[arg(value_name = "DIR", required = true)]
+    pub(crate) folders: Vec<PathBuf>,
+}
+
+/// Rebuilds the reports of run and bench folders from the folders alone.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let options = table_options();
     for folder in &arguments.folders {
         match FolderKind::of(folder) {
             Some(FolderKind::Bench) => bench(folder, options)?,
-            // What is neither is told as a missing run.
+            // A folder that is neither is reported as a missing run.
             Some(FolderKind::Run) | None => of_run(folder, options)?,
         }
     }

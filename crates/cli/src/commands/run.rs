@@ -1,46 +1,113 @@
 //! `etalon run`.
 
-use crate::adapters::{Adapters, BackendName, Wanted, cache, discover};
-use crate::args::{CacheState, Format, RunArguments};
-use crate::commands::expectations::{bless, to_bless};
-use crate::commands::{chosen, is_measuring, refuse_absent};
-use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
+use crate::adapters::{Adapters, Query, cache, discover, refuse_absent, take_unstarted};
+use crate::blessing::{bless, to_bless};
+use crate::cases::{chosen, is_measuring};
+use crate::expectations::{self, today};
+use crate::failure::{Failure, IMPROVED, UNEXPECTED};
+use crate::flags::{AdapterFileArguments, CaseArguments, Format};
+use crate::interruption::{how_to_resume, listen};
 use crate::output::{print, print_json, table_options};
-use crate::shard;
+use crate::progress::progress;
+use crate::{provenance, report_files, shard};
+use clap::{Args, ValueEnum};
 use etalon_case::Case;
-use etalon_frame::{Api, Limits};
 use etalon_record::{
-    AbsentAdapter, AdapterRecord, Expectations, FolderKind, FolderLock, Header, Machine,
-    RecordError, ReportFiles, Run, Settings, ShaderCache, Shard, selection_digest, shard_of,
+    AdapterRecord, Expectations, FolderKind, FolderLock, Header, RecordError, Run, Settings,
+    ShaderCache, Shard, selection_digest, shard_of,
 };
-use etalon_report::quoted;
 use etalon_runner::{Event, Options, Plan, RunError, RunSummary};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use serde_json::json;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, SystemTime};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-/// The reports that a run replaces with the run.
-pub(crate) const RUN_REPORTS: ReportFiles = ReportFiles {
-    files: &etalon_report::RUN_FILES,
-    folders: &etalon_report::RUN_FOLDERS,
-};
 /// The folder that each run without `--out` replaces.
 const LATEST: &str = "reports/latest";
 
-/// Draws the chosen cases on the chosen adapters, judges, records and reports.
-pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
+/// The state of the drivers' shader caches on disk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CacheState {
+    /// Disabled: every process compiles every shader.
+    Cold,
+    /// Enabled.
+    Warm,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) selection: CaseArguments,
+    /// Run on this adapter; may be repeated. Default: all adapters found
+    #[arg(long = "adapter", value_name = "NAME")]
+    pub(crate) adapters: Vec<String>,
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// Folder for records and reports
+    #[arg(long, value_name = "DIR", default_value = "reports/latest")]
+    pub(crate) out: PathBuf,
+    /// Continue the run in the folder: draw what is missing
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+    /// Replace the run in the folder
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Use the expectations of this file instead of the built-in ones
+    #[arg(long, value_name = "FILE")]
+    pub(crate) expect: Option<PathBuf>,
+    /// Update the expectations file from this run: add unexpected verdicts, remove improved ones. Refused
+    /// if the variable CI is set
+    #[arg(long)]
+    pub(crate) bless: bool,
+    /// Draw shard M of N, chosen by a hash of the id; 1/1 is everything. Default: the shard given by the
+    /// variables of GitLab, Bazel, Slurm or a Kubernetes indexed job
+    #[arg(long, value_name = "M/N", value_parser = crate::shard::parse)]
+    pub(crate) shard: Option<Shard>,
+    /// Time limit of a case in seconds (methods and perf: four times as long)
+    #[arg(long, value_name = "S", default_value = "60", value_parser = parse_timeout)]
+    pub(crate) timeout: f64,
+    /// Memory limit of a worker in MiB
+    #[arg(long, value_name = "MIB", default_value = "4096", value_parser = clap::value_parser!(u64).range(64..=1 << 20))]
+    pub(crate) memory: u64,
+    /// Number of workers that draw at the same time. Default: one per processor
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) jobs: Option<u16>,
+    /// Draw each case N times, each time in a new process; a case whose verdicts differ is flaky
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(crate) repeat: u32,
+    /// Draw the cases in a random order with this seed; a case that fails only after others names them
+    #[arg(long, value_name = "SEED")]
+    pub(crate) shuffle: Option<u64>,
+    /// State of the drivers' shader caches on disk
+    #[arg(long, value_enum, default_value = "warm")]
+    pub(crate) shader_cache: CacheState,
+    /// Enable validation layers and GL debug output; a case that causes messages is an error
+    #[arg(long)]
+    pub(crate) validate: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+fn parse_timeout(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().unwrap_or(f64::NAN);
+    if (0.1..=86_400.0).contains(&seconds) {
+        Ok(seconds)
+    } else {
+        Err("expected a number of seconds from 0.1 to 86400".to_owned())
+    }
+}
+
+/// Draws the selected cases on the selected adapters, judges them, writes records and reports.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut cases = chosen(&arguments.selection)?;
     if arguments.selection.globs.is_empty() {
-        // A folder that holds nothing else means them.
+        // A folder with nothing else in it means them.
         let measuring_alone = cases.iter().all(is_measuring);
         cases.retain(|case| measuring_alone || !is_measuring(case));
     }
     let selection: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
-    let shard = shard(arguments)?;
+    let shard = shard::chosen(arguments.shard)?;
     if let Some(shard) = shard {
         cases.retain(|case| shard_of(&case.id, shard.count) == shard.index);
         eprintln!(
@@ -57,34 +124,35 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
         false => None,
     };
     let expectations = match &blessed {
-        // What is to be written need not be there yet.
+        // The file to write need not exist yet.
         Some(path) if !path.exists() => Expectations::default(),
         Some(path) => Expectations::read(path).map_err(Failure::usage)?,
-        None => expectations(arguments.expect.as_deref())?,
+        None => expectations::read(arguments.expect.as_deref())?,
     }
     .on(&today());
-    // Nothing may be lost that another run, or one before, has written.
+    // The records of a concurrent or an earlier run must not be lost.
     let lock = || FolderLock::acquire(&arguments.out).map_err(Failure::usage);
     let early = arguments.out.exists().then(lock).transpose()?;
     let resume = resumes(arguments)?;
-    let stop = interrupts()?;
-    let mut adapters = discover(&Wanted {
+    let stop = listen()?;
+    let mut adapters = discover(&Query {
         names: &arguments.adapters,
         file: arguments.file.adapter_file.as_deref(),
         validate: arguments.validate,
         cold: arguments.shader_cache == CacheState::Cold,
     })?;
-    // A driver that is there and does not start has its records like any other.
-    let dead = dead(&mut adapters);
+    // A driver that is installed and does not start has a record for each case like any other.
+    let dead = take_unstarted(&mut adapters);
     for (adapter, how) in &dead {
         eprintln!("{} does not start: {how}", adapter.name);
     }
     refuse_absent(&arguments.adapters, &adapters.absent)?;
-    // A folder is not made before it is clear that there is something to put into it.
+    // A new folder is created only once there is something to write.
     let _lock = early.map_or_else(lock, Ok)?;
     let header = header(arguments, &cases, &selection, shard, &adapters, &dead);
     let names: Vec<String> = header.adapters.iter().map(|a| a.name.clone()).collect();
     let plan = Plan {
+        reports: report_files::RUN,
         cases: &cases,
         selection: Some(&selection),
         adapters: adapters.ready,
@@ -98,7 +166,6 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
         },
         expectations: &expectations,
         folder: &arguments.out,
-        reports: RUN_REPORTS,
         header,
         resume,
         stop,
@@ -157,24 +224,6 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<u8, Failure> {
     })
 }
 
-/// The part of the cases that the flag or the environment asks for.
-fn shard(arguments: &RunArguments) -> Result<Option<Shard>, Failure> {
-    if let Some(shard) = arguments.shard {
-        return Ok((shard.count > 1).then_some(shard));
-    }
-    let asked = shard::asked(|name| std::env::var(name).ok())?;
-    if let Some(path) = asked.status_file {
-        // Bazel wants to see that the process knows of shards.
-        fs::write(&path, "").map_err(|e| {
-            Failure::usage(format!(
-                "cannot write {}, which TEST_SHARD_STATUS_FILE names: {e}",
-                path.display()
-            ))
-        })?;
-    }
-    Ok(asked.shard)
-}
-
 /// Fisher and Yates' shuffle.
 fn shuffle(cases: &mut [Case], seed: u64) {
     let mut random = oorandom::Rand64::new(u128::from(seed));
@@ -184,8 +233,8 @@ fn shuffle(cases: &mut [Case], seed: u64) {
     }
 }
 
-/// Whether to go on with the run in the folder; refuses to replace one without being told.
-fn resumes(arguments: &RunArguments) -> Result<bool, Failure> {
+/// Returns true if the run in the folder is continued; refuses to replace it without `--force`.
+fn resumes(arguments: &Arguments) -> Result<bool, Failure> {
     let folder = &arguments.out;
     if FolderKind::of(folder) != Some(FolderKind::Run) {
         return Ok(false);
@@ -207,43 +256,12 @@ fn resumes(arguments: &RunArguments) -> Result<bool, Failure> {
     }))
 }
 
-/// The command that goes on with this run.
-fn how_to_resume() -> String {
-    let own = std::env::args()
-        .skip(1)
-        .filter(|a| a != "--force" && a != "--resume");
-    let words = std::iter::once("etalon".to_owned())
-        .chain(own)
-        .chain(["--resume".to_owned()]);
-    let quoted: Vec<String> = words.map(|w| quoted(&w)).collect();
-    format!("go on with: {}", quoted.join(" "))
-}
-
-/// Set at the first Ctrl-C, or when the process is asked to terminate; a second one ends it at once.
-fn interrupts() -> Result<&'static AtomicBool, Failure> {
-    static STOP: AtomicBool = AtomicBool::new(false);
-    ctrlc::set_handler(|| {
-        if STOP.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(INCOMPLETE));
-        }
-        eprintln!("\nstopping; once more to stop at once");
-    })
-    .map_err(|e| Failure::incomplete(format!("cannot listen for interrupts: {e}")))?;
-    Ok(&STOP)
-}
-
 fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// The day, in UTC, as `2027-01-31`.
-pub(crate) fn today() -> String {
-    let now = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
-    now.chars().take(10).collect()
-}
-
 fn header(
-    arguments: &RunArguments,
+    arguments: &Arguments,
     cases: &[Case],
     selection: &[String],
     shard: Option<Shard>,
@@ -252,13 +270,11 @@ fn header(
 ) -> Header {
     Header {
         format: etalon_record::FORMAT,
-        etalon: env!("CARGO_PKG_VERSION").to_owned(),
-        commit: option_env!("ETALON_COMMIT").map(str::to_owned),
-        machine: machine(),
-        started: humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-        command: std::iter::once("etalon".to_owned())
-            .chain(std::env::args().skip(1))
-            .collect(),
+        etalon: provenance::VERSION.to_owned(),
+        commit: provenance::commit(),
+        machine: provenance::machine(),
+        started: provenance::now(),
+        command: provenance::command(),
         cases: cases.len() as u64,
         settings: Settings {
             selection: selection_digest(selection.iter().map(String::as_str)),
@@ -266,7 +282,7 @@ fn header(
             shuffle: arguments.shuffle,
             repeat: (arguments.repeat > 1).then_some(arguments.repeat),
             shader_cache: Some(
-                match arguments.shader_cache == CacheState::Cold || cache::is_off() {
+                match arguments.shader_cache == CacheState::Cold || cache::is_disabled() {
                     true => ShaderCache::Cold,
                     false => ShaderCache::Warm,
                 },
@@ -281,55 +297,6 @@ fn header(
         },
         absent: adapters.absent.clone(),
     }
-}
-
-/// The adapters whose drivers do not start, as far as they are known, and how that showed; they are absent
-/// no longer.
-fn dead(adapters: &mut Adapters) -> Vec<(AdapterRecord, String)> {
-    let record = |(backend, absent): (BackendName, AbsentAdapter)| {
-        let (backend, api) = match backend {
-            BackendName::Cpu => ("cpu", Api::Vulkan),
-            BackendName::Vulkan => ("vulkan", Api::Vulkan),
-            BackendName::Gl => ("gl", Api::OpenGl),
-            BackendName::GlEs => ("gl", Api::OpenGlEs),
-            BackendName::WgpuVulkan | BackendName::WgpuGl => ("wgpu", Api::WebGpu),
-        };
-        let adapter = AdapterRecord {
-            name: absent.name,
-            backend: backend.to_owned(),
-            device: String::new(),
-            driver: String::new(),
-            driver_version: String::new(),
-            driver_id: String::new(),
-            api_version: String::new(),
-            software: false,
-            limits: Limits {
-                api,
-                sub_pixel_bits: 0,
-                max_size: 0,
-                max_color_attachments: 0,
-                formats: BTreeMap::new(),
-                features: BTreeSet::new(),
-                sample_positions: BTreeMap::new(),
-            },
-        };
-        (adapter, absent.reason)
-    };
-    let dead: Vec<(AdapterRecord, String)> = adapters.dead.drain(..).map(record).collect();
-    let is_dead = |name: &str| dead.iter().any(|(adapter, _)| adapter.name == name);
-    adapters.absent.retain(|absent| !is_dead(&absent.name));
-    dead
-}
-
-pub(crate) fn expectations(file: Option<&Path>) -> Result<Expectations, Failure> {
-    match file {
-        Some(file) => Expectations::read(file),
-        None => Expectations::parse(
-            include_str!("../../../../ci/expectations.json"),
-            Path::new("ci/expectations.json"),
-        ),
-    }
-    .map_err(Failure::usage)
 }
 
 fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<RunSummary, RunError> {
@@ -354,32 +321,4 @@ fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<RunSummary, RunError> {
             eprintln!("{adapter} done in {:.1} s", wall.as_secs_f64());
         }),
     })
-}
-
-pub(crate) fn progress(total: u64) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {per_sec} {eta} {msg}");
-    if let Ok(style) = style {
-        bar.set_style(style);
-    }
-    bar
-}
-
-/// The machine as it names itself, without its owner's names for it.
-pub(crate) fn machine() -> Machine {
-    let field = |path: &str, key: &str, separator: char| {
-        let text = std::fs::read_to_string(path).ok()?;
-        let value = text.lines().find_map(|line| {
-            let (name, value) = line.split_once(separator)?;
-            (name.trim() == key).then(|| value.trim().trim_matches('"').to_owned())
-        })?;
-        (!value.is_empty()).then_some(value)
-    };
-    Machine {
-        os: field("/etc/os-release", "PRETTY_NAME", '=')
-            .unwrap_or_else(|| std::env::consts::OS.to_owned()),
-        cpu: field("/proc/cpuinfo", "model name", ':')
-            .unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
-        cores: std::thread::available_parallelism().map_or(1, |n| n.get() as u32),
-    }
 }

@@ -1,7 +1,8 @@
-//! Devices that backends find by themselves, and what they are called.
+//! Enumeration of hardware devices. Each backend enumerates in a process of its own, since drivers crash and hang there.
 
-use super::description::{MAX_NAME, is_name};
-use super::{BackendName, quiet};
+use super::backend_name::BackendName;
+use super::names::sanitized;
+use super::runtime_folder::default_runtime_folder;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::io::Read;
@@ -10,20 +11,20 @@ use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
 
-/// How long listing devices may take.
+/// The time limit of an enumeration.
 const LIMIT: Duration = Duration::from_secs(60);
-/// The most bytes that a list of devices may have.
+/// The maximum size of a list of devices in bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// A device that a backend's enumeration found; its name is not unique yet.
+/// A device of an enumeration. Its name need not be unique.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Found {
+pub(crate) struct HardwareDevice {
     pub(crate) name: String,
     pub(crate) device: usize,
 }
 
-/// The backends that find devices, by the word that the worker takes and the start of their names.
+/// The backends that enumerate devices: argument of the worker, prefix of names, backend.
 pub(super) const BACKENDS: [(&str, &str, BackendName); 5] = [
     ("vulkan", "vulkan", BackendName::Vulkan),
     ("gl", "gl", BackendName::Gl),
@@ -32,15 +33,16 @@ pub(super) const BACKENDS: [(&str, &str, BackendName); 5] = [
     ("wgpu-gl", "wgpu:gl", BackendName::WgpuGl),
 ];
 
-/// Asks a backend for hardware, in a process of its own: a driver may crash or hang while it is listed.
+/// Enumerates the devices of a backend in a new process.
 ///
 /// # Errors
-/// How the process ended, where it did not end well.
-pub(super) fn enumerate(backend: &str) -> Result<Vec<Found>, String> {
-    let program = std::env::current_exe().map_err(|e| format!("etalon cannot find itself: {e}"))?;
+/// If the process fails, with the way it ended.
+pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
+    let program = std::env::current_exe()
+        .map_err(|e| format!("cannot find the program file of etalon: {e}"))?;
     let mut child = Command::new(program)
         .args(["worker", "--enumerate", backend])
-        .envs(quiet())
+        .envs(default_runtime_folder())
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
@@ -51,14 +53,14 @@ pub(super) fn enumerate(backend: &str) -> Result<Vec<Found>, String> {
     thread::spawn(move || {
         let mut bytes = Vec::new();
         if let Some(pipe) = &mut pipe {
-            // A pipe that breaks leaves a text that does not parse.
+            // A broken pipe leaves a text that does not parse.
             let _ = pipe.take(MAX_BYTES).read_to_end(&mut bytes);
         }
-        // Nobody listens any more once the time is up.
+        // After the time limit there is no receiver.
         let _ = sender.send(bytes);
     });
     let Ok(bytes) = receiver.recv_timeout(LIMIT) else {
-        // It may have ended by itself; then there is nothing to kill.
+        // Fails if the process has ended by itself.
         let _ = child.kill();
         let _ = child.wait();
         return Err(format!(
@@ -68,21 +70,24 @@ pub(super) fn enumerate(backend: &str) -> Result<Vec<Found>, String> {
     };
     let status = child
         .wait()
-        .map_err(|e| format!("listing devices ended oddly: {e}"))?;
+        .map_err(|e| format!("listing devices ended unexpectedly: {e}"))?;
     if !status.success() {
         return Err(format!("listing devices ended with {status}"));
     }
     serde_json::from_slice(&bytes).map_err(|e| format!("listing devices gave no list: {e}"))
 }
 
-/// Gives devices names that nobody else has: the second of a name is called `-2`, the third `-3`. `taken`
-/// are the names of described adapters, which keep theirs.
-pub(super) fn name(taken: &BTreeSet<String>, found: Vec<Found>) -> Vec<Found> {
+/// Makes the names of devices unique: the second of a name gets `-2`, the third `-3`. `taken` are the names of described
+/// adapters.
+pub(super) fn unique_names(
+    taken: &BTreeSet<String>,
+    found: Vec<HardwareDevice>,
+) -> Vec<HardwareDevice> {
     let mut taken = taken.clone();
     found
         .into_iter()
         .map(|found| {
-            let base = plain(&found.name);
+            let base = sanitized(&found.name);
             let name = (1_usize..)
                 .map(|n| match n {
                     1 => base.clone(),
@@ -91,36 +96,26 @@ pub(super) fn name(taken: &BTreeSet<String>, found: Vec<Found>) -> Vec<Found> {
                 .find(|name| !taken.contains(name))
                 .unwrap_or_else(|| base.clone());
             taken.insert(name.clone());
-            Found { name, ..found }
+            HardwareDevice { name, ..found }
         })
         .collect()
 }
 
-/// A driver's words as a name can have them, with room for a number.
-fn plain(name: &str) -> String {
-    let plain: String = name
-        .chars()
-        .map(|c| if is_name(&format!("a{c}")) { c } else { '-' })
-        .take(MAX_NAME - 4)
-        .collect();
-    if is_name(&plain) {
-        plain
-    } else {
-        "gpu".to_owned()
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::names::is_name;
     use super::*;
 
     fn named(taken: &[&str], found: &[&str]) -> Vec<String> {
         let taken = taken.iter().map(|n| (*n).to_owned()).collect();
-        let found = found.iter().enumerate().map(|(device, name)| Found {
-            name: (*name).to_owned(),
-            device,
-        });
-        let named = name(&taken, found.collect());
+        let found = found
+            .iter()
+            .enumerate()
+            .map(|(device, name)| HardwareDevice {
+                name: (*name).to_owned(),
+                device,
+            });
+        let named = unique_names(&taken, found.collect());
         for (device, found) in named.iter().enumerate() {
             assert_eq!(found.device, device);
             assert!(is_name(&found.name), "{}", found.name);

@@ -1,5 +1,5 @@
-//! The files of `ci/` that other people's systems read: they satisfy the schemas of those systems, what they call is
-//! there, and the lines that they hold, run as the systems would run them, draw every case once.
+//! The files of `ci/` for CI systems and clusters: they satisfy the schemas of those systems, the scripts that they call
+//! exist, and their lines, run with the variables of those systems, draw every case once.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use serde_json::{Value, json};
@@ -17,7 +17,7 @@ const JOB: &str = "ci/kubernetes/job.yaml";
 const MERGE: &str = "ci/kubernetes/merge.yaml";
 const CLAIM: &str = "ci/kubernetes/claim.yaml";
 
-/// What the systems that start many processes set; these tests may themselves run in one of them.
+/// The variables of systems that start many processes; the tests may run in one of them.
 const VARIABLES: [&str; 14] = [
     "CI",
     "CI_NODE_INDEX",
@@ -157,9 +157,9 @@ fn flags(command: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// What a line calls of `ci/` that is no executable file, and what flags it gives that `etalon` does not know.
-fn strange(line: &str) -> Vec<String> {
-    let mut strange = Vec::new();
+/// Returns the names under `ci/` in a line that are not executable files, and its flags that `etalon` does not know.
+fn unknown(line: &str) -> Vec<String> {
+    let mut unknown = Vec::new();
     let mut known = None;
     let is_edge = |c: char| c.is_whitespace() || "\"'()$;".contains(c);
     for word in line.split(is_edge).filter(|w| !w.is_empty()) {
@@ -167,7 +167,7 @@ fn strange(line: &str) -> Vec<String> {
             let there = fs::metadata(root().join(word))
                 .is_ok_and(|m| m.is_file() && m.permissions().mode() & 0o111 != 0);
             if !there {
-                strange.push(word.to_owned());
+                unknown.push(word.to_owned());
             }
             known = match word {
                 "ci/shard" => Some(flags("run")),
@@ -179,10 +179,10 @@ fn strange(line: &str) -> Vec<String> {
             && word.starts_with("--")
             && !known.contains(word)
         {
-            strange.push(word.to_owned());
+            unknown.push(word.to_owned());
         }
     }
-    strange
+    unknown
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn what_the_files_call_is_there() {
         for (job, lines) in lines(name) {
             for line in lines {
                 assert_eq!(
-                    strange(&line),
+                    unknown(&line),
                     Vec::<String>::new(),
                     "{name}, {job}: {line}"
                 );
@@ -212,9 +212,9 @@ fn what_the_files_call_is_there() {
         }
         assert_eq!(called, scripts.iter().copied().collect(), "{name}");
     }
-    assert_eq!(strange("ci/shard runs --shards 1/2"), ["--shards"]);
-    assert_eq!(strange("x \"$(ci/binaries)\""), ["ci/binaries"]);
-    assert_eq!(strange("ci/README.md"), ["ci/README.md"]);
+    assert_eq!(unknown("ci/shard runs --shards 1/2"), ["--shards"]);
+    assert_eq!(unknown("x \"$(ci/binaries)\""), ["ci/binaries"]);
+    assert_eq!(unknown("ci/README.md"), ["ci/README.md"]);
 }
 
 #[test]
@@ -337,7 +337,7 @@ impl Place {
     }
 }
 
-fn told(output: &Output) -> String {
+fn printed(output: &Output) -> String {
     let both = [&output.stdout[..], &output.stderr[..]].concat();
     String::from_utf8(both).unwrap()
 }
@@ -347,7 +347,7 @@ fn succeeds(output: &Output) {
         output.status.success(),
         "{:?}: {}",
         output.status,
-        told(output)
+        printed(output)
     );
 }
 
@@ -386,12 +386,12 @@ fn the_lines_for_gitlab_draw_every_case_once_and_merging_names_what_is_missing()
     let script = line(PIPELINE, "shard", "ci/shard ");
     let merge = line(PIPELINE, "merge", "ci/merge-shards");
     let nothing = place.shell(&merge, &[]);
-    assert_eq!(nothing.status.code(), Some(3), "{}", told(&nothing));
+    assert_eq!(nothing.status.code(), Some(3), "{}", printed(&nothing));
     for index in 1..=total {
         if index == total {
             let early = place.shell(&merge, &[]);
-            assert_eq!(early.status.code(), Some(3), "{}", told(&early));
-            assert!(told(&early).contains("missing: cpu cull/"));
+            assert_eq!(early.status.code(), Some(3), "{}", printed(&early));
+            assert!(printed(&early).contains("missing: cpu cull/"));
         }
         let variables = [
             ("CI_NODE_INDEX", index.to_string()),
@@ -432,7 +432,7 @@ fn the_pods_of_kubernetes_draw_every_case_once() {
     place.is_whole(8, "full");
 }
 
-/// Stands in for Slurm: an array runs at once, task by task, and its merge when it is asked for.
+/// A replacement for Slurm's `sbatch`: tasks of an array run one after the other, and the merge after them.
 const SBATCH: &str = r#"
 echo "$*" >>"$PLACE/sbatch.txt"
 tasks=
@@ -475,13 +475,13 @@ fn a_drawn_shard_succeeds_whatever_its_verdicts_are() {
     place.program("etalon", "exit \"$CODE\"");
     for (code, then) in [(0, 0), (1, 0), (2, 0), (3, 3), (4, 4), (64, 64)] {
         let output = place.shell("ci/shard runs", &[("CODE", code.to_string())]);
-        assert_eq!(output.status.code(), Some(then), "{}", told(&output));
+        assert_eq!(output.status.code(), Some(then), "{}", printed(&output));
     }
     let output = place.shell("ci/shard --profile full", &[("CODE", "0".to_owned())]);
     assert_eq!(output.status.code(), Some(64), "a folder is wanted");
 }
 
-/// An `etalon` that draws until it is asked to stop, but not for ever.
+/// An `etalon` that draws until it gets a signal, for 20 s at most.
 const PATIENT: &str = r#"trap 'exit 3' TERM; touch "$PLACE/ready"
 for _ in $(seq 400); do sleep 0.05; done; exit 9"#;
 
@@ -514,7 +514,7 @@ fn a_shard_that_is_asked_to_stop_ends_as_incomplete() {
     let place = Place::new();
     place.program("etalon", PATIENT);
     let output = signalled(&place, &["ci/shard"], rustix::process::Signal::TERM, 0);
-    assert_eq!(output.status.code(), Some(3), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(3), "{}", printed(&output));
 }
 
 #[test]
@@ -526,12 +526,12 @@ fn a_task_of_slurm_whose_time_is_up_queues_itself_again() {
     let usr1 = rustix::process::Signal::USR1;
     let words = ["bash", "ci/slurm/array.sbatch"];
     let output = signalled(&place, &words, usr1, 4);
-    assert_eq!(output.status.code(), Some(3), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(3), "{}", printed(&output));
     assert_eq!(fs::read_to_string(&asked).unwrap(), "requeue 7_2\n");
-    // Not for ever.
+    // Five times at most.
     fs::remove_file(&asked).unwrap();
     let output = signalled(&place, &words, usr1, 5);
-    assert_eq!(output.status.code(), Some(3), "{}", told(&output));
+    assert_eq!(output.status.code(), Some(3), "{}", printed(&output));
     assert!(!asked.exists());
 }
 

@@ -1,6 +1,7 @@
-//! Whole runs, as a user starts them.
+//! Whole runs.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
+use crate::etalon::{BINARY, etalon};
 use assert_cmd::Command;
 use etalon_frame::{Band, CounterOutcome};
 use etalon_record::{Record, Run, Verdict};
@@ -16,8 +17,6 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
-
 /// The software drivers that Debian has; the test script installs them.
 const DUE: [&str; 7] = [
     "cpu",
@@ -28,12 +27,6 @@ const DUE: [&str; 7] = [
     "wgpu:gl:llvmpipe",
     "wgpu:vulkan:lavapipe",
 ];
-
-fn etalon(arguments: &[&str]) -> Command {
-    let mut command = Command::new(BINARY);
-    command.args(arguments).timeout(Duration::from_secs(100));
-    command
-}
 
 fn run(out: &Path, arguments: &[&str]) -> assert_cmd::assert::Assert {
     let mut command = etalon(&["run", "--force", "--out"]);
@@ -186,14 +179,14 @@ fn every_adapter_that_is_found_draws_a_bit_of_everything() {
     let out = folder();
     let json = [&globs[..], &["--format", "json"]].concat();
     let assert = run(out.path(), &json).code(0);
-    let told: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
+    let output: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
     let run = whole(out.path());
-    assert_eq!(told["records"], run.records.len());
-    assert_eq!(told["unexpected"], 0);
-    assert_eq!(told["improvements"], 0);
-    assert_eq!(told["folder"], out.path().to_str().unwrap());
-    assert!(Path::new(told["report"].as_str().unwrap()).is_file());
-    let ran: BTreeSet<String> = told["adapters"]
+    assert_eq!(output["records"], run.records.len());
+    assert_eq!(output["unexpected"], 0);
+    assert_eq!(output["improvements"], 0);
+    assert_eq!(output["folder"], out.path().to_str().unwrap());
+    assert!(Path::new(output["report"].as_str().unwrap()).is_file());
+    let ran: BTreeSet<String> = output["adapters"]
         .as_array()
         .unwrap()
         .iter()
@@ -285,15 +278,15 @@ fn expectations_are_held_against_verdicts() {
     };
     // Better than expected.
     let assert = with(json!([expectation("fail", "*format=depth16unorm*")])).code(2);
-    let told: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
+    let output: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
     let better: Vec<Record> = whole(&out)
         .records
         .into_iter()
         .filter(|r| r.improves == Some(Verdict::Fail))
         .collect();
     assert!(!better.is_empty() && better.iter().all(|r| r.case.contains("depth16unorm")));
-    assert_eq!(told["improvements"], better.len());
-    assert_eq!(told["unexpected"], 0);
+    assert_eq!(output["improvements"], better.len());
+    assert_eq!(output["unexpected"], 0);
     // As expected, and about others.
     with(json!([expectation("pass", "*")])).code(0);
     assert!(whole(&out).records.iter().all(|r| r.expected.is_some()));
@@ -516,7 +509,7 @@ fn a_machine_without_drivers_still_has_the_cpu() {
     bare(&["adapters"])
         .assert()
         .code(0)
-        .stdout(contains("Not here:"))
+        .stdout(contains("Unavailable:"))
         .stdout(contains("vulkan:lavapipe: libvulkan.so.1"))
         .stdout(contains("gl:softpipe: libEGL.so.1"))
         .stdout(contains("apt-get install mesa-vulkan-drivers"));
@@ -527,7 +520,7 @@ fn a_machine_without_drivers_still_has_the_cpu() {
         .arg(out)
         .assert()
         .code(0)
-        .stderr(contains("not here: gl:softpipe: ").and(contains("apt-get install")));
+        .stderr(contains("unavailable: gl:softpipe: ").and(contains("apt-get install")));
     let run = whole(out);
     assert_eq!(run.records.len(), count(&["depth/clear"]));
     for due in DUE.iter().filter(|name| **name != "cpu") {

@@ -1,22 +1,16 @@
-//! Methods against the truth, as a user runs them.
+//! Runs of methods against the truth.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-use assert_cmd::Command;
+use crate::etalon::etalon;
+use crate::sample;
 use etalon_record::{Measured, Record, Run, Verdict};
 use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
-
-fn etalon(arguments: &[&str]) -> Command {
-    let mut command = Command::new(BINARY);
-    command.args(arguments).timeout(Duration::from_secs(600));
-    command
-}
-
 fn run(out: &Path, arguments: &[&str]) -> Run {
     let mut command = etalon(&["run", "--out"]);
+    command.timeout(Duration::from_secs(600));
     command.arg(out).args(arguments).assert().code(0);
     let run = Run::read(out).unwrap();
     assert_eq!((run.truncated, run.missing()), (false, 0));
@@ -46,7 +40,14 @@ fn of<'r>(run: &'r Run, question: &str, scene: &str, method: &str) -> Vec<&'r Re
 fn the_quick_methods_are_measured_on_a_rasterizer_and_a_driver() {
     let out = tempfile::tempdir().unwrap();
     let adapters = ["--adapter", "cpu", "--adapter", "gl:softpipe"];
-    let run = run(out.path(), &[&["methods/*"][..], &adapters].concat());
+    let listed = etalon(&["list", "methods/*"]).assert().success();
+    let listed = String::from_utf8(listed.get_output().stdout.clone()).unwrap();
+    let ids: Vec<&str> = listed.lines().collect();
+    let count = sample::count("cases", ids.len() / 4, ids.len());
+    let chosen: Vec<&str> = ids.iter().copied().step_by(ids.len() / count).collect();
+    assert!(chosen.len() >= count && count > 30, "{count}");
+    let run = run(out.path(), &[&chosen[..], &adapters].concat());
+    assert_eq!(run.records.len(), 2 * chosen.len());
     for record in &run.records {
         let name = format!("{} on {}", record.case, record.adapter);
         if record.verdict == Verdict::NotSupported {
@@ -92,7 +93,7 @@ fn the_quick_methods_are_measured_on_a_rasterizer_and_a_driver() {
     }
 }
 
-/// Where a method is exact, its picture is the truth but for the rounding of each blend.
+/// The picture of an exact method differs from the truth by the rounding of each blend only.
 #[test]
 fn exact_methods_agree_with_the_truth() {
     let out = tempfile::tempdir().unwrap();

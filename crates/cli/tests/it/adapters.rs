@@ -1,4 +1,4 @@
-//! Adapters: described, found, a user's own, and what is told of them.
+//! Adapters: built-in and own descriptions, enumeration, facts, validation, caches.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use assert_cmd::Command;
@@ -10,11 +10,9 @@ use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 use tempfile::TempDir;
 
-const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
-/// What every adapter can draw.
+/// A case that every adapter supports.
 const CASE: &str = "depth/clear/clear=1/format=depth32float";
 /// Software drivers whose packages `ci/test` installs.
 const DUE: [&str; 13] = [
@@ -33,9 +31,9 @@ const DUE: [&str; 13] = [
     "wgpu:vulkan:swiftshader",
 ];
 
+/// The binary without variables that name drivers.
 fn etalon(arguments: &[&str]) -> Command {
-    let mut command = Command::new(BINARY);
-    command.args(arguments).timeout(Duration::from_secs(100));
+    let mut command = crate::etalon::etalon(arguments);
     for name in ["ETALON_ANGLE", "VK_DRIVER_FILES", "VK_ICD_FILENAMES"] {
         command.env_remove(name);
     }
@@ -116,13 +114,13 @@ fn a_users_own_adapter_runs_beside_the_built_in_one_and_is_named() {
         .collect();
     assert_eq!(header, names);
     assert_eq!(run.header.adapters[0].device, run.header.adapters[1].device);
-    let told: BTreeSet<_> = run
+    let verdicts: BTreeSet<_> = run
         .records
         .iter()
         .map(|r| (r.adapter.as_str(), r.verdict))
         .collect();
     assert_eq!(
-        told,
+        verdicts,
         names.map(|n| (n, Verdict::Pass)).into_iter().collect()
     );
 
@@ -138,7 +136,7 @@ fn a_users_own_adapter_runs_beside_the_built_in_one_and_is_named() {
     .arg(&path)
     .assert()
     .code(0)
-    .stdout(contains("came back"));
+    .stdout(contains("returned"));
 }
 
 #[test]
@@ -244,7 +242,7 @@ fn another_driver_may_not_answer_for_the_one_that_is_meant() {
         &["gl:voodoo"],
         &["another driver answers: softpipe", "find one"],
     );
-    // A library that is none is told as such.
+    // A file that is not a library.
     fs::write(path.with_file_name("libEGL.so"), "no library").unwrap();
     fs::write(
         &path,
@@ -320,17 +318,17 @@ fn the_facts_of_each_adapter_are_there_for_programs() {
 fn an_adapter_that_a_variable_names_is_told_with_its_remedy_or_in_one_quiet_line() {
     let quiet = etalon(&["adapters"]).assert().code(0);
     let text = String::from_utf8_lossy(&quiet.get_output().stdout).into_owned();
-    let told: Vec<&str> = text.lines().filter(|l| l.contains("gl:es:angle")).collect();
-    assert_eq!(told.len(), 1, "{text}");
-    assert!(told[0].starts_with("Not asked for: "), "{text}");
-    assert!(told[0].contains("ETALON_ANGLE"), "{text}");
+    let found: Vec<&str> = text.lines().filter(|l| l.contains("gl:es:angle")).collect();
+    assert_eq!(found.len(), 1, "{text}");
+    assert!(found[0].starts_with("Not enabled: "), "{text}");
+    assert!(found[0].contains("ETALON_ANGLE"), "{text}");
     etalon(&["adapters"])
         .env("ETALON_ANGLE", "/none")
         .assert()
         .code(0)
-        .stdout(contains("gl:es:angle: the folder /none is not there"))
+        .stdout(contains("gl:es:angle: the folder /none does not exist"))
         .stdout(contains("ci/adapters/angle"))
-        .stdout(contains("Not asked for").not());
+        .stdout(contains("Not enabled").not());
     let out = tempfile::tempdir().unwrap();
     etalon(&["run", CASE, "--adapter", "gl:es:angle", "--out"])
         .arg(out.path().join("out"))
@@ -375,7 +373,7 @@ fn a_cold_cache_is_neither_read_nor_written() {
     }
 }
 
-/// The layers and debug output listen (the backends' own tests plant mistakes), and have nothing to say.
+/// Correct calls cause no messages; tests of the backends show that wrong ones do.
 #[test]
 fn validation_says_nothing_of_what_is_right() {
     let folder = tempfile::tempdir().unwrap();

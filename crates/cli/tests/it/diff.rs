@@ -1,4 +1,4 @@
-//! `etalon diff` of runs and of benches, and `etalon report` of benches, as a user meets them.
+//! `etalon diff` of runs and of benches, and `etalon report` of benches.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use assert_cmd::Command;
@@ -145,22 +145,14 @@ fn runs_that_are_worse_give_one_better_two_and_others_nothing() {
     let bad = made("bad", &[Pass, Fail, Pass]);
     let good = made("good", &[Pass, Pass, Pass]);
     let other = made("other", &[Pass, Pass, Imprecise]);
-    diff(&good, &good)
-        .assert()
-        .code(0)
-        .stdout(contains("0 worse, 0 better, 0 other, 3 the same"));
-    diff(&good, &bad)
-        .assert()
-        .code(1)
-        .stdout(contains("✗ pass → fail  cpu  depth/f/case=1").and(contains("1 worse")));
-    diff(&bad, &good)
-        .assert()
-        .code(2)
-        .stdout(contains("✓ fail → pass  cpu  depth/f/case=1"));
-    diff(&good, &other)
-        .assert()
-        .code(0)
-        .stdout(contains("pass → imprecise").and(contains("1 other, 2 the same")));
+    let printed = |before: &Path, after: &Path, code: i32| {
+        let assert = diff(before, after).assert().code(code);
+        String::from_utf8(assert.get_output().stdout.clone()).unwrap()
+    };
+    insta::assert_snapshot!("diff-same", printed(&good, &good, 0));
+    insta::assert_snapshot!("diff-worse", printed(&good, &bad, 1));
+    insta::assert_snapshot!("diff-better", printed(&bad, &good, 2));
+    insta::assert_snapshot!("diff-other", printed(&good, &other, 0));
     // Something worse outweighs what is better.
     let both = made("both", &[Fail, Pass, Pass]);
     diff(&bad, &both).assert().code(1);

@@ -1,4 +1,4 @@
-//! The house rules that a machine can hold: who uses whom, what is linked, where things lie.
+//! The rules of the workspace: dependencies between crates, linked libraries, the top level.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use cargo_metadata::{DependencyKind, Metadata, MetadataCommand, Node, Package, PackageId};
@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Each crate's folder, which of ours it may use, and which graphics APIs; development dependencies
-/// are free.
+/// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
+/// are not restricted.
 const TABLE: [(&str, &[&str], &[&str]); 19] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
@@ -78,7 +78,7 @@ const TABLE: [(&str, &[&str], &[&str]); 19] = [
     ),
 ];
 
-/// Crates that speak to a graphics driver or translate shaders for one.
+/// Crates that call a graphics driver or translate shaders for one.
 const GRAPHICS: [&str; 9] = [
     "ash",
     "glow",
@@ -104,7 +104,7 @@ fn metadata() -> Metadata {
         .lines()
         .find_map(|l| l.strip_prefix("host: "))
         .unwrap();
-    // Other platforms' packages were never fetched, and a test does not go online.
+    // Packages of other platforms were never fetched, and tests do not use the network.
     MetadataCommand::new()
         .manifest_path(root().join("Cargo.toml"))
         .other_options(
@@ -116,7 +116,7 @@ fn metadata() -> Metadata {
         .unwrap()
 }
 
-/// The folder of a package of ours.
+/// The folder of a package of the workspace.
 fn folder(package: &Package) -> &str {
     package.manifest_path.parent().unwrap().file_name().unwrap()
 }
@@ -128,7 +128,7 @@ fn package_name(folder: &str) -> String {
     }
 }
 
-/// What a package is made of at run time, itself among it.
+/// The names of a package and of all that it links.
 fn closure<'m>(metadata: &'m Metadata, of: &'m PackageId) -> BTreeSet<&'m str> {
     let nodes: BTreeMap<&PackageId, &Node> = metadata
         .resolve
@@ -177,11 +177,11 @@ fn every_crate_uses_what_the_table_allows() {
                 assert!(allowed, "{folder} must not use {name}");
             }
         }
-        // Nor through somebody else's crate.
+        // Nor through a crate from elsewhere.
         let all = closure(&metadata, &package.id);
         if graphics.is_empty() && folder != &"cli" {
             let found: Vec<_> = GRAPHICS.iter().filter(|g| all.contains(**g)).collect();
-            assert!(found.is_empty(), "{folder} comes to {found:?}");
+            assert!(found.is_empty(), "{folder} links {found:?}");
         }
     }
 }
@@ -238,7 +238,7 @@ fn no_graphics_library_is_linked() {
             assert!(!links.contains(word), "{} links {links}", node.id);
         }
     }
-    // What the loader itself says of the binary.
+    // The libraries by the word of the loader.
     let output = Command::new(env!("CARGO_BIN_EXE_etalon"))
         .env("LD_TRACE_LOADED_OBJECTS", "1")
         .output()
@@ -284,7 +284,7 @@ fn the_top_level_holds_what_belongs_there() {
         .filter(|name| !name.starts_with('.'))
         .map(str::to_owned)
         .collect();
-    // Git keeps no empty folder, and there need not be a run worth keeping.
+    // Git keeps no empty folders.
     found.insert("reports".to_owned());
     let due = [
         "CHANGELOG.md",
@@ -399,19 +399,4 @@ fn every_shader_has_its_twin() {
     assert!(twins.remove("mod"));
     assert!(!shaders.is_empty());
     assert_eq!(shaders, twins);
-}
-
-#[test]
-fn no_source_file_is_too_long() {
-    const LONGEST: usize = 600;
-    let long: Vec<String> = files()
-        .into_iter()
-        .filter(|name| name.ends_with(".rs") || name.ends_with(".wgsl") || name.starts_with("ci/"))
-        .filter_map(|name| {
-            let text = fs::read_to_string(root().join(&name)).unwrap();
-            let lines = text.lines().count();
-            (lines > LONGEST).then(|| format!("{name}: {lines} lines"))
-        })
-        .collect();
-    assert!(long.is_empty(), "each wants to be two: {long:#?}");
 }

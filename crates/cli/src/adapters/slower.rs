@@ -1,4 +1,4 @@
-//! A backend that takes longer than it needs: to show live that a planted slow-down is found.
+//! A backend with a constant slow-down, to show that `etalon diff` finds it.
 
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_frame::{Frame, Limits};
@@ -6,20 +6,18 @@ use etalon_scene::Scene;
 use std::hint::spin_loop;
 use std::time::{Duration, Instant};
 
-/// The name of the adapter up to the number of per cent.
+/// The start of the name, before the percentage.
 const PREFIX: &str = "cpu:slower=";
 
-/// How many per cent slower the adapter of this name is: `cpu:slower=5%`. It is never listed, for it is
-/// nobody's driver.
+/// Returns the percentage by which the adapter of this name is slower: `cpu:slower=5%`.
 pub(crate) fn percent(name: &str) -> Option<f64> {
     let number = name.strip_prefix(PREFIX)?.strip_suffix('%')?;
     let percent: f64 = number.parse().ok()?;
     (0.0..=1000.0).contains(&percent).then_some(percent)
 }
 
-/// A backend each of whose frames takes so many per cent longer. It answers by the name of the backend
-/// that it wraps, so that `etalon diff` holds the two against each other, and tells the truth in its
-/// driver's version.
+/// A backend whose frames take a fixed percentage longer. It keeps the name of the backend inside, so that `etalon diff`
+/// compares the two, and states the slow-down in the version of the driver.
 pub(crate) struct Slower<B> {
     inner: B,
     info: AdapterInfo,
@@ -68,7 +66,7 @@ impl Prepared for SlowerScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         let mut time = self.inner.submit()?;
         let due: Duration = time.wall.mul_f64(self.percent / 100.0);
-        // Sleeping would overshoot by more than many a frame takes.
+        // Sleeping would overshoot by more than the duration of a short frame.
         let start = Instant::now();
         while start.elapsed() < due {
             spin_loop();

@@ -1,21 +1,14 @@
-//! Benches, as a user starts them. No time is asserted.
+//! Benches. No time is asserted.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-use assert_cmd::Command;
+use crate::etalon::etalon;
 use etalon_record::{Bench, FolderKind, ShaderCache, Verdict};
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::Path;
-use std::time::Duration;
 use tempfile::TempDir;
-
-fn etalon(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_etalon"));
-    command.args(arguments).timeout(Duration::from_secs(100));
-    command
-}
 
 /// A folder of cases: one picture that comes out right, and one of which the judge believes otherwise.
 fn cases() -> TempDir {
@@ -75,12 +68,12 @@ fn programs_are_told_in_json() {
     let out = tempfile::tempdir().unwrap();
     let arguments = ["perf/right", "--adapter", "cpu", "--format", "json"];
     let assert = bench(cases.path(), out.path(), &arguments).code(0);
-    let told: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
-    assert_eq!(told["pictures"], 1);
-    assert_eq!(told["timed"], 1);
-    assert_eq!(told["unexpected"], 0);
-    assert_eq!(told["adapters"], json!(["cpu"]));
-    assert_eq!(told["folder"], json!(out.path()));
+    let output: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
+    assert_eq!(output["pictures"], 1);
+    assert_eq!(output["timed"], 1);
+    assert_eq!(output["unexpected"], 0);
+    assert_eq!(output["adapters"], json!(["cpu"]));
+    assert_eq!(output["folder"], json!(out.path()));
 }
 
 #[test]
@@ -100,7 +93,7 @@ fn a_slower_rasterizer_answers_as_cpu_and_is_not_listed() {
     let both = ["--adapter", "cpu", "--adapter", "cpu:slower=5%"];
     bench(cases.path(), out.path(), &both)
         .code(64)
-        .stderr(contains("answer as cpu"));
+        .stderr(contains("report the name cpu"));
     etalon(&["adapters"])
         .assert()
         .stdout(contains("slower").not());
@@ -113,8 +106,8 @@ fn wrong_usage_is_64_and_nothing_chosen_is_4() {
     for (arguments, words) in [
         (&["--rounds", "0"][..], "rounds"),
         (&["--rounds", "many"], "rounds"),
-        (&["--seconds", "0"], "seconds lie between"),
-        (&["--seconds", "nan"], "seconds lie between"),
+        (&["--seconds", "0"], "expected a number of seconds"),
+        (&["--seconds", "nan"], "expected a number of seconds"),
         (&["--adapter", "nothing"], "there is no adapter `nothing`"),
         (
             &["--adapter", "cpu:slower=x%"],

@@ -1,5 +1,5 @@
-//! The rasterizer in a process that goes wrong: to show that a run survives everything that drivers do to
-//! their processes. `cpu:fault=abort` and its kin are never listed, for they are nobody's driver.
+//! The rasterizer in a process that fails, such as `cpu:fault=abort`: to show that a run survives everything that
+//! drivers do to their processes.
 
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_frame::{Frame, Limits};
@@ -14,12 +14,12 @@ use std::io::Write;
 use std::thread;
 use std::time::Duration;
 
-/// The name of the adapter up to the fault.
+/// The start of the name, before the fault.
 const PREFIX: &str = "cpu:fault=";
-/// One scene of so many goes wrong, chosen by a hash of what it draws.
+/// One scene out of this many fails, chosen by a hash of the scene.
 const ONE_OF: u64 = 8;
 
-/// What goes wrong.
+/// A fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Fault {
@@ -29,15 +29,15 @@ pub(crate) enum Fault {
     Segv,
     /// It ends with status 7.
     Exit,
-    /// Our own code panics.
+    /// The code of the suite panics.
     Panic,
-    /// It sleeps for ever.
+    /// It sleeps endlessly.
     Hang,
-    /// It runs for ever.
+    /// It loops endlessly.
     Spin,
-    /// It takes memory for ever.
+    /// It allocates memory endlessly.
     Memory,
-    /// It writes what is no message.
+    /// It writes bytes that are not a message.
     Garbage,
     /// It ends in the middle of a message.
     Half,
@@ -45,15 +45,15 @@ pub(crate) enum Fault {
     Lost,
     /// An allocation is refused.
     Refused,
-    /// It writes more to standard error than anyone wants to read, then aborts.
+    /// It writes 100,000 lines to standard error, then aborts.
     Chatter,
-    /// A validation message comes.
+    /// It reports a validation message.
     Validation,
-    /// The picture is wrong in about every second process.
+    /// Pictures are wrong in about half of all processes.
     Flaky,
-    /// The pictures of some scenes are wrong once certain others were drawn in the same process.
+    /// Pictures of some scenes are wrong after certain others were drawn in the same process.
     After,
-    /// The driver ends the process before it is open.
+    /// The driver ends the process while it opens.
     Start,
     /// The driver never opens.
     Mute,
@@ -80,7 +80,7 @@ impl Fault {
         Self::Mute,
     ];
 
-    /// The fault of the adapter of this name.
+    /// Returns the fault of the adapter of this name.
     pub(crate) fn named(name: &str) -> Option<Self> {
         let word = name.strip_prefix(PREFIX)?;
         Self::ALL
@@ -93,16 +93,16 @@ impl Fault {
     }
 }
 
-/// The rasterizer with a fault. `pipe` is the one to the parent.
+/// The rasterizer with a fault. `pipe` leads to the parent.
 pub(crate) struct Faulty<B> {
     inner: B,
     info: AdapterInfo,
     fault: Fault,
     pipe: RefCell<File>,
     messages: RefCell<Vec<String>>,
-    /// Whether this is a process in which flaky pictures are wrong.
+    /// True if flaky pictures are wrong in this process.
     unlucky: bool,
-    /// Whether a scene was drawn that spoils others.
+    /// True once a scene was drawn that makes others fail.
     spoilt: Cell<bool>,
 }
 
@@ -113,12 +113,12 @@ impl<B: Backend> Faulty<B> {
                 eprintln!("the planted driver does not start");
                 std::process::exit(9);
             }
-            Fault::Mute => sleep_for_ever(),
+            Fault::Mute => sleep_endlessly(),
             _ => {}
         }
         let mut info = inner.adapter().clone();
         name.clone_into(&mut info.name);
-        // The standard library seeds its hashers by chance.
+        // The standard library seeds its hashers at random.
         let chance = RandomState::new().hash_one(fault.named_word());
         Self {
             inner,
@@ -132,12 +132,12 @@ impl<B: Backend> Faulty<B> {
     }
 
     fn write(&self, bytes: &[u8]) {
-        // Where the parent has gone, this process ends soon anyway.
+        // Without its parent this process ends soon.
         let _ = self.pipe.borrow_mut().write_all(bytes);
     }
 
-    /// What goes wrong when a marked scene is drawn.
-    fn stumble(&self) -> Result<(), BackendError> {
+    /// Fails, when a marked scene is drawn.
+    fn fail(&self) -> Result<(), BackendError> {
         let planted = || "planted".to_owned();
         match self.fault {
             Fault::Abort => {
@@ -145,16 +145,16 @@ impl<B: Backend> Faulty<B> {
                 std::process::abort()
             }
             Fault::Segv => {
-                // The signal itself, since safe code reads nothing that is not there; twice, since the
-                // standard library's handler only takes itself away at the first.
+                // The signal itself, since safe code cannot read invalid memory; twice, since the first one
+                // only removes the standard library's handler.
                 for _ in 0..2 {
                     let _ = kill_process(getpid(), Signal::SEGV);
                 }
-                sleep_for_ever()
+                sleep_endlessly()
             }
             Fault::Exit => std::process::exit(7),
             Fault::Panic => panic!("a planted panic"),
-            Fault::Hang => sleep_for_ever(),
+            Fault::Hang => sleep_endlessly(),
             Fault::Spin => loop {
                 black_box(0);
             },
@@ -181,7 +181,7 @@ impl<B: Backend> Faulty<B> {
             }),
             Fault::Chatter => {
                 for line in 0..100_000 {
-                    eprintln!("line {line} of much that nobody wants to read");
+                    eprintln!("line {line} of a long output");
                 }
                 std::process::abort()
             }
@@ -199,15 +199,15 @@ impl<B: Backend> Faulty<B> {
     }
 }
 
-fn sleep_for_ever() -> ! {
+fn sleep_endlessly() -> ! {
     loop {
         thread::sleep(Duration::from_secs(3600));
     }
 }
 
-/// A number that depends on nothing but what the scene draws.
-fn number(scene: &Scene) -> u64 {
-    // Not a seeded hasher: the same scenes are marked in each process.
+/// Returns a hash of the scene.
+fn hash(scene: &Scene) -> u64 {
+    // Unseeded, so that each process marks the same scenes.
     let text = format!("{scene:?}");
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
@@ -224,9 +224,9 @@ impl<B: Backend> Backend for Faulty<B> {
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
-        let number = number(scene) % ONE_OF;
+        let number = hash(scene) % ONE_OF;
         if number == 0 {
-            self.stumble()?;
+            self.fail()?;
         }
         let wrong = match self.fault {
             Fault::Flaky => number == 0 && self.unlucky,
@@ -259,7 +259,7 @@ impl Prepared for FaultyScene<'_> {
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         let mut frame = self.inner.read_back()?;
         if self.wrong {
-            // All bits of all codes: wrong wherever anything is asserted.
+            // Flips all bits of all codes: wrong wherever anything is asserted.
             for code in frame.images.iter_mut().flat_map(|i| &mut i.codes) {
                 *code ^= 0xff;
             }

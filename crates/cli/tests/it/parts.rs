@@ -1,6 +1,7 @@
-//! Runs in parts: shards that systems ask for, and the merge that proves that they are the whole.
+//! Sharded runs: selection of shards, and merging.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
+use crate::etalon::etalon;
 use assert_cmd::Command;
 use etalon_record::{Record, Run, Verdict};
 use predicates::prelude::*;
@@ -9,24 +10,8 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
-const BINARY: &str = env!("CARGO_BIN_EXE_etalon");
 const RUN: [&str; 5] = ["run", "cull/*", "selftest/*", "--adapter", "cpu"];
-
-fn etalon(arguments: &[&str]) -> Command {
-    let mut command = Command::new(BINARY);
-    command.args(arguments).timeout(Duration::from_secs(100));
-    for name in [
-        "CI_NODE_INDEX",
-        "TEST_SHARD_INDEX",
-        "SLURM_ARRAY_TASK_ID",
-        "JOB_COMPLETION_INDEX",
-    ] {
-        command.env_remove(name);
-    }
-    command
-}
 
 fn shard(folder: &Path, index: u32, count: u32) -> PathBuf {
     let out = folder.join(format!("shard-{index}"));
@@ -72,7 +57,7 @@ fn shards_merge_into_the_undivided_run() {
     assert_eq!(merged.header.settings.shard, None);
     assert_eq!(keys(&merged.records), keys(&whole.records));
     assert_eq!(merged.records.len(), whole.records.len());
-    // The list's order, whatever the parts' was, and every frame is there.
+    // In the order of the list, with every frame.
     let order: Vec<&String> = merged.records.iter().map(|r| &r.case).collect();
     let listed = fs::read_to_string(out.join("cases.txt")).unwrap();
     assert!(order.into_iter().eq(listed.lines()));
@@ -113,7 +98,7 @@ fn a_merge_with_holes_names_them() {
         .args(["--format", "json"])
         .assert()
         .code(3)
-        .stderr(contains("shard-2 holds no run").and(contains("missing: cpu cull/")));
+        .stderr(contains("shard-2 contains no run").and(contains("missing: cpu cull/")));
     let said: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
     let run = Run::read(&out).unwrap();
     let missing = said["missing"].as_array().unwrap();

@@ -1,0 +1,15 @@
+//! The names of the backends.
+
+use serde::{Deserialize, Serialize};
+
+/// A backend; the profiles of OpenGL and the APIs of `wgpu` count separately.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum BackendName {
+    Cpu,
+    Vulkan,
+    Gl,
+    GlEs,
+    WgpuVulkan,
+    WgpuGl,
+}

@@ -1,0 +1,186 @@
+//! Discovery of adapters: software drivers from the built-in file, hardware by enumeration, further ones from the file
+//! of the user. The worker of each starts immediately, since a driver is known to work only when it answers.
+
+use super::backend_name::BackendName;
+use super::candidate::{Candidate, NoStart, Started};
+use super::description;
+use super::devices::{self, BACKENDS, HardwareDevice, enumerate};
+use super::hidden::Hidden;
+use super::origin::Origin;
+use super::query::Query;
+use crate::failure::Failure;
+use etalon_record::AbsentAdapter;
+use etalon_runner::{Launch, Worker};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::thread;
+
+/// The adapters that were found.
+pub(crate) struct Adapters {
+    /// Usable adapters, with running workers.
+    pub(crate) ready: Vec<(Launch, Worker)>,
+    /// Adapters that cannot be used, with reasons.
+    pub(crate) absent: Vec<AbsentAdapter>,
+    /// Those of them whose driver is installed and ends or hangs while it starts.
+    pub(crate) dead: Vec<(BackendName, AbsentAdapter)>,
+    /// Adapters that a variable enables which is not set.
+    pub(crate) not_enabled: Vec<AbsentAdapter>,
+    /// The origin of each usable adapter, by name.
+    pub(crate) origins: BTreeMap<String, Origin>,
+}
+
+/// Finds adapters and starts their workers.
+///
+/// # Errors
+/// If a name is unknown, or the file of the user is wrong or describes something that does not exist.
+pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
+    let mut adapters = Adapters {
+        ready: Vec::new(),
+        absent: Vec::new(),
+        dead: Vec::new(),
+        not_enabled: Vec::new(),
+        origins: BTreeMap::new(),
+    };
+    let chosen = chosen(query, &mut adapters.absent)?;
+    // In parallel: most of the time goes into loading drivers.
+    let started: Vec<Result<Started, NoStart>> = thread::scope(|scope| {
+        let handles: Vec<_> = chosen
+            .iter()
+            .map(|candidate| scope.spawn(|| candidate.start(query)))
+            .collect();
+        handles
+            .into_iter()
+            .filter_map(|handle| handle.join().ok())
+            .collect()
+    });
+    for result in started {
+        match result {
+            Ok(started) => {
+                let name = started.launch.adapter.clone();
+                adapters.origins.insert(name, started.origin);
+                adapters.ready.push((started.launch, started.worker));
+            }
+            Err(NoStart::Absent(absent)) => adapters.absent.push(absent),
+            Err(NoStart::Failed(backend, absent)) => {
+                adapters.dead.push((backend, absent.clone()));
+                adapters.absent.push(absent);
+            }
+            // An adapter that was asked for by name is reported with the reason.
+            Err(NoStart::NotEnabled(absent)) if query.names.is_empty() => {
+                adapters.not_enabled.push(absent);
+            }
+            Err(NoStart::NotEnabled(absent)) => adapters.absent.push(absent),
+            Err(NoStart::Wrong(message)) => return Err(Failure::usage(message)),
+        }
+    }
+    Ok(adapters)
+}
+
+/// Returns the adapters to start. Devices are enumerated only if no name is given or one is not described.
+fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Candidate>, Failure> {
+    let mut candidates = described(query.file)?;
+    for name in query.names {
+        if let Some(hidden) = Hidden::named(name) {
+            candidates.push(Candidate::hidden(name, hidden));
+        }
+    }
+    let is_known =
+        |candidates: &[Candidate], name: &str| candidates.iter().any(|c| c.name() == name);
+    let all_known = query.names.iter().all(|name| is_known(&candidates, name));
+    if query.names.is_empty() || !all_known {
+        let taken = candidates.iter().map(|c| c.name().to_owned()).collect();
+        candidates.extend(hardware(&taken, absent));
+    }
+    for name in query.names {
+        if !is_known(&candidates, name) {
+            let known: Vec<&str> = candidates.iter().map(Candidate::name).collect();
+            return Err(Failure::usage(format!(
+                "there is no adapter `{}`; known are: {}",
+                name.escape_default(),
+                known.join(", ")
+            )));
+        }
+    }
+    if !query.names.is_empty() {
+        absent.clear();
+        candidates.retain(|c| query.names.iter().any(|name| name == c.name()));
+    }
+    Ok(candidates)
+}
+
+/// Returns the built-in descriptions and those of the user, which replace built-in ones of equal names.
+fn described(file: Option<&Path>) -> Result<Vec<Candidate>, Failure> {
+    let built_in = description::built_in()?;
+    let mut all: Vec<Candidate> = built_in
+        .into_iter()
+        .map(|description| Candidate::described(description, None))
+        .collect();
+    let Some(file) = file else {
+        return Ok(all);
+    };
+    for description in description::read(file)? {
+        let own = Candidate::described(description, Some(file));
+        match all.iter_mut().find(|c| c.name() == own.name()) {
+            Some(place) => *place = own,
+            None => all.push(own),
+        }
+    }
+    Ok(all)
+}
+
+/// Returns the devices that backends enumerate, and adds the backends that fail to `absent`.
+fn hardware(taken: &BTreeSet<String>, absent: &mut Vec<AbsentAdapter>) -> Vec<Candidate> {
+    let found: Vec<Result<Vec<HardwareDevice>, String>> = thread::scope(|scope| {
+        let handles: Vec<_> = BACKENDS
+            .iter()
+            .map(|(word, ..)| scope.spawn(|| enumerate(word)))
+            .collect();
+        handles
+            .into_iter()
+            .map(|handle| handle.join().unwrap_or_else(|_| Ok(Vec::new())))
+            .collect()
+    });
+    let mut taken = taken.clone();
+    let mut all = Vec::new();
+    for ((_, prefix, backend), found) in BACKENDS.into_iter().zip(found) {
+        match found {
+            Ok(found) => {
+                for device in devices::unique_names(&taken, found) {
+                    taken.insert(device.name.clone());
+                    all.push(Candidate::enumerated(device, backend));
+                }
+            }
+            Err(reason) => absent.push(AbsentAdapter {
+                name: format!("{prefix}:*"),
+                reason,
+                remedy:
+                    "find the driver that fails to list its devices, for instance with vulkaninfo \
+                         or eglinfo"
+                        .to_owned(),
+            }),
+        }
+    }
+    all
+}
+
+/// Prints the adapters that are absent.
+///
+/// # Errors
+/// If an adapter that was named is absent.
+pub(crate) fn refuse_absent(named: &[String], absent: &[AbsentAdapter]) -> Result<(), Failure> {
+    if !named.is_empty()
+        && let Some(absent) = absent.first()
+    {
+        return Err(Failure::usage(format!(
+            "adapter {} cannot be used: {}; {}",
+            absent.name, absent.reason, absent.remedy
+        )));
+    }
+    for absent in absent {
+        eprintln!(
+            "unavailable: {}: {}; {}",
+            absent.name, absent.reason, absent.remedy
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,45 @@
+//! The names of adapters.
+
+/// The maximum length of a name in characters.
+pub(super) const MAX_NAME: usize = 64;
+
+/// True if a text is a valid name.
+pub(super) fn is_name(text: &str) -> bool {
+    let inside = |c: char| c.is_ascii_alphanumeric() || [':', '-', '_', '.'].contains(&c);
+    text.len() <= MAX_NAME
+        && text.starts_with(|c: char| c.is_ascii_alphanumeric())
+        && text.chars().all(inside)
+}
+
+/// Returns the words of a driver as a valid name, with space for a number.
+pub(super) fn sanitized(name: &str) -> String {
+    let plain: String = name
+        .chars()
+        .map(|c| if is_name(&format!("a{c}")) { c } else { '-' })
+        .take(MAX_NAME - 4)
+        .collect();
+    if is_name(&plain) {
+        plain
+    } else {
+        "gpu".to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_plain() {
+        let longest = "a".repeat(MAX_NAME);
+        for good in ["cpu", "gl:es:llvmpipe-25", "vulkan:radv_1.2", "9", &longest] {
+            assert!(is_name(good), "{good}");
+        }
+        let longer = "a".repeat(MAX_NAME + 1);
+        for bad in [
+            "", "-v", ":", ".", "..", "a b", "a/b", "a\n", "a,b", "ä", "a%", "<b>", &longer,
+        ] {
+            assert!(!is_name(bad), "{bad:?}");
+        }
+    }
+}

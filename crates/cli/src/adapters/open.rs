@@ -1,0 +1,25 @@
+//! The request that a worker process gets on its command line.
+
+use super::backend_name::BackendName;
+use super::hidden::Hidden;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// The adapter that a worker opens.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Open {
+    pub(crate) name: String,
+    pub(crate) backend: BackendName,
+    /// The index of the device in the order of the backend; by default, the default device.
+    pub(crate) device: Option<usize>,
+    /// The EGL library; by default, that of the system.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) egl: Option<PathBuf>,
+    /// True if validation layers and debug output are enabled.
+    #[serde(default)]
+    pub(crate) validate: bool,
+    /// The fault of a hidden adapter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) hidden: Option<Hidden>,
+}

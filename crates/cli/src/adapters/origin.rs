@@ -1,0 +1,22 @@
+//! The origin of an adapter.
+
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// The description of an adapter and the environment of its worker.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Origin {
+    /// `built-in`, `found` by enumeration, or the path of the user's file.
+    pub(crate) described_in: String,
+    /// Environment variables of the worker; `null` is one that is removed.
+    pub(crate) environment: BTreeMap<String, Option<String>>,
+    /// The manifest of the Vulkan driver, if one was chosen.
+    pub(crate) manifest: Option<PathBuf>,
+    /// The EGL library, if it is not that of the system.
+    pub(crate) egl: Option<PathBuf>,
+    /// Folders searched for libraries before those of the system.
+    pub(crate) library_path: Vec<PathBuf>,
+    /// The index of the device in the order of the backend, if one was chosen.
+    pub(crate) device_index: Option<usize>,
+}

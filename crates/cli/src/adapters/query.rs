@@ -1,0 +1,16 @@
+//! The parameters of discovery.
+
+use std::path::Path;
+
+/// The adapters to find, and how their workers start.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Query<'a> {
+    /// The names to find; all if empty.
+    pub(crate) names: &'a [String],
+    /// The file of the user with further descriptions.
+    pub(crate) file: Option<&'a Path>,
+    /// True if validation layers and debug output are enabled.
+    pub(crate) validate: bool,
+    /// True if the drivers' shader caches on disk are disabled.
+    pub(crate) cold: bool,
+}

@@ -1,0 +1,45 @@
+//! Drivers that are installed and do not start.
+
+use super::backend_name::BackendName;
+use super::discovery::Adapters;
+use etalon_frame::{Api, Limits};
+use etalon_record::{AbsentAdapter, AdapterRecord};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Takes the adapters whose drivers do not start out of those that are absent. Returns each with the little that is
+/// known of it, and the reason.
+pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, String)> {
+    let record = |(backend, absent): (BackendName, AbsentAdapter)| {
+        let (backend, api) = match backend {
+            BackendName::Cpu => ("cpu", Api::Vulkan),
+            BackendName::Vulkan => ("vulkan", Api::Vulkan),
+            BackendName::Gl => ("gl", Api::OpenGl),
+            BackendName::GlEs => ("gl", Api::OpenGlEs),
+            BackendName::WgpuVulkan | BackendName::WgpuGl => ("wgpu", Api::WebGpu),
+        };
+        let adapter = AdapterRecord {
+            name: absent.name,
+            backend: backend.to_owned(),
+            device: String::new(),
+            driver: String::new(),
+            driver_version: String::new(),
+            driver_id: String::new(),
+            api_version: String::new(),
+            software: false,
+            limits: Limits {
+                api,
+                sub_pixel_bits: 0,
+                max_size: 0,
+                max_color_attachments: 0,
+                formats: BTreeMap::new(),
+                features: BTreeSet::new(),
+                sample_positions: BTreeMap::new(),
+            },
+        };
+        (adapter, absent.reason)
+    };
+    let dead: Vec<(AdapterRecord, String)> = adapters.dead.drain(..).map(record).collect();
+    let is_dead = |name: &str| dead.iter().any(|(adapter, _)| adapter.name == name);
+    adapters.absent.retain(|absent| !is_dead(&absent.name));
+    dead
+}

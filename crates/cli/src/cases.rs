@@ -1,0 +1,62 @@
+//! The cases of a command: library, selection, building.
+
+use crate::failure::Failure;
+use crate::flags::CaseArguments;
+use etalon_case::{Case, Library, Profile};
+use std::path::PathBuf;
+
+/// The areas that runs and hunts leave out unless they are selected: they measure, on pictures so large that one takes
+/// as long as hundreds of cases.
+const MEASURING: [&str; 2] = ["methods", "perf"];
+
+/// True if a case belongs to an area that measures.
+pub(crate) fn is_measuring(case: &Case) -> bool {
+    MEASURING.contains(&case.area())
+}
+
+/// Returns the selected cases, built, so that errors of case files show before anything is drawn.
+pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
+    let library = library(arguments.cases.as_ref())?;
+    let globs = &arguments.globs;
+    let cases = build(&library, arguments.profile.into(), globs)?;
+    if cases.is_empty() {
+        return Err(Failure::nothing(if globs.is_empty() {
+            "there are no cases".to_owned()
+        } else {
+            format!(
+                "no case matches {}; `etalon list` lists all",
+                globs.join(" ")
+            )
+        }));
+    }
+    Ok(cases)
+}
+
+/// Returns the cases of a folder, or the built-in ones.
+pub(crate) fn library(folder: Option<&PathBuf>) -> Result<Library, Failure> {
+    match folder {
+        Some(folder) => Library::from_folder(folder),
+        None => Library::built_in(),
+    }
+    .map_err(Failure::usage)
+}
+
+/// Returns the cases of a library whose ids match, built.
+pub(crate) fn build(
+    library: &Library,
+    profile: Profile,
+    globs: &[String],
+) -> Result<Vec<Case>, Failure> {
+    let selection = etalon_runner::select(library, profile, globs).map_err(Failure::usage)?;
+    let cases = selection.cases.iter();
+    cases
+        .map(|case| case.build().map_err(Failure::usage))
+        .collect()
+}
+
+/// Returns the ids of all cases.
+pub(crate) fn ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
+    let library = library(cases)?;
+    let all = build(&library, Profile::Full, &[])?;
+    Ok(all.into_iter().map(|case| case.id).collect())
+}

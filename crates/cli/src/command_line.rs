@@ -1,0 +1,56 @@
+//! The command line: one subcommand per file of `commands`.
+
+use crate::commands::{
+    adapters, bench, completions, diff, expectations, explain, list, man, merge, mutants, report,
+    run,
+};
+use crate::worker;
+use clap::{Parser, Subcommand};
+
+/// Tests whether graphics drivers perform per-fragment operations correctly: draws cases on every driver
+/// found and judges each texel by the values that the specification allows.
+#[derive(Debug, Parser)]
+#[command(
+    version = env!("ETALON_VERSION"),
+    arg_required_else_help = true,
+    after_help = "Exit codes: 0 success, 1 unexpected bad verdicts or something worse in diff, 2 improvements only, 3 incomplete, \
+                  4 nothing selected, 64 wrong usage or bad input."
+)]
+pub(crate) struct CommandLine {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// List the adapters that can be used, and why others cannot be
+    Adapters(adapters::Arguments),
+    /// List case ids, one per line
+    List(list::Arguments),
+    /// Print the JSON schema of case files
+    Schema,
+    /// Draw cases on adapters, judge every texel, write records and reports
+    Run(run::Arguments),
+    /// Rebuild the reports of run and bench folders
+    Report(report::Arguments),
+    /// Combine shards, or runs on several adapters, into one run and name what is missing
+    Merge(merge::Arguments),
+    /// Import and export expectations in the formats of deqp-runner
+    #[command(subcommand)]
+    Expectations(expectations::Command),
+    /// Measure frame times of cases whose pictures are correct, interleaved over adapters
+    Bench(bench::Arguments),
+    /// Compare two runs or two benches: verdicts, pixels, times
+    Diff(diff::Arguments),
+    /// Explain one texel, operation by operation, with rules and citations
+    Explain(explain::Arguments),
+    /// Plant bugs in the cpu rasterizer and report which of them the cases catch
+    Mutants(mutants::Arguments),
+    /// Print a completion script for a shell
+    Completions(completions::Arguments),
+    /// Print or write manual pages
+    Man(man::Arguments),
+    /// Draw scenes for a parent process (used by etalon itself)
+    #[command(hide = true)]
+    Worker(worker::Arguments),
+}

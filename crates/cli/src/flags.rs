@@ -1,0 +1,53 @@
+//! Flags shared by several commands.
+
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// The form of the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// Tables for people.
+    Text,
+    /// JSON for programs.
+    Json,
+}
+
+/// A file of further adapters.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct AdapterFileArguments {
+    /// Add the adapters described in this JSON file, which has the form of the built-in adapters.json
+    #[arg(long = "adapters", value_name = "FILE")]
+    pub(crate) adapter_file: Option<PathBuf>,
+}
+
+/// The share of each family of cases that is selected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CaseProfile {
+    /// A covering array of each large family, in which every two values meet; all of the others.
+    Quick,
+    /// All cases.
+    Full,
+}
+
+impl From<CaseProfile> for etalon_case::Profile {
+    fn from(profile: CaseProfile) -> Self {
+        match profile {
+            CaseProfile::Quick => Self::Quick,
+            CaseProfile::Full => Self::Full,
+        }
+    }
+}
+
+#[derive(Clone, Debug, Args)]
+pub(crate) struct CaseArguments {
+    /// Globs over case ids; `*` also matches `/`, and a plain name selects everything below it. Default:
+    /// all cases (`run`: all but the areas `methods` and `perf`)
+    #[arg(value_name = "GLOB")]
+    pub(crate) globs: Vec<String>,
+    /// Read case files from this folder instead of the built-in ones
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
+    /// Share of each family of cases
+    #[arg(long, value_enum, default_value = "quick")]
+    pub(crate) profile: CaseProfile,
+}

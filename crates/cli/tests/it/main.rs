@@ -1,0 +1,20 @@
+//! The binary as a user meets it, and the rules of the workspace. One test binary: each one links the
+//! whole suite.
+
+mod adapters;
+mod bench;
+mod ci_files;
+mod circles;
+mod commands;
+mod diff;
+mod etalon;
+mod expectations;
+mod help;
+mod house;
+mod methods;
+mod mutants;
+mod parts;
+mod runs;
+mod sample;
+mod survive;
+mod version;
