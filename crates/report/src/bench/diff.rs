@@ -2,7 +2,9 @@
 
 use super::{data, software};
 use etalon_record::{Bench, BenchHeader, BenchRecord, Time};
-use etalon_stats::{LEVEL, MINIMUM, Outcome, Samples, Why, compare, smallest_visible, summarize};
+use etalon_stats::{
+    Conclusion, LEVEL, MINIMUM, Samples, Why, compare, smallest_visible, summarize,
+};
 use serde::Serialize;
 
 /// What changed from one bench to another. Its serialised form is what `--format json` prints.
@@ -102,7 +104,7 @@ impl Diff {
 
     /// Whether anything is worse: slower, or no longer right.
     pub fn worse(&self) -> bool {
-        self.count(Outcome::Slower.name()) > 0 || self.gone.iter().any(|g| g.worse)
+        self.count(Conclusion::Slower.name()) > 0 || self.gone.iter().any(|g| g.worse)
     }
 }
 
@@ -174,8 +176,8 @@ fn changed(before: &Samples, after: &Samples) -> Change {
         software: false,
         outcome: comparison.outcome.name(),
         why: match comparison.outcome {
-            Outcome::CannotTell(why) => Some(Why::text(why)),
-            Outcome::Faster | Outcome::Slower => None,
+            Conclusion::CannotTell(why) => Some(Why::text(why)),
+            Conclusion::Faster | Conclusion::Slower => None,
         },
         before: summarize(before).median,
         after: summarize(after).median,
