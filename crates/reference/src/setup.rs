@@ -7,7 +7,7 @@ use crate::rules::{Rules, Snap};
 use crate::texels::Lattice;
 use etalon_frame::{ChannelEncoding, Limits};
 use etalon_pipeline::{Arithmetic, Plain, Point, edge_value, signed_area, window_position};
-use etalon_scene::{Draw, PolygonMode, Primitive as Vertices};
+use etalon_scene::{Draw, PolygonMode, PrimitiveVertices as Vertices};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// All positions that legal snapping can give one vertex: x and y each from low to high, in units
