@@ -10,7 +10,7 @@ use etalon_pipeline::{
     DepthPlane, Plain, Point, SnappedTriangle, front_facing, is_culled, signed_area, slope,
     window_position,
 };
-use etalon_scene::{Draw, Pass, PolygonMode, Primitive, Scene};
+use etalon_scene::{Draw, Pass, PolygonMode, PrimitiveVertices, Scene};
 
 /// The supported sample counts.
 pub(crate) const SAMPLES: [u32; 5] = [1, 2, 4, 8, 16];
@@ -173,13 +173,13 @@ pub(crate) fn draw<S: Steps>(
     let front = steps.lines_face_front();
     for primitive in draw.mesh.primitives(draw.topology) {
         match primitive {
-            Primitive::Point(i) => {
+            PrimitiveVertices::Point(i) => {
                 let v = vertices[i];
                 let bias = line_bias(draw, [v.at; 3], [v.z; 3], encoding, steps);
                 let planes = Planes::new(draw, [v.at; 3], [v; 3], bias, true);
                 point(v, front, &planes, &samples, bounds, &mut state);
             }
-            Primitive::Line(ends) => {
+            PrimitiveVertices::Line(ends) => {
                 let ends = ends.map(|i| vertices[i]);
                 let [a, b] = ends;
                 let points = [a.at, b.at, a.at];
@@ -187,7 +187,7 @@ pub(crate) fn draw<S: Steps>(
                 let planes = Planes::new(draw, points, [a, b, a], bias, true);
                 line(ends, front, &planes, samples.len(), bounds, &mut state);
             }
-            Primitive::Triangle(triangle) => {
+            PrimitiveVertices::Triangle(triangle) => {
                 let corners = triangle.map(|i| vertices[i]);
                 let points = corners.map(|v| v.at);
                 let front = front_facing(signed_area(points), draw.front_face);

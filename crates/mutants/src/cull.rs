@@ -2,7 +2,7 @@
 
 use super::list::{CONFUSION, List};
 use super::plant::{Plant, draws};
-use etalon_scene::{CullMode, Draw, FrontFace, Primitive, PrimitiveTopology, Shader};
+use etalon_scene::{CullMode, Draw, FrontFace, PrimitiveTopology, PrimitiveVertices, Shader};
 
 const MODES: [CullMode; 4] = [
     CullMode::None,
@@ -20,7 +20,7 @@ fn unstripped(draw: &mut Draw, order: impl Fn(usize, [usize; 3]) -> Option<[usiz
     let old = std::mem::take(&mut draw.mesh.vertices);
     draw.mesh.indices = None;
     for (number, primitive) in primitives.into_iter().enumerate() {
-        let Primitive::Triangle(triangle) = primitive else {
+        let PrimitiveVertices::Triangle(triangle) = primitive else {
             continue;
         };
         if let Some(corners) = order(number, triangle) {

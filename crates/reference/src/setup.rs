@@ -10,7 +10,7 @@ use crate::rules::Snap;
 use crate::snap::{SnapBox, area, units_per_texel};
 use crate::texels::Lattice;
 use etalon_pipeline::{Arithmetic, Plain, Point, window_position};
-use etalon_scene::{Draw, PolygonMode, Primitive};
+use etalon_scene::{Draw, PolygonMode, PrimitiveVertices};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// A draw's primitives and, per row of texels, those that may touch it, in drawing order.
@@ -40,9 +40,9 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> DrawSetup {
             continue;
         }
         let own: Vec<usize> = match one {
-            Primitive::Point(i) => vec![i],
-            Primitive::Line(line) => line.to_vec(),
-            Primitive::Triangle(triangle) => triangle.to_vec(),
+            PrimitiveVertices::Point(i) => vec![i],
+            PrimitiveVertices::Line(line) => line.to_vec(),
+            PrimitiveVertices::Triangle(triangle) => triangle.to_vec(),
         };
         let color = std::array::from_fn(|c| {
             let value = |i: &usize| Interval::exact(f64::from(draw.mesh.vertices[*i].color[c]));
@@ -63,14 +63,14 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> DrawSetup {
 
 /// True if no judged texel is near a primitive, by a rough estimate: it is the whole cost of most of a
 /// million small triangles.
-fn is_far(context: &PassContext<'_>, draw: &Draw, one: Primitive) -> bool {
+fn is_far(context: &PassContext<'_>, draw: &Draw, one: PrimitiveVertices) -> bool {
     if context.lattice == Lattice::ALL {
         return false;
     }
     let own: &[usize] = match &one {
-        Primitive::Point(i) => &[*i],
-        Primitive::Line(line) => line,
-        Primitive::Triangle(triangle) => triangle,
+        PrimitiveVertices::Point(i) => &[*i],
+        PrimitiveVertices::Line(line) => line,
+        PrimitiveVertices::Triangle(triangle) => triangle,
     };
     let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
     for i in own {
@@ -100,7 +100,7 @@ fn is_far(context: &PassContext<'_>, draw: &Draw, one: Primitive) -> bool {
 fn primitive(
     context: &PassContext<'_>,
     draw: &Draw,
-    one: Primitive,
+    one: PrimitiveVertices,
     color: [Range; 4],
     index: u32,
 ) -> SnappedPrimitive {
@@ -110,7 +110,7 @@ fn primitive(
     let error = context.rules.float_error.value;
     let mut bias = Interval::exact(0.0);
     let (shape, window_depth, clip_depth) = match one {
-        Primitive::Point(i) => {
+        PrimitiveVertices::Point(i) => {
             let v = of(i);
             (
                 Shape::Point(v.snapped),
@@ -118,7 +118,7 @@ fn primitive(
                 Depth::flat(&[v.clip_z]),
             )
         }
-        Primitive::Line(line) => {
+        PrimitiveVertices::Line(line) => {
             let v = line.map(of);
             (
                 Shape::Line(v.map(|v| v.snapped)),
@@ -126,7 +126,7 @@ fn primitive(
                 Depth::along(v.map(|v| v.snapped), v.map(|v| v.clip_z), units),
             )
         }
-        Primitive::Triangle(triangle) => {
+        PrimitiveVertices::Triangle(triangle) => {
             let v = triangle.map(of);
             let boxes = v.map(|v| v.snapped);
             let triangle = Triangle {
@@ -183,12 +183,12 @@ fn primitive(
 }
 
 /// Returns a number for the vertices of a primitive in order and all other inputs of its depth.
-fn geometry(draw: &Draw, one: Primitive) -> u64 {
+fn geometry(draw: &Draw, one: PrimitiveVertices) -> u64 {
     let mut hasher = DefaultHasher::new();
     let own = match one {
-        Primitive::Point(i) => [i, i, i],
-        Primitive::Line([a, b]) => [a, b, a],
-        Primitive::Triangle(triangle) => triangle,
+        PrimitiveVertices::Point(i) => [i, i, i],
+        PrimitiveVertices::Line([a, b]) => [a, b, a],
+        PrimitiveVertices::Triangle(triangle) => triangle,
     };
     for i in own {
         let position = draw.mesh.vertices[i].position;
@@ -208,7 +208,7 @@ fn texture_coordinates(
     context: &PassContext<'_>,
     draw: &Draw,
     shape: &Shape,
-    one: Primitive,
+    one: PrimitiveVertices,
 ) -> Option<[Depth; 2]> {
     if !draw.shader.uses_uv() {
         return None;
@@ -218,21 +218,21 @@ fn texture_coordinates(
     let error = context.rules.float_error.value;
     let value = |i: usize, axis: usize| Interval::exact(f64::from(draw.mesh.vertices[i].uv[axis]));
     Some([0, 1].map(|axis| match (shape, one) {
-        (Shape::Triangle(triangle), Primitive::Triangle(own)) => {
+        (Shape::Triangle(triangle), PrimitiveVertices::Triangle(own)) => {
             Depth::over(triangle.vertices, own.map(|i| value(i, axis)), grid, error)
         }
-        (Shape::Outline(triangle), Primitive::Triangle(own)) => {
+        (Shape::Outline(triangle), PrimitiveVertices::Triangle(own)) => {
             let values = own.map(|i| value(i, axis));
             let mut plane = Depth::over(triangle.vertices, values, grid, error);
             plane.reach_out(units);
             plane
         }
-        (Shape::Line(ends), Primitive::Line(own)) => {
+        (Shape::Line(ends), PrimitiveVertices::Line(own)) => {
             Depth::along(*ends, own.map(|i| value(i, axis)), units)
         }
-        (_, Primitive::Point(i)) => Depth::flat(&[value(i, axis)]),
-        (_, Primitive::Line(own)) => Depth::flat(&own.map(|i| value(i, axis))),
-        (_, Primitive::Triangle(own)) => Depth::flat(&own.map(|i| value(i, axis))),
+        (_, PrimitiveVertices::Point(i)) => Depth::flat(&[value(i, axis)]),
+        (_, PrimitiveVertices::Line(own)) => Depth::flat(&own.map(|i| value(i, axis))),
+        (_, PrimitiveVertices::Triangle(own)) => Depth::flat(&own.map(|i| value(i, axis))),
     }))
 }
 

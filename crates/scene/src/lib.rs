@@ -29,7 +29,7 @@ pub use depth_stencil::{
 pub use draw::{Draw, Params};
 pub use early_tests::EarlyTests;
 pub use invariance::Invariance;
-pub use mesh::{MAX_VERTICES, Mesh, Primitive, RESTART, Vertex};
+pub use mesh::{MAX_VERTICES, Mesh, PrimitiveVertices, RESTART, Vertex};
 pub use mesh_source::{MeshSource, Splat, Units};
 pub use rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, Viewport,

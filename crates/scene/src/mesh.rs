@@ -40,7 +40,7 @@ impl Mesh {
     /// The vertex indices of each primitive in order: one for points, two for lines, three for
     /// triangles, which keep their winding (of a strip's odd triangles the first two vertices are
     /// exchanged: Vulkan, Triangle Strips; OpenGL 4.6, 10.1.8).
-    pub fn primitives(&self, topology: PrimitiveTopology) -> Vec<Primitive> {
+    pub fn primitives(&self, topology: PrimitiveTopology) -> Vec<PrimitiveVertices> {
         let order: Vec<u32> = match &self.indices {
             Some(indices) => indices.clone(),
             None => (0..self.vertices.len() as u32).collect(),
@@ -50,21 +50,27 @@ impl Mesh {
             let run: Vec<usize> = run.iter().map(|i| *i as usize).collect();
             match topology {
                 PrimitiveTopology::PointList => {
-                    all.extend(run.iter().map(|i| Primitive::Point(*i)));
+                    all.extend(run.iter().map(|i| PrimitiveVertices::Point(*i)));
                 }
                 PrimitiveTopology::LineList => {
-                    all.extend(run.chunks_exact(2).map(|c| Primitive::Line([c[0], c[1]])));
+                    all.extend(
+                        run.chunks_exact(2)
+                            .map(|c| PrimitiveVertices::Line([c[0], c[1]])),
+                    );
                 }
                 PrimitiveTopology::LineStrip => {
-                    all.extend(run.windows(2).map(|w| Primitive::Line([w[0], w[1]])));
+                    all.extend(
+                        run.windows(2)
+                            .map(|w| PrimitiveVertices::Line([w[0], w[1]])),
+                    );
                 }
                 PrimitiveTopology::TriangleList => {
                     let triangles = run.chunks_exact(3);
-                    all.extend(triangles.map(|c| Primitive::Triangle([c[0], c[1], c[2]])));
+                    all.extend(triangles.map(|c| PrimitiveVertices::Triangle([c[0], c[1], c[2]])));
                 }
                 PrimitiveTopology::TriangleStrip => {
                     all.extend(run.windows(3).enumerate().map(|(i, w)| {
-                        Primitive::Triangle(match i % 2 {
+                        PrimitiveVertices::Triangle(match i % 2 {
                             0 => [w[0], w[1], w[2]],
                             _ => [w[1], w[0], w[2]],
                         })
@@ -74,7 +80,7 @@ impl Mesh {
                     let rest = run.get(1..).unwrap_or_default();
                     all.extend(
                         rest.windows(2)
-                            .map(|w| Primitive::Triangle([run[0], w[0], w[1]])),
+                            .map(|w| PrimitiveVertices::Triangle([run[0], w[0], w[1]])),
                     );
                 }
             }
@@ -85,7 +91,7 @@ impl Mesh {
 
 /// The vertices of one primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Primitive {
+pub enum PrimitiveVertices {
     /// A point.
     Point(usize),
     /// A line.

@@ -46,12 +46,12 @@ pub struct Comparison {
     /// The ratio of the times in units of the ruler, where both benches have one.
     pub ruled: Option<Ratio>,
     /// The conclusion.
-    pub outcome: Outcome,
+    pub outcome: Conclusion,
 }
 
 /// The conclusion that two benches allow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
+pub enum Conclusion {
     /// The second one takes less time.
     Faster,
     /// The second one takes more time.
@@ -60,7 +60,7 @@ pub enum Outcome {
     CannotTell(Why),
 }
 
-impl Outcome {
+impl Conclusion {
     /// The words in reports.
     pub fn name(self) -> &'static str {
         match self {
@@ -126,16 +126,16 @@ pub fn compare(before: &Samples, after: &Samples) -> Comparison {
     let drifted = drift(before, after).is_some_and(|s| raw.estimate.abs() < BEYOND_RULER * s.abs());
     let outcome = match (side(raw), guard) {
         _ if before.rounds().min(after.rounds()) < MIN_ROUNDS => {
-            Outcome::CannotTell(Why::TooFewRounds)
+            Conclusion::CannotTell(Why::TooFewRounds)
         }
         (Side::Slower, Side::Slower) | (Side::Faster, Side::Faster) if drifted => {
-            Outcome::CannotTell(Why::Drift)
+            Conclusion::CannotTell(Why::Drift)
         }
-        (Side::Slower, Side::Slower) => Outcome::Slower,
-        (Side::Faster, Side::Faster) => Outcome::Faster,
-        (Side::Small, Side::Small) => Outcome::CannotTell(Why::Small),
-        (Side::Slower | Side::Faster, _) => Outcome::CannotTell(moved(before, after)),
-        _ => Outcome::CannotTell(Why::Noise),
+        (Side::Slower, Side::Slower) => Conclusion::Slower,
+        (Side::Faster, Side::Faster) => Conclusion::Faster,
+        (Side::Small, Side::Small) => Conclusion::CannotTell(Why::Small),
+        (Side::Slower | Side::Faster, _) => Conclusion::CannotTell(moved(before, after)),
+        _ => Conclusion::CannotTell(Why::Noise),
     };
     Comparison {
         ratio: raw.into(),

@@ -21,7 +21,7 @@ mod samples;
 mod summary;
 mod visible;
 
-pub use compare::{BEYOND_RULER, Comparison, LEVEL, MINIMUM, Outcome, Ratio, Why, compare};
+pub use compare::{BEYOND_RULER, Comparison, Conclusion, LEVEL, MINIMUM, Ratio, Why, compare};
 pub use rank::MIN_ROUNDS;
 pub use samples::{SampleError, Samples, quantile};
 pub use summary::{CONFIDENCE, Summary, summarize};

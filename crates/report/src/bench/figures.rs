@@ -2,7 +2,7 @@
 
 use super::kind::software;
 use etalon_record::{Bench, BenchRecord, Time};
-use etalon_stats::{Outcome, Samples, Summary, compare, summarize};
+use etalon_stats::{Conclusion, Samples, Summary, compare, summarize};
 use std::collections::BTreeMap;
 
 /// The figures of a whole bench.
@@ -123,7 +123,7 @@ fn rank(all: &mut [Timed<'_>]) {
     for at in 0..all.len() {
         let same = at > 0 && {
             let outcome = compare(&all[leader].samples, &all[at].samples).outcome;
-            outcome != Outcome::Slower
+            outcome != Conclusion::Slower
         };
         if !same {
             leader = at;

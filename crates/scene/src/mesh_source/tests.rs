@@ -1,7 +1,7 @@
 //! Tests of the expansion of meshes.
 
 use super::*;
-use crate::mesh::Primitive;
+use crate::mesh::PrimitiveVertices;
 use crate::rasterization::PrimitiveTopology;
 use std::collections::HashMap;
 
@@ -16,7 +16,7 @@ fn measure(mesh: &Mesh, size: [u32; 2]) -> (Vec<f64>, f64) {
     let mut areas = Vec::new();
     let mut least = f64::MAX;
     for primitive in mesh.primitives(PrimitiveTopology::TriangleList) {
-        let Primitive::Triangle(t) = primitive else {
+        let PrimitiveVertices::Triangle(t) = primitive else {
             continue;
         };
         let p = t.map(|i| to_texels(&mesh.vertices[i]));
@@ -89,7 +89,7 @@ fn triangles(mesh: &Mesh) -> Vec<[usize; 3]> {
     let all = mesh.primitives(PrimitiveTopology::TriangleList);
     all.into_iter()
         .map(|p| match p {
-            Primitive::Triangle(t) => t,
+            PrimitiveVertices::Triangle(t) => t,
             other => panic!("{other:?} is no triangle"),
         })
         .collect()

@@ -4,10 +4,10 @@
 mod recorded;
 mod simulated;
 
-use etalon_stats::{LEVEL, Outcome};
+use etalon_stats::{Conclusion, LEVEL};
 
-fn told(outcome: Outcome) -> bool {
-    matches!(outcome, Outcome::Faster | Outcome::Slower)
+fn told(outcome: Conclusion) -> bool {
+    matches!(outcome, Conclusion::Faster | Conclusion::Slower)
 }
 
 /// The largest count that `trials` events of a probability exceed only once in a million times.

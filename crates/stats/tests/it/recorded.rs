@@ -3,7 +3,7 @@
 //! first. `steady.csv` is from a calmer minute.
 
 use crate::{most, told};
-use etalon_stats::{LEVEL, Outcome, POWER, Samples, Why, compare, smallest_visible};
+use etalon_stats::{Conclusion, LEVEL, POWER, Samples, Why, compare, smallest_visible};
 use oorandom::Rand64;
 
 #[derive(Clone, Debug)]
@@ -52,7 +52,7 @@ fn drawn(rounds: &mut [Round], each: usize, random: &mut Rand64) -> (Vec<Round>,
 fn a_clock_that_slowed_down_is_seen_as_such() {
     let all = recorded(DRIFTING);
     let comparison = compare(&bench(&all[..30], 1.0), &bench(&all[30..], 1.0));
-    assert_eq!(comparison.outcome, Outcome::CannotTell(Why::Drift));
+    assert_eq!(comparison.outcome, Conclusion::CannotTell(Why::Drift));
     assert!(comparison.ratio.low > 1.01, "{comparison:?}");
     assert!(comparison.ruled.unwrap().high < 1.04, "{comparison:?}");
     // The same for any two stretches of a dozen rounds.
@@ -100,9 +100,9 @@ fn planted_changes_are_found_in_recorded_samples() {
             let factor = if slower { change } else { 1.0 / change };
             let (before, after) = (bench(&before, 1.0), bench(&after, factor));
             let due = if slower {
-                Outcome::Slower
+                Conclusion::Slower
             } else {
-                Outcome::Faster
+                Conclusion::Faster
             };
             let outcome = compare(&before, &after).outcome;
             assert!(outcome == due || !told(outcome));

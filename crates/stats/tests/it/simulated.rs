@@ -2,7 +2,7 @@
 
 use crate::{most, told};
 use etalon_stats::{
-    CONFIDENCE, LEVEL, Outcome, POWER, Samples, Why, compare, smallest_visible, summarize,
+    CONFIDENCE, Conclusion, LEVEL, POWER, Samples, Why, compare, smallest_visible, summarize,
 };
 use oorandom::Rand64;
 
@@ -173,9 +173,9 @@ fn planted_changes_above_the_smallest_visible_are_found() {
                 1.0 / (1.0 + change)
             };
             let due = if slower {
-                Outcome::Slower
+                Conclusion::Slower
             } else {
-                Outcome::Faster
+                Conclusion::Faster
             };
             let mut random = Rand64::new(seed as u128 + 100);
             let (mut above, mut found, mut below_found) = (0, 0, 0);
@@ -223,7 +223,7 @@ fn the_smallest_visible_change_is_neither_promised_too_small_nor_far_too_large()
             let after = |by: f64| bench(&mut same.clone(), noise, 12, by);
             let seen = |by: f64| {
                 let outcome = compare(&before, &after(by)).outcome;
-                u32::from(outcome == Outcome::Slower)
+                u32::from(outcome == Conclusion::Slower)
             };
             let visible = smallest_visible(&before, &after(1.0)).unwrap();
             found += seen(visible);
@@ -258,7 +258,7 @@ fn a_machine_that_slows_down_as_a_whole_is_no_change() {
         let before = slow(&mut random, 1.0);
         let after = slow(&mut random, by);
         let comparison = compare(&before, &after);
-        assert_eq!(comparison.outcome, Outcome::CannotTell(Why::Drift));
+        assert_eq!(comparison.outcome, Conclusion::CannotTell(Why::Drift));
         assert!((comparison.ratio.estimate / by - 1.0).abs() < 0.01);
         assert!((comparison.ruled.unwrap().estimate - 1.0).abs() < 0.01);
     }
@@ -270,7 +270,10 @@ fn reasons_not_to_tell_are_told_apart() {
     let few = bench(&mut random, QUIET, 6, 1.0);
     let slow = bench(&mut random, QUIET, 6, 3.0);
     let comparison = compare(&few, &slow);
-    assert_eq!(comparison.outcome, Outcome::CannotTell(Why::TooFewRounds));
+    assert_eq!(
+        comparison.outcome,
+        Conclusion::CannotTell(Why::TooFewRounds)
+    );
     assert_eq!(
         (comparison.ratio.low, comparison.ratio.high),
         (0.0, f64::INFINITY)
@@ -282,13 +285,13 @@ fn reasons_not_to_tell_are_told_apart() {
     let steady = Samples::new(&steady).unwrap();
     assert_eq!(
         compare(&steady, &steady).outcome,
-        Outcome::CannotTell(Why::Small)
+        Conclusion::CannotTell(Why::Small)
     );
     let loud = bench(&mut random, LOUD, 12, 1.0);
     let other = bench(&mut random, LOUD, 12, 1.02);
     assert_eq!(
         compare(&loud, &other).outcome,
-        Outcome::CannotTell(Why::Noise)
+        Conclusion::CannotTell(Why::Noise)
     );
 }
 
@@ -353,5 +356,5 @@ fn an_unsteady_ruler_is_told_from_one_that_moved() {
     let before = bench(&mut random, unsteady, 12, 1.0);
     let after = bench(&mut random, unsteady, 12, 1.1);
     let outcome = compare(&before, &after).outcome;
-    assert_eq!(outcome, Outcome::CannotTell(Why::Ruler));
+    assert_eq!(outcome, Conclusion::CannotTell(Why::Ruler));
 }

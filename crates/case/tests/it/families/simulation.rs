@@ -3,7 +3,8 @@
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, CompareFunction, Contents, CullMode, Draw,
-    EarlyTests, FrontFace, PolygonMode, Primitive, Scene, Shader, StencilFace, StencilOperation,
+    EarlyTests, FrontFace, PolygonMode, PrimitiveVertices, Scene, Shader, StencilFace,
+    StencilOperation,
 };
 
 /// One attachment's contents; what the format lacks stays empty.
@@ -50,7 +51,7 @@ pub(crate) fn triangles(draw: &Draw, size: [u32; 2]) -> Vec<[[f64; 2]; 3]> {
 fn indices(draw: &Draw) -> Vec<[usize; 3]> {
     let primitives = draw.mesh.primitives(draw.topology).into_iter();
     let triangles = primitives.filter_map(|p| match p {
-        Primitive::Triangle(t) => Some(t),
+        PrimitiveVertices::Triangle(t) => Some(t),
         _ => None,
     });
     triangles.collect()

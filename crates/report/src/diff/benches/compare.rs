@@ -4,7 +4,9 @@ use crate::bench::figures;
 use crate::bench::kind::software;
 use crate::words::machine;
 use etalon_record::{Bench, BenchHeader, BenchRecord, Time};
-use etalon_stats::{LEVEL, MINIMUM, Outcome, Samples, Why, compare, smallest_visible, summarize};
+use etalon_stats::{
+    Conclusion, LEVEL, MINIMUM, Samples, Why, compare, smallest_visible, summarize,
+};
 use serde::Serialize;
 
 /// The comparison of two benches. `--format json` prints its serialised form.
@@ -104,7 +106,7 @@ impl BenchDiff {
 
     /// True if anything is worse: slower, or no longer right.
     pub fn worse(&self) -> bool {
-        self.count(Outcome::Slower.name()) > 0 || self.gone.iter().any(|g| g.worse)
+        self.count(Conclusion::Slower.name()) > 0 || self.gone.iter().any(|g| g.worse)
     }
 }
 
@@ -176,8 +178,8 @@ fn changed(before: &Samples, after: &Samples) -> TimeChange {
         software: false,
         outcome: comparison.outcome.name(),
         why: match comparison.outcome {
-            Outcome::CannotTell(why) => Some(Why::text(why)),
-            Outcome::Faster | Outcome::Slower => None,
+            Conclusion::CannotTell(why) => Some(Why::text(why)),
+            Conclusion::Faster | Conclusion::Slower => None,
         },
         before: summarize(before).median,
         after: summarize(after).median,
