@@ -117,7 +117,7 @@ fn two_adapters_take_turns() {
 #[test]
 fn checks_known_to_fail_exist() {
     for driver in [drivers::softpipe(), drivers::softpipe_es()] {
-        for (name, _) in driver.defects {
+        for (name, _) in &driver.defects {
             assert!(CHECKS.iter().any(|check| check.name == *name), "{name}");
         }
     }

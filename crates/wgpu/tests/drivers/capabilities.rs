@@ -129,7 +129,7 @@ fn loses_the_clear_of_integers(backend: &dyn Backend) {
 
 #[test]
 fn checks_known_to_fail_exist() {
-    for (name, _) in drivers::softpipe().defects {
-        assert!(CHECKS.iter().any(|check| check.name == name), "{name}");
+    for (name, _) in &drivers::softpipe().defects {
+        assert!(CHECKS.iter().any(|check| check.name == *name), "{name}");
     }
 }
