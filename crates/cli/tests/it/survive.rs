@@ -331,9 +331,12 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
     assert!(!due_frames.is_empty());
 
     let planned = sample::count("kills", 32, 200);
+    // On a busy machine more kills come before the first record, and more of them are needed.
+    let enough =
+        |kills: usize, inside: usize| kills >= planned && (inside >= planned / 4 || kills >= 200);
     let mut random = 1_u64;
     let (mut kills, mut ended, mut inside) = (0, 0, 0);
-    while kills < planned {
+    while !enough(kills, inside) {
         let out = folder();
         loop {
             let mut child = start(out.path(), &["--resume"]);
@@ -350,7 +353,7 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
                 ended += 1;
                 break;
             }
-            if kills == planned {
+            if enough(kills, inside) {
                 assert_eq!(child.wait().unwrap().code(), Some(1));
                 break;
             }
