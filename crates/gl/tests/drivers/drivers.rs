@@ -42,6 +42,9 @@ const CORE: &[&str] = &[
     "feature mirrored-viewport",
     "feature depth-bounds",
     "format bgra8unorm",
+    // Its probe does not trust them in every run.
+    "4 samples of rgba8snorm",
+    "4 samples of depth24plus",
 ];
 
 fn driver(
