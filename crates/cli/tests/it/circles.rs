@@ -433,7 +433,9 @@ fn read(root: &Path) -> Crate {
             let text = fs::read_to_string(&path).unwrap();
             let words = tokens(&text);
             let moved = words.windows(3).any(|w| w == ["#", "[", "path"]);
-            assert!(!moved, "{below:?} names its modules' files");
+            // Tests may share a file with another crate's tests.
+            let shares = folder.ends_with("tests/it");
+            assert!(!moved || shares, "{below:?} names its modules' files");
             found.add(module, below.to_str().unwrap(), &text);
         }
     }

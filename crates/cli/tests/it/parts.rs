@@ -142,7 +142,7 @@ fn parts_of_other_runs_are_refused() {
         merge(&parts, &out).assert().code(64)
     };
     changed("\"driver\":\"etalon\"", "\"driver\":\"étalon\"").stderr(contains("étalon"));
-    changed("\"case\":\"cull/", "\"case\":\"dull/").stderr(contains("does not announce"));
+    changed("\"case\":\"cull/", "\"case\":\"dull/").stderr(contains("its header does not name"));
     changed("\"sub_pixel_bits\":8", "\"sub_pixel_bits\":4").stderr(contains("limits of cpu"));
     merge(std::slice::from_ref(&one), &one)
         .assert()

@@ -45,8 +45,8 @@ pub(crate) fn a_second_submit_gives_the_same_frame(s: &Subject) -> Checked {
         let time = prepared.submit().expect("the scene is drawn");
         assert!(time.cpu <= time.wall, "{time:?}");
         if let Some(gpu) = time.gpu {
-            // Two clocks; this holds the unit.
-            assert!(gpu <= 2 * time.wall, "{time:?}");
+            // Two clocks, of which either may jump; a wrong unit is a factor of 1,000.
+            assert!(gpu <= 100 * time.wall, "{time:?}");
         }
     }
     assert_eq!(read(&mut prepared), first);

@@ -42,7 +42,7 @@ const CORE: &[&str] = &[
     "feature mirrored-viewport",
     "feature depth-bounds",
     "format bgra8unorm",
-    // Its probe does not trust them in every run.
+    // The backend withdraws them: what was drawn does not come back right.
     "4 samples of rgba8snorm",
     "4 samples of depth24plus",
 ];

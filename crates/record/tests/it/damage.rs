@@ -9,23 +9,19 @@ use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use serde_json::{Value, json};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::OnceLock;
 
-/// The repository's own recorded runs: real records of all kinds.
-fn reports() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports")
-}
-
-/// The first lines of a kept file, so that an input stays small.
-fn lines(file: &str, most: usize) -> String {
-    let text = fs::read_to_string(reports().join(file)).unwrap();
+/// The first lines of a recorded run of methods, which the tests of the reports keep.
+fn lines(most: usize) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../report/tests/data/methods.jsonl");
+    let text = fs::read_to_string(path).unwrap();
     text.lines().take(most).map(|l| format!("{l}\n")).collect()
 }
 
 fn run_text() -> &'static str {
     static TEXT: OnceLock<String> = OnceLock::new();
-    TEXT.get_or_init(|| lines("methods/run.jsonl", 4))
+    TEXT.get_or_init(|| lines(4))
 }
 
 fn bench_text() -> &'static str {

@@ -33,7 +33,7 @@ pub(crate) fn lavapipe() -> Driver<'static> {
         environment: Vec::new(),
         open: |validate| -> Box<dyn Backend> { Box::new(backend(validate)) },
         lacks: match is_lavapipe() {
-            true => &["feature depth-bounds"],
+            true => &["feature depth-bounds", "4 samples of depth24plus"],
             // Another driver may lack anything.
             false => &[""],
         },
