@@ -12,6 +12,7 @@
 mod checks;
 mod child;
 mod driver;
+mod driver_tests;
 mod frames;
 mod library;
 mod scenes;
