@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 
 state_enum! {
-    /// What a counter counts.
+    /// The kind of a counter.
     CounterKind {
         /// Samples that passed all tests, exactly: a precise occlusion query.
         SamplesPassed = "samples-passed",

@@ -3,7 +3,7 @@
 //! This crate holds the nouns that every other crate shares and no arithmetic of the pipeline:
 //! what a texel is made of ([`TextureFormat`], [`ChannelEncoding`]), what came back from a device
 //! ([`Frame`]), what an adapter can do ([`Limits`], [`Feature`]), what the rules allow
-//! ([`LegalSet`]) and how the last two are held against each other ([`compare`]).
+//! ([`LegalSet`]) and how the last two are held against each other ([`compare()`]).
 
 mod accuracy;
 mod api;

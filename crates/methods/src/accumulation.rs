@@ -29,7 +29,7 @@ const SIZE: [u32; 2] = [2 * CELLS, 2 * CELLS];
 pub struct Wire {
     scene: SceneName,
     method: MethodName,
-    /// How many, 1 to 1024.
+    /// The number of layers, 1 to 1024.
     layers: u32,
     /// Their alpha, above 0 and up to 1.
     alpha: f64,

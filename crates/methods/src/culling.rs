@@ -22,49 +22,49 @@ const BACKGROUND: [f64; 3] = [0.12, 0.14, 0.2];
 pub enum Wire {
     /// A closed box through which the eye flies; the near plane cuts it on the way.
     FlyThrough {
-        /// What is culled.
+        /// The culling.
         method: MethodName,
-        /// How far the eye is from the middle of the box, whose sides are 2 long: 0 to 8.
+        /// The distance of the eye from the middle of the box, whose sides are 2 long: 0 to 8.
         eye: f64,
     },
     /// A box without a lid, tilted towards the viewer.
     OpenMesh {
-        /// What is culled.
+        /// The culling.
         method: MethodName,
         /// By how many degrees, -90 to 90.
         angle: f64,
     },
     /// A box and its mirror image, which has the other winding.
     Mirrored {
-        /// What is culled.
+        /// The culling.
         method: MethodName,
         /// By how many degrees the box is turned, -180 to 180.
         angle: f64,
     },
     /// A box with see-through faces around another one.
     SeeThrough {
-        /// What is culled.
+        /// The culling.
         method: MethodName,
         /// The faces' alpha, 0 to 1.
         alpha: f64,
     },
     /// A torus, its triangles from back to front: the order in which depth tests save nothing.
     ClosedMesh {
-        /// What is culled.
+        /// The culling.
         method: MethodName,
         /// Around its hole, 4 to 64; half as many around its tube.
         segments: u32,
     },
     /// Boxes in a grid of which the picture shows a ninth. A draw each.
     Field {
-        /// What is culled.
+        /// The culling.
         method: MethodName,
-        /// How many there are, 1 to 1024.
+        /// The number of objects, 1 to 1024.
         objects: u32,
     },
 }
 
-/// What is culled.
+/// The culling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MethodName {

@@ -20,11 +20,11 @@ mod tests;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Wire {
-    /// What is seen.
+    /// The scene.
     pub(crate) scene: SceneName,
-    /// How it is drawn.
+    /// The method.
     pub(crate) method: MethodName,
-    /// What the sampler takes for texels beyond the texture's border, up to which the cards reach.
+    /// The texels beyond the texture's border, up to which the cards reach.
     #[serde(default = "clamp")]
     pub(crate) address: AddressMode,
     /// Texels of the picture for one of the texture, 0.25 to 4.
@@ -33,7 +33,7 @@ pub struct Wire {
     pub(crate) cutoff: Option<f64>,
 }
 
-/// What is seen.
+/// The scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum SceneName {
@@ -41,7 +41,7 @@ pub(crate) enum SceneName {
     Grass,
 }
 
-/// How it is drawn.
+/// The method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum MethodName {

@@ -50,7 +50,7 @@ enum SceneName {
     Decal,
 }
 
-/// How depth is kept.
+/// The depth buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum MethodName {

@@ -27,7 +27,7 @@ const CELLS: u32 = 16;
 pub enum Wire {
     /// Planes at a slant, from 12 to 900.
     Slanted {
-        /// How depth is shown.
+        /// Depth shown as a colour.
         method: DepthMethod,
         /// Distance of the near plane, 0.0001 to 10; the far plane lies at 1000. The nearer it is, the
         /// closer all depths come to 1, and the less is left of the distance.
@@ -35,14 +35,14 @@ pub enum Wire {
     },
     /// Two pictures, of which one is blended over the other.
     Pictures {
-        /// How.
+        /// The method.
         method: DissolveMethod,
-        /// How much of the second picture shows, 0 to 1.
+        /// The share of the second picture, 0 to 1.
         t: f64,
     },
 }
 
-/// How depth is shown.
+/// Depth shown as a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DepthMethod {
@@ -54,7 +54,7 @@ pub enum DepthMethod {
     Fog,
 }
 
-/// How pictures are mixed.
+/// The mixing of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DissolveMethod {

@@ -13,23 +13,23 @@ use serde::Deserialize;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(tag = "question", rename_all = "kebab-case")]
 pub enum MethodWire {
-    /// How see-through surfaces are put together.
+    /// Transparency: the composition of surfaces that let light through.
     Transparency(transparency::Wire),
-    /// How holes in a texture are drawn.
+    /// Cut-outs: holes in a texture.
     CutOuts(cut_outs::Wire),
-    /// How edges are smoothed.
+    /// Anti-aliasing.
     AntiAliasing(anti_aliasing::Wire),
-    /// Which depths can be told apart.
+    /// Depth precision.
     DepthPrecision(depth_precision::Wire),
-    /// What it costs to find out what is in front.
+    /// The cost of visibility.
     VisibilityCost(visibility_cost::Wire),
-    /// What culling leaves out.
+    /// Culling.
     Culling(culling::Wire),
-    /// What is done with a stencil.
+    /// Stencil effects.
     StencilEffects(stencil_effects::Wire),
-    /// What blending many times adds up to.
+    /// The rounding errors of repeated blending.
     Accumulation(accumulation::Wire),
-    /// How depth is shown.
+    /// Depth shown as a colour.
     DepthShown(depth_shown::Wire),
 }
 

@@ -19,23 +19,23 @@ use serde::Deserialize;
 pub enum Wire {
     /// Overlapping objects with outlines.
     Outlines {
-        /// How they are drawn.
+        /// The method.
         method: outlines::MethodName,
         /// Of the outlines, in texels, 0.5 to 24.
         width: f64,
     },
     /// Boxes above a mirror that lies on the ground.
     Mirror {
-        /// How the reflection is drawn.
+        /// The method for the reflection.
         method: mirror::MethodName,
-        /// How far to the side of the mirror's middle the boxes are, 0 to 3; the mirror is 2.4 wide.
+        /// The distance of the boxes from the mirror's middle, sideways, 0 to 3; the mirror is 2.4 wide.
         shift: f64,
     },
     /// Cards in parallel rays of light, which cast shadows on each other and on a wall.
     ShadowVolume {
-        /// What is counted.
+        /// The sides of volumes that are counted.
         method: shadows::MethodName,
-        /// How far behind the picture's plane the near plane lies, -1 to 0.8: cards stand at 0.1, 0.3
+        /// The distance of the near plane behind the picture's plane, -1 to 0.8: cards stand at 0.1, 0.3
         /// and 0.5, the wall at 0.9.
         eye: f64,
     },

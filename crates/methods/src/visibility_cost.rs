@@ -29,7 +29,7 @@ const MOST: u32 = 32;
 pub struct Wire {
     scene: SceneName,
     method: MethodName,
-    /// How many walls stand behind each other, 1 to 32: about the depth complexity.
+    /// The number of walls behind each other, 1 to 32: about the depth complexity.
     layers: u32,
 }
 
@@ -40,7 +40,7 @@ enum SceneName {
     Rooms,
 }
 
-/// How hidden surfaces are left out.
+/// The order and the tests that reject hidden surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum MethodName {

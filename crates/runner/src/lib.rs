@@ -1,9 +1,9 @@
 //! Selection, isolation, drawing and judging of cases, reported as one stream of events.
 //!
-//! Workers only draw: [`serve`] answers requests in a process of its own. The parent judges: [`run`]
+//! Workers only draw: [`serve()`] answers requests in a process of its own. The parent judges: [`run()`]
 //! drives workers of every adapter, compares every frame with its legal set and writes one record per
-//! case and adapter; [`bench`] times frames; both start and replace workers through one supervisor.
-//! [`hunt`] draws cases with planted bugs in this process, and reports which of them are caught.
+//! case and adapter; [`bench()`] times frames; both start and replace workers through one supervisor.
+//! [`hunt()`] draws cases with planted bugs in this process, and reports which of them are caught.
 
 mod adapter_record;
 mod bench;

@@ -59,7 +59,7 @@ impl BlendFactor {
 }
 
 state_enum! {
-    /// How the two weighted sides of a blend equation are joined.
+    /// The operation of a blend equation on its two weighted sides.
     BlendOperation {
         /// Source plus destination.
         Add = "add",
@@ -116,7 +116,7 @@ impl Default for ColorTarget {
 }
 
 state_enum! {
-    /// What a logic operation makes of the bits of source `s` and destination `d`.
+    /// A logic operation on the bits of source `s` and destination `d`.
     LogicOperation {
         /// 0.
         Clear = "clear",

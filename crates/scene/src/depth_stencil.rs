@@ -32,11 +32,11 @@ state_enum! {
 pub struct DepthState {
     /// The comparison, incoming depth on the left.
     pub compare: CompareFunction,
-    /// Whether passing fragments store their depth.
+    /// True if passing fragments store their depth.
     pub write: bool,
 }
 
-/// What is added to a polygon's depth: `constant * r + slope * m`, where `r` is the least step of
+/// The depth bias of a polygon: `constant * r + slope * m`, where `r` is the least step of
 /// the attachment's depth and `m` the polygon's steepest slope, then held to `clamp` where that is
 /// not 0. Off when all are 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -51,7 +51,7 @@ pub struct DepthBias {
 }
 
 state_enum! {
-    /// What happens to a stored stencil value.
+    /// An operation on a stored stencil value.
     StencilOperation {
         /// Unchanged.
         Keep = "keep",

@@ -22,7 +22,7 @@ pub struct Draw {
     pub shader: Shader,
     /// The shader's parameters.
     pub params: Params,
-    /// When the fragment tests happen.
+    /// The order of fragment tests and fragment shader.
     pub early_tests: EarlyTests,
     /// Indices of the attachments that the shader reads: single-sample colour, as it was uploaded,
     /// cleared or left by earlier passes, and no part of the pass.

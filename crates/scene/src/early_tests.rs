@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 state_enum! {
-    /// When depth bounds, stencil and depth tests happen: before or after the fragment shader.
+    /// The order of depth bounds, stencil and depth tests and the fragment shader.
     EarlyTests {
         /// As the API says of the shader: in effect afterwards.
         Implicit = "implicit",

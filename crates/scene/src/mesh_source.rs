@@ -99,7 +99,7 @@ pub enum MeshSource {
     /// cells' sides are whole texels or whole parts of one. Elsewhere edges may pass through centres, and
     /// two triangles share what they cover there.
     Grid {
-        /// How many cells lie side by side and one above the other.
+        /// The number of cells across and down.
         cells: [u32; 2],
         /// Vertex depth.
         #[serde(default)]
@@ -112,7 +112,7 @@ pub enum MeshSource {
     /// their vertices; seen from outside, they are counter-clockwise. Its middle lies in the viewport's
     /// middle, at depth 0.5.
     Torus {
-        /// How many segments lie around the axis and around the tube, each at least 3.
+        /// The number of segments around the axis and around the tube, each at least 3.
         segments: [u32; 2],
         /// The vertex colour.
         #[serde(default)]
@@ -122,10 +122,10 @@ pub enum MeshSource {
     Vertices {
         /// Positions x, y, z.
         positions: Vec<[f32; 3]>,
-        /// What x and y count: clip space, or texels from the top left corner.
+        /// The units of x and y: clip space, or texels from the top left corner.
         #[serde(default)]
         units: Units,
-        /// Which vertices are drawn, in order; `null` ends a strip. Without it, all in order.
+        /// Indices of the drawn vertices, in order; `null` ends a strip. Without it, all in order.
         #[serde(default)]
         indices: Option<Vec<Option<u32>>>,
         /// Vertex colours, repeated as needed.
@@ -137,7 +137,7 @@ pub enum MeshSource {
     },
 }
 
-/// What the positions of single vertices count.
+/// The units of vertex positions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Units {

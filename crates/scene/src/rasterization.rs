@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 state_enum! {
-    /// How vertices become primitives.
+    /// The topology of vertices.
     PrimitiveTopology {
         /// Each vertex a point of one texel.
         PointList = "point-list",
@@ -23,7 +23,7 @@ state_enum! {
 }
 
 state_enum! {
-    /// What becomes of a polygon.
+    /// The part of a polygon that is drawn.
     PolygonMode {
         /// Its inside.
         Fill = "fill",
@@ -33,7 +33,7 @@ state_enum! {
 }
 
 state_enum! {
-    /// Which faces are culled.
+    /// The faces that are culled.
     CullMode {
         /// None.
         None = "none",
@@ -47,7 +47,7 @@ state_enum! {
 }
 
 state_enum! {
-    /// Which winding is a front face.
+    /// The winding of front faces.
     FrontFace {
         /// Counter-clockwise.
         Ccw = "ccw",
@@ -56,7 +56,7 @@ state_enum! {
     }
 }
 
-/// Where clip space lies in the attachments.
+/// A viewport.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Viewport {
@@ -88,15 +88,15 @@ impl Viewport {
     }
 }
 
-/// Which samples of a fragment are drawn.
+/// The samples of a fragment that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Multisample {
     /// Bit `i` lets sample `i` through.
     pub mask: u32,
-    /// Whether alpha takes samples away.
+    /// True if alpha reduces the coverage.
     pub alpha_to_coverage: bool,
-    /// Whether alpha then counts as 1.
+    /// True if alpha then counts as 1.
     pub alpha_to_one: bool,
 }
 

@@ -4,7 +4,7 @@ use etalon_frame::state_enum;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How a shader samples its texture.
+/// A sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sampler {
@@ -15,7 +15,7 @@ pub struct Sampler {
 }
 
 state_enum! {
-    /// How a sampler makes a value of the texels around a coordinate.
+    /// The filter of a sampler.
     FilterMode {
         /// The nearest texel.
         Nearest = "nearest",
@@ -25,7 +25,7 @@ state_enum! {
 }
 
 state_enum! {
-    /// What a texture coordinate beyond the texture means.
+    /// The texel for a texture coordinate beyond the texture.
     AddressMode {
         /// The outermost texel.
         ClampToEdge = "clamp-to-edge",

@@ -32,7 +32,7 @@ pub struct Pass {
     pub resolve: Vec<Option<usize>>,
     /// Index of the depth-stencil attachment.
     pub depth_stencil: Option<usize>,
-    /// Whether the pass promises to write neither depth nor stencil.
+    /// True if the pass promises to write neither depth nor stencil.
     pub depth_stencil_read_only: bool,
     /// Draws, in order.
     pub draws: Vec<Draw>,

@@ -5,7 +5,7 @@
 //! preparation with a few frames, is the unit of everything here, and its median stands for it. More
 //! frames make a round's median steadier; only more rounds tell more about the next bench.
 //!
-//! [`summarize`] describes one bench. [`compare`] holds two against each other, with the interval
+//! [`summarize`] describes one bench. [`compare()`] holds two against each other, with the interval
 //! of the Wilcoxon–Mann–Whitney test turned around (Hodges and Lehmann 1963): it assumes nothing of
 //! the shape of the noise, its level is exact for any number of rounds, and single disturbed rounds
 //! hardly move it. [`smallest_visible`] tells which change that comparison would find.

@@ -11,7 +11,7 @@ pub const POWER: f64 = 0.9;
 const RESAMPLES: usize = 400;
 const SEED: u128 = 0x0076_6973_6962_6c65;
 
-/// The smallest change, as a ratio above 1, that [`crate::compare`] would find with probability
+/// The smallest change, as a ratio above 1, that [`crate::compare()`] would find with probability
 /// [`POWER`] between two benches as noisy as these and of as many rounds. `None` where no change
 /// could be found: with too few rounds.
 ///

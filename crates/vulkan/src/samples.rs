@@ -1,6 +1,6 @@
 //! Reading the samples of a multisampled attachment with a compute shader, since no copy can.
 //!
-//! The shader stores the values that it fetches, 32-bit floats or integers, and [`code`] returns
+//! The shader stores the values that it fetches, 32-bit floats or integers, and `etalon_backend::codes` returns
 //! their codes. That is exact for the encodings it is used for: normalized values of up to 16 bits
 //! are far enough apart that rounding undoes the conversion whatever its last bits (Vulkan,
 //! Conversion From Normalized Fixed-Point), floats and integers are stored as they are, and sRGB

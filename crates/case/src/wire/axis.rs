@@ -135,7 +135,7 @@ impl JsonSchema for AxisValue {
 pub(crate) struct DerivedWire {
     /// The axis.
     pub(crate) axis: String,
-    /// How many values further on, past the end from the start again.
+    /// The number of values further on, wrapping at the end.
     #[serde(default)]
     pub(crate) shift: usize,
     /// As many values as the axis has, each instead of the axis's own.

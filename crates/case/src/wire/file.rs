@@ -16,11 +16,11 @@ use std::num::NonZeroUsize;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FileWire {
-    /// What the cases prove, in a sentence.
+    /// The purpose of the cases, in a sentence.
     pub(crate) about: String,
     /// The clauses of the specifications that bind, each as `API: section`.
     pub(crate) spec: Vec<String>,
-    /// Which cases of the product the quick profile takes; without it, all.
+    /// The cases of the product that the quick profile takes; without it, all.
     pub(crate) quick: Option<QuickWire>,
     /// The axes; the file stands for their whole product.
     #[serde(default)]
@@ -28,7 +28,7 @@ pub(crate) struct FileWire {
     /// Values that follow from an axis and are no part of the id.
     #[serde(default)]
     pub(crate) derived: BTreeMap<String, DerivedWire>,
-    /// What is drawn.
+    /// The scene.
     #[serde(default)]
     #[schemars(with = "SceneWire")]
     pub(crate) scene: Value,
@@ -50,7 +50,7 @@ pub(crate) struct FileWire {
     /// Changes to the scene, each of which is drawn too.
     #[serde(default)]
     pub(crate) variants: Vec<VariantWire>,
-    /// What the frames of the variants have to do with the scene's own.
+    /// The relation of the variants' frames to the scene's own.
     #[serde(default)]
     #[schemars(with = "Option<RelationWire>")]
     pub(crate) relation: Value,
@@ -68,7 +68,7 @@ pub(crate) struct FileWire {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RandomWire {
-    /// What the scene is made of.
+    /// The states of the scene.
     pub(crate) flavor: Flavor,
     /// The seed.
     pub(crate) seed: u64,
@@ -78,7 +78,7 @@ pub(crate) struct RandomWire {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StatesWire {
-    /// How many draws.
+    /// The number of draws.
     pub(crate) count: u32,
     /// Width and height in texels.
     pub(crate) size: [u32; 2],
@@ -102,14 +102,14 @@ pub(crate) struct VariantWire {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RelationWire {
-    /// Why they must.
+    /// The reason why they must.
     pub(crate) same: Invariance,
     /// Left, top, width and height of the texels that are compared; without it, all.
     pub(crate) within: Option<[u32; 4]>,
     /// The colour channels that are compared, as letters of `rgba`.
     #[serde(default = "all_channels")]
     pub(crate) channels: String,
-    /// How many texels the variants' pictures are moved to the right and down.
+    /// The offset of the variants' pictures in texels, to the right and down.
     #[serde(default)]
     pub(crate) offset: [i32; 2],
     /// Attachments of each frame that are compared with each other, instead of frames.
@@ -117,7 +117,7 @@ pub(crate) struct RelationWire {
     pub(crate) attachments: Vec<String>,
 }
 
-/// Which cases of a product the quick profile takes: `"pairwise"`, `{ "each": n }`, `{ "first": n }` or
+/// The cases of a product that the quick profile takes: `"pairwise"`, `{ "each": n }`, `{ "first": n }` or
 /// `{ "where": { axis: value } }`.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

@@ -124,7 +124,7 @@ pub(crate) struct PassWire {
     pub(crate) resolve: Vec<Option<String>>,
     /// Name of the depth-stencil attachment.
     pub(crate) depth_stencil: Option<String>,
-    /// Whether the pass promises to write neither depth nor stencil.
+    /// True if the pass promises to write neither depth nor stencil.
     #[serde(default)]
     pub(crate) depth_stencil_read_only: bool,
     /// Draws, in order.
@@ -140,13 +140,13 @@ pub(crate) struct DrawWire {
     pub(crate) shader: Shader,
     #[serde(default)]
     pub(crate) params: ParamsWire,
-    /// When the fragment tests happen.
+    /// The order of fragment tests and fragment shader.
     #[serde(default = "implicit")]
     pub(crate) early_tests: EarlyTests,
     /// Names of the attachments that the shader reads.
     #[serde(default)]
     pub(crate) textures: Vec<String>,
-    /// How the shader samples its texture.
+    /// The sampler of the shader's texture.
     pub(crate) sampler: Option<Sampler>,
     /// Names of the counters that the draw adds to.
     #[serde(default)]

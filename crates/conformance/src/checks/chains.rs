@@ -6,7 +6,7 @@ use crate::scenes::{scene, scene_of};
 use crate::subject::Subject;
 use etalon_frame::{ChannelEncoding, TextureFormat};
 
-/// What a chain's passes draw, by turns: all of 5 by 4 texels, or a part.
+/// The draws of a chain, by turns: all of 5 by 4 texels, or a part.
 const PARTS: [[u32; 4]; 6] = [
     [0, 0, 5, 4],
     [0, 0, 5, 4],
@@ -78,7 +78,7 @@ pub(crate) fn two_attachments_take_turns(s: &Subject) -> Checked {
     Ok(())
 }
 
-/// What is read before it is drawn holds what it was cleared to.
+/// An attachment that is read before it is drawn to holds its clear value.
 pub(crate) fn a_clear_is_read_before_the_first_draw(s: &Subject) -> Checked {
     let scene = scene_of(
         r#""a": { "format": "rgba8unorm", "size": [5, 4] },

@@ -159,6 +159,30 @@ pub(crate) fn invocations_are_counted(s: &Subject) -> Checked {
     Ok(())
 }
 
+/// Statistics need not be exact, but nothing runs that is not rasterized, and what counts itself has
+/// run.
+pub(crate) fn statistics_tell_that_shaders_ran(s: &Subject) -> Checked {
+    let draw = |scissor: &str, name: &str| {
+        format!(
+            r#"{{ "mesh": {{ "kind": "full" }}, "shader": "counted_color", "scissor": {scissor},
+                "counters": ["runs", "{name}"] }}"#
+        )
+    };
+    let draws = [
+        draw("[0, 0, 16, 16]", "some"),
+        draw("[0, 0, 0, 0]", "none"),
+        draw("[0, 0, 16, 8]", "some"),
+    ];
+    let kinds =
+        r#""none": "fragment-invocations", "runs": "shader-runs", "some": "fragment-invocations""#;
+    let [none, runs, some] = counted(s, kinds, &draws)?.counters[..] else {
+        panic!("three counters are due");
+    };
+    assert_eq!([none, runs], [0, 384]);
+    assert!((384..2 * 384).contains(&some), "{some}");
+    Ok(())
+}
+
 pub(crate) fn discarded_primitives_run_no_shader(s: &Subject) -> Checked {
     let draws = [corner(
         true,

@@ -1,4 +1,4 @@
-//! Where a draw lands and which channels it writes.
+//! The texels that a draw covers, and the channels that it writes.
 
 use super::Checked;
 use crate::frames::{

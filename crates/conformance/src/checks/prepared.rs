@@ -5,7 +5,7 @@ use crate::frames::{BLUE, GREEN, RED, check, check_red, color, depth, stencil};
 use crate::scenes::{PAINT, one_draw, scene, scene_of};
 use crate::subject::Subject;
 use etalon_backend::{BackendError, Prepared};
-use etalon_frame::{Frame, Requirement, TextureFormat};
+use etalon_frame::{Feature, Frame, Requirement, TextureFormat};
 
 /// Two passes, blending onto what is there, an upload, depth and stencil that change.
 const BUSY: &str = r#"{
@@ -115,7 +115,14 @@ pub(crate) fn nothing_leaks_into_the_next_scene(s: &Subject) -> Checked {
         )
     };
     for _ in 0..2 {
-        let min = r#"{ "operation": "min", "src_factor": "one", "dst_factor": "one" }"#;
+        // The factors that are not the default, where the driver has a say in them.
+        let factor = match s.offers(Feature::MinMaxBlendFactors) {
+            true => "zero",
+            false => "one",
+        };
+        let min = format!(
+            r#"{{ "operation": "min", "src_factor": "{factor}", "dst_factor": "{factor}" }}"#
+        );
         s.draw(&scene_of(
             &ds(0.5, 255),
             &format!(

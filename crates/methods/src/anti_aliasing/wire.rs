@@ -7,17 +7,17 @@ use serde::Deserialize;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Wire {
-    /// What is seen.
+    /// The scene.
     pub(crate) scene: SceneName,
-    /// How it is drawn.
+    /// The method.
     pub(crate) method: MethodName,
     /// The angle of the edges of half planes to the rows of texels in degrees, 0 to 90.
     pub(crate) angle: Option<f64>,
-    /// How far wedges open in degrees, 0.25 to 60.
+    /// The opening of wedges in degrees, 0.25 to 60.
     pub(crate) opening: Option<f64>,
 }
 
-/// How it is drawn.
+/// The method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum MethodName {
@@ -47,7 +47,7 @@ pub(crate) enum MethodName {
     CoverageToAlphaOverlap,
 }
 
-/// What is seen.
+/// The scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum SceneName {

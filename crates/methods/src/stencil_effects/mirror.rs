@@ -11,10 +11,10 @@ use glam::{DMat4, DVec3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// How the reflection is drawn.
+/// The method for the reflection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum MethodName {
-    /// Where the stencil holds the mirror.
+    /// Only where the stencil holds the mirror.
     #[serde(rename = "mirror")]
     Masked,
     /// Everywhere: what is reflected beside the mirror shows too.

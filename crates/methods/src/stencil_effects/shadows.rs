@@ -16,7 +16,7 @@ use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// What is counted.
+/// The sides of volumes that are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum MethodName {
     /// Sides before what is seen, from the near plane on, which should lie in no volume (Heidmann 1991).

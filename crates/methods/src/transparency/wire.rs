@@ -7,22 +7,22 @@ use serde::Deserialize;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Wire {
-    /// What is seen.
+    /// The scene.
     pub(crate) scene: SceneName,
-    /// How it is drawn.
+    /// The method.
     pub(crate) method: MethodName,
     /// Alpha of what is seen through, 0.01 to 0.99.
     pub(crate) alpha: Option<f64>,
-    /// How many thin layers there are, 1 to 64.
+    /// The number of thin layers, 1 to 64.
     pub(crate) layers: Option<u32>,
     /// By how many degrees panes are turned, 0 to 65.
     pub(crate) angle: Option<f64>,
-    /// How often is peeled, 1 to 64: dual peeling takes two layers each time. Without it, so often
+    /// The number of peels, 1 to 64: dual peeling takes two layers each time. Without it, so many
     /// that 8 layers are peeled.
     pub(crate) k: Option<u32>,
 }
 
-/// How it is drawn.
+/// The method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum MethodName {
@@ -51,7 +51,7 @@ pub(crate) enum MethodName {
     FrontToBack,
 }
 
-/// What is seen.
+/// The scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum SceneName {

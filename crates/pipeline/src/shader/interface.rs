@@ -16,7 +16,7 @@ pub struct FragmentInput<'a, R> {
     /// The values of textures 0 and 1, fetched at the fragment or sampled; zeros where the shader reads
     /// none.
     pub texels: [[R; 4]; 2],
-    /// The interpolated texture coordinates, where [`Shader::uses_uv`]; zeros elsewhere.
+    /// The interpolated texture coordinates, where [`etalon_scene::Shader::uses_uv`]; zeros elsewhere.
     pub uv: [R; 2],
     /// The parameter block.
     pub params: &'a Params,
