@@ -13,9 +13,9 @@ use crate::prepared::PreparedScene;
 use etalon_backend::{BackendError, Prepared};
 use etalon_frame::{CounterKind, Feature, Frame, TextureFormat};
 use etalon_scene::{
-    Attachment, ColorTarget, CompareFunction, Contents, Counter, CullMode, DepthBias, DepthState,
-    Draw, EarlyTests, FrontFace, Mesh, Multisample, Params, Pass, PolygonMode, PrimitiveTopology,
-    Scene, Shader, StencilFace, StencilOperation, StencilState, Vertex, Viewport,
+    Attachment, CompareFunction, Contents, Counter, DepthState, Draw, EarlyTests, Mesh, Pass,
+    PrimitiveTopology, Scene, Shader, StencilFace, StencilOperation, StencilState, Vertex,
+    Viewport,
 };
 
 /// Width and height of the attachments.
@@ -171,30 +171,12 @@ fn draw() -> Draw {
         write_mask: 0xff,
         reference: 1,
     };
+    let mesh = Mesh {
+        vertices: corners.map(vertex).to_vec(),
+        indices: None,
+    };
     Draw {
-        mesh: Mesh {
-            vertices: corners.map(vertex).to_vec(),
-            indices: None,
-        },
         topology: PrimitiveTopology::TriangleStrip,
-        shader: Shader::FlatColor,
-        params: Params::default(),
-        early_tests: EarlyTests::Implicit,
-        textures: Vec::new(),
-        sampler: None,
-        counters: Vec::new(),
-        cull: CullMode::None,
-        front_face: FrontFace::Ccw,
-        polygon_mode: PolygonMode::Fill,
-        rasterizer_discard: false,
-        viewport: Viewport {
-            rect: [0.0, 0.0, SIDE as f32, SIDE as f32],
-            depth: [0.0, 1.0],
-        },
-        scissor: None,
-        depth_bias: DepthBias::default(),
-        depth_clamp: false,
-        depth_bounds: None,
         depth: Some(DepthState {
             compare: CompareFunction::Always,
             write: true,
@@ -203,12 +185,6 @@ fn draw() -> Draw {
             front: face,
             back: face,
         }),
-        targets: vec![ColorTarget {
-            blend: None,
-            write_mask: 0xf,
-        }],
-        logic: None,
-        multisample: Multisample::default(),
-        blend_constant: [0.0; 4],
+        ..Draw::new(Shader::FlatColor, mesh, Viewport::whole([SIDE; 2]))
     }
 }
