@@ -7,6 +7,8 @@
 
 mod accumulation;
 mod anti_aliasing;
+#[cfg(test)]
+mod corners;
 mod culling;
 mod cut_outs;
 mod depth_precision;

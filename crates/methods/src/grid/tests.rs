@@ -1,19 +1,10 @@
 //! Tests of settled polygons.
 
 use super::*;
+use crate::corners::{area, corners};
 use crate::view::{View, cuboid};
 
 const SIZE: [u32; 2] = [128, 128];
-
-fn area(corners: &[DVec3]) -> f64 {
-    let next = corners.iter().cycle().skip(1);
-    let twice = corners.iter().zip(next).map(|(a, b)| a.x * b.y - b.x * a.y);
-    twice.sum::<f64>() / 2.0
-}
-
-fn corners(polygon: &Polygon) -> Vec<DVec3> {
-    polygon.corners.iter().map(|c| DVec3::from(*c)).collect()
-}
 
 #[test]
 fn settled_triangles_lie_on_the_grid_leave_no_gaps_and_touch_no_centre() {

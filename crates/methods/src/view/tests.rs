@@ -1,18 +1,9 @@
 //! Tests of clipping and projection.
 
 use super::*;
+use crate::corners::{area, corners};
 
 const SIZE: [u32; 2] = [128, 128];
-
-fn area(corners: &[DVec3]) -> f64 {
-    let next = corners.iter().cycle().skip(1);
-    let twice = corners.iter().zip(next).map(|(a, b)| a.x * b.y - b.x * a.y);
-    twice.sum::<f64>() / 2.0
-}
-
-fn corners(polygon: &Polygon) -> Vec<DVec3> {
-    polygon.corners.iter().map(|c| DVec3::from(*c)).collect()
-}
 
 /// A regular polygon, turned.
 fn disc(sides: u32, turn: f64) -> Vec<DVec3> {

@@ -7,6 +7,7 @@ use super::spread::{Times, strip};
 use crate::numbers::{change, count, duration, percent};
 use crate::page::Page;
 use crate::page::adapter::{breakable, details};
+use crate::page::origin::Origin;
 use crate::words;
 use etalon_record::{Bench, BenchRecord, Time, Verdict};
 use etalon_stats::{CONFIDENCE, MIN_ROUNDS, POWER, Summary};
@@ -52,6 +53,13 @@ fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
     let h = &bench.header;
     let untimed = figures.cases.iter().flat_map(|c| &c.untimed);
     let bad = untimed.filter(|r| verdict(r).is_bad()).count() as u64;
+    let origin = Origin {
+        started: &h.started,
+        command: &h.command,
+        machine: &h.machine,
+        etalon: &h.etalon,
+        commit: h.commit.as_deref(),
+    };
     html! {
         header {
             h1 { "etalon bench" }
@@ -66,13 +74,7 @@ fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
                 }
             }
             dl.facts {
-                dt { "Started" } dd { (h.started) }
-                dt { "Command" } dd { code { (h.command.join(" ")) } }
-                dt { "Machine" } dd { (words::machine(&h.machine)) }
-                dt { "Suite" } dd {
-                    "etalon " (h.etalon)
-                    @if let Some(commit) = &h.commit { ", commit " code { (commit) } }
-                }
+                (origin.facts())
                 dt { "Scope" } dd {
                     (count(h.cases, "case")) " (" (h.profile) ") on " (count(h.adapters.len() as u64, "adapter"))
                     ", " (count(u64::from(h.rounds), "round")) " each"

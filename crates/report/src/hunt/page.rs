@@ -3,7 +3,7 @@
 use super::summary::{areas, elsewhere};
 use crate::numbers::{count, duration};
 use crate::page::Page;
-use crate::words::machine;
+use crate::page::origin::Origin;
 use etalon_record::{AreaTally, Catch, Hunt, MutantRecord, Sighting};
 use maud::{Markup, html};
 
@@ -27,6 +27,13 @@ pub(super) fn page(hunt: &Hunt) -> String {
 
 fn head(hunt: &Hunt) -> Markup {
     let complaints: Vec<_> = hunt.complaints().collect();
+    let origin = Origin {
+        started: &hunt.started,
+        command: &hunt.command,
+        machine: &hunt.machine,
+        etalon: &hunt.etalon,
+        commit: hunt.commit.as_deref(),
+    };
     html! {
         header {
             h1 { "etalon mutants" }
@@ -42,15 +49,7 @@ fn head(hunt: &Hunt) -> Markup {
                 } }
             }
             dl.facts {
-                dt { "Started" } dd { (hunt.started) }
-                dt { "Command" } dd { code { (hunt.command.join(" ")) } }
-                dt { "Machine" } dd {
-                    (machine(&hunt.machine))
-                }
-                dt { "Suite" } dd {
-                    "etalon " (hunt.etalon)
-                    @if let Some(commit) = &hunt.commit { ", commit " code { (commit) } }
-                }
+                (origin.facts())
                 dt { "Scope" } dd {
                     (count(hunt.mutants.len() as u64, "planted bug")) ", "
                     (count(hunt.cases, "case")) ", " (duration(hunt.seconds))

@@ -19,6 +19,7 @@ mod matrix;
 use crate::chart;
 use crate::methods::{self, Methods};
 use crate::numbers::count;
+use crate::page::origin::Origin;
 use crate::page::{self, Page};
 use crate::run::grid::{Grid, Tally};
 use crate::words::{self, Tone};
@@ -91,19 +92,20 @@ fn title(run: &Run) -> String {
 
 fn head(run: &Run, methods: bool, drivers: bool) -> Markup {
     let h = &run.header;
+    let origin = Origin {
+        started: &h.started,
+        command: &h.command,
+        machine: &h.machine,
+        etalon: &h.etalon,
+        commit: h.commit.as_deref(),
+    };
     html! {
         header {
             h1 { "etalon" }
             p.lead { "Conformance of graphics drivers' per-fragment operations." }
             (state(run))
             dl.facts {
-                dt { "Started" } dd { (h.started) }
-                dt { "Command" } dd { code { (h.command.join(" ")) } }
-                dt { "Machine" } dd { (words::machine(&h.machine)) }
-                dt { "Suite" } dd {
-                    "etalon " (h.etalon)
-                    @if let Some(commit) = &h.commit { ", commit " code { (commit) } }
-                }
+                (origin.facts())
                 dt { "Scope" } dd {
                     (count(h.cases, "case")) " on " (count(h.adapters.len() as u64, "adapter"))
                     ", " (count(run.records.len() as u64, "record"))
