@@ -7,7 +7,8 @@ use crate::steps::Faithful;
 use crate::surface::depth_encoding;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
 use etalon_frame::{
-    Api, Feature, FormatSupport, Limits, ReadPath, TextureFormat, standard_sample_positions,
+    Api, ApiVersion, Feature, FormatSupport, Limits, Property, ReadPath, TextureFormat,
+    standard_sample_positions,
 };
 use etalon_scene::Scene;
 
@@ -47,6 +48,8 @@ impl CpuBackend {
             },
             limits: Limits {
                 api: Api::Vulkan,
+                version: ApiVersion::new(1, 4),
+                properties: Property::ALL.into_iter().collect(),
                 sub_pixel_bits: SUB_PIXEL_BITS,
                 max_size: 4096,
                 max_color_attachments: 8,

@@ -19,8 +19,10 @@ mod legal;
 mod limits;
 mod message;
 mod names;
+mod property;
 mod samples;
 mod story;
+mod version;
 
 pub use accuracy::Accuracy;
 pub use api::Api;
@@ -38,5 +40,7 @@ pub use legal::{
 };
 pub use limits::{FormatSupport, Limits, Requirement};
 pub use message::shortened;
+pub use property::Property;
 pub use samples::standard_sample_positions;
 pub use story::{Story, StoryLine};
+pub use version::ApiVersion;

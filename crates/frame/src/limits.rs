@@ -5,6 +5,8 @@ use crate::encoding::ChannelEncoding;
 use crate::feature::Feature;
 use crate::format::TextureFormat;
 use crate::image::ReadPath;
+use crate::property::Property;
+use crate::version::ApiVersion;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -65,6 +67,12 @@ pub struct FormatSupport {
 pub struct Limits {
     /// Whose rules bind the adapter.
     pub api: Api,
+    /// The version of the specification that binds it; 0.0 if the API has none, or the record is older.
+    #[serde(default)]
+    pub version: ApiVersion,
+    /// The promises that narrow what the specification permits.
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub properties: BTreeSet<Property>,
     /// Bits of sub-pixel precision in vertex positions; the API's minimum where it does not tell.
     pub sub_pixel_bits: u8,
     /// The largest width and height of an attachment.

@@ -314,6 +314,8 @@ mod tests {
             software: true,
             limits: Limits {
                 api: Api::OpenGl,
+                version: etalon_frame::ApiVersion::UNKNOWN,
+                properties: Default::default(),
                 sub_pixel_bits: 4,
                 max_size: 2048,
                 max_color_attachments: 8,

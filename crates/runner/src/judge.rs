@@ -98,10 +98,10 @@ impl Judge {
         let unasserted =
             record.texels.open > record.texels.total.saturating_sub(judgement.looked_at);
         record.verdict = match worst {
-            Some(Band::Fail) => Verdict::Fail,
+            Some(band) if band > Band::Imprecise => violation(band),
             _ if case.method.is_some() && (unasserted || texels == 0) => Verdict::Measured,
             _ if texels == 0 && counters == 0 => Verdict::Open,
-            Some(Band::Imprecise) => Verdict::Imprecise,
+            Some(_) => Verdict::Imprecise,
             None => Verdict::Pass,
         };
         if let Some(message) = counter_message(&record.counters) {
@@ -111,11 +111,11 @@ impl Judge {
             expected_values(case, frame, &judgement.legal, &mut record);
         }
         let mut file = None;
-        if matches!(record.verdict, Verdict::Fail | Verdict::Imprecise) {
+        if record.verdict.is_violation() || record.verdict == Verdict::Imprecise {
             if let Some(wrong) = record.wrong.first() {
                 let rules = match wrong.band {
-                    Band::Fail => Rules::of(judgement.limits.api),
                     Band::Imprecise => Rules::yardstick(&judgement.limits),
+                    _ => Rules::of(judgement.limits.api),
                 };
                 if let Some(at) = sample_of(case, wrong) {
                     let scene = judged_scene(case, index);
@@ -161,11 +161,20 @@ impl Judge {
             }
         }
         let verdict = match worst {
-            Some(Band::Fail) => Verdict::Fail,
-            Some(Band::Imprecise) => Verdict::Imprecise,
+            Some(band) => violation(band),
             None => Verdict::Pass,
         };
         Ok((verdict, first))
+    }
+}
+
+/// The verdict on a texel that left a band.
+fn violation(band: Band) -> Verdict {
+    match band {
+        Band::Imprecise => Verdict::Imprecise,
+        Band::Disputed => Verdict::Disputed,
+        Band::RequiredByCts => Verdict::RequiredByCts,
+        Band::Fail => Verdict::Fail,
     }
 }
 
@@ -175,8 +184,10 @@ fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
     // worse than an Imprecise, and a Fail, as a proof, worst of all. Within one case, an open scene takes
     // nothing from one that asserts something, and an InternalError makes a Fail beside it no proof.
     let badness = |judged: &Judged| match judged.record.verdict {
-        Verdict::InternalError => 4,
-        Verdict::Fail => 3,
+        Verdict::InternalError => 6,
+        Verdict::Fail => 5,
+        Verdict::RequiredByCts => 4,
+        Verdict::Disputed => 3,
         Verdict::Imprecise => 2,
         Verdict::Pass => 1,
         _ => 0,

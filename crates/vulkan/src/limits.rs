@@ -45,6 +45,8 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
     }
     Limits {
         api: Api::Vulkan,
+        version: device.version,
+        properties: device.properties.clone(),
         sub_pixel_bits: u8::try_from(raw.sub_pixel_precision_bits).unwrap_or(u8::MAX),
         max_size,
         max_color_attachments: raw

@@ -2,7 +2,7 @@
 
 use crate::format;
 use etalon_frame::{
-    Api, ChannelEncoding, Feature, FormatSupport, Limits, ReadPath, TextureFormat,
+    Api, ApiVersion, ChannelEncoding, Feature, FormatSupport, Limits, ReadPath, TextureFormat,
     standard_sample_positions,
 };
 use std::collections::{BTreeMap, BTreeSet};
@@ -231,6 +231,8 @@ pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abi
     let max_size = of.max_texture_dimension_2d;
     Limits {
         api: Api::WebGpu,
+        version: ApiVersion::UNKNOWN,
+        properties: BTreeSet::new(),
         sub_pixel_bits: SUB_PIXEL_BITS,
         max_size,
         max_color_attachments: of

@@ -34,6 +34,8 @@ fn header() -> Header {
             software: true,
             limits: Limits {
                 api: Api::OpenGlEs,
+                version: etalon_frame::ApiVersion::new(3, 2),
+                properties: Default::default(),
                 sub_pixel_bits: 8,
                 max_size: 4096,
                 max_color_attachments: 8,

@@ -102,7 +102,13 @@ fn status(record: &Record) -> String {
     let plain = match record.verdict {
         Verdict::Pass => "Pass",
         Verdict::Imprecise => "Warn",
-        Verdict::Fail | Verdict::Open | Verdict::ResourceError | Verdict::InternalError => "Fail",
+        Verdict::Fail
+        | Verdict::RequiredByCts
+        | Verdict::Disputed
+        | Verdict::Blocked
+        | Verdict::Open
+        | Verdict::ResourceError
+        | Verdict::InternalError => "Fail",
         Verdict::Crash | Verdict::DeviceLost => "Crash",
         Verdict::Timeout => "Timeout",
         Verdict::Flaky => "Flake",

@@ -15,7 +15,8 @@ use tabled::settings::object::Cell;
 const LISTED: usize = 20;
 
 /// Verdicts of cases without a frame to judge; one column together.
-const BROKEN: [Verdict; 6] = [
+const BROKEN: [Verdict; 7] = [
+    Verdict::Blocked,
     Verdict::Flaky,
     Verdict::Crash,
     Verdict::Timeout,
@@ -78,6 +79,22 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
     if skipped {
         let column = ("skipped", &[Verdict::Skipped][..], Color::FG_BRIGHT_BLACK);
         columns.insert(columns.len() - 1, column);
+    }
+    // Weaker grades of evidence have columns of their own, where a run has any.
+    for (name, verdict) in [
+        ("disputed", Verdict::Disputed),
+        ("required by CTS", Verdict::RequiredByCts),
+    ] {
+        let any = rows
+            .iter()
+            .any(|(_, r)| r.iter().any(|r| r.verdict == verdict));
+        if any {
+            let verdicts: &[Verdict] = match verdict {
+                Verdict::Disputed => &[Verdict::Disputed],
+                _ => &[Verdict::RequiredByCts],
+            };
+            columns.insert(3, (name, verdicts, Color::FG_RED));
+        }
     }
     if measured {
         columns.insert(1, ("measured", &[Verdict::Measured], Color::FG_BLUE));

@@ -214,7 +214,7 @@ impl<'s> AdapterRun<'s, '_> {
     }
 
     fn keeps_frame(&self, record: &Record) -> bool {
-        if matches!(record.verdict, Verdict::Fail | Verdict::Flaky) {
+        if record.verdict.is_violation() || record.verdict == Verdict::Flaky {
             return true;
         }
         let mut state = self.queue.state();

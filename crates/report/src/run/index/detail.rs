@@ -102,6 +102,8 @@ fn counters(record: &Record) -> Markup {
                         td {
                             @match counter.band {
                                 Some(Band::Fail) => "✗ illegal",
+                                Some(Band::RequiredByCts) => "⊠ forbidden by the Khronos CTS",
+                                Some(Band::Disputed) => "? forbidden by a disputed reading",
                                 Some(Band::Imprecise) => "• outside the yardstick",
                                 None if counter.is_asserted() => "legal",
                                 None => "nothing is asserted",
@@ -178,7 +180,12 @@ fn texel_row(place: &str, texel: &WrongTexel, i: usize, m: &ChannelMismatch) -> 
             @if i == 0 {
                 th rowspan=(texel.channels.len()) { (place) }
                 td rowspan=(texel.channels.len()) {
-                    (match texel.band { Band::Fail => "✗ fail", Band::Imprecise => "≈ imprecise" })
+                    (match texel.band {
+                        Band::Fail => "✗ fail",
+                        Band::RequiredByCts => "⊠ required by CTS",
+                        Band::Disputed => "? disputed",
+                        Band::Imprecise => "≈ imprecise",
+                    })
                 }
             }
             td { (channel_of(m)) }

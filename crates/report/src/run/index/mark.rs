@@ -19,6 +19,7 @@ pub(super) fn class(verdict: Verdict, tone: Tone) -> &'static str {
         (Verdict::Pass, Tone::Plain) => "p",
         (Verdict::Imprecise, Tone::Plain) => "i",
         (Verdict::Fail, Tone::Plain) => "f",
+        (Verdict::RequiredByCts | Verdict::Disputed, Tone::Plain) => "d",
         (Verdict::Open, Tone::Plain) => "o",
         (Verdict::Measured, Tone::Plain) => "n",
         (Verdict::NotSupported | Verdict::Skipped, Tone::Plain) => "u",
