@@ -5,7 +5,7 @@ use crate::rules::Rules;
 use crate::texels::Texels;
 use crate::walk::{Notes, Sample, Walk};
 use etalon_frame::{CountRange, LegalSet, LegalSetBuilder, Limits, Story, TexelSet};
-use etalon_scene::Scene;
+use etalon_scene::{Draw, Scene};
 
 /// Both bands of one scene for one possible set of limits.
 #[derive(Clone, Debug)]
@@ -19,6 +19,9 @@ pub struct Judgement {
     /// The number of judged samples of all images of one size, summed over sizes and sample counts. Of
     /// others nothing is asserted.
     pub looked_at: u64,
+    /// The rules of the legal set, with what was assumed of them.
+    pub rules: Rules,
+    pub(crate) texels: Texels,
 }
 
 /// Returns both bands of a scene, once per depth encoding that the adapter may have.
@@ -34,7 +37,8 @@ pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judg
         .alternatives(&scene.formats())
         .into_iter()
         .map(|limits| {
-            let legal = judge_some(scene, &limits, &Rules::of(limits.api), texels);
+            let rules = Rules::of(limits.api);
+            let legal = judge_some(scene, &limits, &rules, texels);
             let yardstick = judge_some(scene, &limits, &Rules::yardstick(&limits), texels);
             let groups = legal.groups.iter();
             Judgement {
@@ -44,6 +48,8 @@ pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judg
                 legal,
                 yardstick,
                 limits,
+                rules,
+                texels,
             }
         })
         .collect()
@@ -55,7 +61,12 @@ pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
     judge_some(scene, limits, rules, Texels::All)
 }
 
-fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> LegalSet {
+pub(crate) fn judge_some(
+    scene: &Scene,
+    limits: &Limits,
+    rules: &Rules,
+    texels: Texels,
+) -> LegalSet {
     let walk = Walk::new(scene, limits, rules, texels);
     let mut builder = LegalSetBuilder::default();
     for index in &scene.read {
@@ -145,7 +156,18 @@ fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> 
 /// permission that was used.
 pub fn explain(scene: &Scene, limits: &Limits, rules: &Rules, at: Sample) -> Story {
     let mut story = Story::default();
-    let texels = Texels::One([at.x, at.y]);
+    // A sampler may read what was drawn to other texels.
+    let samples = |draw: &Draw| draw.sampler.is_some();
+    let texels = match scene
+        .passes
+        .iter()
+        .skip(1)
+        .flat_map(|p| &p.draws)
+        .any(samples)
+    {
+        true => Texels::All,
+        false => Texels::One([at.x, at.y]),
+    };
     Walk::new(scene, limits, rules, texels).sample(at, Some(&mut story));
     story
 }

@@ -11,6 +11,7 @@ mod context;
 mod counting;
 mod coverage;
 mod depth;
+mod fit;
 mod fragment;
 mod interval;
 mod judge;

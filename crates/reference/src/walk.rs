@@ -21,7 +21,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 /// One sample of the attachments of one shape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Sample {
     /// The attachments' width and height.
     pub size: [u32; 2],
@@ -37,8 +37,8 @@ pub struct Sample {
 
 pub(crate) type Worlds = SmallVec<[World; 2]>;
 
-/// Worlds by samples per texel, sample and passes; `None` if the sample is open.
-type Known = HashMap<(u32, u32, usize), Option<Rc<Worlds>>>;
+/// Worlds by sample and passes; `None` if the sample is open.
+type Known = HashMap<(Sample, usize), Option<Rc<Worlds>>>;
 
 /// True if a texel lies inside a draw's scissor rectangle.
 fn in_scissor(draw: &Draw, at: Sample) -> bool {
@@ -53,7 +53,9 @@ pub(crate) struct Walk<'a> {
     /// Per pass and draw.
     setups: Vec<Vec<DrawSetup>>,
     pub(crate) units: i64,
-    /// The samples of the current texel after some passes, as far as they were needed.
+    /// The judged texels.
+    pub(crate) texels: Texels,
+    /// The samples after some passes that the current texel needed.
     known: RefCell<Known>,
 }
 
@@ -143,14 +145,15 @@ impl<'a> Walk<'a> {
             rules,
             setups,
             units: units_per_texel(limits),
+            texels,
             known: RefCell::default(),
         }
     }
 
-    /// Returns another sample of the current texel after the first passes; `None` if it is open. Cached,
-    /// since passes that read or resolve earlier ones need the same repeatedly.
+    /// Returns another sample after the first passes; `None` if it is open. Cached, since passes that read
+    /// or resolve earlier ones need the same repeatedly.
     pub(crate) fn earlier(&self, at: Sample, passes: usize) -> Option<Rc<Worlds>> {
-        let key = (at.samples, at.sample, passes);
+        let key = (at, passes);
         if let Some(known) = self.known.borrow().get(&key) {
             return known.clone();
         }
@@ -391,7 +394,7 @@ impl<'a> Walk<'a> {
     }
 }
 
-fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {
+pub(crate) fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {
     let format = scene.attachments[attachment].format;
     let of = |encodings: &[ChannelEncoding]| encodings.first().copied();
     limits

@@ -1,5 +1,6 @@
 //! Worlds: the consistent stories of one sample.
 
+use crate::primitive::VertexId;
 use etalon_frame::CodeInterval;
 use smallvec::SmallVec;
 
@@ -35,8 +36,8 @@ pub(crate) struct Decision {
     /// The draw, counted over the scene. The invariance rules do not reach across draws whose state
     /// differs, so neither does a choice.
     pub(crate) draw: u32,
-    /// The positions, the lower number first.
-    pub(crate) ends: (u64, u64),
+    /// The positions, the lower one first.
+    pub(crate) ends: (VertexId, VertexId),
     /// The primitive, where the rules let each decide for itself.
     pub(crate) owner: Option<u32>,
 }

@@ -47,11 +47,12 @@ pub(super) fn rules() -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1e9),
-                unorm: (0.999, 1e9),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 1e9)],
+                unorm: &[(0.999, 1e9)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
-            "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
+            "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa (2.3.4.2 counts 10 in a 16-bit float, so 23)",
         ),
         depth_range: permit(
             DepthRange::Unit,

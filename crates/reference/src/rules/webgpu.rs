@@ -45,11 +45,14 @@ pub(super) fn rules() -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1.001),
-                unorm: (0.999, 2.001),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 1.001)],
+                unorm: &[(0.999, 2.001)],
+                // As Vulkan, Direct3D and Metal have it, or by the letter: 2^(exponent - r) with r the
+                // least positive float, which is 2^exponent.
+                float: &[(0.999, 1.001), (0.999 * 8_388_608.0, 1.001 * 8_388_608.0)],
+                assumed: None,
             },
-            "WebGPU: GPUDepthStencilState, biased fragment depth: r is the least positive value of a unorm format; which one depth24plus is, and the float unit, are not told, so as Vulkan has them",
+            "WebGPU: GPUDepthStencilState, biased fragment depth: r is the least positive value of a unorm format; which one depth24plus is, is not told, so as Vulkan has it; of floats 2^(e-23), or 2^e as the text says by its letter (gpuweb#6350)",
         ),
         depth_range: permit(
             DepthRange::ViewportIfWritten,

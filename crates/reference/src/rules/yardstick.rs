@@ -43,9 +43,10 @@ pub(super) fn rules(api: Api) -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1.001),
-                unorm: (0.999, 1.001),
-                float: (0.999, 1.001),
+                unorm16: &[(0.999, 1.001)],
+                unorm: &[(0.999, 1.001)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
             "Direct3D 11.3: 15.10 Depth Bias: 1/2^n, for floats 2^(e-23)",
         ),
