@@ -46,14 +46,16 @@ enum Palette {
     /// Values between two codes that differ in the last bit alone, at 8 and at 10 bits: a logic operation
     /// carries no more than that bit into the result.
     Bits,
-    /// Sums of powers of two, exact in floats; textures hold such values too.
+    /// Exact in floats, as are their products, and of different factors, so that few differences are
+    /// nearly 0 and so small that many codes are legal; textures hold such values too.
     Float,
 }
 
 impl Palette {
     const fn values(self) -> [f64; 6] {
         match self {
-            Self::Normalized | Self::Float => [0.0, 0.25, 0.375, 0.625, 0.75, 1.0],
+            Self::Normalized => [0.0, 0.25, 0.375, 0.625, 0.75, 1.0],
+            Self::Float => [0.0, 0.4375, 0.8125, 1.0, 1.375, 2.125],
             Self::Bits => [0.0, 0.11, 0.3, 0.62, 0.81, 1.0],
         }
     }
@@ -61,7 +63,10 @@ impl Palette {
     /// Returns a value near an 8-bit code that a 16-bit float holds.
     fn near(self, code: u32) -> f64 {
         match self {
-            Self::Normalized | Self::Float => f64::from((code + 16) / 32) / 8.0,
+            Self::Normalized | Self::Float => {
+                let values = self.values();
+                values[code as usize * values.len() / 256]
+            }
             Self::Bits => {
                 let between = |most: f64, v: f64| {
                     let at = v * most;
@@ -117,6 +122,7 @@ pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
         samples,
         extra,
         palette,
+        whole_alpha: color == "rgb10a2unorm",
         reference: dice.range(1, 200),
         dice,
     };
@@ -144,6 +150,9 @@ struct Maker {
     samples: u32,
     extra: Extra,
     palette: Palette,
+    /// True if alpha is 0 or 1: of two bits, all between would be legal as thirds, and as a factor carry
+    /// that into the colours.
+    whole_alpha: bool,
     /// One reference for all draws of a scene or none would ever be equal.
     reference: u32,
     dice: Dice,
@@ -278,6 +287,9 @@ impl Maker {
         if self.samples > 1 {
             color[3] = *self.dice.of(&[0.0, 1.0, 1.0]);
         }
+        if self.whole_alpha {
+            color[3] = color[3].round();
+        }
         json!(color)
     }
 
@@ -288,6 +300,9 @@ impl Maker {
                 let mut texel = [0; 4].map(|_: u32| self.dice.range(0, 255));
                 if !one_sample {
                     texel[3] = *self.dice.of(&[0, 255]);
+                }
+                if self.whole_alpha {
+                    texel[3] = texel[3] / 128 * 255;
                 }
                 texel
             })
