@@ -5,6 +5,8 @@
 //! only if all parts are.
 
 use crate::judge::{Judgement, judge_some};
+use crate::rules::Rules;
+use crate::texels::Texels;
 use crate::walk::depth_encoding;
 use etalon_frame::{ChannelEncoding, Frame, FrameError, LegalSet, Limits, compare};
 use etalon_scene::Scene;
@@ -16,10 +18,13 @@ const NARROW: f64 = 2e-5;
 /// The most legal sets of one search. A search that ends early refuses nothing.
 const MOST_SETS: u32 = 160;
 
-/// A judgement under a part of the steps, and the number of samples that it refuses.
-struct Candidate {
-    judgement: Judgement,
-    wrong: u64,
+/// Rules with the step of depth bias that a frame shows, and the legal set under it.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// The rules.
+    pub rules: Rules,
+    /// The values that they allow.
+    pub legal: LegalSet,
 }
 
 impl Judgement {
@@ -29,66 +34,78 @@ impl Judgement {
     /// # Errors
     /// If the frame is not one of the scene.
     pub fn fitted(&self, scene: &Scene, frame: &Frame) -> Result<Cow<'_, Self>, FrameError> {
-        let Some(encoding) = biased_encoding(scene, &self.limits) else {
-            return Ok(Cow::Borrowed(self));
-        };
-        if wrong(&self.legal, frame)? > 0 {
-            return Ok(Cow::Borrowed(self));
-        }
-        let is_fixed = matches!(encoding, ChannelEncoding::Unorm(_));
-        let mut parts = self.rules.depth_bias_unit.value.readings(encoding).to_vec();
-        if !is_fixed && parts.len() < 2 {
-            return Ok(Cow::Borrowed(self));
-        }
-        // The last is tried first: before the whole range the usual steps, 2^-n and twice that.
-        parts.reverse();
-        if is_fixed {
-            let usual =
-                [2.0, 1.0].map(|v: f64| (v * (1.0 - NARROW / 2.0), v * (1.0 + NARROW / 2.0)));
-            let whole = parts.clone();
-            let legal = usual
-                .into_iter()
-                .filter(|u| whole.iter().any(|p| p.0 <= u.0 && u.1 <= p.1));
-            parts.extend(legal);
-        }
-        let mut best: Option<Candidate> = None;
-        let mut sets = 0;
-        while let Some(part) = parts.pop() {
-            if sets == MOST_SETS {
-                return Ok(Cow::Borrowed(self));
-            }
-            sets += 1;
-            let candidate = self.under(scene, frame, part)?;
-            let is_narrow = !is_fixed || part.1 <= part.0 * (1.0 + NARROW);
-            match (candidate.wrong, is_narrow) {
-                (0, true) => return Ok(Cow::Owned(candidate.judgement)),
-                (0, false) => {
-                    let middle = middle(part);
-                    parts.extend([(middle, part.1), (part.0, middle)]);
-                }
-                _ => {
-                    if best.as_ref().is_none_or(|b| candidate.wrong < b.wrong) {
-                        best = Some(candidate);
-                    }
-                }
-            }
-        }
-        Ok(best.map_or(Cow::Borrowed(self), |b| Cow::Owned(b.judgement)))
+        let (limits, texels) = (&self.limits, self.texels);
+        let found = fit(scene, limits, &self.rules, texels, &self.legal, frame)?;
+        Ok(match found {
+            None => Cow::Borrowed(self),
+            Some(Fitted { rules, legal }) => Cow::Owned(Self {
+                rules,
+                legal,
+                yardstick: self.yardstick.clone(),
+                limits: limits.clone(),
+                ..*self
+            }),
+        })
     }
+}
 
-    /// Returns the judgement under some of the steps.
-    fn under(
-        &self,
-        scene: &Scene,
-        frame: &Frame,
-        part: (f64, f64),
-    ) -> Result<Candidate, FrameError> {
-        let mut judgement = self.clone();
-        judgement.rules.depth_bias_unit.value.assumed = Some(part);
-        judgement.legal = judge_some(scene, &self.limits, &judgement.rules, self.texels);
-        let wrong = wrong(&judgement.legal, frame)?;
-        Ok(Candidate { judgement, wrong })
+/// Returns the rules and the legal set under the step of depth bias that a frame of a scene shows; `None`
+/// if the scene leaves no step open, or the set that leaves it open refuses the frame.
+///
+/// # Errors
+/// If the frame is not one of the scene.
+pub fn fit(
+    scene: &Scene,
+    limits: &Limits,
+    rules: &Rules,
+    texels: Texels,
+    legal: &LegalSet,
+    frame: &Frame,
+) -> Result<Option<Fitted>, FrameError> {
+    let Some(encoding) = biased_encoding(scene, limits) else {
+        return Ok(None);
+    };
+    let is_fixed = matches!(encoding, ChannelEncoding::Unorm(_));
+    // The last is tried first.
+    let mut parts: Vec<_> = rules.depth_bias_unit.value.readings(encoding).to_vec();
+    parts.reverse();
+    if (!is_fixed && parts.len() < 2) || wrong(legal, frame)? > 0 {
+        return Ok(None);
     }
+    if is_fixed {
+        // Before the whole range the usual steps, 2^-n and twice that.
+        let usual = [2.0, 1.0].map(|v: f64| (v * (1.0 - NARROW / 2.0), v * (1.0 + NARROW / 2.0)));
+        let whole = parts.clone();
+        let is_legal = |u: &(f64, f64)| whole.iter().any(|p| p.0 <= u.0 && u.1 <= p.1);
+        parts.extend(usual.into_iter().filter(is_legal));
+    }
+    let mut best: Option<(u64, Fitted)> = None;
+    let mut sets = 0;
+    while let Some(part) = parts.pop() {
+        if sets == MOST_SETS {
+            return Ok(None);
+        }
+        sets += 1;
+        let mut rules = rules.clone();
+        rules.depth_bias_unit.value.assumed = Some(part);
+        let legal = judge_some(scene, limits, &rules, texels);
+        let refused = wrong(&legal, frame)?;
+        let fitted = Fitted { rules, legal };
+        let is_narrow = !is_fixed || part.1 <= part.0 * (1.0 + 2.0 * NARROW);
+        match (refused, is_narrow) {
+            (0, true) => return Ok(Some(fitted)),
+            (0, false) => {
+                let middle = middle(part);
+                parts.extend([(middle, part.1), (part.0, middle)]);
+            }
+            _ => {
+                if best.as_ref().is_none_or(|(least, _)| refused < *least) {
+                    best = Some((refused, fitted));
+                }
+            }
+        }
+    }
+    Ok(best.map(|(_, fitted)| fitted))
 }
 
 /// Returns the encoding of the depth attachment that constant biases act on; `None` if there is none,

@@ -28,8 +28,9 @@ mod texels;
 mod walk;
 mod world;
 
+pub use fit::{Fitted, fit};
 pub use interval::Interval;
-pub use judge::{Judgement, explain, judge, judgements, judgements_of};
+pub use judge::{Judgement, explain, judge, judge_some, judgements, judgements_of};
 pub use judging::{Judging, Range};
 pub use rules::{Permission, Rules};
 pub use texels::Texels;
