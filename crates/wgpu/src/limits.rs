@@ -27,7 +27,6 @@ pub(crate) fn used_features() -> Features {
         | Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
         | Features::DUAL_SOURCE_BLENDING
         | Features::DEPTH_CLIP_CONTROL
-        | Features::POLYGON_MODE_LINE
         | Features::PIPELINE_STATISTICS_QUERY
         | Features::SHADER_EARLY_DEPTH_TEST
 }
@@ -198,10 +197,8 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
             Feature::IndependentBlend,
             flag(DownlevelFlags::INDEPENDENT_BLEND),
         ),
-        (
-            Feature::PolygonModeLine,
-            feature(Features::POLYGON_MODE_LINE),
-        ),
+        // WebGPU has no polygon modes; a native feature of wgpu answers to no text.
+        (Feature::PolygonModeLine, false),
         (
             Feature::SampleShading,
             flag(DownlevelFlags::MULTISAMPLED_SHADING),
