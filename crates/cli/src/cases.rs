@@ -54,6 +54,14 @@ pub(crate) fn build(
         .collect()
 }
 
+/// Returns the round trips that cases lean on: those of the folder, and built-in ones where it holds none.
+pub(crate) fn round_trips(folder: Option<&PathBuf>, cases: &[Case]) -> Result<Vec<Case>, Failure> {
+    let own = folder.map(|_| library(folder)).transpose()?;
+    let built_in = library(None)?;
+    let libraries: Vec<&Library> = own.iter().chain([&built_in]).collect();
+    etalon_runner::round_trips(&libraries, cases).map_err(Failure::usage)
+}
+
 /// Returns the ids of all cases.
 pub(crate) fn ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
     let library = library(cases)?;

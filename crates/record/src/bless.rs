@@ -47,12 +47,19 @@ impl Expectations {
             if !record.unexpected() {
                 continue;
             }
+            // It is expected as soon as its round trip is.
+            let follows = record.blocked_by.iter().any(|id| {
+                let mut all = run.records.iter();
+                all.any(|r| r.adapter == record.adapter && r.case == *id)
+            });
             if !record.verdict.is_bad() {
                 blessing.unblessed += 1;
-            } else if !matches!(
-                self.look_up(adapter, &record.case, record.verdict),
-                Expectation::Agrees(_)
-            ) {
+            } else if !follows
+                && !matches!(
+                    self.look_up(adapter, &record.case, record.verdict),
+                    Expectation::Agrees(_)
+                )
+            {
                 new.push(entry(record, adapter, run, today));
             }
         }
@@ -189,6 +196,23 @@ mod tests {
         // Blessed once, there is nothing more to bless.
         let again = run(&[("a/x=*", Verdict::Fail), ("a/z", Verdict::Flaky)], &after);
         assert_eq!(after.bless(&again, &[], true, "d").added, 0);
+    }
+
+    #[test]
+    fn what_is_blocked_follows_its_round_trip() {
+        let none = Expectations::default();
+        let mut seen = run(
+            &[("a/trip", Verdict::Fail), ("b/x", Verdict::Blocked)],
+            &none,
+        );
+        seen.records[1].blocked_by = vec!["a/trip".to_owned()];
+        let blessing = none.bless(&seen, &[], true, "d");
+        let cases: Vec<&str> = blessing.entries.iter().map(|e| e.case.as_str()).collect();
+        assert_eq!(cases, ["a/trip"]);
+        // Without it in the run, the case has to speak for itself.
+        seen.records.remove(0);
+        let blessing = none.bless(&seen, &[], true, "d");
+        assert_eq!(blessing.entries[0].verdict, Verdict::Blocked);
     }
 
     #[test]

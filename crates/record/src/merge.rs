@@ -2,7 +2,7 @@
 
 use crate::error::RecordError;
 use crate::folder::MISSING_FILE;
-use crate::header::Header;
+use crate::header::{FORMAT, Header};
 use crate::paths::below;
 use crate::record::Record;
 use crate::report_files::ReportFiles;
@@ -196,6 +196,7 @@ fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError
         let whole = match &mut whole {
             None => {
                 let mut begun = header.clone();
+                begun.format = FORMAT;
                 begun.settings.shard = None;
                 begun.adapters.clear();
                 begun.absent.clear();

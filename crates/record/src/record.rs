@@ -75,6 +75,9 @@ pub struct Record {
     /// alone, the case has a better one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub after: Vec<String>,
+    /// The round trips that failed, for which a Blocked case was not drawn.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub blocked_by: Vec<String>,
 }
 
 /// The way in which a process was lost.
@@ -136,6 +139,7 @@ impl Record {
             validation: Vec::new(),
             repeats: Vec::new(),
             after: Vec::new(),
+            blocked_by: Vec::new(),
         }
     }
 

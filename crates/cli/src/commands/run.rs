@@ -2,7 +2,7 @@
 
 use crate::adapters::{Adapters, Query, cache, discover, refuse_absent, take_unstarted};
 use crate::blessing::{bless, to_bless};
-use crate::cases::{chosen, is_measuring};
+use crate::cases::{chosen, is_measuring, round_trips};
 use crate::expectations::{self, today};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, Format};
@@ -107,6 +107,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         cases.retain(|case| measuring_alone || !is_measuring(case));
     }
     let selection: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
+    let round_trips = round_trips(arguments.selection.cases.as_ref(), &cases)?;
     let shard = shard::chosen(arguments.shard)?;
     if let Some(shard) = shard {
         cases.retain(|case| shard_of(&case.id, shard.count) == shard.index);
@@ -154,6 +155,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let plan = Plan {
         reports: report_files::RUN,
         cases: &cases,
+        round_trips: &round_trips,
         selection: Some(&selection),
         adapters: adapters.ready,
         dead,

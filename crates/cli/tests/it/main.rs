@@ -15,6 +15,7 @@ mod methods;
 mod mutants;
 mod parts;
 mod read_faults;
+mod round_trips;
 mod runs;
 mod sample;
 mod survive;

@@ -7,11 +7,12 @@
 //! - a right verdict (Pass, Imprecise, Measured; for a selftest that is due to fail: Fail) that became a
 //!   wrong one (all bad verdicts, Open among them), and a wrong one that became one of a greater
 //!   [`Verdict::severity`](etalon_record::Verdict::severity), expected or not;
+//! - a case that was drawn, right or wrong, and is Blocked;
 //! - a case that was right and is not supported any more;
 //! - a case that the second run was to draw, being of the same selection, and holds no record of.
 //!
 //! *Better* is the way back: wrong to right or to a smaller severity, not supported to right. All else is
-//! neither: Pass to Imprecise, which is legal; wrong to not supported; right to skipped, which is
+//! neither: Pass to Imprecise, which is legal; Blocked to wrong, which may have been so before; wrong to not supported; right to skipped, which is
 //! intended; a case of another selection; and other pixels, counters or distances under the same verdict.
 //! Times decide nothing, since a run's are taken once and beside other work.
 

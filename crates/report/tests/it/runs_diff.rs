@@ -95,6 +95,26 @@ fn each_planted_change_is_found_as_what_it_is() {
 }
 
 #[test]
+fn of_a_blocked_case_nothing_is_known() {
+    let direction = |[before, after]: [Verdict; 2]| {
+        let two = Two::new();
+        let record = |verdict| [Record::new("blend/f/case=2", "gl:a", verdict)];
+        record_all(&two.before(), &one_adapter(1), &record(before));
+        record_all(&two.after(), &one_adapter(1), &record(after));
+        two.diff().changes[0].direction
+    };
+    let blocked = Verdict::Blocked;
+    for drawn in [Verdict::Pass, Verdict::Open, Verdict::Crash, Verdict::Fail] {
+        assert_eq!(direction([drawn, blocked]), Direction::Worse, "{drawn}");
+        let back = match drawn {
+            Verdict::Pass => Direction::Better,
+            _ => Direction::Other,
+        };
+        assert_eq!(direction([blocked, drawn]), back, "{drawn}");
+    }
+}
+
+#[test]
 fn times_messages_and_stories_are_no_change() {
     let same = planted(|r| {
         r.seconds.draw = 3.0;
