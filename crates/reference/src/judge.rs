@@ -1,10 +1,14 @@
 //! Legal sets and stories: the walk, over all samples in both bands or over one.
 
 use crate::counting::Tally;
+use crate::notes::{Note, Notes};
 use crate::rules::Rules;
 use crate::texels::Texels;
-use crate::walk::{Notes, Sample, Walk};
-use etalon_frame::{CountRange, LegalSet, LegalSetBuilder, Limits, Story, TexelSet};
+use crate::verdict::verdict;
+use crate::walk::{Sample, Walk};
+use etalon_frame::{
+    CountRange, Frame, LegalSet, LegalSetBuilder, Limits, Story, StoryLine, TexelSet,
+};
 use etalon_scene::Scene;
 
 /// Both bands of one scene for one possible set of limits.
@@ -141,13 +145,34 @@ fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> 
     builder.build()
 }
 
-/// Returns the story of one sample: every operation on it with its outcome and the citation of each
-/// permission that was used.
-pub fn explain(scene: &Scene, limits: &Limits, rules: &Rules, at: Sample) -> Story {
-    let mut story = Story::default();
-    let texels = Texels::One([at.x, at.y]);
-    Walk::new(scene, limits, rules, texels).sample(at, Some(&mut story));
-    story
+/// Returns the story of one sample: the verdict in one sentence, then every operation on it with its
+/// outcome and the citation of each permission that was used, and every draw and primitive that ends
+/// before it with its clause. With the frame that a driver returned, the verdict tells what came back.
+pub fn explain(
+    scene: &Scene,
+    limits: &Limits,
+    rules: &Rules,
+    at: Sample,
+    frame: Option<&Frame>,
+) -> Story {
+    let (mut lines, notes) = told(scene, limits, rules, at, frame);
+    lines.extend(notes.into_iter().map(|note| note.line));
+    Story { lines }
+}
+
+fn told(
+    scene: &Scene,
+    limits: &Limits,
+    rules: &Rules,
+    at: Sample,
+    frame: Option<&Frame>,
+) -> (Vec<StoryLine>, Vec<Note>) {
+    let walk = Walk::new(scene, limits, rules, Texels::One([at.x, at.y]));
+    let mut notes = Vec::new();
+    let set = walk.sample(at, &mut notes);
+    let initial = walk.initial(at, &mut Notes(None));
+    let verdict = verdict(&walk, at, &set, &initial, &notes, frame);
+    (vec![verdict], notes)
 }
 
 #[cfg(test)]

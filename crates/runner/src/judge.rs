@@ -2,14 +2,15 @@
 
 use crate::expected_values::expected_values;
 use crate::frame_file::frame_file;
-use crate::judgement_cache::{JudgementCache, judged_scene};
+use crate::judgement_cache::JudgementCache;
 use crate::relation::{self, Differences};
+use crate::story;
 use etalon_case::{Case, Relation};
 use etalon_frame::{
     Aspect, AspectStatistics, Band, Comparison, CounterOutcome, Frame, Limits, WrongTexel, compare,
 };
 use etalon_record::{Assertion, FrameFile, MAX_WRONG_TEXELS, Record, Verdict};
-use etalon_reference::{Judgement, Rules, Sample, explain};
+use etalon_reference::{Judgement, Rules, Sample};
 
 /// Judges frames; legal sets are cached by case and limits, so that adapters share them.
 #[derive(Debug, Default)]
@@ -57,6 +58,7 @@ impl Judge {
             && judged.record.verdict != Verdict::InternalError
         {
             let found = relation::check(relation, case, frames);
+            story::tell_relation(&mut judged.record, case, relation, limits, (frames, &found));
             note_differences(&mut judged.record, relation, limits, found);
         }
         judged
@@ -118,8 +120,9 @@ impl Judge {
                     _ => Rules::of(judgement.limits.api),
                 };
                 if let Some(at) = sample_of(case, wrong) {
-                    let scene = judged_scene(case, index);
-                    record.story = Some(explain(scene, &judgement.limits, &rules, at));
+                    let by = (&judgement.limits, &rules);
+                    let came = (Some(frame), Some(wrong.band));
+                    record.story = Some(story::story_of_sample(case, index, by, at, came));
                 }
             }
             file = Some(frame_file(case, adapter, frame, judgement, record.verdict));

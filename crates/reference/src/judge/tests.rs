@@ -132,7 +132,7 @@ fn a_story_names_operations_and_citations() {
         y: 1,
         sample: 0,
     };
-    let story = explain(&scene, &limits, &Rules::of(Api::Vulkan), at);
+    let story = explain(&scene, &limits, &Rules::of(Api::Vulkan), at, None);
     let test = story
         .lines
         .iter()
