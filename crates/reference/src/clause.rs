@@ -78,7 +78,7 @@ impl Rejection {
         topology: PrimitiveTopology,
     ) -> String {
         match self {
-            Self::AlphaToCoverage => return rules.alpha_to_coverage.to_owned(),
+            Self::AlphaToCoverage => return rules.alpha_to_coverage.citation.to_owned(),
             Self::Stencil => return rules.stencil.to_owned(),
             _ => {}
         }
@@ -236,23 +236,20 @@ enum Edition {
 }
 
 impl Edition {
+    // The same texts as the rules': see `Rules::of`.
     fn of_opengl(version: ApiVersion) -> (&'static str, Self) {
-        if version == ApiVersion::UNKNOWN || version >= ApiVersion::new(4, 6) {
-            ("OpenGL 4.6", Self::Gl46)
-        } else if version >= ApiVersion::new(4, 3) {
-            ("OpenGL 4.5", Self::Gl45)
-        } else {
-            ("OpenGL 3.3", Self::Gl33)
+        match (version.major, version.minor) {
+            (3, _) | (4, 0 | 1) => ("OpenGL 3.3", Self::Gl33),
+            (4, 2..=5) => ("OpenGL 4.5", Self::Gl45),
+            _ => ("OpenGL 4.6", Self::Gl46),
         }
     }
 
     fn of_opengl_es(version: ApiVersion) -> (&'static str, Self) {
-        if version == ApiVersion::UNKNOWN || version >= ApiVersion::new(3, 2) {
-            ("OpenGL ES 3.2", Self::Es32)
-        } else if version == ApiVersion::new(3, 1) {
-            ("OpenGL ES 3.1", Self::Es31)
-        } else {
-            ("OpenGL ES 3.0", Self::Es30)
+        match (version.major, version.minor) {
+            (3, 0) => ("OpenGL ES 3.0", Self::Es30),
+            (3, 1) => ("OpenGL ES 3.1", Self::Es31),
+            _ => ("OpenGL ES 3.2", Self::Es32),
         }
     }
 }

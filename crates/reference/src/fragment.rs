@@ -5,7 +5,7 @@ use crate::interval::Interval;
 use crate::judging::{Judging, Range};
 use crate::notes::{Effect, Notes};
 use crate::primitive::Shape;
-use crate::rules::{DepthOrder, DepthRange, EarlyUpdates, SameDepth};
+use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, SameDepth};
 use crate::walk::{Place, Walk};
 use crate::world::{Cell, Event, World};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, CounterKind};
@@ -66,30 +66,49 @@ impl Walk<'_> {
         if draw.early_tests == EarlyTests::Forced {
             let incoming = self.in_range(place, own_depth, Source::Own);
             if masked {
-                // The sample mask comes before all tests; its order against counting alone is open.
-                let outcomes = self.tests(place, world.clone(), front, incoming, notes);
+                // The order of the sample mask against counting is open; against the tests, the rules
+                // tell.
+                let mut silent = Notes(None);
+                let told = match self.rules.mask_acts_first.value {
+                    true => &mut silent,
+                    false => &mut *notes,
+                };
+                let outcomes = self.tests(place, world.clone(), front, incoming, told);
                 if outcomes.iter().any(|(_, passes)| *passes) {
                     self.count(place, &mut world, false, |_| true);
+                }
+                if !self.rules.mask_acts_first.value {
+                    for (mut outcome, passes) in outcomes {
+                        if passes {
+                            outcome.events.clone_from(&world.events);
+                            self.write_depth(place, &mut outcome, incoming, notes);
+                        }
+                        result.push(outcome);
+                    }
                 }
                 result.push(world);
                 return;
             }
-            for (outcome, passes) in self.tests(place, world.clone(), front, incoming, notes) {
+            for (mut outcome, passes) in self.tests(place, world.clone(), front, incoming, notes) {
                 if passes {
                     let worlds = [&world, &outcome];
                     self.early_fragment(place, worlds, &output, incoming, covered, result, notes);
                 } else {
+                    if !self.rules.skips_rejected.value {
+                        self.run(place, &mut outcome, false);
+                    }
                     result.push(outcome);
                 }
             }
             return;
         }
-        self.count(place, &mut world, !masked, |kind| {
-            kind == CounterKind::ShaderRuns
-        });
-        let (can, must) = covered;
+        // A fragment that contributes nothing asks for a run only where the rules say so.
+        let asks = !masked && self.rules.runs_for_discarded.value;
+        let (can, must) = (covered.can(), covered.must());
         if !must {
-            result.push(world.clone());
+            let mut lost = world.clone();
+            self.run(place, &mut lost, asks);
+            result.push(lost);
             if !can {
                 return;
             }
@@ -100,6 +119,8 @@ impl Walk<'_> {
         };
         let incoming = self.in_range(place, output.depth.unwrap_or(own_depth), source);
         for (mut outcome, passes) in self.tests(place, world, front, incoming, notes) {
+            let contributes = passes && self.contributes(place);
+            self.run(place, &mut outcome, asks || (!masked && contributes));
             if passes {
                 self.count(place, &mut outcome, true, CounterKind::is_occlusion);
                 self.write_depth(place, &mut outcome, incoming, notes);
@@ -157,6 +178,30 @@ impl Walk<'_> {
         output
     }
 
+    /// True if a fragment that passes its tests changes an attachment.
+    fn contributes(&self, place: Place<'_>) -> bool {
+        let pass = &self.scene.passes[place.pass];
+        let depth = pass.depth_stencil.is_some() && place.draw.depth.is_some_and(|d| d.write);
+        let mut targets = pass.color.iter().zip(&place.draw.targets);
+        depth || targets.any(|(_, target)| target.write_mask != 0)
+    }
+
+    /// Adds a run of the shader for a fragment; `certain` if the rules demand it. Where a later fragment
+    /// may take away the need of earlier ones, theirs are certain no longer.
+    fn run(&self, place: Place<'_>, world: &mut World, certain: bool) {
+        if certain && !self.rules.runs_for_overwritten.value && self.contributes(place) {
+            for event in &mut world.events {
+                let kind = self.scene.counters[usize::from(event.counter)].kind;
+                if kind == CounterKind::ShaderRuns {
+                    event.certain = false;
+                }
+            }
+        }
+        self.count(place, world, certain, |kind| {
+            kind == CounterKind::ShaderRuns
+        });
+    }
+
     /// Returns whether the shader, the sample mask and alpha to coverage can keep the sample, and whether
     /// they must.
     fn covered_after_shading(
@@ -164,7 +209,7 @@ impl Walk<'_> {
         place: Place<'_>,
         output: &FragmentOutput<Range>,
         notes: &mut Notes<'_>,
-    ) -> (bool, bool) {
+    ) -> Covered {
         let (kept_can, kept_must) = match output.kept {
             None => (true, true),
             Some(kept) => {
@@ -192,7 +237,10 @@ impl Walk<'_> {
         let (sample, alpha) = (place.at.sample, output.color[3]);
         let (can, must) = self.sample_passes(place, alpha);
         if state.mask & (1 << sample) == 0 {
-            self.note_rejection(notes, place, Rejection::SampleMask, true, &|| {
+            // Whether forced early tests come before the mask is for the rules to say.
+            let forced = place.draw.early_tests == EarlyTests::Forced;
+            let certain = !forced || self.rules.mask_acts_first.value;
+            self.note_rejection(notes, place, Rejection::SampleMask, certain, &|| {
                 format!(
                     "the sample mask {:#x} leaves sample {sample} out",
                     state.mask
@@ -209,7 +257,10 @@ impl Walk<'_> {
                 }
             });
         }
-        (kept_can && can, kept_must && must)
+        Covered {
+            kept: (kept_can, kept_must),
+            coverage: (can, must),
+        }
     }
 
     /// A fragment that passed forced early tests: one that the shader then discards may still have
@@ -224,22 +275,22 @@ impl Walk<'_> {
         [before, tested]: [&World; 2],
         output: &FragmentOutput<Range>,
         incoming: Incoming,
-        (can, must): (bool, bool),
+        covered: Covered,
         result: &mut SmallVec<[World; 2]>,
         notes: &mut Notes<'_>,
     ) {
         let mut passed = tested.clone();
-        self.count(place, &mut passed, true, |kind| {
-            kind == CounterKind::ShaderRuns
-        });
-        if can {
-            let mut kept = passed.clone();
+        self.run(place, &mut passed, self.rules.runs_for_discarded.value);
+        if covered.can() {
+            let mut kept = tested.clone();
+            let asks = self.rules.runs_for_discarded.value || self.contributes(place);
+            self.run(place, &mut kept, asks);
             self.count(place, &mut kept, true, CounterKind::is_occlusion);
             self.write_depth(place, &mut kept, incoming, notes);
             self.write_colors(place, &mut kept, output, notes);
             result.push(kept);
         }
-        if must {
+        if covered.must() {
             return;
         }
         notes.add(
@@ -253,7 +304,11 @@ impl Walk<'_> {
         let mut updated = passed.clone();
         self.write_depth(place, &mut updated, incoming, notes);
         result.push(updated);
-        if self.rules.early_updates.value == EarlyUpdates::Either {
+        let may_not_happen =
+            |lost: bool, updates: EarlyUpdates| lost && updates == EarlyUpdates::Either;
+        if may_not_happen(!covered.kept.1, self.rules.early_updates.value)
+            || may_not_happen(!covered.coverage.1, self.rules.early_coverage.value)
+        {
             // As if the fragment had never been tested, but for what it counted.
             let mut untouched = before.clone();
             untouched.events = passed.events;
@@ -405,7 +460,10 @@ impl Walk<'_> {
         }
         let alpha = alpha.hull();
         let several = place.at.samples > 1;
-        (alpha.high > 0.0 || !several, alpha.low >= 1.0)
+        match self.rules.alpha_to_coverage.value {
+            AlphaToCoverage::Ends => (alpha.high > 0.0 || !several, alpha.low >= 1.0),
+            AlphaToCoverage::Any => (true, false),
+        }
     }
 
     /// Returns whether the stored depth can lie within the bounds, and whether it must (Vulkan, Depth
@@ -557,6 +615,24 @@ impl Walk<'_> {
             _ => self.note_rejection(notes, place, Rejection::Depth, true, &detail),
         }
         outcomes
+    }
+}
+
+/// The outcomes of shading for a sample: whether it can survive and whether it must, by the shader's
+/// discard, and by sample mask and alpha to coverage.
+#[derive(Clone, Copy, Debug)]
+struct Covered {
+    kept: (bool, bool),
+    coverage: (bool, bool),
+}
+
+impl Covered {
+    fn can(self) -> bool {
+        self.kept.0 && self.coverage.0
+    }
+
+    fn must(self) -> bool {
+        self.kept.1 && self.coverage.1
     }
 }
 

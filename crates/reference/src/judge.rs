@@ -38,7 +38,7 @@ pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judg
         .alternatives(&scene.formats())
         .into_iter()
         .map(|limits| {
-            let legal = judge_some(scene, &limits, &Rules::of(limits.api), texels);
+            let legal = judge_some(scene, &limits, &Rules::of(&limits), texels);
             let yardstick = judge_some(scene, &limits, &Rules::yardstick(&limits), texels);
             let groups = legal.groups.iter();
             Judgement {
@@ -59,7 +59,9 @@ pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
     judge_some(scene, limits, rules, Texels::All)
 }
 
-fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> LegalSet {
+/// Returns [`judge`]'s set of some texels; see [`judgements_of`].
+pub fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> LegalSet {
+    let texels = texels.of(scene);
     let walk = Walk::new(scene, limits, rules, texels);
     let mut builder = LegalSetBuilder::default();
     for index in &scene.read {
@@ -155,25 +157,28 @@ pub fn explain(
     at: Sample,
     frame: Option<&Frame>,
 ) -> Story {
-    let (mut lines, notes) = told(scene, limits, rules, at, frame);
+    let (_, mut lines, notes) = told(scene, limits, rules, at, frame);
     lines.extend(notes.into_iter().map(|note| note.line));
     Story { lines }
 }
 
+/// Returns the legal values of one sample, the line of its verdict, and its notes.
 fn told(
     scene: &Scene,
     limits: &Limits,
     rules: &Rules,
     at: Sample,
     frame: Option<&Frame>,
-) -> (Vec<StoryLine>, Vec<Note>) {
+) -> (TexelSet, Vec<StoryLine>, Vec<Note>) {
     let walk = Walk::new(scene, limits, rules, Texels::One([at.x, at.y]));
     let mut notes = Vec::new();
     let set = walk.sample(at, &mut notes);
     let initial = walk.initial(at, &mut Notes(None));
     let verdict = verdict(&walk, at, &set, &initial, &notes, frame);
-    (vec![verdict], notes)
+    (set, vec![verdict], notes)
 }
 
+#[cfg(test)]
+mod stories;
 #[cfg(test)]
 mod tests;

@@ -4,12 +4,9 @@
 
 use crate::clause::Rejection;
 use crate::notes::{Effect, Note};
-use crate::rules::Rules;
 use crate::walk::{Sample, Walk, codes_text};
 use crate::world::World;
-use etalon_frame::{
-    Api, ApiVersion, Aspect, ChannelEncoding, CodeInterval, Frame, Limits, StoryLine, TexelSet,
-};
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Frame, StoryLine, TexelSet};
 use etalon_scene::Contents;
 
 /// The most values, and the most draws, that a sentence lists.
@@ -66,26 +63,8 @@ pub(crate) fn verdict(
     StoryLine::verdict(
         subject,
         telling.predicate(actual.as_deref()),
-        judged_by(walk.rules, walk.limits),
+        format!("judged by {}", walk.rules.text),
     )
-}
-
-/// Returns the text by which a sample is judged.
-fn judged_by(rules: &Rules, limits: &Limits) -> String {
-    let version = match limits.version {
-        ApiVersion::UNKNOWN => String::new(),
-        version => format!(" {version}"),
-    };
-    let text = match limits.api {
-        Api::Vulkan => format!("Vulkan{version}"),
-        Api::OpenGl => format!("OpenGL{version} core"),
-        Api::OpenGlEs => format!("OpenGL ES{version}"),
-        Api::WebGpu => "WebGPU".to_owned(),
-    };
-    match rules.name {
-        "yardstick" => format!("held against the yardstick, not against {text}"),
-        _ => format!("judged by {text}"),
-    }
 }
 
 fn views(walk: &Walk<'_>, at: Sample) -> Vec<View> {

@@ -44,7 +44,7 @@ pub fn story_of_relation(
         inside.then_some(())?;
     }
     let found = relation::check(&one, case, frames);
-    let band = Rules::invariance(limits.api, relation.invariance).value?;
+    let band = Rules::invariance(limits, relation.invariance).value?;
     Some((
         band,
         of_differences(case, relation, limits, frames, &found)?,
@@ -59,7 +59,7 @@ pub(crate) fn tell_relation(
     limits: &Limits,
     (frames, found): (&[Frame], &Differences),
 ) {
-    let Some(band) = Rules::invariance(limits.api, relation.invariance).value else {
+    let Some(band) = Rules::invariance(limits, relation.invariance).value else {
         return;
     };
     let graver = record.wrong.first().is_none_or(|first| first.band < band);
@@ -112,8 +112,8 @@ fn of_differences(
     found: &Differences,
 ) -> Option<Story> {
     let (first, sides) = (found.wrong.first()?, found.sides.as_ref()?);
-    let permission = Rules::invariance(limits.api, relation.invariance);
-    let rules = Rules::of(limits.api);
+    let permission = Rules::invariance(limits, relation.invariance);
+    let rules = Rules::of(limits);
     let name = |side: &Side| match &side.attachment {
         Some(name) => format!("in attachment {name}"),
         None => in_scene(case, side.scene),

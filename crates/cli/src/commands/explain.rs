@@ -9,9 +9,9 @@ use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::{Case, Profile};
 use etalon_cpu::CpuBackend;
-use etalon_frame::{Band, Comparison, Frame, Limits, Story, compare};
-use etalon_reference::{Judgement, Rules, Sample, Texels, judgements_of};
-use etalon_runner::{story_of_relation, story_of_sample};
+use etalon_frame::{Band, Frame, Limits, Story};
+use etalon_reference::{Rules, Sample};
+use etalon_runner::{judge_texel, story_of_relation, story_of_sample};
 use etalon_scene::Scene;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -134,17 +134,16 @@ struct Explanation {
 
 impl Asked<'_> {
     fn all(&self, limits: &Limits, yardstick: bool) -> Result<Explanation, Failure> {
-        let mut sections = self.scene(0, limits)?;
+        let mut sections = vec![self.scene(0, limits)?];
         if yardstick {
             sections.push(self.yardstick(limits));
         }
         for index in 1..self.frames.len() {
             // A variant is told where its own picture is wrong.
             let own = self.scene(index, limits)?;
-            sections.extend(
-                own.into_iter()
-                    .filter(|s| s.worst() > Some(Band::Imprecise)),
-            );
+            if own.worst() > Some(Band::Imprecise) {
+                sections.push(own);
+            }
         }
         if let Some((band, story)) = story_of_relation(self.case, limits, self.frames, self.texel) {
             sections.push(Section {
@@ -162,33 +161,15 @@ impl Asked<'_> {
     }
 
     /// Returns the stories in one of the case's scenes, by the encodings that fit the frame best.
-    fn scene(&self, index: usize, limits: &Limits) -> Result<Vec<Section>, Failure> {
+    fn scene(&self, index: usize, limits: &Limits) -> Result<Section, Failure> {
         let scene = match index {
             0 => self.case.judged_scene(),
             _ => &self.case.variants[index - 1].scene,
         };
-        let texels = match scene.counters.is_empty() {
-            true => Texels::One(self.texel),
-            false => Texels::All,
-        };
-        let mut best: Option<(Judgement, Option<Comparison>)> = None;
-        for judgement in judgements_of(scene, limits, texels) {
-            let comparison = match self.frames.get(index) {
-                None => None,
-                Some(frame) => Some(
-                    compare(frame, &judgement.legal, &judgement.yardstick, usize::MAX)
-                        .map_err(Failure::incomplete)?,
-                ),
-            };
-            let bad = |c: &Option<Comparison>| c.as_ref().map_or(0, |c| c.texels.wrong);
-            if best.as_ref().is_none_or(|(_, b)| bad(&comparison) < bad(b)) {
-                best = Some((judgement, comparison));
-            }
-        }
-        let Some((judgement, comparison)) = best else {
-            return Ok(Vec::new());
-        };
-        let rules = Rules::of(judgement.limits.api);
+        let frame = self.frames.get(index);
+        let judged = judge_texel(self.case, index, limits, self.texel, frame);
+        let (judgement, comparison) = judged.map_err(Failure::incomplete)?;
+        let rules = Rules::of(&judgement.limits);
         let band = |at: &Sample| {
             let wrong = &comparison.as_ref()?.wrong;
             let here =
@@ -233,12 +214,12 @@ impl Asked<'_> {
             .flat_map(|c| &c.counters)
             .filter_map(|c| c.band)
             .max();
-        Ok(vec![Section {
+        Ok(Section {
             heading,
             told: self.samples(index, (&judgement.limits, &rules), band),
             counters: (counters, worst),
             yardstick: false,
-        }])
+        })
     }
 
     fn yardstick(&self, limits: &Limits) -> Section {

@@ -16,5 +16,6 @@ mod mutants;
 mod parts;
 mod runs;
 mod sample;
+mod stories;
 mod survive;
 mod version;
