@@ -349,7 +349,6 @@ impl Walk<'_> {
         let draw = place.draw;
         let pass = &self.scene.passes[place.pass];
         let depth_stencil = pass.depth_stencil;
-        let mut world = world;
         // Without a depth attachment the test passes.
         let bounded = depth_stencil.filter(|i| self.scene.attachments[*i].format.has_depth());
         if let (Some(bounds), Some(index)) = (draw.depth_bounds, bounded) {
@@ -367,7 +366,10 @@ impl Walk<'_> {
             .map(|s| if front { s.front } else { s.back });
         if let (Some(face), Some(index)) = (face, depth_stencil) {
             let stored = world.cells[index].stencil;
-            if !stencil_passes(&face, stored) {
+            let masked = stencil_passes(&face, stored);
+            let unmasked = compare(face.compare, face.reference, stored & face.read_mask);
+            let either = !self.rules.masks_reference.value && masked != unmasked;
+            if !masked || either {
                 let new = stencil_write(&face, face.fail_op, stored);
                 self.note_stencil(
                     place,
@@ -378,9 +380,12 @@ impl Walk<'_> {
                     new,
                     notes,
                 );
-                world.cells[index].stencil = new;
-                result.push((world, false));
-                return result;
+                let mut failed = world.clone();
+                failed.cells[index].stencil = new;
+                result.push((failed, false));
+                if !either {
+                    return result;
+                }
             }
         }
         let outcomes = match (draw.depth, depth_stencil) {

@@ -34,6 +34,11 @@ impl Range {
         }
     }
 
+    /// Returns the values of either range, way by way.
+    pub(crate) fn joined(self, other: Self) -> Self {
+        self.zip(other, Interval::hull)
+    }
+
     /// Returns the values of both ways.
     pub fn hull(self) -> Interval {
         self.float.hull(self.coarse)

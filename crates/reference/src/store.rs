@@ -119,7 +119,13 @@ impl Walk<'_> {
                         Some(value) => Range::exact(value),
                         None => judging.decode(all[c], cell.channels[c]),
                     });
-                    let constant = place.draw.blend_constant.map(|v| judging.constant(v));
+                    let constant = place.draw.blend_constant.map(|v| {
+                        let plain = judging.constant(v);
+                        match self.rules.clamps_constant.value {
+                            true => plain.joined(judging.constant(v.clamp(0.0, 1.0))),
+                            false => plain,
+                        }
+                    });
                     let input = BlendInput {
                         src: color,
                         src1: second,
@@ -155,7 +161,12 @@ impl Walk<'_> {
                 if target.write_mask & (1 << c) != 0 {
                     let codes = self.store_color(&mut judging, *encoding, value[c]);
                     let (stored, logic) = (cell.channels[c], place.draw.logic);
-                    let mut worked = |operation| judging.logic(*encoding, operation, codes, stored);
+                    // On sRGB attachments the operation works on the codes, which are those of 8 bits.
+                    let bits = match encoding {
+                        ChannelEncoding::Srgb8 => ChannelEncoding::Unorm(8),
+                        other => *other,
+                    };
+                    let mut worked = |operation| judging.logic(bits, operation, codes, stored);
                     cell.channels[c] = match (logic, self.logic_on(attachment.format)) {
                         (Some(operation), SrgbLogic::Applies) => worked(operation),
                         (Some(operation), SrgbLogic::Either) => codes.hull(worked(operation)),

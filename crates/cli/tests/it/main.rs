@@ -14,6 +14,7 @@ mod house;
 mod methods;
 mod mutants;
 mod parts;
+mod read_faults;
 mod runs;
 mod sample;
 mod stories;

@@ -282,6 +282,10 @@ rules! {
     signed_clamp: SignedClamp,
     /// Clamping of what a shader or a blend stores into signed normalized formats.
     signed_result: SignedClamp,
+    /// True if a blend constant may be clamped to [0,1] whatever the format.
+    clamps_constant: bool,
+    /// True if the stencil read mask also masks the reference; otherwise it may.
+    masks_reference: bool,
     /// Codes of colours read back by a copy.
     copies: Copies,
     /// Logic operations on sRGB attachments.

@@ -75,6 +75,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             SignedClamp::Signed,
             "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized Fixed-Point: clamped to [-1,1] for signed formats",
         ),
+        clamps_constant: permit(
+            false,
+            "Vulkan: Blend Factors: the constant is clamped for normalized attachments alone",
+        ),
+        masks_reference: permit(
+            true,
+            "Vulkan: Stencil Test: reference and stored value are both masked",
+        ),
         copies: permit(
             Copies::Exact,
             "Vulkan: Copy Commands: texels are copied as they are stored",

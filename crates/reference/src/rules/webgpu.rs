@@ -3,8 +3,9 @@
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
     FactorClamp, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
-    Snap, SrgbLogic, permit,
+    Snap, SrgbLogic, narrowed, permit,
 };
+use etalon_frame::Grade;
 
 pub(super) fn rules() -> Rules {
     Rules {
@@ -48,6 +49,16 @@ pub(super) fn rules() -> Rules {
         signed_result: permit(
             SignedClamp::Signed,
             "WebGPU: silent on stores to signed formats; Vulkan clamps to [-1,1]",
+        ),
+        clamps_constant: permit(
+            false,
+            "WebGPU: 23.2.7 Output Merging: the constant is the one that was set",
+        ),
+        masks_reference: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "WebGPU: 10.3.6 Depth/Stencil State: stencilReadMask masks what is read; that the reference is masked too, as in Vulkan and OpenGL, no sentence says",
         ),
         copies: permit(
             Copies::SameNumbers,

@@ -46,6 +46,11 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             text.signed_result.value,
             "Yardstick: as the API's text says",
         ),
+        clamps_constant: permit(
+            text.clamps_constant.value,
+            "Yardstick: as the API's text says",
+        ),
+        masks_reference: permit(true, "Yardstick: as Direct3D 11.3 has it (17.12)"),
         copies: permit(text.copies.value, "Yardstick: as the API's text says"),
         srgb_logic: permit(text.srgb_logic.value, "Yardstick: as the API's text says"),
         depth_order: permit(
