@@ -2,10 +2,11 @@
 
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
+use crate::notes::{Effect, Note, Notes};
 use crate::rules::Resolve;
-use crate::walk::{Notes, Sample, Walk, codes_text};
+use crate::walk::{Sample, Walk, codes_text};
 use crate::world::{Cell, World};
-use etalon_frame::{ChannelEncoding, CodeInterval};
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, StoryLine};
 use etalon_pipeline::Arithmetic;
 use etalon_scene::Contents;
 use smallvec::SmallVec;
@@ -17,6 +18,7 @@ impl Walk<'_> {
     pub(crate) fn resolve(
         &self,
         source: usize,
+        target: usize,
         at: Sample,
         passes: usize,
         notes: &mut Notes<'_>,
@@ -52,15 +54,14 @@ impl Walk<'_> {
         if attachment.format.is_integer() {
             single.sort_unstable();
             single.dedup();
-            notes.add(
-                || format!("after pass {}", passes - 1),
-                "resolve",
-                || match self.rules.resolve.value {
-                    Resolve::CoarseAverage => format!("{} keeps its first sample", attachment.name),
-                    _ => format!("{} keeps one of its samples", attachment.name),
-                },
-                Some(self.rules.resolve.citation),
-            );
+            let all = || single.iter().map(|one| codes_list(encodings, one));
+            self.note_resolve(notes, [source, target], passes, &single, || {
+                let which = match self.rules.resolve.value {
+                    Resolve::CoarseAverage => "the first of the samples",
+                    _ => "one of the samples",
+                };
+                format!("{which}: {}", all().collect::<Vec<_>>().join(" or "))
+            });
             return Some(single);
         }
         let mut judging = Judging::new(self.rules);
@@ -103,24 +104,53 @@ impl Walk<'_> {
                 of_codes[c] = result[c];
             }
         }
-        notes.add(
-            || format!("after pass {}", passes - 1),
-            "resolve",
-            || {
-                let text = encodings
-                    .iter()
-                    .zip(&result)
-                    .map(|(e, codes)| codes_text(*e, *codes))
-                    .collect::<Vec<_>>();
-                format!("{} gives {}", attachment.name, text.join(", "))
-            },
-            Some(self.rules.resolve.citation),
-        );
         let mut all = vec![result];
         if self.rules.resolve.value == Resolve::CoarseAverage && of_codes != result {
             all.push(of_codes);
         }
+        single.dedup();
+        self.note_resolve(notes, [source, target], passes, &all, || {
+            let samples: Vec<String> = single.iter().map(|s| codes_list(encodings, s)).collect();
+            let samples = samples.join("; ");
+            let results: Vec<String> = all.iter().map(|r| codes_list(encodings, r)).collect();
+            format!("of samples ({samples}) gives {}", results.join(" or "))
+        });
         Some(all)
+    }
+
+    fn note_resolve(
+        &self,
+        notes: &mut Notes<'_>,
+        [source, target]: [usize; 2],
+        passes: usize,
+        outcomes: &[[CodeInterval; 4]],
+        detail: impl FnOnce() -> String,
+    ) {
+        notes.push(|| Note {
+            line: StoryLine {
+                at: format!("after pass {}", passes - 1),
+                operation: "resolve".to_owned(),
+                detail: {
+                    let [source, target] =
+                        [source, target].map(|i| &self.scene.attachments[i].name);
+                    format!("{source} into {target}, {}", detail())
+                },
+                citation: Some(self.rules.resolve.citation.to_owned()),
+            },
+            origin: None,
+            effect: Effect::Stores {
+                attachment: target,
+                aspect: Aspect::Color,
+                contents: Cell {
+                    channels: outcomes
+                        .first()
+                        .copied()
+                        .unwrap_or([CodeInterval::exact(0); 4]),
+                    stencil: 0,
+                    origin: None,
+                },
+            },
+        });
     }
 
     /// Returns the contents of a texel of an attachment before the first pass.
@@ -189,4 +219,11 @@ impl Walk<'_> {
             events: SmallVec::new(),
         }
     }
+}
+
+fn codes_list(encodings: &[ChannelEncoding], codes: &[CodeInterval; 4]) -> String {
+    let each = encodings.iter().zip(codes);
+    each.map(|(e, c)| codes_text(*e, *c))
+        .collect::<Vec<_>>()
+        .join(", ")
 }

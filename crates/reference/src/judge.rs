@@ -1,10 +1,14 @@
 //! Legal sets and stories: the walk, over all samples in both bands or over one.
 
 use crate::counting::Tally;
+use crate::notes::{Note, Notes};
 use crate::rules::Rules;
 use crate::texels::Texels;
-use crate::walk::{Notes, Sample, Walk};
-use etalon_frame::{CountRange, LegalSet, LegalSetBuilder, Limits, Story, TexelSet};
+use crate::verdict::verdict;
+use crate::walk::{Sample, Walk};
+use etalon_frame::{
+    CountRange, Frame, LegalSet, LegalSetBuilder, Limits, Story, StoryLine, TexelSet,
+};
 use etalon_scene::{Draw, Scene};
 
 /// Both bands of one scene for one possible set of limits.
@@ -149,25 +153,45 @@ pub fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels)
     builder.build()
 }
 
-/// Returns the story of one sample: every operation on it with its outcome and the citation of each
-/// permission that was used.
-pub fn explain(scene: &Scene, limits: &Limits, rules: &Rules, at: Sample) -> Story {
-    let mut story = Story::default();
+/// Returns the story of one sample: the verdict in one sentence, then every operation on it with its
+/// outcome and the citation of each permission that was used, and every draw and primitive that ends
+/// before it with its clause. With the frame that a driver returned, the verdict tells what came back.
+pub fn explain(
+    scene: &Scene,
+    limits: &Limits,
+    rules: &Rules,
+    at: Sample,
+    frame: Option<&Frame>,
+) -> Story {
+    let (_, mut lines, notes) = told(scene, limits, rules, at, frame);
+    lines.extend(notes.into_iter().map(|note| note.line));
+    Story { lines }
+}
+
+/// Returns the legal values of one sample, the line of its verdict, and its notes.
+fn told(
+    scene: &Scene,
+    limits: &Limits,
+    rules: &Rules,
+    at: Sample,
+    frame: Option<&Frame>,
+) -> (TexelSet, Vec<StoryLine>, Vec<Note>) {
     // A sampler may read what was drawn to other texels.
     let samples = |draw: &Draw| draw.sampler.is_some();
-    let texels = match scene
-        .passes
-        .iter()
-        .skip(1)
-        .flat_map(|p| &p.draws)
-        .any(samples)
-    {
+    let mut later = scene.passes.iter().skip(1).flat_map(|p| &p.draws);
+    let texels = match later.any(samples) {
         true => Texels::All,
         false => Texels::One([at.x, at.y]),
     };
-    Walk::new(scene, limits, rules, texels).sample(at, Some(&mut story));
-    story
+    let walk = Walk::new(scene, limits, rules, texels);
+    let mut notes = Vec::new();
+    let set = walk.sample(at, &mut notes);
+    let initial = walk.initial(at, &mut Notes(None));
+    let verdict = verdict(&walk, at, &set, &initial, &notes, frame);
+    (set, vec![verdict], notes)
 }
 
+#[cfg(test)]
+mod stories;
 #[cfg(test)]
 mod tests;

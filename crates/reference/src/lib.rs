@@ -6,6 +6,7 @@
 //! between is legal. The permissions are data in [`rules`], with their citations.
 
 mod bias;
+mod clause;
 mod contents;
 mod context;
 mod counting;
@@ -16,7 +17,9 @@ mod fragment;
 mod interval;
 mod judge;
 mod judging;
+mod notes;
 mod primitive;
+mod rejections;
 pub mod rules;
 mod sampling;
 mod setup;
@@ -25,6 +28,7 @@ mod store;
 #[cfg(test)]
 mod test_limits;
 mod texels;
+mod verdict;
 mod walk;
 mod world;
 
@@ -34,4 +38,4 @@ pub use judge::{Judgement, explain, judge, judge_some, judgements, judgements_of
 pub use judging::{Judging, Range};
 pub use rules::{Permission, Rules};
 pub use texels::Texels;
-pub use walk::Sample;
+pub use walk::{Sample, codes_text};

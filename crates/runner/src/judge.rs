@@ -5,12 +5,13 @@ use crate::frame_file::frame_file;
 use crate::grade::Grades;
 use crate::judgement_cache::{JUDGED, JudgementCache, judged_scene};
 use crate::relation::{self, Differences};
+use crate::story;
 use etalon_case::{Case, Relation};
 use etalon_frame::{
     Aspect, AspectStatistics, Band, Comparison, CounterOutcome, Frame, Limits, WrongTexel, compare,
 };
 use etalon_record::{Assertion, FrameFile, MAX_WRONG_TEXELS, Record, Verdict};
-use etalon_reference::{Judgement, Rules, Sample, explain};
+use etalon_reference::{Judgement, Rules, Sample};
 use etalon_scene::Scene;
 use std::borrow::Cow;
 use std::cmp::Reverse;
@@ -61,6 +62,7 @@ impl Judge {
             && judged.record.verdict != Verdict::InternalError
         {
             let found = relation::check(relation, case, frames);
+            story::tell_relation(&mut judged.record, case, relation, limits, (frames, &found));
             note_differences(&mut judged.record, relation, limits, found);
         }
         judged
@@ -131,7 +133,9 @@ impl Judge {
                     _ => judgement.rules.clone(),
                 };
                 if let Some(at) = sample_of(case, wrong) {
-                    record.story = Some(explain(scene, &judgement.limits, &rules, at));
+                    let by = (&judgement.limits, &rules);
+                    let came = (Some(frame), Some(wrong.band));
+                    record.story = Some(story::story_of_sample(case, index, by, at, came));
                 }
             }
             file = Some(frame_file(case, adapter, frame, judgement, record.verdict));
@@ -181,7 +185,7 @@ impl Judge {
 }
 
 /// Gives a comparison's violations the bands of the evidence that forbids them, the strongest first.
-fn regrade(comparison: &mut Comparison, grades: &Grades) {
+pub(crate) fn regrade(comparison: &mut Comparison, grades: &Grades) {
     for wrong in &mut comparison.wrong {
         if wrong.band == Band::Fail {
             wrong.band = grades.sample((wrong.x, wrong.y, wrong.sample));
@@ -323,7 +327,7 @@ fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, f
 
 /// The judgement under which the fewest samples are wrong. An API may hide which of several encodings a
 /// format has, but it is the same one for the whole frame; and so is the step of a depth bias.
-fn best<'a>(
+pub(crate) fn best<'a>(
     scene: &Scene,
     judgements: &'a [Judgement],
     frame: &Frame,

@@ -18,5 +18,6 @@ mod read_faults;
 mod round_trips;
 mod runs;
 mod sample;
+mod stories;
 mod survive;
 mod version;

@@ -156,7 +156,7 @@ fn a_story_names_operations_and_citations() {
         y: 1,
         sample: 0,
     };
-    let story = explain(&scene, &limits, &Rules::of(&limits), at);
+    let story = explain(&scene, &limits, &Rules::of(&limits), at, None);
     let test = story
         .lines
         .iter()
