@@ -9,6 +9,7 @@ use super::hidden::Hidden;
 use super::origin::Origin;
 use super::query::Query;
 use crate::failure::Failure;
+use crate::output::say;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, Worker};
 use std::collections::{BTreeMap, BTreeSet};
@@ -177,9 +178,11 @@ pub(crate) fn refuse_absent(named: &[String], absent: &[AbsentAdapter]) -> Resul
         )));
     }
     for absent in absent {
-        eprintln!(
+        say!(
             "unavailable: {}: {}; {}",
-            absent.name, absent.reason, absent.remedy
+            absent.name,
+            absent.reason,
+            absent.remedy
         );
     }
     Ok(())

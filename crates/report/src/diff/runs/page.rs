@@ -50,22 +50,13 @@ fn page(diff: &RunDiff, folders: &[&Path; 2]) -> String {
         (reading())
     };
     Page {
-        title: &format!("etalon diff: {}", headline(diff)),
+        title: &format!("etalon diff: {}", phrases::conclusion(diff)),
         styles: &[OWN_STYLE],
         script: None,
         main,
         source: "the records and frames of two runs",
     }
     .html()
-}
-
-fn headline(diff: &RunDiff) -> String {
-    let [worse, better, other] = Direction::ALL.map(|d| diff.count(d));
-    let lost = match diff.lost() {
-        0 => String::new(),
-        n => format!(", {} lost", count(n, "record")),
-    };
-    format!("{worse} worse, {better} better, {other} other{lost}")
 }
 
 fn head(diff: &RunDiff) -> Markup {
@@ -78,11 +69,13 @@ fn head(diff: &RunDiff) -> Markup {
             @if diff.pairs.is_empty() {
                 p.state.bad { b { "! Nothing was compared." } }
             } @else if diff.worse() {
-                p.state.bad { b { "✗ " (headline(diff)) } ", " (same) " the same." }
+                p.state.bad { b { "✗ " (phrases::conclusion(diff)) } "; " (same) " the same." }
+            } @else if !diff.untold.is_empty() {
+                p.state.o { b { "? Nothing is shown to be worse: " (phrases::conclusion(diff)) } "; " (same) " the same." }
             } @else if diff.changes.is_empty() {
                 p.state.good { b { "✓ Nothing changed" } " in " (count(same, "record")) "." }
             } @else {
-                p.state.good { b { "✓ Nothing is worse: " (headline(diff)) } ", " (same) " the same." }
+                p.state.good { b { "✓ Nothing is worse: " (phrases::conclusion(diff)) } "; " (same) " the same." }
             }
             (facts(&diff.facts))
             nav {
@@ -151,6 +144,7 @@ fn pairs(diff: &RunDiff) -> Markup {
             }
             @for unpaired in &diff.unpaired {
                 p.soft {
+                    @if unpaired.worse { b { "✗ " } }
                     code { (unpaired.adapter) } " " (phrases::side(unpaired.side)) ": "
                     (count(unpaired.records, "record")) ", not compared."
                 }
@@ -379,8 +373,8 @@ fn reading() -> Markup {
             h2 { "Worse and better" }
             p {
                 b { "Worse" } " is a record that is unexpected and whose partner in the first run is not; a right verdict (pass, imprecise, measured) that became a wrong one; a wrong "
-                "one that became a graver one; a case that was right and is not supported any more; and a case "
-                "of the same selection that the second run holds no record of. " b { "Better" } " is the way "
+                "one that became a graver one; a case that was right and is not supported any more; a case that "
+                "both runs select and the second one holds no record of; and an adapter that vanished. " b { "Better" } " is the way "
                 "back. Other pixels, counters and distances under the same verdict are " b { "other" }
                 " changes, and so is pass to imprecise, which is legal."
             }

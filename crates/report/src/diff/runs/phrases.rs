@@ -1,8 +1,8 @@
 //! Differences of runs in words, shared by terminal and page.
 
-use super::data::{Change, Detail, Direction, FrameChange, Only, Side};
+use super::data::{Change, Detail, Direction, FrameChange, Only, RunDiff, Side};
 use crate::numbers::{change, count, trimmed};
-use crate::words::name;
+use crate::words::{name, plain};
 use etalon_record::Verdict;
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
@@ -171,6 +171,23 @@ pub(super) fn side(side: Side) -> &'static str {
         Side::Before => "before only",
         Side::After => "after only",
     }
+}
+
+/// The conclusion in one line: counts of changes, adapters that vanished, and what could not be told.
+pub(super) fn conclusion(diff: &RunDiff) -> String {
+    let [worse, better, other] = Direction::ALL.map(|d| diff.count(d));
+    let mut parts = vec![format!("{worse} worse, {better} better, {other} other")];
+    if diff.lost() > 0 {
+        parts.push(format!("{} lost", count(diff.lost(), "record")));
+    }
+    let vanished: Vec<String> = diff.vanished().map(|u| plain(&u.adapter, 60)).collect();
+    if !vanished.is_empty() {
+        parts.push(format!("vanished: {}", vanished.join(", ")));
+    }
+    if !diff.untold.is_empty() {
+        parts.push(format!("cannot tell: {}", diff.untold.join("; ")));
+    }
+    parts.join("; ")
 }
 
 /// After over before, as a signed change.
