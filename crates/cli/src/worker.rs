@@ -65,6 +65,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
             },
             library: what.egl.clone(),
             debug: what.validate,
+            read_fault: what.read_fault,
         };
         etalon_gl::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
@@ -73,6 +74,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
             via,
             device,
             validate: what.validate,
+            read_fault: what.read_fault,
         };
         etalon_wgpu::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
@@ -85,6 +87,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
             let options = etalon_vulkan::Options {
                 device,
                 validate: what.validate,
+                read_fault: what.read_fault,
             };
             etalon_vulkan::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
         }

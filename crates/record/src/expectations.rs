@@ -499,6 +499,7 @@ mod tests {
                 api: Api::OpenGl,
                 version: etalon_frame::ApiVersion::UNKNOWN,
                 properties: Default::default(),
+                exempt: Default::default(),
                 sub_pixel_bits: 4,
                 max_size: 2048,
                 max_color_attachments: 8,

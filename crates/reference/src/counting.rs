@@ -87,10 +87,16 @@ impl<'a> Tally<'a> {
                     };
                     (count.certain, high)
                 }
-                // A shader may run more often than its fragments ask for, but not without one.
+                // Never without a fragment; how often for one, the rules say: at most once for each covered
+                // sample, or as often as the implementation likes.
                 CounterKind::ShaderRuns => {
                     let none = count.possible == Some(0);
-                    (count.must.len() as u64, none.then_some(0))
+                    let high = if self.rules.runs_once.value {
+                        count.possible
+                    } else {
+                        none.then_some(0)
+                    };
+                    (count.must.len() as u64, high)
                 }
                 // Statistics compare a driver with itself (Vulkan, Pipeline Statistics
                 // Queries).

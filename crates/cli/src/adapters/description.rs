@@ -3,6 +3,7 @@
 use super::backend_name::BackendName;
 use super::names::{MAX_NAME, is_name};
 use crate::failure::Failure;
+use etalon_backend::ReadFault;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
@@ -51,6 +52,9 @@ pub(super) struct Description {
     /// A word that the name of the device or driver must contain: if the driver that the environment selects is
     /// missing, another one answers.
     pub(super) answers: Option<String>,
+    /// A planted fault of reading back; no file can name one.
+    #[serde(skip)]
+    pub(super) read_fault: Option<ReadFault>,
     /// The way to get the driver.
     #[serde(default)]
     pub(super) remedy: String,

@@ -16,6 +16,7 @@ mod methods;
 mod mutants;
 mod parts;
 mod pipes;
+mod read_faults;
 mod runs;
 mod sample;
 mod survive;

@@ -36,6 +36,7 @@ fn header() -> Header {
                 api: Api::OpenGlEs,
                 version: etalon_frame::ApiVersion::new(3, 2),
                 properties: Default::default(),
+                exempt: Default::default(),
                 sub_pixel_bits: 8,
                 max_size: 4096,
                 max_color_attachments: 8,

@@ -3,6 +3,7 @@
 
 mod arithmetic;
 mod common;
+mod evidence;
 mod families;
 mod frames;
 mod golden;

@@ -12,8 +12,9 @@ use crate::process::Wait;
 use crate::supervisor::FailureReport;
 use crate::sync::lock;
 use etalon_case::Case;
-use etalon_frame::Frame;
+use etalon_frame::{ApiVersion, Frame, Limits};
 use etalon_record::{Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Seconds, Verdict};
+use etalon_reference::rules::required::denied;
 use etalon_truth::TruthPicture;
 use std::time::{Duration, Instant};
 
@@ -96,6 +97,9 @@ impl<'s> AdapterRun<'s, '_> {
         } else if let Some(missing) = adapter.limits.missing(&case.requirements()) {
             let mut record = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
             record.message = missing.to_string();
+            if case.is_requirement() {
+                note_requirement(&mut record, case, &adapter.limits);
+            }
             record
         } else {
             return false;
@@ -243,6 +247,24 @@ impl<'s> AdapterRun<'s, '_> {
                 wall,
             });
         }
+    }
+}
+
+/// Fails an adapter that denies what its API's version requires of every implementation.
+fn note_requirement(record: &mut Record, case: &Case, limits: &Limits) {
+    let version = match limits.version {
+        ApiVersion::UNKNOWN => limits.api.to_string(),
+        version => format!("{} {version}", limits.api),
+    };
+    match denied(limits, &case.requirements()) {
+        Some((needed, required)) => {
+            record.verdict = Verdict::Fail;
+            record.message = format!(
+                "the adapter denies {needed}, which {version} requires ({})",
+                required.citation
+            );
+        }
+        None => record.message = format!("{}; no requirement of {version}", record.message),
     }
 }
 
