@@ -9,11 +9,8 @@ use super::hidden::Hidden;
 use super::origin::Origin;
 use super::query::Query;
 use crate::failure::Failure;
-<<<<<<< HEAD
 use crate::output::say;
-=======
 use etalon_backend::ReadFault;
->>>>>>> main
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, Worker};
 use std::collections::{BTreeMap, BTreeSet};

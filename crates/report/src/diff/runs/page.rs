@@ -50,13 +50,21 @@ fn page(diff: &RunDiff, folders: &[&Path; 2]) -> String {
         (reading())
     };
     Page {
-        title: &format!("etalon diff: {}", phrases::conclusion(diff)),
+        title: &format!("etalon diff: {}", headline(diff)),
         styles: &[OWN_STYLE],
         script: None,
         main,
         source: "the records and frames of two runs",
     }
     .html()
+}
+
+fn headline(diff: &RunDiff) -> String {
+    let [worse, better, other] = Direction::ALL.map(|d| diff.count(d));
+    format!(
+        "{worse} worse, {better} better, {other} other{}",
+        phrases::beside(diff)
+    )
 }
 
 fn head(diff: &RunDiff) -> Markup {
@@ -68,14 +76,16 @@ fn head(diff: &RunDiff) -> Markup {
             @for warning in &diff.warnings { p.state.bad { b { "! " } (warning) } }
             @if diff.pairs.is_empty() {
                 p.state.bad { b { "! Nothing was compared." } }
-            } @else if diff.worse() {
-                p.state.bad { b { "✗ " (phrases::conclusion(diff)) } "; " (same) " the same." }
+            }
+            @if diff.worse() {
+                p.state.bad { b { "✗ " (headline(diff)) } "; " (same) " the same." }
+            } @else if diff.pairs.is_empty() {
             } @else if !diff.untold.is_empty() {
-                p.state.o { b { "? Nothing is shown to be worse: " (phrases::conclusion(diff)) } "; " (same) " the same." }
+                p.state.o { b { "? Nothing is shown to be worse: " (headline(diff)) } "; " (same) " the same." }
             } @else if diff.changes.is_empty() {
                 p.state.good { b { "✓ Nothing changed" } " in " (count(same, "record")) "." }
             } @else {
-                p.state.good { b { "✓ Nothing is worse: " (phrases::conclusion(diff)) } "; " (same) " the same." }
+                p.state.good { b { "✓ Nothing is worse: " (headline(diff)) } "; " (same) " the same." }
             }
             (facts(&diff.facts))
             nav {

@@ -173,21 +173,21 @@ pub(super) fn side(side: Side) -> &'static str {
     }
 }
 
-/// The conclusion in one line: counts of changes, adapters that vanished, and what could not be told.
-pub(super) fn conclusion(diff: &RunDiff) -> String {
-    let [worse, better, other] = Direction::ALL.map(|d| diff.count(d));
-    let mut parts = vec![format!("{worse} worse, {better} better, {other} other")];
+/// What is worse and no change, and what could not be told: records lost, adapters that vanished, the rest. Empty, or
+/// begins with what separates it from counts before it.
+pub(super) fn beside(diff: &RunDiff) -> String {
+    let mut text = String::new();
     if diff.lost() > 0 {
-        parts.push(format!("{} lost", count(diff.lost(), "record")));
+        text.push_str(&format!(", {} lost", count(diff.lost(), "record")));
     }
     let vanished: Vec<String> = diff.vanished().map(|u| plain(&u.adapter, 60)).collect();
     if !vanished.is_empty() {
-        parts.push(format!("vanished: {}", vanished.join(", ")));
+        text.push_str(&format!("; vanished: {}", vanished.join(", ")));
     }
     if !diff.untold.is_empty() {
-        parts.push(format!("cannot tell: {}", diff.untold.join("; ")));
+        text.push_str(&format!("; cannot tell: {}", diff.untold.join("; ")));
     }
-    parts.join("; ")
+    text
 }
 
 /// After over before, as a signed change.

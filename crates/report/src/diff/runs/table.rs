@@ -281,18 +281,19 @@ fn methods(times: &[MethodTime], options: TableOptions) -> String {
     }
 }
 
-/// The last lines: the counts, and the conclusion.
+/// The last line, in the colour of its conclusion: green only if everything could be told.
 fn sum(diff: &RunDiff, options: TableOptions) -> String {
+    let [worse, better, other] = Direction::ALL.map(|d| diff.count(d));
     let same: u64 = diff.pairs.iter().map(|p| p.same).sum();
-    let (sign, color) = match (diff.worse(), diff.untold.is_empty()) {
-        (true, _) => ("✗", "31"),
-        (false, true) => ("✓", "32"),
-        (false, false) => ("?", "33"),
+    let color = match (diff.worse(), diff.untold.is_empty()) {
+        (true, _) => "31",
+        (false, true) => "32",
+        (false, false) => "33",
     };
     let line = format!(
-        "{sign} Of {}: {}; {same} the same.",
+        "Of {}: {worse} worse, {better} better, {other} other, {same} the same{}.",
         count(diff.compared(), "record"),
-        phrases::conclusion(diff)
+        phrases::beside(diff)
     );
     format!("{}\n", options.paint(&plain(&line, 600), color))
 }
