@@ -32,7 +32,7 @@ mod verdict;
 mod walk;
 mod world;
 
-pub use fit::{Fitted, fit};
+pub use fit::{Fitted, fit, leaves_step_open};
 pub use interval::Interval;
 pub use judge::{Judgement, explain, judge, judge_some, judgements, judgements_of};
 pub use judging::{Judging, Range};

@@ -5,8 +5,10 @@ use crate::grade::Grades;
 use crate::judge::{best, regrade};
 use crate::judgement_cache::judged_scene;
 use etalon_case::Case;
-use etalon_frame::{Band, Comparison, Frame, Limits};
-use etalon_reference::{Judgement, Texels, judgements_of};
+use etalon_frame::{Band, Comparison, Frame, Limits, compare};
+use etalon_record::MAX_WRONG_TEXELS;
+use etalon_reference::{Judgement, Texels, judgements_of, leaves_step_open};
+use std::borrow::Cow;
 
 /// Returns the judgement of a texel of one of a case's scenes, under the encodings that fit the frame best,
 /// and the outcome for the frame, if there is one. Violations have the bands of their evidence.
@@ -26,7 +28,17 @@ pub fn judge_texel(
         let Some(frame) = frame else {
             return Ok((judgements.swap_remove(0), None));
         };
-        let (mut comparison, judgement) = best(scene, &judgements, frame)?;
+        let (mut comparison, judgement) = match leaves_step_open(scene, limits) {
+            false => best(scene, &judgements, frame)?,
+            // The step of a depth bias is one for the frame, and one texel alone does not show it.
+            true => {
+                let all = judgements_of(scene, limits, Texels::All);
+                let (_, whole) = best(scene, &all, frame)?;
+                let one = whole.of_texels(scene, texels);
+                let found = compare(frame, &one.legal, &one.yardstick, MAX_WRONG_TEXELS);
+                (found.map_err(|e| e.to_string())?, Cow::Owned(one))
+            }
+        };
         if comparison.worst() == Some(Band::Fail)
             && let Some(grades) = Grades::of(scene, limits, texels, frame)
         {
