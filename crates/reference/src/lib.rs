@@ -17,6 +17,7 @@ mod judge;
 mod judging;
 mod primitive;
 pub mod rules;
+mod sample_state;
 mod sampling;
 mod setup;
 mod snap;

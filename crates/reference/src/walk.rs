@@ -8,7 +8,7 @@ use crate::rules::Rules;
 use crate::setup::{self, DrawSetup};
 use crate::snap::units_per_texel;
 use crate::texels::Texels;
-use crate::world::{Cell, World, merge};
+use crate::world::{Cell, Decision, World, merge};
 use etalon_frame::{
     Aspect, ChannelEncoding, CodeInterval, Limits, ReadPath, Story, StoryLine, TexelSet, WorldBox,
 };
@@ -270,10 +270,13 @@ impl<'a> Walk<'a> {
                         return None;
                     }
                 }
-                // No later draw refers to this one's choices.
-                worlds.iter_mut().for_each(|w| w.decisions.clear());
+                // No later draw refers to this one's edges.
+                let outlives = |(decision, _): &mut (Decision, bool)| decision.outlives_its_draw();
+                worlds.iter_mut().for_each(|w| w.decisions.retain(outlives));
                 merge(&mut worlds);
             }
+            worlds.iter_mut().for_each(|w| w.decisions.clear());
+            merge(&mut worlds);
             for (source, target) in pass.color.iter().zip(&pass.resolve) {
                 let Some(target) = *target else { continue };
                 let attachment = &self.scene.attachments[target];
@@ -314,7 +317,7 @@ impl<'a> Walk<'a> {
         parts.join(", ")
     }
 
-    fn sample_point(&self, at: Sample) -> Point {
+    pub(crate) fn sample_point(&self, at: Sample) -> Point {
         let position = self
             .limits
             .sample_positions

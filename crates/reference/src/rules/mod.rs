@@ -10,6 +10,7 @@ mod invariance;
 mod opengl;
 mod opengl_es;
 mod permission;
+mod sample_shading;
 mod vulkan;
 mod webgpu;
 mod yardstick;
@@ -18,6 +19,7 @@ pub use permission::{
     BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Permission,
     Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, Snap,
 };
+pub use sample_shading::ShadedAt;
 
 use etalon_frame::{Api, Limits};
 
