@@ -14,6 +14,7 @@ mod distance;
 mod encoding;
 mod feature;
 mod format;
+mod grade;
 mod image;
 mod legal;
 mod limits;
@@ -33,6 +34,7 @@ pub use distance::Distance;
 pub use encoding::{ChannelEncoding, linear_to_srgb, srgb_to_linear};
 pub use feature::Feature;
 pub use format::{Aspect, TextureFormat};
+pub use grade::Grade;
 pub use image::{Frame, FrameError, Image, ReadPath};
 pub use legal::{
     AspectStatistics, CodeInterval, ImageInfo, LegalSet, LegalSetBuilder, SampleGroup, TexelSet,

@@ -106,16 +106,22 @@ impl<'a> Tally<'a> {
                     };
                     (count.certain, high)
                 }
-                // A shader may run more often than its fragments ask for, but not without one.
+                // Never without a fragment; how often for one, the rules say: at most once for each covered
+                // sample, or as often as the implementation likes.
                 CounterKind::ShaderRuns => {
                     let none = count.possible == Some(0);
+                    let high = if self.rules.runs_once.value {
+                        count.possible
+                    } else {
+                        none.then_some(0)
+                    };
                     // Each run has a sample of its own; a sample that is not covered may have been
                     // that of one of them.
                     let runs = |((draw, _), covered): &((u32, u32), u32)| {
                         let least = self.least_runs[*draw as usize - 1];
                         u64::from((least + covered).saturating_sub(samples).max(1))
                     };
-                    (count.must.iter().map(runs).sum(), none.then_some(0))
+                    (count.must.iter().map(runs).sum(), high)
                 }
                 // Statistics compare a driver with itself (Vulkan, Pipeline Statistics
                 // Queries).

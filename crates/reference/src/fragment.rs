@@ -3,7 +3,7 @@
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
 use crate::primitive::Shape;
-use crate::rules::{DepthOrder, DepthRange, EarlyUpdates, SameDepth};
+use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, SameDepth};
 use crate::walk::{Notes, Place, Walk};
 use crate::world::{Cell, Event, World};
 use etalon_frame::{ChannelEncoding, CodeInterval, CounterKind};
@@ -68,7 +68,10 @@ impl Walk<'_> {
         let own_depth = place.primitive.depth_at(place.point);
         let covered = match drawn {
             true => self.covered_after_shading(place, &output, notes),
-            false => (false, false),
+            false => Covered {
+                kept: (true, true),
+                coverage: (false, false),
+            },
         };
         let mut world = world;
         // A masked sample asks for no run of the shader.
@@ -76,30 +79,44 @@ impl Walk<'_> {
         if draw.early_tests == EarlyTests::Forced {
             let incoming = self.in_range(place, own_depth, Source::Own);
             if masked {
-                // The sample mask comes before all tests; its order against counting alone is open.
+                // The order of the sample mask against counting is open; against the tests, the rules
+                // tell.
                 let outcomes = self.tests(place, world.clone(), front, incoming, notes);
                 if outcomes.iter().any(|(_, passes)| *passes) {
                     self.count(place, &mut world, false, |_| true);
                 }
+                if !self.rules.mask_acts_first.value {
+                    for (mut outcome, passes) in outcomes {
+                        if passes {
+                            outcome.events.clone_from(&world.events);
+                            self.write_depth(place, &mut outcome, incoming, notes);
+                        }
+                        result.push(outcome);
+                    }
+                }
                 result.push(world);
                 return;
             }
-            for (outcome, passes) in self.tests(place, world.clone(), front, incoming, notes) {
+            for (mut outcome, passes) in self.tests(place, world.clone(), front, incoming, notes) {
                 if passes {
                     let worlds = [&world, &outcome];
                     self.early_fragment(place, worlds, &output, incoming, covered, result, notes);
                 } else {
+                    if !self.rules.skips_rejected.value {
+                        self.run(place, &mut outcome, false);
+                    }
                     result.push(outcome);
                 }
             }
             return;
         }
-        self.count(place, &mut world, !masked, |kind| {
-            kind == CounterKind::ShaderRuns
-        });
-        let (can, must) = covered;
+        // A fragment that contributes nothing asks for a run only where the rules say so.
+        let asks = !masked && self.rules.runs_for_discarded.value;
+        let (can, must) = (covered.can(), covered.must());
         if !must {
-            result.push(world.clone());
+            let mut lost = world.clone();
+            self.run(place, &mut lost, asks);
+            result.push(lost);
             if !can {
                 return;
             }
@@ -110,6 +127,8 @@ impl Walk<'_> {
         };
         let incoming = self.in_range(place, output.depth.unwrap_or(own_depth), source);
         for (mut outcome, passes) in self.tests(place, world, front, incoming, notes) {
+            let contributes = passes && self.contributes(place);
+            self.run(place, &mut outcome, asks || (!masked && contributes));
             if passes {
                 self.count(place, &mut outcome, true, CounterKind::is_occlusion);
                 self.write_depth(place, &mut outcome, incoming, notes);
@@ -163,6 +182,30 @@ impl Walk<'_> {
         output
     }
 
+    /// True if a fragment that passes its tests changes an attachment.
+    fn contributes(&self, place: Place<'_>) -> bool {
+        let pass = &self.scene.passes[place.pass];
+        let depth = pass.depth_stencil.is_some() && place.draw.depth.is_some_and(|d| d.write);
+        let mut targets = pass.color.iter().zip(&place.draw.targets);
+        depth || targets.any(|(_, target)| target.write_mask != 0)
+    }
+
+    /// Adds a run of the shader for a fragment; `certain` if the rules demand it. Where a later fragment
+    /// may take away the need of earlier ones, theirs are certain no longer.
+    fn run(&self, place: Place<'_>, world: &mut World, certain: bool) {
+        if certain && !self.rules.runs_for_overwritten.value && self.contributes(place) {
+            for event in &mut world.events {
+                let kind = self.scene.counters[usize::from(event.counter)].kind;
+                if kind == CounterKind::ShaderRuns {
+                    event.certain = false;
+                }
+            }
+        }
+        self.count(place, world, certain, |kind| {
+            kind == CounterKind::ShaderRuns
+        });
+    }
+
     /// Returns whether the shader, the sample mask and alpha to coverage can keep the sample, and whether
     /// they must.
     fn covered_after_shading(
@@ -170,7 +213,7 @@ impl Walk<'_> {
         place: Place<'_>,
         output: &FragmentOutput<Range>,
         notes: &mut Notes<'_>,
-    ) -> (bool, bool) {
+    ) -> Covered {
         let word = |can: bool| if can { "may or may not" } else { "does not" };
         let (kept_can, kept_must) = match output.kept {
             None => (true, true),
@@ -205,10 +248,13 @@ impl Walk<'_> {
                         word(can)
                     )
                 },
-                Some(self.rules.alpha_to_coverage),
+                Some(self.rules.alpha_to_coverage.citation),
             );
         }
-        (kept_can && can, kept_must && must)
+        Covered {
+            kept: (kept_can, kept_must),
+            coverage: (can, must),
+        }
     }
 
     /// A fragment that passed forced early tests: one that the shader then discards may still have
@@ -223,22 +269,22 @@ impl Walk<'_> {
         [before, tested]: [&World; 2],
         output: &FragmentOutput<Range>,
         incoming: Incoming,
-        (can, must): (bool, bool),
+        covered: Covered,
         result: &mut SmallVec<[World; 2]>,
         notes: &mut Notes<'_>,
     ) {
         let mut passed = tested.clone();
-        self.count(place, &mut passed, true, |kind| {
-            kind == CounterKind::ShaderRuns
-        });
-        if can {
-            let mut kept = passed.clone();
+        self.run(place, &mut passed, self.rules.runs_for_discarded.value);
+        if covered.can() {
+            let mut kept = tested.clone();
+            let asks = self.rules.runs_for_discarded.value || self.contributes(place);
+            self.run(place, &mut kept, asks);
             self.count(place, &mut kept, true, CounterKind::is_occlusion);
             self.write_depth(place, &mut kept, incoming, notes);
             self.write_colors(place, &mut kept, output, notes);
             result.push(kept);
         }
-        if must {
+        if covered.must() {
             return;
         }
         notes.add(
@@ -252,7 +298,11 @@ impl Walk<'_> {
         let mut updated = passed.clone();
         self.write_depth(place, &mut updated, incoming, notes);
         result.push(updated);
-        if self.rules.early_updates.value == EarlyUpdates::Either {
+        let may_not_happen =
+            |lost: bool, updates: EarlyUpdates| lost && updates == EarlyUpdates::Either;
+        if may_not_happen(!covered.kept.1, self.rules.early_updates.value)
+            || may_not_happen(!covered.coverage.1, self.rules.early_coverage.value)
+        {
             // As if the fragment had never been tested, but for what it counted.
             let mut untouched = before.clone();
             untouched.events = passed.events;
@@ -404,7 +454,10 @@ impl Walk<'_> {
         }
         let alpha = alpha.hull();
         let several = place.at.samples > 1;
-        (alpha.high > 0.0 || !several, alpha.low >= 1.0)
+        match self.rules.alpha_to_coverage.value {
+            AlphaToCoverage::Ends => (alpha.high > 0.0 || !several, alpha.low >= 1.0),
+            AlphaToCoverage::Any => (true, false),
+        }
     }
 
     /// Returns whether the stored depth can lie within the bounds, and whether it must (Vulkan, Depth
@@ -524,6 +577,24 @@ impl Walk<'_> {
             Some(self.rules.depth_order.citation),
         );
         outcomes
+    }
+}
+
+/// The outcomes of shading for a sample: whether it can survive and whether it must, by the shader's
+/// discard, and by sample mask and alpha to coverage.
+#[derive(Clone, Copy, Debug)]
+struct Covered {
+    kept: (bool, bool),
+    coverage: (bool, bool),
+}
+
+impl Covered {
+    fn can(self) -> bool {
+        self.kept.0 && self.coverage.0
+    }
+
+    fn must(self) -> bool {
+        self.kept.1 && self.coverage.1
     }
 }
 

@@ -34,7 +34,7 @@ pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judg
         .alternatives(&scene.formats())
         .into_iter()
         .map(|limits| {
-            let legal = judge_some(scene, &limits, &Rules::of(limits.api), texels);
+            let legal = judge_some(scene, &limits, &Rules::of(&limits), texels);
             let yardstick = judge_some(scene, &limits, &Rules::yardstick(&limits), texels);
             let groups = legal.groups.iter();
             Judgement {
@@ -55,7 +55,9 @@ pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
     judge_some(scene, limits, rules, Texels::All)
 }
 
-fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> LegalSet {
+/// Returns [`judge`]'s set of some texels; see [`judgements_of`].
+pub fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> LegalSet {
+    let texels = texels.of(scene);
     let walk = Walk::new(scene, limits, rules, texels);
     let mut builder = LegalSetBuilder::default();
     for index in &scene.read {

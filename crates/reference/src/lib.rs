@@ -29,7 +29,7 @@ mod walk;
 mod world;
 
 pub use interval::Interval;
-pub use judge::{Judgement, explain, judge, judgements, judgements_of};
+pub use judge::{Judgement, explain, judge, judge_some, judgements, judgements_of};
 pub use judging::{Judging, Range};
 pub use rules::{Permission, Rules};
 pub use texels::Texels;

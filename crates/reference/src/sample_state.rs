@@ -3,12 +3,44 @@
 use crate::interval::Interval;
 use crate::judging::Range;
 use crate::primitive::Shape;
-use crate::rules::{Rules, ShadedAt};
+use crate::rules::{AlphaToCoverage, FragCoord, Rules};
 use crate::walk::{Notes, Place, Sample, Walk};
 use crate::world::{Decision, World};
 use etalon_pipeline::Point;
-use etalon_scene::SampleCoverage;
+use etalon_scene::{Multisample, SampleCoverage};
 use smallvec::{SmallVec, smallvec};
+
+/// The point of a texel at which an input of a fragment shader is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum ShadedAt {
+    /// The centre.
+    Center,
+    /// The position of the sample itself.
+    Sample,
+    /// The position of any sample.
+    AnySample,
+    /// Any point of the texel.
+    Texel,
+}
+
+/// Returns where the fragment's coordinates lie that a shader reads, of several samples.
+fn frag_coord_at(rules: &Rules, state: &Multisample, samples: u32) -> ShadedAt {
+    match (rules.frag_coord.value, state.min_sample_shading) {
+        (FragCoord::Inputs, _) => inputs_at(rules, state),
+        (FragCoord::Sample, None) => ShadedAt::Center,
+        // As many runs as samples, each with a sample at least: each sample has its own.
+        (FragCoord::Sample, Some(_)) if state.least_runs(samples) == samples => ShadedAt::Sample,
+        (FragCoord::Sample, Some(_)) => ShadedAt::AnySample,
+    }
+}
+
+/// Returns where inputs are interpolated that ask for no place of their own, of several samples.
+fn inputs_at(rules: &Rules, state: &Multisample) -> ShadedAt {
+    match state.min_sample_shading {
+        Some(1.0) if rules.inputs_at_samples.value => ShadedAt::Sample,
+        _ => ShadedAt::Texel,
+    }
+}
 
 impl Walk<'_> {
     /// Returns the coordinates of the fragment that a shader reads, in texels.
@@ -16,8 +48,7 @@ impl Walk<'_> {
         let Sample { x, y, samples, .. } = place.at;
         let units = self.units as f64;
         let point = |p: Point| [p.x, p.y].map(|v| Interval::exact(v as f64 / units));
-        let rule = Rules::frag_coord(self.limits.api, &place.draw.multisample, samples);
-        let [across, down] = match rule.value {
+        let [across, down] = match frag_coord_at(self.rules, &place.draw.multisample, samples) {
             _ if samples == 1 => point(place.point),
             ShadedAt::Sample => point(place.point),
             ShadedAt::AnySample => (0..samples)
@@ -36,8 +67,7 @@ impl Walk<'_> {
     /// Returns the number of samples among which the point may be chosen at which inputs are
     /// interpolated: 1 if it is the sample's own.
     pub(crate) fn samples_shaded(&self, place: Place<'_>) -> u32 {
-        let rule = Rules::inputs(self.limits.api, &place.draw.multisample);
-        let own = rule.value == ShadedAt::Sample;
+        let own = inputs_at(self.rules, &place.draw.multisample) == ShadedAt::Sample;
         match place.primitive.shape {
             Shape::Triangle(_) if own => 1,
             _ => place.at.samples,
@@ -56,12 +86,14 @@ impl Walk<'_> {
         let Some(SampleCoverage { value, invert }) = state.filter(|_| place.at.samples > 1) else {
             return smallvec![(world, true)];
         };
+        // Adding 0 removes the sign of a negative zero.
+        let value = value.clamp(0.0, 1.0) + 0.0;
         let decision = Decision::SampleCoverage {
             value: value.to_bits(),
         };
+        let ends = self.rules.sample_coverage.value == AlphaToCoverage::Ends;
         let known = match value {
-            _ if value <= 0.0 => Some(false),
-            _ if value >= 1.0 => Some(true),
+            0.0 | 1.0 if ends => Some(value > 0.0),
             _ => world.decided(decision),
         };
         notes.add(
@@ -77,7 +109,7 @@ impl Walk<'_> {
                 let of = if invert { "inverted " } else { "" };
                 format!("by the {of}share {value}, sample {sample} {word}")
             },
-            Some(Rules::sample_coverage(self.limits)),
+            Some(self.rules.sample_coverage.citation),
         );
         match known {
             Some(covered) => smallvec![(world, covered != invert)],
@@ -86,5 +118,34 @@ impl Walk<'_> {
                 .into_iter()
                 .collect(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test_limits;
+    use etalon_frame::Api;
+
+    #[test]
+    fn only_a_whole_share_pins_attributes_and_only_in_opengl() {
+        let with = |share| Multisample {
+            min_sample_shading: share,
+            ..Multisample::default()
+        };
+        for api in [Api::OpenGl, Api::OpenGlEs] {
+            let rules = Rules::of(&test_limits::limits(api));
+            assert_eq!(inputs_at(&rules, &with(Some(1.0))), ShadedAt::Sample);
+            assert_eq!(inputs_at(&rules, &with(Some(0.9))), ShadedAt::Texel);
+            assert_eq!(frag_coord_at(&rules, &with(None), 4), ShadedAt::Texel);
+            assert_eq!(frag_coord_at(&rules, &with(Some(1.0)), 4), ShadedAt::Sample);
+        }
+        let rules = Rules::of(&test_limits::limits(Api::Vulkan));
+        let at = |share| frag_coord_at(&rules, &with(share), 4);
+        assert_eq!(at(None), ShadedAt::Center);
+        assert_eq!(at(Some(0.0)), ShadedAt::AnySample);
+        assert_eq!(at(Some(0.75)), ShadedAt::AnySample);
+        assert_eq!(at(Some(0.76)), ShadedAt::Sample);
+        assert_eq!(inputs_at(&rules, &with(Some(1.0))), ShadedAt::Texel);
     }
 }

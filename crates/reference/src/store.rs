@@ -2,9 +2,10 @@
 
 use crate::fragment::Incoming;
 use crate::judging::{Judging, Range};
+use crate::rules::{SignedClamp, SrgbLogic};
 use crate::walk::{Notes, Place, Walk, codes_text};
 use crate::world::World;
-use etalon_frame::ChannelEncoding;
+use etalon_frame::{ChannelEncoding, CodeInterval, TextureFormat};
 use etalon_pipeline::shader::FragmentOutput;
 use etalon_pipeline::{Arithmetic, BlendInput, blend, takes_logic};
 
@@ -35,6 +36,37 @@ impl Walk<'_> {
                 },
                 Some(self.rules.store.citation),
             );
+        }
+    }
+
+    /// Returns the codes of a colour that a shader or a blend stores.
+    fn store_color(
+        &self,
+        judging: &mut Judging<'_>,
+        encoding: ChannelEncoding,
+        value: Range,
+    ) -> CodeInterval {
+        let whole = judging.encode(encoding, value);
+        if !matches!(encoding, ChannelEncoding::Snorm(_)) {
+            return whole;
+        }
+        let clamped = Range {
+            float: value.float.clamp(0.0, 1.0),
+            coarse: value.coarse.clamp(0.0, 1.0),
+        };
+        match self.rules.signed_result.value {
+            SignedClamp::Signed => whole,
+            SignedClamp::Unit => judging.encode(encoding, clamped),
+            SignedClamp::Either => whole.hull(judging.encode(encoding, clamped)),
+        }
+    }
+
+    /// Returns whether logic operations apply to a format.
+    fn logic_on(&self, format: TextureFormat) -> SrgbLogic {
+        match format {
+            _ if takes_logic(format) => SrgbLogic::Applies,
+            TextureFormat::Rgba8UnormSrgb => self.rules.srgb_logic.value,
+            _ => SrgbLogic::PassesThrough,
         }
     }
 
@@ -107,11 +139,12 @@ impl Walk<'_> {
             };
             for (c, encoding) in encodings.iter().enumerate() {
                 if target.write_mask & (1 << c) != 0 {
-                    let codes = judging.encode(*encoding, value[c]);
-                    cell.channels[c] = match place.draw.logic {
-                        Some(operation) if takes_logic(attachment.format) => {
-                            judging.logic(*encoding, operation, codes, cell.channels[c])
-                        }
+                    let codes = self.store_color(&mut judging, *encoding, value[c]);
+                    let (stored, logic) = (cell.channels[c], place.draw.logic);
+                    let mut worked = |operation| judging.logic(*encoding, operation, codes, stored);
+                    cell.channels[c] = match (logic, self.logic_on(attachment.format)) {
+                        (Some(operation), SrgbLogic::Applies) => worked(operation),
+                        (Some(operation), SrgbLogic::Either) => codes.hull(worked(operation)),
                         _ => codes,
                     };
                 }

@@ -2,9 +2,9 @@
 //! over the others.
 
 use crate::context::PassContext;
-use crate::judging::{Judging, Range};
+use crate::judging::{Judging, Range, all_codes};
 use crate::primitive::{Shape, Side, SnappedPrimitive, misses};
-use crate::rules::Rules;
+use crate::rules::{Copies, Rules};
 use crate::setup::{self, DrawSetup};
 use crate::snap::units_per_texel;
 use crate::texels::Texels;
@@ -349,7 +349,9 @@ impl<'a> Walk<'a> {
                     match aspect {
                         Aspect::Color => {
                             let n = attachment.format.color_channels().len();
-                            channels.extend_from_slice(&cell.channels[..n]);
+                            let encodings = attachment.format.color_channels();
+                            let stored = cell.channels[..n].iter().zip(encodings);
+                            channels.extend(stored.map(|(c, e)| self.read_color(*e, *c)));
                         }
                         Aspect::Depth => channels.push(self.read_depth(*index, cell.channels[0])),
                         Aspect::Stencil => {
@@ -379,6 +381,33 @@ impl<'a> Walk<'a> {
             set.worlds.push(WorldBox { channels });
         }
         set
+    }
+
+    /// Returns a colour as it is read back.
+    fn read_color(&self, encoding: ChannelEncoding, stored: CodeInterval) -> CodeInterval {
+        if self.rules.copies.value == Copies::Exact {
+            return stored;
+        }
+        match encoding {
+            // Both codes of -1.
+            ChannelEncoding::Snorm(_) if stored.low <= encoding.min_order() + 1 => {
+                CodeInterval::new(encoding.min_order(), stored.high)
+            }
+            _ if !encoding.is_float() => stored,
+            _ => {
+                let finite = CodeInterval::new(encoding.min_order(), encoding.max_order());
+                if !finite.contains(stored.low) || !finite.contains(stored.high) {
+                    return all_codes(encoding);
+                }
+                // A subnormal value may be flushed to zero.
+                match encoding.least_normal_order() {
+                    least if stored.low.abs() < least || stored.high.abs() < least => {
+                        stored.hull(CodeInterval::exact(0))
+                    }
+                    _ => stored,
+                }
+            }
+        }
     }
 
     /// Returns a depth as it is read back: its code, or the float that a shader reads.

@@ -12,6 +12,7 @@ mod event;
 mod exit_report;
 mod expected_values;
 mod frame_file;
+mod grade;
 mod hunt;
 mod judge;
 mod judgement_cache;

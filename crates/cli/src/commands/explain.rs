@@ -84,7 +84,7 @@ fn explain_texel(
 ) -> bool {
     let scene = case.judged_scene();
     let mut legal = true;
-    for rules in [Rules::of(limits.api), Rules::yardstick(limits)] {
+    for rules in [Rules::of(limits), Rules::yardstick(limits)] {
         let set = judge(scene, limits, &rules);
         let yardstick = rules.name == "yardstick";
         let encodings: Vec<String> = set

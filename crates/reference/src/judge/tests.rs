@@ -35,7 +35,7 @@ fn a_written_depth_of_zero_and_one_is_pinned_and_so_is_what_follows() {
     );
     for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu] {
         let limits = limits(api);
-        for rules in [Rules::of(api), Rules::yardstick(&limits)] {
+        for rules in [Rules::of(&limits), Rules::yardstick(&limits)] {
             let set = judge(&scene, &limits, &rules);
             for (aspect, figures) in set.statistics() {
                 assert_eq!(figures.exact, figures.channels, "{api} {aspect}");
@@ -56,7 +56,11 @@ fn a_vertex_depth_of_one_half_has_two_codes_on_16_bits_and_many_on_24() {
                 "depth":{"compare":"always","write":true}}"#,
             r#""depth""#,
         );
-        let set = judge(&scene, &limits(Api::Vulkan), &Rules::of(Api::Vulkan));
+        let set = judge(
+            &scene,
+            &limits(Api::Vulkan),
+            &Rules::of(&limits(Api::Vulkan)),
+        );
         set.groups[0].sample(1, 1, 0).count(0)
     };
     assert_eq!(of("depth16unorm"), 2);
@@ -72,7 +76,11 @@ fn a_comparison_that_cannot_be_told_leaves_two_joint_outcomes() {
             "params":{"color":[1,1,1,1]},"depth":{"compare":"less","write":true}}"#,
         r#""color","depth""#,
     );
-    let set = judge(&scene, &limits(Api::Vulkan), &Rules::of(Api::Vulkan));
+    let set = judge(
+        &scene,
+        &limits(Api::Vulkan),
+        &Rules::of(&limits(Api::Vulkan)),
+    );
     let sample = set.groups[0].sample(0, 0, 0);
     assert_eq!(sample.worlds.len(), 2);
     let half = 1 << 23;
@@ -92,7 +100,7 @@ fn a_shared_diagonal_is_counted_exactly_once_where_the_rules_say_so() {
     let scene = scene(&attachments, SQUARE, r#""depth""#);
     let legal = |api| {
         let limits = limits(api);
-        let set = judge(&scene, &limits, &Rules::of(api));
+        let set = judge(&scene, &limits, &Rules::of(&limits));
         let sample = set.groups[0].sample(1, 2, 0).clone();
         (0..4)
             .filter(|n| sample.allows(&[*n]))
@@ -132,7 +140,7 @@ fn a_story_names_operations_and_citations() {
         y: 1,
         sample: 0,
     };
-    let story = explain(&scene, &limits, &Rules::of(Api::Vulkan), at);
+    let story = explain(&scene, &limits, &Rules::of(&limits), at);
     let test = story
         .lines
         .iter()

@@ -1,12 +1,15 @@
 //! The quality band, in the spirit of the Direct3D 11.3 functional specification.
 
 use super::permission::{
-    BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
-    Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
+    AlphaToCoverage, BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp,
+    Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };
-use etalon_frame::Api;
+use etalon_frame::{Api, Limits};
 
-pub(super) fn rules(api: Api) -> Rules {
+/// Returns the band for an adapter; `text` are the permissions of its API, which the band does not forbid
+/// where Direct3D asks for something else.
+pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
+    let api = limits.api;
     // WebGPU does not tell the sub-pixel grid, so nothing tighter than the API's rule can be asked.
     let snap = match api {
         Api::WebGpu => Snap::EitherSide,
@@ -14,6 +17,7 @@ pub(super) fn rules(api: Api) -> Rules {
     };
     Rules {
         name: "yardstick",
+        text: "the yardstick",
         // Two units in the last place of a 32-bit float: one rounding each of operand and result.
         float_error: permit(
             f64::from(f32::EPSILON),
@@ -37,6 +41,13 @@ pub(super) fn rules(api: Api) -> Rules {
             BlendPrecision::Float32,
             "Direct3D 11.3: 17.5 Blending Precision, held to 32-bit float",
         ),
+        signed_clamp: permit(text.signed_clamp.value, "Yardstick: as the API's text says"),
+        signed_result: permit(
+            text.signed_result.value,
+            "Yardstick: as the API's text says",
+        ),
+        copies: permit(text.copies.value, "Yardstick: as the API's text says"),
+        srgb_logic: permit(text.srgb_logic.value, "Yardstick: as the API's text says"),
         depth_order: permit(
             DepthOrder::ConvertedFirst,
             "Direct3D 11.3: 17.11 Depth Comparison: convert, then compare",
@@ -70,6 +81,11 @@ pub(super) fn rules(api: Api) -> Rules {
             EarlyUpdates::Happen,
             "Yardstick: forced early tests come first, as Direct3D 11.3 has them (17.3)",
         ),
+        early_coverage: permit(
+            EarlyUpdates::Happen,
+            "Yardstick: forced early tests come first, as Direct3D 11.3 has them (17.3)",
+        ),
+        mask_acts_first: permit(true, "Yardstick: the sample mask comes before all tests"),
         early_counts: permit(
             EarlyUpdates::Happen,
             "Yardstick: forced early tests come first, and counting with them",
@@ -87,8 +103,20 @@ pub(super) fn rules(api: Api) -> Rules {
             "Yardstick: 8 bits of fraction (Direct3D 11.3, 7.18.7 and 7.18.8)",
         ),
         flushes_small_floats: permit(false, "Yardstick: representable values are kept"),
-        shader_runs: "Yardstick: one run for every fragment",
-        alpha_to_coverage: "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",
+        runs_for_discarded: permit(true, "Yardstick: one run for every fragment"),
+        runs_for_overwritten: permit(true, "Yardstick: one run for every fragment"),
+        skips_rejected: permit(true, "Yardstick: one run for every fragment"),
+        runs_once: permit(text.runs_once.value, "Yardstick: as the API's text says"),
+        alpha_to_coverage: permit(
+            AlphaToCoverage::Ends,
+            "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",
+        ),
+        sample_coverage: permit(AlphaToCoverage::Ends, "Yardstick: as alpha to coverage"),
+        frag_coord: permit(text.frag_coord.value, "Yardstick: as the API's text says"),
+        inputs_at_samples: permit(
+            text.inputs_at_samples.value,
+            "Yardstick: as the API's text says",
+        ),
         facing: "Direct3D 11.3: 15.10 Facing: after snapping, zero area is back",
         stencil: "Direct3D 11.3: 17.12 Stencil: integer operations",
         write_mask: "Direct3D 11.3: 17.8 Write Masks",

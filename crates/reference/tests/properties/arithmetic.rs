@@ -120,7 +120,7 @@ pub(crate) fn wider() -> Vec<(Rules, Rules)> {
         let mut wide = yardstick();
         change(&mut wide);
         pairs.push((yardstick(), wide));
-        let mut wide = Rules::of(etalon_frame::Api::Vulkan);
+        let mut wide = Rules::of(&crate::common::limits(etalon_frame::Api::Vulkan));
         let tight = wide.clone();
         change(&mut wide);
         pairs.push((tight, wide));

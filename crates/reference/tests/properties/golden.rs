@@ -38,7 +38,7 @@ fn floats_become_the_codes_of_the_conversion_rules() {
         for api in APIS {
             let due = CodeInterval::new(low, high);
             assert_eq!(
-                stored(&Rules::of(api), encoding, value),
+                stored(&Rules::of(&limits(api)), encoding, value),
                 due,
                 "{api} {encoding} {value}"
             );
