@@ -399,3 +399,38 @@ fn stencil(wire: &StencilWire) -> StencilState {
         back: face(wire.back.as_ref().unwrap_or(&wire.front)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_scene::SampleCoverage;
+
+    #[test]
+    fn shares_of_one_sample_are_allowed_and_senseless_ones_are_not() {
+        let shading = |share| Multisample {
+            min_sample_shading: Some(share),
+            ..Multisample::default()
+        };
+        let coverage = |value| Multisample {
+            sample_coverage: Some(SampleCoverage {
+                value,
+                invert: true,
+            }),
+            ..Multisample::default()
+        };
+        for samples in [1, 4] {
+            assert!(multisample(&shading(1.0), samples).is_ok());
+            assert!(multisample(&shading(1.5), samples).is_err());
+            assert!(multisample(&shading(f32::NAN), samples).is_err());
+            // OpenGL clamps it.
+            assert!(multisample(&coverage(-1.0), samples).is_ok());
+            assert!(multisample(&coverage(f32::INFINITY), samples).is_err());
+        }
+        let masked = Multisample {
+            mask: 1,
+            ..coverage(0.5)
+        };
+        assert!(multisample(&masked, 4).is_ok());
+        assert!(multisample(&masked, 1).is_err());
+    }
+}

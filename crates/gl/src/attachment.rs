@@ -1,7 +1,6 @@
 //! The attachments of a scene and their initial contents.
 
 use crate::context::Context;
-use crate::state;
 use crate::surface::{Surface, upload};
 use etalon_frame::TextureFormat;
 use glow::HasContext;

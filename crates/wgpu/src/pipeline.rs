@@ -236,6 +236,7 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::DepthGrey
         | Shader::DepthLinearized
         | Shader::DepthRange
+        | Shader::FragCoordColor
         | Shader::FrontFacing
         | Shader::SampleDepth
         | Shader::SampleIndex
