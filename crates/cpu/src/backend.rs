@@ -11,6 +11,7 @@ use etalon_frame::{
     standard_sample_positions,
 };
 use etalon_scene::Scene;
+use std::collections::BTreeSet;
 
 /// The rasterizer.
 #[derive(Debug)]
@@ -55,6 +56,7 @@ impl CpuBackend {
                 max_color_attachments: 8,
                 formats,
                 features: Feature::ALL.into_iter().collect(),
+                exempt: BTreeSet::new(),
                 sample_positions: SAMPLES
                     .into_iter()
                     .map(|n| (n, standard_sample_positions(n)))

@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 /// One thing that a scene needs of an adapter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Requirement {
     /// A capability.
@@ -71,7 +71,7 @@ pub struct Limits {
     #[serde(default)]
     pub version: ApiVersion,
     /// The promises that narrow what the specification permits.
-    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    #[serde(default)]
     pub properties: BTreeSet<Property>,
     /// Bits of sub-pixel precision in vertex positions; the API's minimum where it does not tell.
     pub sub_pixel_bits: u8,
@@ -83,6 +83,10 @@ pub struct Limits {
     pub formats: BTreeMap<TextureFormat, FormatSupport>,
     /// Features.
     pub features: BTreeSet<Feature>,
+    /// Requirements that are not met for a reason other than the driver's word: the backend does not
+    /// use what the driver offers, or the driver claims less than the API.
+    #[serde(default)]
+    pub exempt: BTreeSet<Requirement>,
     /// Sample positions in units of 1/256 texel from the top left corner, per sample count.
     pub sample_positions: BTreeMap<u32, Vec<[u16; 2]>>,
 }

@@ -122,6 +122,7 @@ fn limits(context: &Context, probed: &Probed) -> Limits {
         },
         version: version(context.caps.version),
         properties: BTreeSet::new(),
+        exempt: probed.exempt.clone(),
         // OpenGL 4.6, table 23.53: at least 4.
         sub_pixel_bits: u8::try_from(bits).unwrap_or(4).max(4),
         max_size: u32::try_from(max_size).unwrap_or(0),

@@ -11,6 +11,7 @@ mod backend;
 mod bias;
 mod blend;
 mod bounds;
+mod capability;
 mod clear;
 mod counter;
 mod cull;

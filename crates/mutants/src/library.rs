@@ -3,10 +3,10 @@
 use crate::list::List;
 use crate::mutant::Mutant;
 use crate::{
-    bias, blend, bounds, clear, counter, cull, depth, depth_range, discard, dual_source, early,
-    fetch, formats, geometry, invariance, logic, mask, read_only, readback, resolve,
-    sample_coverage, sample_shading, samples, scissor, stencil, sticky, targets, texture, topology,
-    upload, viewport,
+    bias, blend, bounds, capability, clear, counter, cull, depth, depth_range, discard,
+    dual_source, early, fetch, formats, geometry, invariance, logic, mask, read_only, readback,
+    resolve, sample_coverage, sample_shading, samples, scissor, stencil, sticky, targets, texture,
+    topology, upload, viewport,
 };
 use std::sync::LazyLock;
 
@@ -35,6 +35,7 @@ pub fn mutants() -> &'static [Mutant] {
         resolve::add(&mut list);
         scissor::add(&mut list);
         viewport::add(&mut list);
+        capability::add(&mut list);
         clear::add(&mut list);
         geometry::add(&mut list);
         upload::add(&mut list);

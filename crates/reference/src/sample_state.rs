@@ -2,9 +2,10 @@
 
 use crate::interval::Interval;
 use crate::judging::Range;
+use crate::notes::Notes;
 use crate::primitive::Shape;
 use crate::rules::{AlphaToCoverage, FragCoord, Rules};
-use crate::walk::{Notes, Place, Sample, Walk};
+use crate::walk::{Place, Sample, Walk};
 use crate::world::{Decision, World};
 use etalon_pipeline::Point;
 use etalon_scene::{Multisample, SampleCoverage};

@@ -20,6 +20,7 @@ pub(crate) fn limits(api: Api) -> Limits {
         api,
         version: ApiVersion::UNKNOWN,
         properties: Default::default(),
+        exempt: Default::default(),
         sub_pixel_bits: 8,
         max_size: 4096,
         max_color_attachments: 8,

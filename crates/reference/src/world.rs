@@ -1,5 +1,6 @@
 //! Worlds: the consistent stories of one sample.
 
+use crate::primitive::VertexId;
 use etalon_frame::CodeInterval;
 use smallvec::SmallVec;
 
@@ -36,8 +37,8 @@ pub(crate) enum Decision {
         /// The draw, counted over the scene. The invariance rules do not reach across draws whose
         /// state differs, so neither does a choice.
         draw: u32,
-        /// The positions, the lower number first.
-        ends: (u64, u64),
+        /// The positions, the lower one first.
+        ends: (VertexId, VertexId),
         /// The primitive, where the rules let each decide for itself.
         owner: Option<u32>,
     },

@@ -30,6 +30,7 @@ pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, Str
                 api,
                 version: etalon_frame::ApiVersion::UNKNOWN,
                 properties: Default::default(),
+                exempt: Default::default(),
                 sub_pixel_bits: 0,
                 max_size: 0,
                 max_color_attachments: 0,

@@ -52,6 +52,7 @@ fn devices_are_enumerated_and_open() {
             platform: Platform::Device(software.index),
             library: None,
             debug: false,
+            read_fault: None,
         };
         let backend = open("gl:device", &options).expect("the software device opens");
         // Through a device it has four samples of fewer formats.

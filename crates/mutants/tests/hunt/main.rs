@@ -34,6 +34,7 @@ classes! {
     bias = "bias",
     blend = "blend",
     bounds = "bounds",
+    capability = "capability",
     clear = "clear",
     counter = "counter",
     cull = "cull",

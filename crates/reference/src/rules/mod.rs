@@ -10,6 +10,7 @@ mod invariance;
 mod opengl;
 mod opengl_es;
 mod permission;
+pub mod required;
 mod vulkan;
 mod webgpu;
 mod yardstick;

@@ -46,6 +46,11 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             text.signed_result.value,
             "Yardstick: as the API's text says",
         ),
+        clamps_constant: permit(
+            text.clamps_constant.value,
+            "Yardstick: as the API's text says",
+        ),
+        masks_reference: permit(true, "Yardstick: as Direct3D 11.3 has it (17.12)"),
         copies: permit(text.copies.value, "Yardstick: as the API's text says"),
         srgb_logic: permit(text.srgb_logic.value, "Yardstick: as the API's text says"),
         depth_order: permit(
@@ -54,9 +59,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1.001),
-                unorm: (0.999, 1.001),
-                float: (0.999, 1.001),
+                unorm16: &[(0.999, 1.001)],
+                unorm: &[(0.999, 1.001)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
             "Direct3D 11.3: 15.10 Depth Bias: 1/2^n, for floats 2^(e-23)",
         ),

@@ -420,3 +420,45 @@ fn a_sampled_judgement_is_the_full_one_where_it_looks() {
         }
     }
 }
+
+#[test]
+fn the_nearest_texel_of_a_drawn_texture_is_followed() {
+    let scene = scene(
+        r#"{"attachments":{
+            "texture":{"format":"rgba8unorm","size":[4,4],"clear":[0,0,0,1]},
+            "color":{"format":"rgba8unorm","size":[8,8],"clear":[0,0,0,0]}},
+            "passes":[
+            {"color":["texture"],"draws":[{"mesh":{"kind":"columns","values":[[1,0,0,1],[0,1,0,1],[0,0,1,1],[1,1,1,0]]},
+              "shader":"flat_color"}]},
+            {"color":["color"],"draws":[{"mesh":{"kind":"cover","uv":[0,0,2,1]},"shader":"sampled_color",
+              "textures":["texture"],"sampler":{"filter":"nearest","address":["repeat","clamp-to-edge"]}}]}],
+            "read":["color"]}"#,
+    );
+    legal(&scene);
+    for api in APIS {
+        for judgement in judgements(&scene, &limits(api)) {
+            assert!(is_exact(&judgement.legal), "{api:?}");
+            assert!(is_exact(&judgement.yardstick), "{api:?}");
+        }
+    }
+}
+
+#[test]
+fn a_texel_between_two_of_a_drawn_texture_is_either() {
+    // The coordinate of the middle columns is the border of two texels.
+    let scene = scene(
+        r#"{"attachments":{
+            "texture":{"format":"rgba8unorm","size":[2,2],"clear":[0,0,0,1]},
+            "color":{"format":"rgba8unorm","size":[1,1],"clear":[0,0,0,0]}},
+            "passes":[
+            {"color":["texture"],"draws":[{"mesh":{"kind":"columns","values":[[1,0,0,1],[0,1,0,1]]},"shader":"flat_color"}]},
+            {"color":["color"],"draws":[{"mesh":{"kind":"cover"},"shader":"sampled_color",
+              "textures":["texture"],"sampler":{"filter":"nearest","address":["repeat","repeat"]}}]}],
+            "read":["color"]}"#,
+    );
+    for judgement in judgements(&scene, &limits(etalon_frame::Api::Vulkan)) {
+        let set = judgement.legal.groups[0].sample(0, 0, 0);
+        assert!(set.allows(&[255, 0, 0, 255]) && set.allows(&[0, 255, 0, 255]));
+        assert!(!set.allows(&[0, 0, 255, 255]));
+    }
+}

@@ -108,6 +108,7 @@ pub(crate) fn run(made: &[Made]) -> Run {
             api: Api::Vulkan,
             version: etalon_frame::ApiVersion::new(1, 3),
             properties: Default::default(),
+            exempt: Default::default(),
             sub_pixel_bits: 8,
             max_size: 1024,
             max_color_attachments: 4,

@@ -14,7 +14,6 @@ pub(crate) fn offers(backend: &dyn Backend) {
         Feature::DepthClamp,
         Feature::DualSourceBlending,
         Feature::ForcedEarlyTests,
-        Feature::PolygonModeLine,
         Feature::ViewportOutside,
     ];
     let name = backend.adapter().name.as_str();

@@ -66,6 +66,7 @@ pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
             api,
             version: etalon_frame::ApiVersion::UNKNOWN,
             properties: Default::default(),
+            exempt: Default::default(),
             sub_pixel_bits: 8,
             max_size: 16384,
             max_color_attachments: 8,
