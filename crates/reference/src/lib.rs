@@ -21,6 +21,7 @@ mod notes;
 mod primitive;
 mod rejections;
 pub mod rules;
+mod sample_state;
 mod sampling;
 mod setup;
 mod snap;

@@ -10,7 +10,7 @@ use crate::rules::{Copies, Rules};
 use crate::setup::{self, DrawSetup};
 use crate::snap::units_per_texel;
 use crate::texels::Texels;
-use crate::world::{Cell, World, merge};
+use crate::world::{Cell, Decision, World, merge};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Limits, ReadPath, TexelSet, WorldBox};
 use etalon_pipeline::{Arithmetic, Point};
 use etalon_scene::{Draw, Scene};
@@ -271,10 +271,13 @@ impl<'a> Walk<'a> {
                     }
                 }
                 self.note_skipped(notes, (p, d, draw), skipped);
-                // No later draw refers to this one's choices.
-                worlds.iter_mut().for_each(|w| w.decisions.clear());
+                // No later draw refers to this one's edges.
+                let outlives = |(decision, _): &mut (Decision, bool)| decision.outlives_its_draw();
+                worlds.iter_mut().for_each(|w| w.decisions.retain(outlives));
                 merge(&mut worlds);
             }
+            worlds.iter_mut().for_each(|w| w.decisions.clear());
+            merge(&mut worlds);
             for (source, target) in pass.color.iter().zip(&pass.resolve) {
                 let Some(target) = *target else { continue };
                 let attachment = &self.scene.attachments[target];
@@ -325,7 +328,7 @@ impl<'a> Walk<'a> {
         parts.join(", ")
     }
 
-    fn sample_point(&self, at: Sample) -> Point {
+    pub(crate) fn sample_point(&self, at: Sample) -> Point {
         let position = self
             .limits
             .sample_positions

@@ -117,6 +117,12 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             AlphaToCoverage::Ends,
             "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",
         ),
+        sample_coverage: permit(AlphaToCoverage::Ends, "Yardstick: as alpha to coverage"),
+        frag_coord: permit(text.frag_coord.value, "Yardstick: as the API's text says"),
+        inputs_at_samples: permit(
+            text.inputs_at_samples.value,
+            "Yardstick: as the API's text says",
+        ),
         facing: "Direct3D 11.3: 15.10 Facing: after snapping, zero area is back",
         stencil: "Direct3D 11.3: 17.12 Stencil: integer operations",
         write_mask: "Direct3D 11.3: 17.8 Write Masks",
