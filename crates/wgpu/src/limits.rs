@@ -27,7 +27,6 @@ pub(crate) fn used_features() -> Features {
         | Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
         | Features::DUAL_SOURCE_BLENDING
         | Features::DEPTH_CLIP_CONTROL
-        | Features::POLYGON_MODE_LINE
         | Features::PIPELINE_STATISTICS_QUERY
         | Features::SHADER_EARLY_DEPTH_TEST
 }
@@ -163,7 +162,7 @@ fn support(
 
 /// Returns the features that wgpu offers beyond WebGPU's minimum. It lacks or refuses the rest:
 /// reversed depth ranges, mirrored viewports, scissors beyond the attachments, factors of `min` and
-/// `max`, counts of samples.
+/// `max`, counts of samples, sample coverage, least shares of sample shading.
 ///
 /// Shaders with early-test attributes keep them in translation, since the wgpu feature requires the
 /// GLSL versions that have them. What wgpu offers and then refuses fails its cases.
@@ -198,10 +197,8 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
             Feature::IndependentBlend,
             flag(DownlevelFlags::INDEPENDENT_BLEND),
         ),
-        (
-            Feature::PolygonModeLine,
-            feature(Features::POLYGON_MODE_LINE),
-        ),
+        // WebGPU has no polygon modes; a native feature of wgpu answers to no text.
+        (Feature::PolygonModeLine, false),
         (
             Feature::SampleShading,
             flag(DownlevelFlags::MULTISAMPLED_SHADING),

@@ -2,8 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
-    Snap, SrgbLogic, narrowed, permit,
+    FactorClamp, FragCoord, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted,
+    SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits};
 
@@ -32,6 +32,15 @@ impl Text {
             Self::V45 => v45,
             Self::V46 => v46,
         }
+    }
+}
+
+/// Returns a rule on the runs of shaders: 4.6 contradicts itself where 4.5 does not. Older contexts have
+/// storage by an extension, whose text is that of 4.5.
+fn run_rule(text: Text, v45: &'static str, v46: &'static str) -> Permission<bool> {
+    match text {
+        Text::V46 => narrowed(true, false, Grade::Disputed, v46),
+        Text::V33 | Text::V45 => permit(true, v45),
     }
 }
 
@@ -131,6 +140,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.5, 4.6: 17.3.6 Blending, 2.3.5.2: signed buffers hold [-1,1]; 17.3.7 sRGB Conversion clamps every fixed-point result to [0,1]",
             ),
         },
+        clamps_constant: match old {
+            true => permit(true, "OpenGL 3.3: 4.1.7 Blend Color: the constant is a clampf"),
+            false => permit(false, "OpenGL: 17.3.6.5 Blend Color: the constant is stored as it is"),
+        },
+        masks_reference: permit(true, "OpenGL: 17.3.3 Stencil Test (3.3: 4.1.4): the mask is applied to both the reference and the stored value"),
         copies: permit(
             Copies::Exact,
             "OpenGL: 18.2.8 Final Conversion (3.3: 4.3.1 Reading Pixels): a stored code is read back as its value, which has one code",
@@ -161,14 +175,15 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1e9),
-                unorm: (0.999, 1e9),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 1e9)],
+                unorm: &[(0.999, 1e9)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
             text.cite([
-                "OpenGL 3.3: 3.6.4 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
-                "OpenGL 4.5: 14.6.5 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
-                "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
+                "OpenGL 3.3: 3.6.4 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL 4.5: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
             ]),
         ),
         depth_range: permit(
@@ -275,45 +290,25 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
             ]),
         ),
-        runs_for_discarded: narrowed(
-            true,
-            false,
-            Grade::Disputed,
-            text.cite([
-                "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader; 15.2 Shader Execution lets runs be skipped if rendering is otherwise the same",
-                "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader; 15.2 Shader Execution lets runs be skipped if rendering is otherwise the same",
-                "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader; 15.2 Shader Execution lets runs be skipped if rendering is otherwise the same",
-            ]),
+        runs_for_discarded: run_rule(
+            text,
+            "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader",
+            "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader; 15.2 Shader Execution lets runs be skipped if rendering is otherwise the same",
         ),
-        runs_for_overwritten: narrowed(
-            true,
-            false,
-            Grade::Disputed,
-            text.cite([
-                "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader; 15.2 Shader Execution lets runs be skipped if rendering is otherwise the same",
-                "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader; 15.2 Shader Execution lets runs be skipped if rendering is otherwise the same",
-                "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader; 15.2 Shader Execution lets runs be skipped if rendering is otherwise the same",
-            ]),
+        runs_for_overwritten: run_rule(
+            text,
+            "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader",
+            "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader; 15.2 Shader Execution lets runs be skipped if rendering is otherwise the same",
         ),
-        skips_rejected: narrowed(
-            true,
-            false,
-            Grade::Disputed,
-            text.cite([
-                "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: no run for a fragment that early tests discard; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
-                "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: no run for a fragment that early tests discard; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
-                "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: no run for a fragment that early tests discard; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
-            ]),
+        skips_rejected: run_rule(
+            text,
+            "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: no run for a fragment that early tests discard",
+            "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: no run for a fragment that early tests discard; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
         ),
-        runs_once: narrowed(
-            true,
-            false,
-            Grade::Disputed,
-            text.cite([
-                "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
-                "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
-                "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
-            ]),
+        runs_once: run_rule(
+            text,
+            "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample",
+            "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
         ),
         alpha_to_coverage: match old {
             true => permit(
@@ -331,6 +326,38 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 ]),
             ),
         },
+        sample_coverage: match old {
+            true => permit(
+                AlphaToCoverage::Any,
+                "OpenGL 3.3: 4.1.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; that the ends give none and all is intended",
+            ),
+            false => narrowed(
+                AlphaToCoverage::Ends,
+                AlphaToCoverage::Any,
+                Grade::RequiredByCts,
+                text.cite([
+                    "OpenGL 3.3: 4.1.3 Multisample Fragment Operations",
+                    "OpenGL 4.5: 14.9.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GL45-ES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                    "OpenGL 4.6: 14.9.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GL45-ES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                ]),
+            ),
+        },
+        frag_coord: permit(
+            FragCoord::Inputs,
+            text.cite([
+                "OpenGL 3.3: 3.3.1 Multisampling: associated data anywhere within the pixel",
+                "OpenGL 4.5: 14.3.1 Multisampling: associated data anywhere within the pixel",
+                "OpenGL 4.6: 14.3.1 Multisampling: associated data anywhere within the pixel",
+            ]),
+        ),
+        inputs_at_samples: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: ARB_sample_shading, 3.3.1: with a share of 1, each sample's data is evaluated at its location",
+                "OpenGL 4.5: 14.3.1.1 Sample Shading: with a share of 1, each sample's data is evaluated at its location",
+                "OpenGL 4.6: 14.3.1.1 Sample Shading: with a share of 1, each sample's data is evaluated at its location",
+            ]),
+        ),
         facing: text.cite([
             "OpenGL 3.3: 3.6.1 Basic Polygon Rasterization: front by the sign of the area",
             "OpenGL 4.5: 14.6.1 Basic Polygon Rasterization: front by the sign of the area",

@@ -2,8 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
-    Snap, SrgbLogic, narrowed, permit,
+    FactorClamp, FragCoord, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits};
 
@@ -50,7 +50,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         shader_error: permit(
             3.0 * f64::from(f32::EPSILON),
             text.cite([
-                "OpenGL ES Shading Language 3.00: 4.7.1 Range and Precision: sums and products correctly rounded, quotients within 2.5 ULP",
+                "OpenGL ES Shading Language 3.00: 4.5.1 Range and Precision: sums and products correctly rounded, quotients within 2.5 ULP",
                 "OpenGL ES Shading Language 3.10: 4.7.1 Range and Precision: sums and products correctly rounded, quotients within 2.5 ULP",
                 "OpenGL ES Shading Language 3.20: 4.7.1 Range and Precision: sums and products correctly rounded, quotients within 2.5 ULP",
             ]),
@@ -66,7 +66,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         snap: permit(
             Snap::EitherSide,
             text.cite([
-                "OpenGL ES 3.0: table 6.28 SUBPIXEL_BITS: the rounding to the grid is not stated",
+                "OpenGL ES 3.0: tables of chapter 6, SUBPIXEL_BITS: the rounding to the grid is not stated",
                 "OpenGL ES 3.1: table 20.40 SUBPIXEL_BITS: the rounding to the grid is not stated",
                 "OpenGL ES 3.2: table 21.40 SUBPIXEL_BITS: the rounding to the grid is not stated",
             ]),
@@ -90,7 +90,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         blend: permit(
             BlendPrecision::DestinationCodes,
             text.cite([
-                "OpenGL ES 3.0: 4.1.7 Blending: precision and dynamic range no lower than that used to represent destination components",
+                "OpenGL ES 3.0: 4.1.7.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
                 "OpenGL ES 3.1: 15.1.5.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
                 "OpenGL ES 3.2: 15.1.5.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
             ]),
@@ -103,6 +103,8 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             SignedClamp::Signed,
             "OpenGL ES: EXT_render_snorm: clamped to [-1,1] for signed buffers",
         ),
+        clamps_constant: permit(false, "OpenGL ES: 15.1.5.4 Blend Color (3.0: 4.1.7.3, 3.1: 15.1.5.3): the constant is stored as it is"),
+        masks_reference: permit(true, "OpenGL ES: 15.1.2 Stencil Test (3.0: 4.1.4): the mask is applied to both the reference and the stored value"),
         copies: permit(
             Copies::Exact,
             "OpenGL ES: 16.1.5 Final Conversion (3.0: 4.3.2 Reading Pixels): a stored code is read back as its value, which has one code",
@@ -121,20 +123,21 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1e9),
-                unorm: (0.999, 1e9),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 1e9)],
+                unorm: &[(0.999, 1e9)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
             text.cite([
-                "OpenGL ES 3.0: 3.6.2 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
-                "OpenGL ES 3.1: 13.5.2 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
-                "OpenGL ES 3.2: 13.7.2 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
+                "OpenGL ES 3.0: 3.6.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL ES 3.1: 13.5.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL ES 3.2: 13.7.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
             ]),
         ),
         depth_range: permit(
             DepthRange::Unit,
             text.cite([
-                "OpenGL ES 3.0: 3.9.2 Shader Execution, 3.6.2 Depth Offset: a written or offset depth is held to 0 and 1",
+                "OpenGL ES 3.0: 3.9.2.3 Shader Outputs, 3.6.2 Depth Offset: a written or offset depth is held to 0 and 1",
                 "OpenGL ES 3.1: 14.2.3 Shader Outputs, 13.5.2 Depth Offset: a written or offset depth is held to 0 and 1",
                 "OpenGL ES 3.2: 14.2.3 Shader Outputs, 13.7.2 Depth Offset: a written or offset depth is held to 0 and 1",
             ]),
@@ -274,6 +277,32 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.0: 4.1.3 Multisample Fragment Operations: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
                 "OpenGL ES 3.1: 15.1.1 Alpha To Coverage: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
                 "OpenGL ES 3.2: 15.1.1 Alpha To Coverage: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
+            ]),
+        ),
+        sample_coverage: narrowed(
+            AlphaToCoverage::Ends,
+            AlphaToCoverage::Any,
+            Grade::RequiredByCts,
+            text.cite([
+                "OpenGL ES 3.0: 4.1.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GLES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                "OpenGL ES 3.1: 13.6.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GLES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                "OpenGL ES 3.2: 13.8.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GLES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+            ]),
+        ),
+        frag_coord: permit(
+            FragCoord::Inputs,
+            text.cite([
+                "OpenGL ES 3.0: 3.3 Multisampling: associated data anywhere within the pixel",
+                "OpenGL ES 3.1: 13.2.1 Multisampling: associated data anywhere within the pixel",
+                "OpenGL ES 3.2: 13.4 Multisampling: associated data anywhere within the pixel",
+            ]),
+        ),
+        inputs_at_samples: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: OES_sample_shading, 3.3.1: with a share of 1, each sample's inputs are evaluated at its location",
+                "OpenGL ES 3.1: OES_sample_shading, 3.3.1: with a share of 1, each sample's inputs are evaluated at its location",
+                "OpenGL ES 3.2: 13.4.1 Sample Shading: with a share of 1, each sample's inputs are evaluated at its location",
             ]),
         ),
         facing: text.cite([

@@ -2,9 +2,10 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
-    Snap, SrgbLogic, permit,
+    FactorClamp, FragCoord, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
+use etalon_frame::Grade;
 
 pub(super) fn rules() -> Rules {
     Rules {
@@ -49,6 +50,16 @@ pub(super) fn rules() -> Rules {
             SignedClamp::Signed,
             "WebGPU: silent on stores to signed formats; Vulkan clamps to [-1,1]",
         ),
+        clamps_constant: permit(
+            false,
+            "WebGPU: 23.2.7 Output Merging: the constant is the one that was set",
+        ),
+        masks_reference: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "WebGPU: 10.3.6 Depth/Stencil State: stencilReadMask masks what is read; that the reference is masked too, as in Vulkan and OpenGL, no sentence says",
+        ),
         copies: permit(
             Copies::SameNumbers,
             "WebGPU: 11 Copies, Texel Copies: -1 may be either of its codes; only finite, normal values survive",
@@ -60,11 +71,14 @@ pub(super) fn rules() -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1.001),
-                unorm: (0.999, 2.001),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 1.001)],
+                unorm: &[(0.999, 2.001)],
+                // As Vulkan, Direct3D and Metal have it, or by the letter: 2^(exponent - r) with r the
+                // least positive float, which is 2^exponent.
+                float: &[(0.999, 1.001), (0.999 * 8_388_608.0, 1.001 * 8_388_608.0)],
+                assumed: None,
             },
-            "WebGPU: GPUDepthStencilState, biased fragment depth: r is the least positive value of a unorm format; which one depth24plus is, and the float unit, are not told, so as Vulkan has them",
+            "WebGPU: GPUDepthStencilState, biased fragment depth: r is the least positive value of a unorm format; which one depth24plus is, is not told, so as Vulkan has it; of floats 2^(e-23), or 2^e as the text says by its letter (gpuweb#6350)",
         ),
         depth_range: permit(
             DepthRange::ViewportIfWritten,
@@ -134,6 +148,18 @@ pub(super) fn rules() -> Rules {
         alpha_to_coverage: permit(
             AlphaToCoverage::Ends,
             "WebGPU: 23.2.9 Alpha to Coverage: alpha 0 gives no sample and alpha 1 all",
+        ),
+        sample_coverage: permit(
+            AlphaToCoverage::Ends,
+            "WebGPU: has no sample coverage; as OpenGL 4.6: 14.9.3",
+        ),
+        frag_coord: permit(
+            FragCoord::Inputs,
+            "WebGPU: silent on the point of several samples; OpenGL 4.6, 14.3.1 leaves it open",
+        ),
+        inputs_at_samples: permit(
+            false,
+            "WebGPU: silent on sample shading by a share; Vulkan leaves the point open",
         ),
         facing: "WebGPU: 23.2.5.4 Polygon Rasterization: front by the sign of the area; zero area \
                  is back",

@@ -14,7 +14,6 @@ pub(crate) fn offers(backend: &dyn Backend) {
         Feature::DepthClamp,
         Feature::DualSourceBlending,
         Feature::ForcedEarlyTests,
-        Feature::PolygonModeLine,
         // Of softpipe's GLSL 330 wgpu says so too, and then does not translate it.
         Feature::StorageCounters,
         Feature::ViewportOutside,
