@@ -123,6 +123,10 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
         // Every version has it as a texture: an exact source of values even if it is not drawable.
         return done(&[], false, &[], ReadPlan::Fetched);
     }
+    // Without its extension ES has no rules for what is drawn to it.
+    if format == TextureFormat::Rgba8Snorm && !context.caps.snorm_attachments {
+        return None;
+    }
     if !surface.is_complete() || !has_promised_channels(context, surface, format) {
         return None;
     }
