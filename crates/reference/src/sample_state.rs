@@ -1,5 +1,6 @@
 //! Sample shading and sample coverage: where a fragment's inputs lie, and the samples that a share draws.
 
+use crate::clause::Rejection;
 use crate::interval::Interval;
 use crate::judging::Range;
 use crate::notes::Notes;
@@ -97,21 +98,25 @@ impl Walk<'_> {
             0.0 | 1.0 if ends => Some(value > 0.0),
             _ => world.decided(decision),
         };
-        notes.add(
-            || place.name(),
-            "sample coverage",
-            || {
-                let sample = place.at.sample;
-                let word = match known.map(|covered| covered != invert) {
-                    Some(true) => "is drawn",
-                    Some(false) => "is not drawn",
-                    None => "may or may not be drawn",
-                };
-                let of = if invert { "inverted " } else { "" };
-                format!("by the {of}share {value}, sample {sample} {word}")
-            },
-            Some(self.rules.sample_coverage.citation),
-        );
+        let drawn = known.map(|covered| covered != invert);
+        if drawn != Some(true) {
+            self.note_rejection(
+                notes,
+                place,
+                Rejection::SampleCoverage,
+                drawn.is_some(),
+                &|| {
+                    let sample = place.at.sample;
+                    let of = if invert { "inverted share" } else { "share" };
+                    let word = if drawn.is_some() {
+                        "leaves"
+                    } else {
+                        "may leave"
+                    };
+                    format!("the {of} {value} {word} sample {sample} out")
+                },
+            );
+        }
         match known {
             Some(covered) => smallvec![(world, covered != invert)],
             None => [true, false]

@@ -197,6 +197,12 @@ fn opengl(rows: &mut Vec<Required>) {
         "OpenGL 4.5: chapter 23, MAX_FRAGMENT_SHADER_STORAGE_BLOCKS is at least 8",
         [Has(Feature::StorageCounters)],
     );
+    add(
+        rows,
+        since,
+        "OpenGL 4.5: 14.3.1.1 Sample Shading",
+        [Has(Feature::MinSampleShading)],
+    );
 }
 
 fn opengl_es(rows: &mut Vec<Required>) {
@@ -237,6 +243,12 @@ fn opengl_es(rows: &mut Vec<Required>) {
         since,
         "OpenGL ES 3.2: chapter 21, MAX_FRAGMENT_SHADER_STORAGE_BLOCKS is at least 4",
         [Has(Feature::StorageCounters)],
+    );
+    add(
+        rows,
+        since,
+        "OpenGL ES 3.2: 13.4.1 Sample Shading",
+        [Has(Feature::MinSampleShading)],
     );
 }
 
