@@ -141,10 +141,9 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
 
 /// Returns the way to read single-sample surfaces of a format; `None` if the context has no exact one.
 ///
-/// OpenGL converts to any format and type, so the layout of uploads returns each code (4.5 and 4.6,
-/// 18.2.8, with read color clamping off). Before, a type other than a float clamps signed values to
-/// 0..=1 (3.3, 4.3.1, Final Conversion), so those are read as floats, in which both codes of -1 are one
-/// value.
+/// OpenGL converts to any format and type, so the layout of uploads returns each code (4.6, 18.2.8, with
+/// read color clamping off). Before 4.2 a type other than a float clamps signed values to 0..=1 (3.3,
+/// 4.3.1, Final Conversion), so those are read as floats, in which both codes of -1 are one value.
 ///
 /// ES has four bytes for normalized formats, the packed type for `rgb10a2unorm` and floats for floats
 /// (ES 3.2, 16.1.2). No type of it returns negative values (16.1.5), depth or stencil: a shader fetches
@@ -176,7 +175,7 @@ fn read_plan(
     Some(match first {
         ChannelEncoding::Uint(_) => ReadPlan::Integers,
         ChannelEncoding::Snorm(_) if caps.es => ReadPlan::Fetched,
-        ChannelEncoding::Snorm(_) if caps.version < (4, 5) => ReadPlan::Floats,
+        ChannelEncoding::Snorm(_) if caps.version < (4, 2) => ReadPlan::Floats,
         _ if !caps.es || format == TextureFormat::Rgb10a2Unorm => ReadPlan::Packed,
         ChannelEncoding::Unorm(_) | ChannelEncoding::Srgb8 => ReadPlan::Bytes,
         _ => ReadPlan::Floats,

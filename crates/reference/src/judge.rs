@@ -9,7 +9,7 @@ use crate::walk::{Sample, Walk};
 use etalon_frame::{
     CountRange, Frame, LegalSet, LegalSetBuilder, Limits, Story, StoryLine, TexelSet,
 };
-use etalon_scene::Scene;
+use etalon_scene::{Draw, Scene};
 
 /// Both bands of one scene for one possible set of limits.
 #[derive(Clone, Debug)]
@@ -23,6 +23,9 @@ pub struct Judgement {
     /// The number of judged samples of all images of one size, summed over sizes and sample counts. Of
     /// others nothing is asserted.
     pub looked_at: u64,
+    /// The rules of the legal set, with what was assumed of them.
+    pub rules: Rules,
+    pub(crate) texels: Texels,
 }
 
 /// Returns both bands of a scene, once per depth encoding that the adapter may have.
@@ -38,7 +41,8 @@ pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judg
         .alternatives(&scene.formats())
         .into_iter()
         .map(|limits| {
-            let legal = judge_some(scene, &limits, &Rules::of(&limits), texels);
+            let rules = Rules::of(&limits);
+            let legal = judge_some(scene, &limits, &rules, texels);
             let yardstick = judge_some(scene, &limits, &Rules::yardstick(&limits), texels);
             let groups = legal.groups.iter();
             Judgement {
@@ -48,6 +52,8 @@ pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judg
                 legal,
                 yardstick,
                 limits,
+                rules,
+                texels,
             }
         })
         .collect()
@@ -170,7 +176,14 @@ fn told(
     at: Sample,
     frame: Option<&Frame>,
 ) -> (TexelSet, Vec<StoryLine>, Vec<Note>) {
-    let walk = Walk::new(scene, limits, rules, Texels::One([at.x, at.y]));
+    // A sampler may read what was drawn to other texels.
+    let samples = |draw: &Draw| draw.sampler.is_some();
+    let mut later = scene.passes.iter().skip(1).flat_map(|p| &p.draws);
+    let texels = match later.any(samples) {
+        true => Texels::All,
+        false => Texels::One([at.x, at.y]),
+    };
+    let walk = Walk::new(scene, limits, rules, texels);
     let mut notes = Vec::new();
     let set = walk.sample(at, &mut notes);
     let initial = walk.initial(at, &mut Notes(None));

@@ -177,6 +177,15 @@ impl<'r> Judging<'r> {
             encoding.position(held)
         };
         if let (Some(low), Some(high)) = (position(value.low), position(value.high)) {
+            // The code before rounding, f * (2^b - 1), is itself computed. Ends of the range are exact by
+            // the text, and what was rounded to codes before is no result of floating-point.
+            let is_computed = slack == 0.0 && encoding.normalized_range().is_some();
+            let error = if is_computed { self.error() } else { 0.0 };
+            let off = |at: f64| match at == ends.1 || at == -ends.1 {
+                true => 0.0,
+                false => at.abs() * error,
+            };
+            let (low, high) = (low - off(low), high + off(high));
             let (low, high) = match self.rules.store.value {
                 Rounding::EitherNeighbour => ((low + slack).floor(), (high - slack).ceil()),
                 Rounding::Within(codes) => ((low - codes).ceil(), (high + codes).floor()),

@@ -10,7 +10,7 @@ use crate::rules::{Copies, Rules};
 use crate::setup::{self, DrawSetup};
 use crate::snap::units_per_texel;
 use crate::texels::Texels;
-use crate::world::{Cell, World, merge};
+use crate::world::{Cell, Decision, World, merge};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Limits, ReadPath, TexelSet, WorldBox};
 use etalon_pipeline::{Arithmetic, Point};
 use etalon_scene::{Draw, Scene};
@@ -21,7 +21,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 /// One sample of the attachments of one shape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Sample {
     /// The attachments' width and height.
     pub size: [u32; 2],
@@ -37,8 +37,8 @@ pub struct Sample {
 
 pub(crate) type Worlds = SmallVec<[World; 2]>;
 
-/// Worlds by samples per texel, sample and passes; `None` if the sample is open.
-type Known = HashMap<(u32, u32, usize), Option<Rc<Worlds>>>;
+/// Worlds by sample and passes; `None` if the sample is open.
+type Known = HashMap<(Sample, usize), Option<Rc<Worlds>>>;
 
 /// True if a texel lies inside a draw's scissor rectangle.
 fn in_scissor(draw: &Draw, at: Sample) -> bool {
@@ -53,7 +53,9 @@ pub(crate) struct Walk<'a> {
     /// Per pass and draw.
     setups: Vec<Vec<DrawSetup>>,
     pub(crate) units: i64,
-    /// The samples of the current texel after some passes, as far as they were needed.
+    /// The judged texels.
+    pub(crate) texels: Texels,
+    /// The samples after some passes that the current texel needed.
     known: RefCell<Known>,
 }
 
@@ -120,14 +122,15 @@ impl<'a> Walk<'a> {
             rules,
             setups,
             units: units_per_texel(limits),
+            texels,
             known: RefCell::default(),
         }
     }
 
-    /// Returns another sample of the current texel after the first passes; `None` if it is open. Cached,
-    /// since passes that read or resolve earlier ones need the same repeatedly.
+    /// Returns another sample after the first passes; `None` if it is open. Cached, since passes that read
+    /// or resolve earlier ones need the same repeatedly.
     pub(crate) fn earlier(&self, at: Sample, passes: usize) -> Option<Rc<Worlds>> {
-        let key = (at.samples, at.sample, passes);
+        let key = (at, passes);
         if let Some(known) = self.known.borrow().get(&key) {
             return known.clone();
         }
@@ -268,10 +271,13 @@ impl<'a> Walk<'a> {
                     }
                 }
                 self.note_skipped(notes, (p, d, draw), skipped);
-                // No later draw refers to this one's choices.
-                worlds.iter_mut().for_each(|w| w.decisions.clear());
+                // No later draw refers to this one's edges.
+                let outlives = |(decision, _): &mut (Decision, bool)| decision.outlives_its_draw();
+                worlds.iter_mut().for_each(|w| w.decisions.retain(outlives));
                 merge(&mut worlds);
             }
+            worlds.iter_mut().for_each(|w| w.decisions.clear());
+            merge(&mut worlds);
             for (source, target) in pass.color.iter().zip(&pass.resolve) {
                 let Some(target) = *target else { continue };
                 let attachment = &self.scene.attachments[target];
@@ -322,7 +328,7 @@ impl<'a> Walk<'a> {
         parts.join(", ")
     }
 
-    fn sample_point(&self, at: Sample) -> Point {
+    pub(crate) fn sample_point(&self, at: Sample) -> Point {
         let position = self
             .limits
             .sample_positions
@@ -451,7 +457,7 @@ fn note_other_attachments(
     );
 }
 
-fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {
+pub(crate) fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {
     let format = scene.attachments[attachment].format;
     let of = |encodings: &[ChannelEncoding]| encodings.first().copied();
     limits

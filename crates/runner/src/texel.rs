@@ -26,13 +26,13 @@ pub fn judge_texel(
         let Some(frame) = frame else {
             return Ok((judgements.swap_remove(0), None));
         };
-        let (mut comparison, judgement) = best(&judgements, frame)?;
+        let (mut comparison, judgement) = best(scene, &judgements, frame)?;
         if comparison.worst() == Some(Band::Fail)
             && let Some(grades) = Grades::of(scene, limits, texels, frame)
         {
             regrade(&mut comparison, &grades);
         }
-        Ok((judgement.clone(), Some(comparison)))
+        Ok((judgement.into_owned(), Some(comparison)))
     };
     let (judgement, mut comparison) = of(Texels::One(texel))?;
     if let Some(comparison) = &mut comparison

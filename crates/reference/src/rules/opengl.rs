@@ -2,8 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
-    SignedClamp, Snap, SrgbLogic, narrowed, permit,
+    FactorClamp, FragCoord, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted,
+    SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits};
 
@@ -175,14 +175,15 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1e9),
-                unorm: (0.999, 1e9),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 1e9)],
+                unorm: &[(0.999, 1e9)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
             text.cite([
-                "OpenGL 3.3: 3.6.4 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
-                "OpenGL 4.5: 14.6.5 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
-                "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
+                "OpenGL 3.3: 3.6.4 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL 4.5: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
             ]),
         ),
         depth_range: permit(
@@ -325,6 +326,38 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 ]),
             ),
         },
+        sample_coverage: match old {
+            true => permit(
+                AlphaToCoverage::Any,
+                "OpenGL 3.3: 4.1.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; that the ends give none and all is intended",
+            ),
+            false => narrowed(
+                AlphaToCoverage::Ends,
+                AlphaToCoverage::Any,
+                Grade::RequiredByCts,
+                text.cite([
+                    "OpenGL 3.3: 4.1.3 Multisample Fragment Operations",
+                    "OpenGL 4.5: 14.9.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GL45-ES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                    "OpenGL 4.6: 14.9.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GL45-ES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                ]),
+            ),
+        },
+        frag_coord: permit(
+            FragCoord::Inputs,
+            text.cite([
+                "OpenGL 3.3: 3.3.1 Multisampling: associated data anywhere within the pixel",
+                "OpenGL 4.5: 14.3.1 Multisampling: associated data anywhere within the pixel",
+                "OpenGL 4.6: 14.3.1 Multisampling: associated data anywhere within the pixel",
+            ]),
+        ),
+        inputs_at_samples: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: ARB_sample_shading, 3.3.1: with a share of 1, each sample's data is evaluated at its location",
+                "OpenGL 4.5: 14.3.1.1 Sample Shading: with a share of 1, each sample's data is evaluated at its location",
+                "OpenGL 4.6: 14.3.1.1 Sample Shading: with a share of 1, each sample's data is evaluated at its location",
+            ]),
+        ),
         facing: text.cite([
             "OpenGL 3.3: 3.6.1 Basic Polygon Rasterization: front by the sign of the area",
             "OpenGL 4.5: 14.6.1 Basic Polygon Rasterization: front by the sign of the area",

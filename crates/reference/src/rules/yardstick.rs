@@ -59,9 +59,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1.001),
-                unorm: (0.999, 1.001),
-                float: (0.999, 1.001),
+                unorm16: &[(0.999, 1.001)],
+                unorm: &[(0.999, 1.001)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
             "Direct3D 11.3: 15.10 Depth Bias: 1/2^n, for floats 2^(e-23)",
         ),
@@ -115,6 +116,12 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
         alpha_to_coverage: permit(
             AlphaToCoverage::Ends,
             "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",
+        ),
+        sample_coverage: permit(AlphaToCoverage::Ends, "Yardstick: as alpha to coverage"),
+        frag_coord: permit(text.frag_coord.value, "Yardstick: as the API's text says"),
+        inputs_at_samples: permit(
+            text.inputs_at_samples.value,
+            "Yardstick: as the API's text says",
         ),
         facing: "Direct3D 11.3: 15.10 Facing: after snapping, zero area is back",
         stencil: "Direct3D 11.3: 17.12 Stencil: integer operations",

@@ -11,7 +11,7 @@
 //! |---|---|
 //! | `Pass` | Pass |
 //! | `Warn` | Imprecise: legal, not precise, as dEQP's quality warnings |
-//! | `Fail` | Fail, Open, ResourceError, InternalError, and a selftest that was due to fail and did not; dEQP's resource and internal errors are `Fail` too |
+//! | `Fail` | Fail, RequiredByCts, Disputed, Blocked, Open, ResourceError, InternalError, and a selftest that was due to fail and did not; dEQP's resource and internal errors are `Fail` too |
 //! | `Crash` | Crash, DeviceLost |
 //! | `Timeout` | Timeout |
 //! | `Flake` | Flaky. deqp-runner lets flakes pass; here an unexpected one fails the run |

@@ -42,7 +42,7 @@ pub(super) struct AdapterRun<'s, 'a> {
 
 impl<'s> AdapterRun<'s, '_> {
     pub(super) fn case(&self, number: usize) -> &'s Case {
-        &self.shared.cases[number]
+        self.shared.cases[number]
     }
 
     /// The limits of waiting for a case.
@@ -78,13 +78,13 @@ impl<'s> AdapterRun<'s, '_> {
                 record.due_fail = case.judged_as.is_some();
                 record.message = report.message;
                 record.process = report.process;
-                self.record(record);
+                self.record(self.settled(record));
             }
         }
     }
 
-    /// Records a case that is not drawn on this adapter; false if it is to be drawn.
-    pub(super) fn record_undrawn(&self, number: usize) -> bool {
+    /// The record of a case that is not drawn on this adapter; `None` if it is to be drawn.
+    pub(super) fn undrawn(&self, number: usize) -> Option<Record> {
         let case = self.case(number);
         let adapter = &self.queue.adapter;
         let mut record = if let Some(entry) = self.shared.expectations.skips(adapter, &case.id) {
@@ -102,11 +102,27 @@ impl<'s> AdapterRun<'s, '_> {
             }
             record
         } else {
-            return false;
+            let round_trips = self.queue.round_trips()?;
+            let blocked = round_trips.blocks(case)?;
+            let mut record = Record::new(&case.id, &adapter.name, Verdict::Blocked);
+            record.message = blocked.message;
+            record.blocked_by = blocked.by;
+            record.expected = blocked.expected.map(|reason| Expected { reason });
+            record
         };
         record.due_fail = case.judged_as.is_some();
-        self.record(record);
-        true
+        Some(record)
+    }
+
+    /// A record with what the expectations say of it. A case that is not drawn for a reason that is expected is
+    /// expected itself.
+    pub(super) fn settled(&self, mut record: Record) -> Record {
+        if record.verdict != Verdict::Skipped {
+            let inherited = record.expected.take();
+            record.expect(self.shared.expectations, &self.queue.adapter);
+            record.expected = record.expected.take().or(inherited);
+        }
+        record
     }
 
     /// Judges a drawing. `report` makes the report on a failed one.
@@ -164,7 +180,20 @@ impl<'s> AdapterRun<'s, '_> {
         number: usize,
         observed: &mut Observation,
     ) -> Result<(), RecordError> {
+        if !self.queue.records(number) {
+            return Ok(());
+        }
         let record = &mut observed.record;
+        if let Some(note) = self
+            .queue
+            .round_trips()
+            .and_then(|r| r.note(self.case(number)))
+        {
+            record.message = match record.message.as_str() {
+                "" => note,
+                message => format!("{message}; {note}"),
+            };
+        }
         let kept = observed.frame.take().filter(|_| self.keeps_frame(record));
         if record.due_fail && record.verdict == Verdict::Fail {
             // The frame file shows the rest of a failure that is due.
@@ -231,10 +260,7 @@ impl<'s> AdapterRun<'s, '_> {
     }
 
     /// Writes a record. An error ends the run.
-    pub(super) fn record(&self, mut record: Record) {
-        if record.verdict != Verdict::Skipped {
-            record.expect(self.shared.expectations, &self.queue.adapter);
-        }
+    pub(super) fn record(&self, record: Record) {
         let appended = lock(&self.shared.writer).append(&record);
         if let Err(error) = appended {
             return self.shared.fail(error);

@@ -81,6 +81,10 @@ fn circumstances(record: &Record) -> Markup {
             p { b { "Only when drawn after: " } }
             ul { @for case in &record.after { li { a href=(link::case(case)) { code { (case) } } } } }
         }
+        @if !record.blocked_by.is_empty() {
+            p { b { "Blocked by: " } }
+            ul { @for case in &record.blocked_by { li { a href=(link::case(case)) { code { (case) } } } } }
+        }
     }
 }
 
