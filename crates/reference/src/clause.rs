@@ -22,6 +22,8 @@ pub(crate) enum Rejection {
     Scissor,
     /// The sample mask leaves the sample out.
     SampleMask,
+    /// Sample coverage leaves the sample out.
+    SampleCoverage,
     /// The shader discards the fragment.
     Discard,
     /// Alpha to coverage leaves the sample out.
@@ -45,6 +47,7 @@ impl Rejection {
             Self::Culling => "culling",
             Self::Scissor => "scissor",
             Self::SampleMask => "sample mask",
+            Self::SampleCoverage => "sample coverage",
             Self::Discard => "discard",
             Self::AlphaToCoverage => "alpha to coverage",
             Self::DepthBounds => "depth bounds",
@@ -62,6 +65,7 @@ impl Rejection {
             Self::NearFar => format!("is clipped there: {detail}"),
             Self::Culling => format!("is culled: {detail}"),
             Self::SampleMask => format!("is masked: {detail}"),
+            Self::SampleCoverage => format!("loses it to sample coverage: {detail}"),
             Self::Discard => format!("is discarded by its shader: {detail}"),
             Self::AlphaToCoverage => format!("loses it to alpha to coverage: {detail}"),
             Self::DepthBounds => format!("fails its depth bounds test: {detail}"),
@@ -79,6 +83,7 @@ impl Rejection {
     ) -> String {
         match self {
             Self::AlphaToCoverage => return rules.alpha_to_coverage.citation.to_owned(),
+            Self::SampleCoverage => return rules.sample_coverage.citation.to_owned(),
             Self::Stencil => return rules.stencil.to_owned(),
             _ => {}
         }

@@ -1,5 +1,6 @@
 //! Sample shading and sample coverage: where a fragment's inputs lie, and the samples that a share draws.
 
+use crate::clause::Rejection;
 use crate::interval::Interval;
 use crate::judging::Range;
 use crate::notes::Notes;
@@ -97,21 +98,30 @@ impl Walk<'_> {
             0.0 | 1.0 if ends => Some(value > 0.0),
             _ => world.decided(decision),
         };
-        notes.add(
-            || place.name(),
-            "sample coverage",
-            || {
-                let sample = place.at.sample;
-                let word = match known.map(|covered| covered != invert) {
-                    Some(true) => "is drawn",
-                    Some(false) => "is not drawn",
-                    None => "may or may not be drawn",
-                };
-                let of = if invert { "inverted " } else { "" };
-                format!("by the {of}share {value}, sample {sample} {word}")
-            },
-            Some(self.rules.sample_coverage.citation),
-        );
+        let drawn = known.map(|covered| covered != invert);
+        let detail = || {
+            let sample = place.at.sample;
+            let word = match drawn {
+                Some(true) => "is drawn",
+                Some(false) => "is not drawn",
+                None => "may or may not be drawn: two worlds",
+            };
+            let of = if invert { "inverted " } else { "" };
+            format!("by the {of}share {value}, sample {sample} {word}")
+        };
+        let rejection = Rejection::SampleCoverage;
+        match drawn {
+            Some(true) => {
+                let citation = self.rules.sample_coverage.citation;
+                notes.add(
+                    || place.name(),
+                    rejection.operation(),
+                    detail,
+                    Some(citation),
+                );
+            }
+            _ => self.note_rejection(notes, place, rejection, drawn.is_some(), &detail),
+        }
         match known {
             Some(covered) => smallvec![(world, covered != invert)],
             None => [true, false]

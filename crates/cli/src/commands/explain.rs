@@ -169,7 +169,7 @@ impl Asked<'_> {
         let frame = self.frames.get(index);
         let judged = judge_texel(self.case, index, limits, self.texel, frame);
         let (judgement, comparison) = judged.map_err(Failure::incomplete)?;
-        let rules = Rules::of(&judgement.limits);
+        let rules = judgement.rules.clone();
         let band = |at: &Sample| {
             let wrong = &comparison.as_ref()?.wrong;
             // Attachments of several sizes have texels of the same place.
