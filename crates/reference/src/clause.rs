@@ -20,6 +20,8 @@ pub(crate) enum Rejection {
     Culling,
     /// The scissor rectangle leaves the texel out.
     Scissor,
+    /// Sample coverage leaves the sample out.
+    SampleCoverage,
     /// The sample mask leaves the sample out.
     SampleMask,
     /// The shader discards the fragment.
@@ -44,6 +46,7 @@ impl Rejection {
             Self::NearFar => "clipping",
             Self::Culling => "culling",
             Self::Scissor => "scissor",
+            Self::SampleCoverage => "sample coverage",
             Self::SampleMask => "sample mask",
             Self::Discard => "discard",
             Self::AlphaToCoverage => "alpha to coverage",
@@ -61,6 +64,7 @@ impl Rejection {
             Self::Viewport | Self::Scissor => format!("is {detail}"),
             Self::NearFar => format!("is clipped there: {detail}"),
             Self::Culling => format!("is culled: {detail}"),
+            Self::SampleCoverage => format!("loses it to sample coverage: {detail}"),
             Self::SampleMask => format!("is masked: {detail}"),
             Self::Discard => format!("is discarded by its shader: {detail}"),
             Self::AlphaToCoverage => format!("loses it to alpha to coverage: {detail}"),
@@ -79,6 +83,7 @@ impl Rejection {
     ) -> String {
         match self {
             Self::AlphaToCoverage => return rules.alpha_to_coverage.citation.to_owned(),
+            Self::SampleCoverage => return rules.sample_coverage.citation.to_owned(),
             Self::Stencil => return rules.stencil.to_owned(),
             _ => {}
         }

@@ -214,7 +214,7 @@ impl Walk<'_> {
                 continue;
             }
             let (a, b) = (primitive.ids[i], primitive.ids[(i + 1) % 3]);
-            let decision = Decision {
+            let decision = Decision::Edge {
                 draw: place.draw_id,
                 ends: (a.min(b), a.max(b)),
                 owner: (self.rules.shared_edge.value == SharedEdge::Independent)

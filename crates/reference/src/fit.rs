@@ -27,26 +27,7 @@ pub struct Fitted {
     pub legal: LegalSet,
 }
 
-/// True if a scene leaves a step open that only a whole frame can show.
-pub fn leaves_step_open(scene: &Scene, limits: &Limits) -> bool {
-    let all = limits.alternatives(&scene.formats());
-    all.iter().any(|one| biased_encoding(scene, one).is_some())
-}
-
 impl Judgement {
-    /// Returns the judgement of some texels by the same rules and limits.
-    pub fn of_texels(&self, scene: &Scene, texels: Texels) -> Self {
-        let yardstick = Rules::yardstick(&self.limits);
-        Self {
-            legal: judge_some(scene, &self.limits, &self.rules, texels),
-            yardstick: judge_some(scene, &self.limits, &yardstick, texels),
-            limits: self.limits.clone(),
-            rules: self.rules.clone(),
-            texels,
-            ..*self
-        }
-    }
-
     /// Returns the judgement under the step of depth bias that a frame of the scene shows; this one if
     /// its scene leaves no step open.
     ///

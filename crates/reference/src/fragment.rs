@@ -41,28 +41,38 @@ impl Walk<'_> {
             return;
         }
         let outline = matches!(place.primitive.shape, Shape::Outline(_));
-        if outline && !self.rules.outlines_face_as_polygons.value {
-            self.shade(place, world.clone(), !front, result, notes);
+        for (world, drawn) in self.by_sample_coverage(place, world, notes) {
+            if outline && !self.rules.outlines_face_as_polygons.value {
+                self.shade(place, world.clone(), !front, drawn, result, notes);
+            }
+            self.shade(place, world, front, drawn, result, notes);
         }
-        self.shade(place, world, front, result, notes);
     }
 
-    /// The fragment of a primitive that is not culled, facing front or back.
+    /// The fragment of a primitive that is not culled, facing front or back; `drawn` is false if sample
+    /// coverage removes the sample.
     fn shade(
         &self,
         place: Place<'_>,
         world: World,
         front: bool,
+        drawn: bool,
         result: &mut SmallVec<[World; 2]>,
         notes: &mut Notes<'_>,
     ) {
         let draw = place.draw;
         let output = self.shader(place, &world, front, notes);
         let own_depth = place.primitive.depth_at(place.point);
-        let covered = self.covered_after_shading(place, &output, notes);
+        let covered = match drawn {
+            true => self.covered_after_shading(place, &output, notes),
+            false => Covered {
+                kept: (true, true),
+                coverage: (false, false),
+            },
+        };
         let mut world = world;
         // A masked sample asks for no run of the shader.
-        let masked = draw.multisample.mask & (1 << place.at.sample) == 0;
+        let masked = !drawn || draw.multisample.mask & (1 << place.at.sample) == 0;
         if draw.early_tests == EarlyTests::Forced {
             let incoming = self.in_range(place, own_depth, Source::Own);
             if masked {
@@ -140,9 +150,10 @@ impl Walk<'_> {
     ) -> FragmentOutput<Range> {
         let draw = place.draw;
         let mut judging = Judging::new(self.rules);
-        let mut depth = place
-            .primitive
-            .depth_seen(place.point, self.units, place.at.samples);
+        let mut depth =
+            place
+                .primitive
+                .depth_seen(place.point, self.units, self.samples_shaded(place));
         if draw.depth_clamp {
             // Whether the shader sees the depth before or after it is clamped is not told.
             let [near, far] = draw.viewport.depth.map(f64::from);
@@ -154,6 +165,7 @@ impl Walk<'_> {
             front,
             depth,
             sample: place.at.sample,
+            position: self.frag_coord(place),
             texels: [self.texel(place, world, 0), self.texel(place, world, 1)],
             uv: self.uv(place),
             params: &draw.params,

@@ -9,7 +9,7 @@ use crate::walk::{Sample, Walk};
 use etalon_frame::{
     CountRange, Frame, LegalSet, LegalSetBuilder, Limits, Story, StoryLine, TexelSet,
 };
-use etalon_scene::Scene;
+use etalon_scene::{Draw, Scene};
 
 /// Both bands of one scene for one possible set of limits.
 #[derive(Clone, Debug)]
@@ -65,20 +65,10 @@ pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
     judge_some(scene, limits, rules, Texels::All)
 }
 
-/// Returns the texels that the walk of some must know: all for one, where a sampler may read what was drawn
-/// to others.
-fn reach(scene: &Scene, texels: Texels) -> Texels {
-    let mut later = scene.passes.iter().skip(1).flat_map(|p| &p.draws);
-    match texels {
-        Texels::One(_) if later.any(|draw| draw.sampler.is_some()) => Texels::All,
-        _ => texels,
-    }
-}
-
 /// Returns [`judge`]'s set of some texels; see [`judgements_of`].
 pub fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> LegalSet {
     let texels = texels.of(scene);
-    let walk = Walk::new(scene, limits, rules, reach(scene, texels));
+    let walk = Walk::new(scene, limits, rules, texels);
     let mut builder = LegalSetBuilder::default();
     for index in &scene.read {
         let attachment = &scene.attachments[*index];
@@ -186,7 +176,13 @@ fn told(
     at: Sample,
     frame: Option<&Frame>,
 ) -> (TexelSet, Vec<StoryLine>, Vec<Note>) {
-    let texels = reach(scene, Texels::One([at.x, at.y]));
+    // A sampler may read what was drawn to other texels.
+    let samples = |draw: &Draw| draw.sampler.is_some();
+    let mut later = scene.passes.iter().skip(1).flat_map(|p| &p.draws);
+    let texels = match later.any(samples) {
+        true => Texels::All,
+        false => Texels::One([at.x, at.y]),
+    };
     let walk = Walk::new(scene, limits, rules, texels);
     let mut notes = Vec::new();
     let set = walk.sample(at, &mut notes);

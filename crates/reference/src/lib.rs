@@ -21,6 +21,7 @@ mod notes;
 mod primitive;
 mod rejections;
 pub mod rules;
+mod sample_state;
 mod sampling;
 mod setup;
 mod snap;
@@ -32,7 +33,7 @@ mod verdict;
 mod walk;
 mod world;
 
-pub use fit::{Fitted, fit, leaves_step_open};
+pub use fit::{Fitted, fit};
 pub use interval::Interval;
 pub use judge::{Judgement, explain, judge, judge_some, judgements, judgements_of};
 pub use judging::{Judging, Range};

@@ -53,8 +53,8 @@ impl Walk<'_> {
     }
 
     fn coordinates(&self, place: Place<'_>) -> Option<[Interval; 2]> {
-        let at = place.at;
-        place.primitive.uv_seen(place.point, self.units, at.samples)
+        let samples = self.samples_shaded(place);
+        place.primitive.uv_seen(place.point, self.units, samples)
     }
 
     /// True if a pass before this one draws or resolves to an attachment.

@@ -241,7 +241,16 @@ pub enum SameDepth {
 /// Declares the permissions of [`Rules`], so that none is forgotten where all are narrowed or listed.
 macro_rules! rules {
     ($($(#[$doc:meta])* $field:ident: $kind:ty,)+) => {
-        /// One specification's permissions, or the yardstick.
+        /// The coordinates that a shader reads of a fragment of several samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FragCoord {
+    /// The centre of the texel, or with sample shading the position of one of the samples of the run.
+    Sample,
+    /// The point at which other inputs are interpolated.
+    Inputs,
+}
+
+/// One specification's permissions, or the yardstick.
         #[derive(Clone, Debug, PartialEq)]
         pub struct Rules {
             /// The name: `vulkan`, `opengl`, `opengl-es`, `webgpu`, `yardstick`.
@@ -298,6 +307,9 @@ rules! {
     snap: Snap,
     /// Samples on edges.
     shared_edge: SharedEdge,
+    /// True if a sample is covered at the position that the adapter tells for it; otherwise anywhere in its
+    /// texel.
+    covers_at_positions: bool,
     /// Conversion at the store and of clear values.
     store: Rounding,
     /// Blending.
@@ -343,6 +355,9 @@ rules! {
     same_depth: SameDepth,
     /// The coarsest step, in texels, to which coordinates may be rounded in filtering.
     filter_step: f64,
+    /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise as
+    /// anything.
+    half_overflows: bool,
     /// True if subnormal floats may be stored as zero.
     flushes_small_floats: bool,
     /// True if a shader that counts in storage runs for a fragment that never contributes to the
@@ -357,4 +372,12 @@ rules! {
     runs_once: bool,
     /// Alpha to coverage.
     alpha_to_coverage: AlphaToCoverage,
+    /// Sample coverage, as alpha to coverage. The same value covers the same samples again, and its
+    /// inverse the others.
+    sample_coverage: AlphaToCoverage,
+    /// The fragment's coordinates that a shader of several samples reads.
+    frag_coord: FragCoord,
+    /// True if with sample shading of a share of 1 each sample's inputs are those at its position;
+    /// otherwise at any point of the texel.
+    inputs_at_samples: bool,
 }

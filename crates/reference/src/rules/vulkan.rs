@@ -2,8 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
-    Snap, SrgbLogic, narrowed, permit,
+    FactorClamp, FragCoord, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{Grade, Limits, Property};
 
@@ -56,6 +56,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             SharedEdge::ExactlyOne,
             "Vulkan: Basic Polygon Rasterization: a common edge with identical end points gives \
              exactly one fragment per sample",
+        ),
+        covers_at_positions: permit(
+            true,
+            "Vulkan: Multisampling: with standardSampleLocations samples lie at the standard locations",
         ),
         store: permit(
             Rounding::EitherNeighbour,
@@ -163,6 +167,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             1.0 / 16.0,
             "Vulkan: Limits, subTexelPrecisionBits is at least 4; the rounding to its divisions is not stated",
         ),
+        half_overflows: permit(
+            true,
+            "Vulkan: Fundamentals, Floating-Point Format Conversions: the largest finite value or infinity",
+        ),
         flushes_small_floats: permit(
             false,
             "Vulkan: Fundamentals, Floating-Point Format Conversions: representable finite values are kept",
@@ -196,6 +204,18 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             AlphaToCoverage::Any,
             Grade::RequiredByCts,
             "Vulkan: Multisample Coverage: intended that alpha 0 gives no sample and alpha 1 all; dEQP-VK.pipeline.*.multisample.alpha_to_coverage.* demands the ends",
+        ),
+        sample_coverage: permit(
+            AlphaToCoverage::Ends,
+            "Vulkan: has no sample coverage; as OpenGL 4.6: 14.9.3",
+        ),
+        frag_coord: permit(
+            FragCoord::Sample,
+            "Vulkan: FragCoord: the centre of the fragment, or with sample shading the location of one of the samples of the run",
+        ),
+        inputs_at_samples: permit(
+            false,
+            "Vulkan: Interpolation Decorations: an implementation-defined position within the fragment, unless decorated",
         ),
         facing: "Vulkan: Basic Polygon Rasterization: front by the sign of the area; zero area is \
                  not front",

@@ -38,6 +38,7 @@ fn judged((value, [below, above]): Known) -> Range {
 struct Inputs {
     color: [Known; 4],
     depth: Known,
+    position: [Known; 2],
     uv: [Known; 2],
     texels: [[Known; 4]; 2],
     params: Params,
@@ -56,23 +57,26 @@ fn inputs() -> impl Strategy<Value = Inputs> {
         [known(), known()],
         [four(), four()],
         [four(), four()],
-        (0_u32..8, any::<bool>()),
+        (0_u32..8, any::<bool>(), [known(), known()]),
     )
-        .prop_map(|(color, depth, uv, texels, params, (sample, front))| {
-            let [color_of_params, back_color] = params.map(|p| p.map(|(v, _)| v));
-            Inputs {
-                color,
-                depth,
-                uv,
-                texels,
-                params: Params {
-                    color: color_of_params,
-                    back_color,
-                },
-                sample,
-                front,
-            }
-        })
+        .prop_map(
+            |(color, depth, uv, texels, params, (sample, front, position))| {
+                let [color_of_params, back_color] = params.map(|p| p.map(|(v, _)| v));
+                Inputs {
+                    color,
+                    depth,
+                    position,
+                    uv,
+                    texels,
+                    params: Params {
+                        color: color_of_params,
+                        back_color,
+                    },
+                    sample,
+                    front,
+                }
+            },
+        )
 }
 
 fn plain(shader: Shader, inputs: &Inputs) -> FragmentOutput<[f32; 1]> {
@@ -81,6 +85,7 @@ fn plain(shader: Shader, inputs: &Inputs) -> FragmentOutput<[f32; 1]> {
         front: inputs.front,
         depth: [inputs.depth.0],
         sample: inputs.sample,
+        position: inputs.position.map(|(v, _)| [v]),
         texels: inputs.texels.map(|texel| texel.map(|(v, _)| [v])),
         uv: inputs.uv.map(|(v, _)| [v]),
         params: &inputs.params,
@@ -133,6 +138,7 @@ proptest! {
                     front: inputs.front,
                     depth: judged(inputs.depth),
                     sample: inputs.sample,
+                    position: inputs.position.map(judged),
                     texels: inputs.texels.map(|texel| texel.map(judged)),
                     uv: inputs.uv.map(judged),
                     params: &inputs.params,
