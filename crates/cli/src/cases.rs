@@ -11,7 +11,12 @@ const MEASURING: [&str; 2] = ["methods", "perf"];
 
 /// True if a case belongs to an area that measures.
 pub(crate) fn is_measuring(case: &Case) -> bool {
-    MEASURING.contains(&case.area())
+    is_measuring_area(case.area())
+}
+
+/// True if the cases of an area are measured.
+pub(crate) fn is_measuring_area(area: &str) -> bool {
+    MEASURING.contains(&area)
 }
 
 /// Returns the selected cases, built, so that errors of case files show before anything is drawn.
@@ -67,4 +72,11 @@ pub(crate) fn ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
     let library = library(cases)?;
     let all = build(&library, Profile::Full, &[])?;
     Ok(all.into_iter().map(|case| case.id).collect())
+}
+
+/// Returns the ids of all cases, without building them.
+pub(crate) fn all_ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
+    let library = library(cases)?;
+    let all = etalon_runner::select(&library, Profile::Full, &[]).map_err(Failure::usage)?;
+    Ok(all.cases.iter().map(|case| case.id()).collect())
 }

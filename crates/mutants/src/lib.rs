@@ -34,6 +34,8 @@ mod plant;
 mod read_only;
 mod readback;
 mod resolve;
+mod sample_coverage;
+mod sample_shading;
 mod samples;
 mod scissor;
 mod stencil;

@@ -188,6 +188,13 @@ impl Record {
         self.improves.is_some() && !self.unexpected()
     }
 
+    /// True if the frame that came back was held against something.
+    pub fn asserts(&self) -> bool {
+        let judged = self.verdict.is_judged() && self.verdict != Verdict::Open;
+        let channels = self.assertions.iter().any(|a| a.asserted > 0);
+        judged || channels || self.counters.iter().any(CounterOutcome::is_asserted)
+    }
+
     /// The case's area: the first part of its id.
     pub fn area(&self) -> &str {
         self.case.split('/').next().unwrap_or_default()

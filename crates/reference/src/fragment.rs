@@ -1,12 +1,14 @@
 //! One fragment in one world: culling, shading, tests, blending, stores.
 
+use crate::clause::Rejection;
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
+use crate::notes::{Effect, Notes};
 use crate::primitive::Shape;
 use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, SameDepth};
-use crate::walk::{Notes, Place, Walk};
+use crate::walk::{Place, Walk};
 use crate::world::{Cell, Event, World};
-use etalon_frame::{ChannelEncoding, CodeInterval, CounterKind};
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
 use etalon_pipeline::{
     Arithmetic, compare, front_facing, is_culled, stencil_passes, stencil_write,
@@ -31,47 +33,57 @@ impl Walk<'_> {
             Shape::Triangle(_) | Shape::Outline(_)
         );
         if polygon && is_culled(draw.cull, front) {
-            notes.add(
-                || place.name(),
-                "cull",
-                || {
-                    let face = if front { "front" } else { "back" };
-                    format!("a {face} face, culled by {}", draw.cull.name())
-                },
-                Some(self.rules.facing),
-            );
+            self.note_rejection(notes, place, Rejection::Culling, true, &|| {
+                let face = if front { "front" } else { "back" };
+                format!("a {face} face, and the cull mode is {}", draw.cull.name())
+            });
             result.push(world);
             return;
         }
         let outline = matches!(place.primitive.shape, Shape::Outline(_));
-        if outline && !self.rules.outlines_face_as_polygons.value {
-            self.shade(place, world.clone(), !front, result, notes);
+        for (world, drawn) in self.by_sample_coverage(place, world, notes) {
+            if outline && !self.rules.outlines_face_as_polygons.value {
+                self.shade(place, world.clone(), !front, drawn, result, notes);
+            }
+            self.shade(place, world, front, drawn, result, notes);
         }
-        self.shade(place, world, front, result, notes);
     }
 
-    /// The fragment of a primitive that is not culled, facing front or back.
+    /// The fragment of a primitive that is not culled, facing front or back; `drawn` is false if sample
+    /// coverage removes the sample.
     fn shade(
         &self,
         place: Place<'_>,
         world: World,
         front: bool,
+        drawn: bool,
         result: &mut SmallVec<[World; 2]>,
         notes: &mut Notes<'_>,
     ) {
         let draw = place.draw;
         let output = self.shader(place, &world, front, notes);
         let own_depth = place.primitive.depth_at(place.point);
-        let covered = self.covered_after_shading(place, &output, notes);
+        let covered = match drawn {
+            true => self.covered_after_shading(place, &output, notes),
+            false => Covered {
+                kept: (true, true),
+                coverage: (false, false),
+            },
+        };
         let mut world = world;
         // A masked sample asks for no run of the shader.
-        let masked = draw.multisample.mask & (1 << place.at.sample) == 0;
+        let masked = !drawn || draw.multisample.mask & (1 << place.at.sample) == 0;
         if draw.early_tests == EarlyTests::Forced {
             let incoming = self.in_range(place, own_depth, Source::Own);
             if masked {
                 // The order of the sample mask against counting is open; against the tests, the rules
                 // tell.
-                let outcomes = self.tests(place, world.clone(), front, incoming, notes);
+                let mut silent = Notes(None);
+                let told = match self.rules.mask_acts_first.value {
+                    true => &mut silent,
+                    false => &mut *notes,
+                };
+                let outcomes = self.tests(place, world.clone(), front, incoming, told);
                 if outcomes.iter().any(|(_, passes)| *passes) {
                     self.count(place, &mut world, false, |_| true);
                 }
@@ -138,9 +150,10 @@ impl Walk<'_> {
     ) -> FragmentOutput<Range> {
         let draw = place.draw;
         let mut judging = Judging::new(self.rules);
-        let mut depth = place
-            .primitive
-            .depth_seen(place.point, self.units, place.at.samples);
+        let mut depth =
+            place
+                .primitive
+                .depth_seen(place.point, self.units, self.samples_shaded(place));
         if draw.depth_clamp {
             // Whether the shader sees the depth before or after it is clamped is not told.
             let [near, far] = draw.viewport.depth.map(f64::from);
@@ -152,6 +165,7 @@ impl Walk<'_> {
             front,
             depth,
             sample: place.at.sample,
+            position: self.frag_coord(place),
             texels: [self.texel(place, world, 0), self.texel(place, world, 1)],
             uv: self.uv(place),
             params: &draw.params,
@@ -163,7 +177,13 @@ impl Walk<'_> {
             || {
                 let color = output.color.map(|c| c.hull().to_string()).join(", ");
                 let face = if front { "front" } else { "back" };
-                format!("{face} face, {} gives ({color})", draw.shader.name())
+                let read = (0..draw.textures.len()).map(|t| {
+                    let name = &self.scene.attachments[draw.textures[t]].name;
+                    let texel = input.texels[t].map(|c| c.hull().to_string()).join(", ");
+                    format!(" from texel ({texel}) of {name}")
+                });
+                let read: String = read.collect();
+                format!("{face} face, {} gives ({color}){read}", draw.shader.name())
             },
             None,
         );
@@ -202,7 +222,6 @@ impl Walk<'_> {
         output: &FragmentOutput<Range>,
         notes: &mut Notes<'_>,
     ) -> Covered {
-        let word = |can: bool| if can { "may or may not" } else { "does not" };
         let (kept_can, kept_must) = match output.kept {
             None => (true, true),
             Some(kept) => {
@@ -216,28 +235,39 @@ impl Walk<'_> {
                 }
             }
         };
-        if !kept_must {
-            notes.add(
-                || place.name(),
-                "discard",
-                || format!("the fragment {} survive the shader", word(kept_can)),
-                None,
-            );
+        if let (Some(kept), false) = (output.kept, kept_must) {
+            self.note_rejection(notes, place, Rejection::Discard, !kept_can, &|| {
+                let (value, limit) = (kept.value.hull(), kept.limit.hull());
+                let relation = if kept.strict { "above" } else { "at least" };
+                match kept_can {
+                    true => format!("{value} may or may not be {relation} {limit}: two worlds"),
+                    false => format!("{value} is not {relation} {limit}"),
+                }
+            });
         }
-        let (can, must) = self.sample_passes(place, output.color[3]);
-        if !must {
-            notes.add(
-                || place.name(),
-                "coverage",
-                || {
-                    let sample = place.at.sample;
-                    format!(
-                        "sample {sample} {} pass mask and alpha to coverage",
-                        word(can)
-                    )
-                },
-                Some(self.rules.alpha_to_coverage.citation),
-            );
+        let state = place.draw.multisample;
+        let (sample, alpha) = (place.at.sample, output.color[3]);
+        let (can, must) = self.sample_passes(place, alpha);
+        if state.mask & (1 << sample) == 0 {
+            // Whether forced early tests come before the mask is for the rules to say.
+            let forced = place.draw.early_tests == EarlyTests::Forced;
+            let certain = !forced || self.rules.mask_acts_first.value;
+            self.note_rejection(notes, place, Rejection::SampleMask, certain, &|| {
+                format!(
+                    "the sample mask {:#x} leaves sample {sample} out",
+                    state.mask
+                )
+            });
+        } else if !must {
+            self.note_rejection(notes, place, Rejection::AlphaToCoverage, !can, &|| {
+                let alpha = alpha.hull();
+                match can {
+                    true => {
+                        format!("alpha {alpha} may or may not keep sample {sample}: two worlds")
+                    }
+                    false => format!("alpha {alpha} keeps no sample"),
+                }
+            });
         }
         Covered {
             kept: (kept_can, kept_must),
@@ -477,19 +507,18 @@ impl Walk<'_> {
         let (low, high) = (bound(low), bound(high));
         let can = stored.high >= low.low && stored.low <= high.high;
         let must = stored.low >= low.high && stored.high <= high.low;
-        notes.add(
-            || place.name(),
-            "depth bounds",
-            || {
-                let word = match (can, must) {
-                    (_, true) => "inside",
-                    (true, false) => "perhaps inside",
-                    (false, _) => "outside",
-                };
-                format!("stored {stored} is {word} {low} to {high}")
-            },
-            Some(self.rules.depth_order.citation),
-        );
+        let detail = || {
+            let word = match (can, must) {
+                (_, true) => "inside",
+                (true, false) => "perhaps inside",
+                (false, _) => "outside",
+            };
+            format!("stored {stored} is {word} {low} to {high}")
+        };
+        match must {
+            true => notes.add(|| place.name(), "depth bounds", detail, None),
+            false => self.note_rejection(notes, place, Rejection::DepthBounds, !can, &detail),
+        }
         (can, must)
     }
 
@@ -507,21 +536,49 @@ impl Walk<'_> {
         new: u8,
         notes: &mut Notes<'_>,
     ) {
-        notes.add(
-            || place.name(),
-            "stencil",
-            || {
-                format!(
-                    "reference {} {} stored {stored} under read mask {:#04x} {outcome}; {operation} \
-                     under write mask {:#04x} leaves {new}",
-                    face.reference,
-                    face.compare.name(),
-                    face.read_mask,
-                    face.write_mask
-                )
-            },
-            Some(self.rules.stencil),
-        );
+        let detail = || {
+            format!(
+                "reference {} {} stored {stored} under read mask {:#04x} {outcome}",
+                face.reference,
+                face.compare.name(),
+                face.read_mask
+            )
+        };
+        if outcome == "fails" {
+            self.note_rejection(notes, place, Rejection::Stencil, true, &detail);
+        } else {
+            notes.add(
+                || place.name(),
+                "stencil test",
+                detail,
+                Some(self.rules.stencil),
+            );
+        }
+        let Some(attachment) = self.scene.passes[place.pass].depth_stencil else {
+            return;
+        };
+        let aspect = Aspect::Stencil;
+        let (effect, word) = if new == stored {
+            (Effect::Keeps { attachment, aspect }, "keep stencil")
+        } else {
+            let contents = Cell {
+                channels: [CodeInterval::exact(0); 4],
+                stencil: new,
+                origin: None,
+            };
+            let effect = Effect::Stores {
+                attachment,
+                aspect,
+                contents,
+            };
+            (effect, "store stencil")
+        };
+        let detail = || {
+            let mask = face.write_mask;
+            format!("{operation} under write mask {mask:#04x}: {stored} becomes {new}")
+        };
+        let citation = || self.rules.stencil.to_owned();
+        self.note_effect(notes, place, effect, word, [&detail, &citation]);
     }
 
     /// Returns whether a depth test can pass, and whether it can fail.
@@ -536,12 +593,13 @@ impl Walk<'_> {
     ) -> [bool; 2] {
         if incoming.origin.is_some() && incoming.origin == stored.origin {
             let passes = compare(function, 0, 0);
-            notes.add(
-                || place.name(),
-                "depth test",
-                || format!("the same depth {} itself is {passes}", function.name()),
-                Some(self.rules.same_depth.citation),
-            );
+            let effect = match passes {
+                true => Effect::Plain,
+                false => Effect::Rejects(Rejection::Depth),
+            };
+            let detail = || format!("the same depth {} itself is {passes}", function.name());
+            let citation = || self.rules.same_depth.citation.to_owned();
+            self.note_effect(notes, place, effect, "depth test", [&detail, &citation]);
             return [passes, !passes];
         }
         let (incoming, stored) = (incoming.depth, stored.channels[0]);
@@ -556,19 +614,23 @@ impl Walk<'_> {
             DepthOrder::ConvertedFirst => (of_codes(codes), of_codes(stored)),
         };
         let outcomes = possible(function, left, right);
-        notes.add(
-            || place.name(),
-            "depth test",
-            || {
-                let word = match outcomes {
-                    [true, true] => "may be either",
-                    [true, false] => "is true",
-                    _ => "is false",
-                };
-                format!("{left} {} stored {right} {word}", function.name())
-            },
-            Some(self.rules.depth_order.citation),
-        );
+        let detail = || {
+            let word = match outcomes {
+                [true, true] => "may be true or false: two worlds",
+                [true, false] => "is true",
+                _ => "is false",
+            };
+            format!("{left} {} stored {right} {word}", function.name())
+        };
+        let open = || self.rules.depth_order.citation.to_owned();
+        match outcomes {
+            [true, false] => notes.add(|| place.name(), "depth test", detail, None),
+            [true, true] => {
+                let effect = Effect::MayReject(Rejection::Depth);
+                self.note_effect(notes, place, effect, "depth test", [&detail, &open]);
+            }
+            _ => self.note_rejection(notes, place, Rejection::Depth, true, &detail),
+        }
         outcomes
     }
 }

@@ -177,6 +177,15 @@ impl<'r> Judging<'r> {
             encoding.position(held)
         };
         if let (Some(low), Some(high)) = (position(value.low), position(value.high)) {
+            // The code before rounding, f * (2^b - 1), is itself computed. Ends of the range are exact by
+            // the text, and what was rounded to codes before is no result of floating-point.
+            let is_computed = slack == 0.0 && encoding.normalized_range().is_some();
+            let error = if is_computed { self.error() } else { 0.0 };
+            let off = |at: f64| match at == ends.1 || at == -ends.1 {
+                true => 0.0,
+                false => at.abs() * error,
+            };
+            let (low, high) = (low - off(low), high + off(high));
             let (low, high) = match self.rules.store.value {
                 Rounding::EitherNeighbour => ((low + slack).floor(), (high - slack).ceil()),
                 Rounding::Within(codes) => ((low - codes).ceil(), (high + codes).floor()),
@@ -193,6 +202,10 @@ impl<'r> Judging<'r> {
             return CodeInterval::new(order_below(value.low), order_above(value.high));
         }
         let limit = encoding.value_of_order(encoding.max_order());
+        let beyond = value.high > limit || value.low < -limit;
+        if beyond && encoding == ChannelEncoding::Float16 && !self.rules.half_overflows.value {
+            return all_codes(encoding);
+        }
         let low = match value.low {
             v if v > limit => encoding.max_order(),
             v => encoding.order_below(v),

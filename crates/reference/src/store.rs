@@ -2,10 +2,11 @@
 
 use crate::fragment::Incoming;
 use crate::judging::{Judging, Range};
+use crate::notes::{Effect, Notes};
 use crate::rules::{SignedClamp, SrgbLogic};
-use crate::walk::{Notes, Place, Walk, codes_text};
+use crate::walk::{Place, Walk, codes_text};
 use crate::world::World;
-use etalon_frame::{ChannelEncoding, CodeInterval, TextureFormat};
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, TextureFormat};
 use etalon_pipeline::shader::FragmentOutput;
 use etalon_pipeline::{Arithmetic, BlendInput, blend, takes_logic};
 
@@ -27,15 +28,28 @@ impl Walk<'_> {
             let codes = judging.encode(encoding, incoming.depth);
             world.cells[index].channels[0] = codes;
             world.cells[index].origin = incoming.origin;
-            notes.add(
-                || place.name(),
-                "store depth",
-                || {
-                    let depth = incoming.depth.hull();
-                    format!("{depth} as {}", codes_text(encoding, codes))
-                },
-                Some(self.rules.store.citation),
-            );
+            let effect = Effect::Stores {
+                attachment: index,
+                aspect: Aspect::Depth,
+                contents: world.cells[index],
+            };
+            let detail = || {
+                let depth = incoming.depth.hull();
+                format!("{depth} as {}", codes_text(encoding, codes))
+            };
+            let citation = || self.rules.store.citation.to_owned();
+            self.note_effect(notes, place, effect, "store depth", [&detail, &citation]);
+        } else if let Some(attachment) = pass.depth_stencil
+            && self.scene.attachments[attachment].format.has_depth()
+        {
+            let aspect = Aspect::Depth;
+            let effect = Effect::Keeps { attachment, aspect };
+            let detail = || match place.draw.depth {
+                Some(_) => "depth writes are off".to_owned(),
+                None => "without a depth test, nothing is written".to_owned(),
+            };
+            let citation = || self.rules.write_mask.to_owned();
+            self.note_effect(notes, place, effect, "keep depth", [&detail, &citation]);
         }
     }
 
@@ -161,23 +175,41 @@ impl Walk<'_> {
                 }
             }
             let cell = *cell;
-            let masked = target.write_mask != 0xf;
-            notes.add(
-                || place.name(),
-                "store color",
-                || {
-                    format!(
-                        "{} holds {}",
-                        attachment.name,
-                        self.cell_text(*index, &cell)
-                    )
-                },
-                Some(if masked {
-                    self.rules.write_mask
-                } else {
-                    self.rules.store.citation
-                }),
-            );
+            let contents = || self.cell_text(*index, &cell);
+            let (attachment_index, aspect) = (*index, Aspect::Color);
+            let name = &attachment.name;
+            let written = target.write_mask & ((1 << encodings.len()) - 1);
+            if written == 0 {
+                let effect = Effect::Keeps {
+                    attachment: attachment_index,
+                    aspect,
+                };
+                let detail = || {
+                    let mask = target.write_mask;
+                    format!("write mask {mask:#x}: {name} still holds {}", contents())
+                };
+                let citation = || self.rules.write_mask.to_owned();
+                self.note_effect(notes, place, effect, "keep color", [&detail, &citation]);
+                continue;
+            }
+            let effect = Effect::Stores {
+                attachment: attachment_index,
+                aspect,
+                contents: cell,
+            };
+            let masked = written.count_ones() != encodings.len() as u32;
+            let detail = || {
+                let of = match masked {
+                    true => format!(" (write mask {:#x})", target.write_mask),
+                    false => String::new(),
+                };
+                format!("{name} holds {}{of}", contents())
+            };
+            let citation = || match masked {
+                true => self.rules.write_mask.to_owned(),
+                false => self.rules.store.citation.to_owned(),
+            };
+            self.note_effect(notes, place, effect, "store color", [&detail, &citation]);
         }
     }
 }

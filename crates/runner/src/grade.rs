@@ -5,7 +5,7 @@
 
 use etalon_frame::{Band, CounterOutcome, Frame, Grade, Limits, compare};
 use etalon_record::MAX_WRONG_TEXELS;
-use etalon_reference::{Rules, Texels, judge_some};
+use etalon_reference::{Rules, Texels, fit, judge_some};
 use etalon_scene::Scene;
 use std::collections::HashSet;
 
@@ -87,7 +87,14 @@ fn forbidden(
 ) -> Forbidden {
     let all = limits.alternatives(&scene.formats());
     let each = all.iter().filter_map(|limits| {
-        let set = judge_some(scene, limits, rules, texels);
+        let open = judge_some(scene, limits, rules, texels);
+        // One step of depth bias for the whole frame, as in the set by all evidence.
+        let set = match fit(scene, limits, rules, texels, &open, frame) {
+            Ok(Some(fitted)) => fitted.legal,
+            _ => open,
+        };
+        let fitted = fit(scene, limits, rules, texels, &set, frame).ok()?;
+        let set = fitted.map_or(set, |fitted| fitted.legal);
         // The first wrong samples come in the same order under any rules, and fewer are wrong under
         // wider ones: those that are kept reach as far as a record's.
         let found = compare(frame, &set, &set, MAX_WRONG_TEXELS).ok()?;

@@ -5,12 +5,15 @@ use crate::frame_file::frame_file;
 use crate::grade::Grades;
 use crate::judgement_cache::{JUDGED, JudgementCache, judged_scene};
 use crate::relation::{self, Differences};
+use crate::story;
 use etalon_case::{Case, Relation};
 use etalon_frame::{
     Aspect, AspectStatistics, Band, Comparison, CounterOutcome, Frame, Limits, WrongTexel, compare,
 };
 use etalon_record::{Assertion, FrameFile, MAX_WRONG_TEXELS, Record, Verdict};
-use etalon_reference::{Judgement, Rules, Sample, explain};
+use etalon_reference::{Judgement, Rules, Sample};
+use etalon_scene::Scene;
+use std::borrow::Cow;
 use std::cmp::Reverse;
 
 /// Judges frames; legal sets are cached by case and limits, so that adapters share them.
@@ -59,6 +62,7 @@ impl Judge {
             && judged.record.verdict != Verdict::InternalError
         {
             let found = relation::check(relation, case, frames);
+            story::tell_relation(&mut judged.record, case, relation, limits, (frames, &found));
             note_differences(&mut judged.record, relation, limits, found);
         }
         judged
@@ -77,7 +81,8 @@ impl Judge {
         let judgements = self.cache.get(number, case, index, limits);
         let mut record = Record::new(&case.id, adapter, Verdict::Pass);
         record.due_fail = case.judged_as.is_some();
-        let (comparison, judgement) = match best(&judgements, frame) {
+        let scene = judged_scene(case, index);
+        let (comparison, judgement) = match best(scene, &judgements, frame) {
             Ok(best) => best,
             Err(message) => {
                 record.verdict = Verdict::InternalError;
@@ -100,6 +105,7 @@ impl Judge {
         record.wrong = comparison.wrong;
         record.counters = comparison.counters;
         record.accuracy = comparison.accuracy;
+        let judgement = judgement.as_ref();
         record.assertions = assertions(judgement);
         let texels: u64 = record.assertions.iter().map(|a| a.asserted).sum();
         let counters = record.counters.iter().filter(|c| c.is_asserted()).count();
@@ -124,11 +130,12 @@ impl Judge {
             if let Some(wrong) = record.wrong.first() {
                 let rules = match wrong.band {
                     Band::Imprecise => Rules::yardstick(&judgement.limits),
-                    _ => Rules::of(&judgement.limits),
+                    _ => judgement.rules.clone(),
                 };
                 if let Some(at) = sample_of(case, wrong) {
-                    let scene = judged_scene(case, index);
-                    record.story = Some(explain(scene, &judgement.limits, &rules, at));
+                    let by = (&judgement.limits, &rules);
+                    let came = (Some(frame), Some(wrong.band));
+                    record.story = Some(story::story_of_sample(case, index, by, at, came));
                 }
             }
             file = Some(frame_file(case, adapter, frame, judgement, record.verdict));
@@ -155,7 +162,7 @@ impl Judge {
         let mut first = None;
         for (index, frame) in frames.iter().enumerate() {
             let judgements = self.cache.get(number, case, index, limits);
-            let (comparison, _) = best(&judgements, frame)?;
+            let (comparison, _) = best(judged_scene(case, index), &judgements, frame)?;
             if comparison.worst() > worst {
                 worst = comparison.worst();
                 first = comparison.wrong.into_iter().next();
@@ -178,7 +185,7 @@ impl Judge {
 }
 
 /// Gives a comparison's violations the bands of the evidence that forbids them, the strongest first.
-fn regrade(comparison: &mut Comparison, grades: &Grades) {
+pub(crate) fn regrade(comparison: &mut Comparison, grades: &Grades) {
     for wrong in &mut comparison.wrong {
         if wrong.band == Band::Fail {
             wrong.band = grades.sample((wrong.x, wrong.y, wrong.sample));
@@ -319,13 +326,15 @@ fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, f
 }
 
 /// The judgement under which the fewest samples are wrong. An API may hide which of several encodings a
-/// format has, but it is the same one for the whole frame.
-fn best<'a>(
+/// format has, but it is the same one for the whole frame; and so is the step of a depth bias.
+pub(crate) fn best<'a>(
+    scene: &Scene,
     judgements: &'a [Judgement],
     frame: &Frame,
-) -> Result<(Comparison, &'a Judgement), String> {
-    let mut best: Option<(Comparison, &Judgement)> = None;
+) -> Result<(Comparison, Cow<'a, Judgement>), String> {
+    let mut best: Option<(Comparison, Cow<'_, Judgement>)> = None;
     for judgement in judgements {
+        let judgement = judgement.fitted(scene, frame).map_err(|e| e.to_string())?;
         let (legal, yardstick) = (&judgement.legal, &judgement.yardstick);
         let comparison =
             compare(frame, legal, yardstick, MAX_WRONG_TEXELS).map_err(|e| e.to_string())?;

@@ -27,8 +27,10 @@ mod run;
 mod select;
 mod serve;
 mod stderr_tail;
+mod story;
 mod supervisor;
 mod sync;
+mod texel;
 mod worker;
 
 pub use bench::{BenchError, BenchEvent, BenchPlan, BenchSummary, bench, ruler};
@@ -40,4 +42,6 @@ pub use protocol::Hello;
 pub use run::{Options, Plan, RunError, RunSummary, round_trips, run};
 pub use select::{Globs, SelectError, Selection, select};
 pub use serve::serve;
+pub use story::{story_of_relation, story_of_sample};
+pub use texel::judge_texel;
 pub use worker::{DrawError, Worker};

@@ -80,7 +80,9 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::LogicOperations => features.logic_op,
         Feature::PolygonModeLine => features.fill_mode_non_solid,
         Feature::PreciseOcclusion => features.occlusion_query_precise,
-        Feature::SampleShading => features.sample_rate_shading,
+        // Only OpenGL has it.
+        Feature::SampleCoverage => vk::FALSE,
+        Feature::MinSampleShading | Feature::SampleShading => features.sample_rate_shading,
         Feature::StorageCounters => features.fragment_stores_and_atomics,
         Feature::CentroidInterpolation
         | Feature::ConservativeDepth

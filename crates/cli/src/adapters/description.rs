@@ -91,6 +91,15 @@ pub(super) fn built_in() -> Result<Vec<Description>, Failure> {
     )
 }
 
+/// Returns the names of the adapters that the built-in file and another one describe.
+pub(crate) fn described_names(file: Option<&Path>) -> Result<Vec<String>, Failure> {
+    let mut all = built_in()?;
+    if let Some(file) = file {
+        all.append(&mut read(file)?);
+    }
+    Ok(all.into_iter().map(|entry| entry.name).collect())
+}
+
 /// Reads the entries of a file.
 pub(super) fn read(path: &Path) -> Result<Vec<Description>, Failure> {
     let what = path.display().to_string();
@@ -374,7 +383,7 @@ mod tests {
             (&long, "at most 64"),
         ] {
             let error = parse(text, "mine.json").map(|_| ()).unwrap_err();
-            let Failure::Message {
+            let Failure {
                 code: USAGE,
                 message,
             } = error

@@ -9,6 +9,7 @@ use super::hidden::Hidden;
 use super::origin::Origin;
 use super::query::Query;
 use crate::failure::Failure;
+use crate::output::say;
 use etalon_backend::ReadFault;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, Worker};
@@ -198,9 +199,11 @@ pub(crate) fn refuse_absent(named: &[String], absent: &[AbsentAdapter]) -> Resul
         )));
     }
     for absent in absent {
-        eprintln!(
+        say!(
             "unavailable: {}: {}; {}",
-            absent.name, absent.reason, absent.remedy
+            absent.name,
+            absent.reason,
+            absent.remedy
         );
     }
     Ok(())

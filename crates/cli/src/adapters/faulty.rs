@@ -1,6 +1,7 @@
 //! The rasterizer in a process that fails, such as `cpu:fault=abort`: to show that a run survives everything that
 //! drivers do to their processes.
 
+use crate::output::say;
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_frame::{Frame, Limits, TextureFormat};
 use etalon_scene::Scene;
@@ -115,7 +116,7 @@ impl<B: Backend> Faulty<B> {
     pub(crate) fn new(inner: B, name: &str, fault: Fault, pipe: File) -> Self {
         match fault {
             Fault::Start => {
-                eprintln!("the planted driver does not start");
+                say!("the planted driver does not start");
                 std::process::exit(9);
             }
             Fault::Mute => sleep_endlessly(),
@@ -146,7 +147,7 @@ impl<B: Backend> Faulty<B> {
         let planted = || "planted".to_owned();
         match self.fault {
             Fault::Abort => {
-                eprintln!("about to abort, as planted");
+                say!("about to abort, as planted");
                 std::process::abort()
             }
             Fault::Segv => {
@@ -186,7 +187,7 @@ impl<B: Backend> Faulty<B> {
             }),
             Fault::Chatter => {
                 for line in 0..100_000 {
-                    eprintln!("line {line} of a long output");
+                    say!("line {line} of a long output");
                 }
                 std::process::abort()
             }

@@ -51,6 +51,8 @@ classes! {
     read_only = "read-only",
     readback = "readback",
     resolve = "resolve",
+    sample_coverage = "sample-coverage",
+    sample_shading = "sample-shading",
     samples = "samples",
     scissor = "scissor",
     stencil = "stencil",

@@ -2,8 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
-    SignedClamp, Snap, SrgbLogic, narrowed, permit,
+    FactorClamp, FragCoord, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted,
+    SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits};
 
@@ -94,6 +94,18 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 14.6.1 Basic Polygon Rasterization: a common edge with identical end points gives exactly one fragment",
             ]),
         ),
+        covers_at_positions: match old {
+            true => permit(
+                true,
+                "OpenGL 3.3: 3.3.1 Multisampling: the location that is queried is the sample's",
+            ),
+            false => narrowed(
+                true,
+                false,
+                Grade::Disputed,
+                "OpenGL 4.5, 4.6: 14.3.1 Multisampling: the locations that are queried are those of shading; those of coverage need not be the same",
+            ),
+        },
         store: permit(
             Rounding::EitherNeighbour,
             text.cite([
@@ -175,14 +187,15 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1e9),
-                unorm: (0.999, 1e9),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 1e9)],
+                unorm: &[(0.999, 1e9)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
             text.cite([
-                "OpenGL 3.3: 3.6.4 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
-                "OpenGL 4.5: 14.6.5 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
-                "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
+                "OpenGL 3.3: 3.6.4 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL 4.5: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
             ]),
         ),
         depth_range: permit(
@@ -281,6 +294,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: silent on the precision of filter weights; Vulkan: at least 4 bits",
             ]),
         ),
+        half_overflows: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL: 2.3.4.2 16-Bit Floating-Point Numbers (3.3: 2.1.2): infinity stands for magnitudes that are too large; no sentence gives the result of a conversion",
+        ),
         flushes_small_floats: permit(
             true,
             text.cite([
@@ -325,6 +344,38 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 ]),
             ),
         },
+        sample_coverage: match old {
+            true => permit(
+                AlphaToCoverage::Any,
+                "OpenGL 3.3: 4.1.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; that the ends give none and all is intended",
+            ),
+            false => narrowed(
+                AlphaToCoverage::Ends,
+                AlphaToCoverage::Any,
+                Grade::RequiredByCts,
+                text.cite([
+                    "OpenGL 3.3: 4.1.3 Multisample Fragment Operations",
+                    "OpenGL 4.5: 14.9.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GL45-ES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                    "OpenGL 4.6: 14.9.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GL45-ES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                ]),
+            ),
+        },
+        frag_coord: permit(
+            FragCoord::Inputs,
+            text.cite([
+                "OpenGL 3.3: 3.3.1 Multisampling: associated data anywhere within the pixel",
+                "OpenGL 4.5: 14.3.1 Multisampling: associated data anywhere within the pixel",
+                "OpenGL 4.6: 14.3.1 Multisampling: associated data anywhere within the pixel",
+            ]),
+        ),
+        inputs_at_samples: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: ARB_sample_shading, 3.3.1: with a share of 1, each sample's data is evaluated at its location",
+                "OpenGL 4.5: 14.3.1.1 Sample Shading: with a share of 1, each sample's data is evaluated at its location",
+                "OpenGL 4.6: 14.3.1.1 Sample Shading: with a share of 1, each sample's data is evaluated at its location",
+            ]),
+        ),
         facing: text.cite([
             "OpenGL 3.3: 3.6.1 Basic Polygon Rasterization: front by the sign of the area",
             "OpenGL 4.5: 14.6.1 Basic Polygon Rasterization: front by the sign of the area",

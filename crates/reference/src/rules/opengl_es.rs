@@ -2,8 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
-    Snap, SrgbLogic, narrowed, permit,
+    FactorClamp, FragCoord, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits};
 
@@ -79,6 +79,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 13.7.1 Basic Polygon Rasterization: a common edge with identical end points gives exactly one fragment",
             ]),
         ),
+        covers_at_positions: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL ES: 13.4 Multisampling (3.1: 13.2.1): the locations that are queried are those of shading; those of coverage need not be the same",
+        ),
         store: permit(
             Rounding::EitherNeighbour,
             text.cite([
@@ -123,14 +129,15 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1e9),
-                unorm: (0.999, 1e9),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 1e9)],
+                unorm: &[(0.999, 1e9)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
             text.cite([
-                "OpenGL ES 3.0: 3.6.2 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
-                "OpenGL ES 3.1: 13.5.2 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
-                "OpenGL ES 3.2: 13.7.2 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
+                "OpenGL ES 3.0: 3.6.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL ES 3.1: 13.5.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL ES 3.2: 13.7.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
             ]),
         ),
         depth_range: permit(
@@ -226,6 +233,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: silent on the precision of filter weights; Vulkan: at least 4 bits",
             ]),
         ),
+        half_overflows: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL ES: 2.3.4.2 16-Bit Floating-Point Numbers (3.0: 2.1.2, 3.1: 2.3.3.2): infinity stands for magnitudes that are too large; no sentence gives the result of a conversion",
+        ),
         flushes_small_floats: permit(
             true,
             text.cite([
@@ -276,6 +289,32 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.0: 4.1.3 Multisample Fragment Operations: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
                 "OpenGL ES 3.1: 15.1.1 Alpha To Coverage: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
                 "OpenGL ES 3.2: 15.1.1 Alpha To Coverage: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
+            ]),
+        ),
+        sample_coverage: narrowed(
+            AlphaToCoverage::Ends,
+            AlphaToCoverage::Any,
+            Grade::RequiredByCts,
+            text.cite([
+                "OpenGL ES 3.0: 4.1.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GLES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                "OpenGL ES 3.1: 13.6.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GLES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                "OpenGL ES 3.2: 13.8.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GLES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+            ]),
+        ),
+        frag_coord: permit(
+            FragCoord::Inputs,
+            text.cite([
+                "OpenGL ES 3.0: 3.3 Multisampling: associated data anywhere within the pixel",
+                "OpenGL ES 3.1: 13.2.1 Multisampling: associated data anywhere within the pixel",
+                "OpenGL ES 3.2: 13.4 Multisampling: associated data anywhere within the pixel",
+            ]),
+        ),
+        inputs_at_samples: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: OES_sample_shading, 3.3.1: with a share of 1, each sample's inputs are evaluated at its location",
+                "OpenGL ES 3.1: OES_sample_shading, 3.3.1: with a share of 1, each sample's inputs are evaluated at its location",
+                "OpenGL ES 3.2: 13.4.1 Sample Shading: with a share of 1, each sample's inputs are evaluated at its location",
             ]),
         ),
         facing: text.cite([

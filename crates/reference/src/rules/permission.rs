@@ -1,6 +1,6 @@
 //! Permissions as data: the set of choices that a text leaves open, each with its citation.
 
-use etalon_frame::Grade;
+use etalon_frame::{ChannelEncoding, Grade};
 
 /// A permission with its citation, and the evidence for what it forbids.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,16 +102,37 @@ pub enum DepthOrder {
     ConvertedFirst,
 }
 
-/// The least step of depth that a bias counts in, in multiples of `2^-bits` for normalized depth
-/// and of `2^(exponent - 23)` for float depth: at least, at most.
+/// The least step of depth that a bias counts in, in multiples of `2^-bits` for normalized depth and of
+/// `2^(exponent - 23)` for float depth: at least, at most, once per reading of the text. Of these the
+/// implementation chooses one reading and, for normalized depth, one step for all of an attachment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BiasUnit {
     /// For normalized depth of 16 bits.
-    pub unorm16: (f64, f64),
+    pub unorm16: &'static [(f64, f64)],
     /// For normalized depth of other bits.
-    pub unorm: (f64, f64),
+    pub unorm: &'static [(f64, f64)],
     /// For float depth, by the exponent of the primitive's greatest depth.
-    pub float: (f64, f64),
+    pub float: &'static [(f64, f64)],
+    /// The part of these that is assumed; none: all of them.
+    pub assumed: Option<(f64, f64)>,
+}
+
+impl BiasUnit {
+    /// Returns the readings for an encoding.
+    pub(crate) fn readings(&self, encoding: ChannelEncoding) -> &'static [(f64, f64)] {
+        match encoding {
+            ChannelEncoding::Unorm(16) => self.unorm16,
+            ChannelEncoding::Unorm(_) => self.unorm,
+            _ => self.float,
+        }
+    }
+
+    /// Returns the least and the greatest step for an encoding.
+    pub(crate) fn range(&self, encoding: ChannelEncoding) -> (f64, f64) {
+        let all = self.readings(encoding).iter().copied();
+        let hull = all.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        self.assumed.or(hull).unwrap_or((1.0, 1.0))
+    }
 }
 
 /// Clamping of blend factors to the range of a normalized format.
@@ -180,9 +201,12 @@ pub enum DepthRange {
 /// The result of resolving a texel's samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resolve {
-    /// Anything between the least and the greatest of them.
+    /// Anything between the least and the greatest of them; of integers one of them.
     Between,
-    /// Their average.
+    /// Their average, computed by halvings that may each be rounded to a neighbouring code, of sRGB the
+    /// codes' or the linear values'; of integers the first of them.
+    CoarseAverage,
+    /// Their average; of integers one of them.
     Average,
 }
 
@@ -217,7 +241,16 @@ pub enum SameDepth {
 /// Declares the permissions of [`Rules`], so that none is forgotten where all are narrowed or listed.
 macro_rules! rules {
     ($($(#[$doc:meta])* $field:ident: $kind:ty,)+) => {
-        /// One specification's permissions, or the yardstick.
+        /// The coordinates that a shader reads of a fragment of several samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FragCoord {
+    /// The centre of the texel, or with sample shading the position of one of the samples of the run.
+    Sample,
+    /// The point at which other inputs are interpolated.
+    Inputs,
+}
+
+/// One specification's permissions, or the yardstick.
         #[derive(Clone, Debug, PartialEq)]
         pub struct Rules {
             /// The name: `vulkan`, `opengl`, `opengl-es`, `webgpu`, `yardstick`.
@@ -274,6 +307,9 @@ rules! {
     snap: Snap,
     /// Samples on edges.
     shared_edge: SharedEdge,
+    /// True if a sample is covered at the position that the adapter tells for it; otherwise anywhere in its
+    /// texel.
+    covers_at_positions: bool,
     /// Conversion at the store and of clear values.
     store: Rounding,
     /// Blending.
@@ -319,6 +355,9 @@ rules! {
     same_depth: SameDepth,
     /// The coarsest step, in texels, to which coordinates may be rounded in filtering.
     filter_step: f64,
+    /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise as
+    /// anything.
+    half_overflows: bool,
     /// True if subnormal floats may be stored as zero.
     flushes_small_floats: bool,
     /// True if a shader that counts in storage runs for a fragment that never contributes to the
@@ -333,4 +372,12 @@ rules! {
     runs_once: bool,
     /// Alpha to coverage.
     alpha_to_coverage: AlphaToCoverage,
+    /// Sample coverage, as alpha to coverage. The same value covers the same samples again, and its
+    /// inverse the others.
+    sample_coverage: AlphaToCoverage,
+    /// The fragment's coordinates that a shader of several samples reads.
+    frag_coord: FragCoord,
+    /// True if with sample shading of a share of 1 each sample's inputs are those at its position;
+    /// otherwise at any point of the texel.
+    inputs_at_samples: bool,
 }

@@ -2,8 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
-    Snap, SrgbLogic, narrowed, permit,
+    FactorClamp, FragCoord, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{Grade, Limits, Property};
 
@@ -57,6 +57,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "Vulkan: Basic Polygon Rasterization: a common edge with identical end points gives \
              exactly one fragment per sample",
         ),
+        covers_at_positions: permit(
+            true,
+            "Vulkan: Multisampling: with standardSampleLocations samples lie at the standard locations",
+        ),
         store: permit(
             Rounding::EitherNeighbour,
             "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized Fixed-Point: one of \
@@ -97,11 +101,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 2.001),
-                unorm: (0.999, 2.001),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 2.001)],
+                unorm: &[(0.999, 2.001)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
-            "Vulkan: Depth Bias Computation: r at most 2 * 2^-n for fixed point, 2^(e-n) for floats, whose n may count the hidden bit",
+            "Vulkan: Depth Bias Computation: for fixed point one r for the whole attachment, at most 2 * 2^-n; for floats 2^(e-n), n the bits of the mantissa, 23 (where fixed-point steps stand in for floats, the text takes one bit more than the mantissa's)",
         ),
         depth_range: permit(
             DepthRange::Undefined,
@@ -112,8 +117,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "Vulkan: Blending: factors are clamped for fixed-point attachments",
         ),
         resolve: permit(
-            Resolve::Between,
-            "Vulkan: vkCmdResolveImage: resolved in an implementation-dependent manner; VkResolveModeFlagBits: the average's precision is implementation-defined",
+            // Render passes resolve by a mode. Only `vkCmdResolveImage`, which the backend does not call, may
+            // choose another.
+            Resolve::CoarseAverage,
+            "Vulkan: VkResolveModeFlagBits: VK_RESOLVE_MODE_AVERAGE_BIT gives the average of the samples, its precision implementation-defined (read as: no coarser than the format's codes in any halving), sRGB samples made linear first if the implementation does as it should; VK_RESOLVE_MODE_SAMPLE_ZERO_BIT, of integers, gives sample 0",
         ),
         points_face_front: permit(
             true,
@@ -160,6 +167,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             1.0 / 16.0,
             "Vulkan: Limits, subTexelPrecisionBits is at least 4; the rounding to its divisions is not stated",
         ),
+        half_overflows: permit(
+            true,
+            "Vulkan: Fundamentals, Floating-Point Format Conversions: the largest finite value or infinity",
+        ),
         flushes_small_floats: permit(
             false,
             "Vulkan: Fundamentals, Floating-Point Format Conversions: representable finite values are kept",
@@ -193,6 +204,18 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             AlphaToCoverage::Any,
             Grade::RequiredByCts,
             "Vulkan: Multisample Coverage: intended that alpha 0 gives no sample and alpha 1 all; dEQP-VK.pipeline.*.multisample.alpha_to_coverage.* demands the ends",
+        ),
+        sample_coverage: permit(
+            AlphaToCoverage::Ends,
+            "Vulkan: has no sample coverage; as OpenGL 4.6: 14.9.3",
+        ),
+        frag_coord: permit(
+            FragCoord::Sample,
+            "Vulkan: FragCoord: the centre of the fragment, or with sample shading the location of one of the samples of the run",
+        ),
+        inputs_at_samples: permit(
+            false,
+            "Vulkan: Interpolation Decorations: an implementation-defined position within the fragment, unless decorated",
         ),
         facing: "Vulkan: Basic Polygon Rasterization: front by the sign of the area; zero area is \
                  not front",

@@ -2,8 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
-    Snap, SrgbLogic, narrowed, permit,
+    FactorClamp, FragCoord, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::Grade;
 
@@ -32,6 +32,10 @@ pub(super) fn rules() -> Rules {
             SharedEdge::Independent,
             "WebGPU: 23.2.5.4 Polygon Rasterization: whether a sample on an edge is inside is not \
              defined",
+        ),
+        covers_at_positions: permit(
+            true,
+            "WebGPU: 23.2.5 Rasterization: samples lie at the standard patterns",
         ),
         store: permit(
             Rounding::EitherNeighbour,
@@ -71,11 +75,14 @@ pub(super) fn rules() -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1.001),
-                unorm: (0.999, 2.001),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 1.001)],
+                unorm: &[(0.999, 2.001)],
+                // As Vulkan, Direct3D and Metal have it, or by the letter: 2^(exponent - r) with r the
+                // least positive float, which is 2^exponent.
+                float: &[(0.999, 1.001), (0.999 * 8_388_608.0, 1.001 * 8_388_608.0)],
+                assumed: None,
             },
-            "WebGPU: GPUDepthStencilState, biased fragment depth: r is the least positive value of a unorm format; which one depth24plus is, and the float unit, are not told, so as Vulkan has them",
+            "WebGPU: GPUDepthStencilState, biased fragment depth: r is the least positive value of a unorm format; which one depth24plus is, is not told, so as Vulkan has it; of floats 2^(e-23), or 2^e as the text says by its letter (gpuweb#6350)",
         ),
         depth_range: permit(
             DepthRange::ViewportIfWritten,
@@ -122,6 +129,10 @@ pub(super) fn rules() -> Rules {
             1.0 / 16.0,
             "WebGPU: silent on the precision of filter weights; Vulkan: at least 4 bits",
         ),
+        half_overflows: permit(
+            true,
+            "WebGPU: silent on overflow; Vulkan: the largest finite value or infinity",
+        ),
         flushes_small_floats: permit(
             true,
             "WebGPU: silent on small floats; OpenGL: 16-bit ones may be encoded as zero",
@@ -145,6 +156,18 @@ pub(super) fn rules() -> Rules {
         alpha_to_coverage: permit(
             AlphaToCoverage::Ends,
             "WebGPU: 23.2.9 Alpha to Coverage: alpha 0 gives no sample and alpha 1 all",
+        ),
+        sample_coverage: permit(
+            AlphaToCoverage::Ends,
+            "WebGPU: has no sample coverage; as OpenGL 4.6: 14.9.3",
+        ),
+        frag_coord: permit(
+            FragCoord::Inputs,
+            "WebGPU: silent on the point of several samples; OpenGL 4.6, 14.3.1 leaves it open",
+        ),
+        inputs_at_samples: permit(
+            false,
+            "WebGPU: silent on sample shading by a share; Vulkan leaves the point open",
         ),
         facing: "WebGPU: 23.2.5.4 Polygon Rasterization: front by the sign of the area; zero area \
                  is back",

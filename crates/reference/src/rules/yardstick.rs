@@ -33,6 +33,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
         ),
         snap: permit(snap, "Direct3D 11.3: 3.4.1 Coordinate Snapping: nearest"),
         shared_edge: permit(SharedEdge::TopLeft, "Direct3D 11.3: 3.4.2.1 Top-Left Rule"),
+        covers_at_positions: permit(true, "Yardstick: at the positions that are told"),
         store: permit(
             Rounding::Within(0.6),
             "Direct3D 11.3: 3.2.3.6 FLOAT to UNORM: 0.6 ULP",
@@ -59,9 +60,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1.001),
-                unorm: (0.999, 1.001),
-                float: (0.999, 1.001),
+                unorm16: &[(0.999, 1.001)],
+                unorm: &[(0.999, 1.001)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
             "Direct3D 11.3: 15.10 Depth Bias: 1/2^n, for floats 2^(e-23)",
         ),
@@ -107,6 +109,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             1.0 / 256.0,
             "Yardstick: 8 bits of fraction (Direct3D 11.3, 7.18.7 and 7.18.8)",
         ),
+        half_overflows: permit(true, "Yardstick: the largest finite value or infinity"),
         flushes_small_floats: permit(false, "Yardstick: representable values are kept"),
         runs_for_discarded: permit(true, "Yardstick: one run for every fragment"),
         runs_for_overwritten: permit(true, "Yardstick: one run for every fragment"),
@@ -115,6 +118,12 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
         alpha_to_coverage: permit(
             AlphaToCoverage::Ends,
             "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",
+        ),
+        sample_coverage: permit(AlphaToCoverage::Ends, "Yardstick: as alpha to coverage"),
+        frag_coord: permit(text.frag_coord.value, "Yardstick: as the API's text says"),
+        inputs_at_samples: permit(
+            text.inputs_at_samples.value,
+            "Yardstick: as the API's text says",
         ),
         facing: "Direct3D 11.3: 15.10 Facing: after snapping, zero area is back",
         stencil: "Direct3D 11.3: 17.12 Stencil: integer operations",

@@ -205,12 +205,20 @@ fn texel_row(place: &str, texel: &WrongTexel, i: usize, m: &ChannelMismatch) -> 
     }
 }
 
+/// The verdict as a heading, the text that it follows from, and the operations.
 fn operations(story: &Story, record: &Record) -> Markup {
     let mut at = "";
     html! {
-        h5 { "Expected operations" @if let Some(texel) = record.wrong.first() { " at " (place(texel, multisampled(record))) } }
+        @match (story.sentence(), record.wrong.first()) {
+            (Some(sentence), _) => h5 { (sentence) },
+            (None, Some(texel)) => h5 { "Expected operations at " (place(texel, multisampled(record))) },
+            (None, None) => h5 { "Expected operations" },
+        }
+        @if let Some(judged_by) = story.verdict().and_then(|v| v.citation.as_ref()) {
+            p.note { (judged_by) }
+        }
         ol.story {
-            @for line in &story.lines {
+            @for line in story.operations() {
                 @if line.at != at { li.at { ({ at = &line.at; at }) } }
                 li {
                     b { (line.operation) } ": " (line.detail)

@@ -33,7 +33,7 @@ pub(crate) enum Label {
 /// Words, form and true if an entry under Findings has the same. Forms: `text`, `pre` for what came
 /// from a driver, `case` for an id that can be followed, `code`.
 pub(crate) const LABELS: [(&str, &str, bool); 17] = [
-    ("In short", "text", true),
+    ("In short", "text", false),
     ("Message", "pre", true),
     ("Expected", "text", true),
     ("Improvement", "text", false),
