@@ -4,7 +4,7 @@ use crate::checks::{CHECKS, Check};
 use crate::child::in_child;
 use crate::subject::{Outcome, Subject};
 use etalon_backend::Backend;
-use etalon_frame::Requirement;
+use etalon_frame::{Feature, Requirement};
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -65,6 +65,27 @@ pub fn variables<'a>(environment: &[(&'a str, &str)]) -> Vec<(&'a str, String)> 
     environment.iter().map(owned).collect()
 }
 
+/// The name of a defect of four samples: all scenes that need them are left out.
+pub const FOUR_SAMPLES: &str = "four samples";
+/// The name of a defect of shaders that count: all scenes that need them are left out.
+pub const COUNTING_SHADERS: &str = "counting shaders";
+
+impl<'a> Driver<'a> {
+    /// Returns an open backend of this driver as the subject of checks.
+    pub fn subject(&self, backend: &'a dyn Backend) -> Subject<'a> {
+        let mut subject = Subject::new(backend, self.tolerated);
+        for (name, defect) in &self.defects {
+            subject = match *name {
+                FOUR_SAMPLES => subject.without_four_samples(),
+                COUNTING_SHADERS => subject.without_feature(Feature::StorageCounters),
+                _ => continue,
+            };
+            println!("{name}: left out, for {defect}");
+        }
+        subject
+    }
+}
+
 impl Driver<'_> {
     /// Runs checks, and returns the names of those that were skipped.
     fn run_each(
@@ -72,7 +93,7 @@ impl Driver<'_> {
         backend: &dyn Backend,
         chosen: impl Fn(&Check) -> bool,
     ) -> BTreeSet<&'static str> {
-        let subject = Subject::new(backend, self.tolerated);
+        let subject = self.subject(backend);
         subject.check_silence("opening");
         let (mut failed, mut skipped) = (Vec::new(), BTreeSet::new());
         for check in CHECKS.iter().filter(|check| chosen(check)) {

@@ -21,8 +21,8 @@ mod subject;
 pub use checks::{CHECKS, Check};
 pub use child::in_child;
 pub use driver::{
-    Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, SOFTPIPE_DEFECTS, ZINK, in_driver, run, run_all,
-    variables,
+    COUNTING_SHADERS, Driver, FOUR_SAMPLES, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, SOFTPIPE_DEFECTS,
+    ZINK, in_driver, run, run_all, variables,
 };
 pub use library::{Share, draw_library};
 pub use scenes::scene;

@@ -123,6 +123,10 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
         // Every version has it as a texture: an exact source of values even if it is not drawable.
         return done(&[], false, &[], ReadPlan::Fetched);
     }
+    // Without its extension ES has no rules for what is drawn to it.
+    if format == TextureFormat::Rgba8Snorm && !context.caps.snorm_attachments {
+        return None;
+    }
     if !surface.is_complete() || !has_promised_channels(context, surface, format) {
         return None;
     }
@@ -141,10 +145,9 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
 
 /// Returns the way to read single-sample surfaces of a format; `None` if the context has no exact one.
 ///
-/// OpenGL converts to any format and type, so the layout of uploads returns each code (4.5 and 4.6,
-/// 18.2.8, with read color clamping off). Before, a type other than a float clamps signed values to
-/// 0..=1 (3.3, 4.3.1, Final Conversion), so those are read as floats, in which both codes of -1 are one
-/// value.
+/// OpenGL converts to any format and type, so the layout of uploads returns each code (4.6, 18.2.8, with
+/// read color clamping off). Before 4.2 a type other than a float clamps signed values to 0..=1 (3.3,
+/// 4.3.1, Final Conversion), so those are read as floats, in which both codes of -1 are one value.
 ///
 /// ES has four bytes for normalized formats, the packed type for `rgb10a2unorm` and floats for floats
 /// (ES 3.2, 16.1.2). No type of it returns negative values (16.1.5), depth or stencil: a shader fetches
@@ -176,7 +179,7 @@ fn read_plan(
     Some(match first {
         ChannelEncoding::Uint(_) => ReadPlan::Integers,
         ChannelEncoding::Snorm(_) if caps.es => ReadPlan::Fetched,
-        ChannelEncoding::Snorm(_) if caps.version < (4, 5) => ReadPlan::Floats,
+        ChannelEncoding::Snorm(_) if caps.version < (4, 2) => ReadPlan::Floats,
         _ if !caps.es || format == TextureFormat::Rgb10a2Unorm => ReadPlan::Packed,
         ChannelEncoding::Unorm(_) | ChannelEncoding::Srgb8 => ReadPlan::Bytes,
         _ => ReadPlan::Floats,

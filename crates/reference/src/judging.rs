@@ -202,6 +202,10 @@ impl<'r> Judging<'r> {
             return CodeInterval::new(order_below(value.low), order_above(value.high));
         }
         let limit = encoding.value_of_order(encoding.max_order());
+        let beyond = value.high > limit || value.low < -limit;
+        if beyond && encoding == ChannelEncoding::Float16 && !self.rules.half_overflows.value {
+            return all_codes(encoding);
+        }
         let low = match value.low {
             v if v > limit => encoding.max_order(),
             v => encoding.order_below(v),

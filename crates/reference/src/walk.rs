@@ -5,7 +5,7 @@ use crate::clause::Rejection;
 use crate::context::PassContext;
 use crate::judging::{Judging, Range, all_codes};
 use crate::notes::{Note, Notes, Skipped};
-use crate::primitive::{Shape, Side, SnappedPrimitive, misses};
+use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
 use crate::rules::{Copies, Rules};
 use crate::setup::{self, DrawSetup};
 use crate::snap::units_per_texel;
@@ -215,7 +215,7 @@ impl<'a> Walk<'a> {
                     }
                     let (can, must) = self.in_viewport(draw, primitive, point);
                     if !can {
-                        let reached = self.reaches(primitive, point);
+                        let reached = self.reaches(primitive, at, point);
                         let reason = if reached {
                             Rejection::Viewport
                         } else {
@@ -226,7 +226,7 @@ impl<'a> Walk<'a> {
                     }
                     let sides = match &primitive.shape {
                         Shape::Triangle(triangle) => {
-                            let sides = [0, 1, 2].map(|i| triangle.side(i, point));
+                            let sides = self.sides(triangle, at, point);
                             if misses(triangle, sides) {
                                 continue;
                             }
@@ -303,11 +303,9 @@ impl<'a> Walk<'a> {
     }
 
     /// True if a primitive may cover a sample, were it not for the viewport.
-    fn reaches(&self, primitive: &SnappedPrimitive, point: Point) -> bool {
+    fn reaches(&self, primitive: &SnappedPrimitive, at: Sample, point: Point) -> bool {
         match &primitive.shape {
-            Shape::Triangle(triangle) => {
-                !misses(triangle, [0, 1, 2].map(|i| triangle.side(i, point)))
-            }
+            Shape::Triangle(triangle) => !misses(triangle, self.sides(triangle, at, point)),
             _ => primitive.times(point, self.units).1 > 0,
         }
     }
@@ -326,6 +324,26 @@ impl<'a> Walk<'a> {
             parts.push(format!("stencil {}", cell.stencil));
         }
         parts.join(", ")
+    }
+
+    /// Returns the sides of a triangle's edges on which a sample lies.
+    fn sides(&self, triangle: &Triangle, at: Sample, point: Point) -> [Side; 3] {
+        if at.samples == 1 || self.rules.covers_at_positions.value {
+            return [0, 1, 2].map(|i| triangle.side(i, point));
+        }
+        // Wherever in the texel the sample is covered: on one side only if all of the texel is.
+        let corner = |dx: i64, dy: i64| Point {
+            x: (i64::from(at.x) + dx) * self.units,
+            y: (i64::from(at.y) + dy) * self.units,
+        };
+        let corners = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
+        [0, 1, 2].map(|i| {
+            let [first, others @ ..] = corners.map(|corner| triangle.side(i, corner));
+            match first {
+                Side::Positive | Side::Negative if others.iter().all(|o| *o == first) => first,
+                _ => Side::Unknown,
+            }
+        })
     }
 
     pub(crate) fn sample_point(&self, at: Sample) -> Point {

@@ -9,7 +9,7 @@ use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::{Case, Profile};
 use etalon_cpu::CpuBackend;
-use etalon_frame::{Band, Frame, Limits, Story};
+use etalon_frame::{Band, ChannelMismatch, Frame, ImageInfo, Limits, Story, WrongTexel};
 use etalon_reference::{Rules, Sample};
 use etalon_runner::{judge_texel, story_of_relation, story_of_sample};
 use etalon_scene::Scene;
@@ -169,19 +169,24 @@ impl Asked<'_> {
         let frame = self.frames.get(index);
         let judged = judge_texel(self.case, index, limits, self.texel, frame);
         let (judgement, comparison) = judged.map_err(Failure::incomplete)?;
-        let rules = Rules::of(&judgement.limits);
+        let rules = judgement.rules.clone();
         let band = |at: &Sample| {
             let wrong = &comparison.as_ref()?.wrong;
-            let here =
-                |w: &&etalon_frame::WrongTexel| (w.x, w.y, w.sample) == (at.x, at.y, at.sample);
+            // Attachments of several sizes have texels of the same place.
+            let of_shape = |m: &ChannelMismatch| {
+                let mut all = scene.attachments.iter();
+                let own = all.find(|a| a.name == m.attachment);
+                own.is_some_and(|a| (a.size, a.samples) == (at.size, at.samples))
+            };
+            let here = |w: &&WrongTexel| {
+                (w.x, w.y, w.sample) == (at.x, at.y, at.sample) && w.channels.iter().all(of_shape)
+            };
             // What the yardstick alone forbids is told only if it is asked for.
             let found = wrong.iter().find(here)?;
             (found.band > Band::Imprecise).then_some(found.band)
         };
         let several = limits.alternatives(&scene.formats()).len() > 1;
-        let encodings = |i: &etalon_frame::ImageInfo| {
-            format!("{} {} {}", i.attachment, i.aspect, i.channels[0])
-        };
+        let encodings = |i: &ImageInfo| format!("{} {} {}", i.attachment, i.aspect, i.channels[0]);
         let heading = several.then(|| {
             let all: Vec<String> = judgement.legal.images.iter().map(encodings).collect();
             let why = match self.frames.is_empty() {

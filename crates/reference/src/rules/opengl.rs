@@ -94,6 +94,18 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 14.6.1 Basic Polygon Rasterization: a common edge with identical end points gives exactly one fragment",
             ]),
         ),
+        covers_at_positions: match old {
+            true => permit(
+                true,
+                "OpenGL 3.3: 3.3.1 Multisampling: the location that is queried is the sample's",
+            ),
+            false => narrowed(
+                true,
+                false,
+                Grade::Disputed,
+                "OpenGL 4.5, 4.6: 14.3.1 Multisampling: the locations that are queried are those of shading; those of coverage need not be the same",
+            ),
+        },
         store: permit(
             Rounding::EitherNeighbour,
             text.cite([
@@ -281,6 +293,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.5: silent on the precision of filter weights; Vulkan: at least 4 bits",
                 "OpenGL 4.6: silent on the precision of filter weights; Vulkan: at least 4 bits",
             ]),
+        ),
+        half_overflows: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL: 2.3.4.2 16-Bit Floating-Point Numbers (3.3: 2.1.2): infinity stands for magnitudes that are too large; no sentence gives the result of a conversion",
         ),
         flushes_small_floats: permit(
             true,

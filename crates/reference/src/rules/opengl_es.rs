@@ -79,6 +79,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 13.7.1 Basic Polygon Rasterization: a common edge with identical end points gives exactly one fragment",
             ]),
         ),
+        covers_at_positions: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL ES: 13.4 Multisampling (3.1: 13.2.1): the locations that are queried are those of shading; those of coverage need not be the same",
+        ),
         store: permit(
             Rounding::EitherNeighbour,
             text.cite([
@@ -226,6 +232,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.1: silent on the precision of filter weights; Vulkan: at least 4 bits",
                 "OpenGL ES 3.2: silent on the precision of filter weights; Vulkan: at least 4 bits",
             ]),
+        ),
+        half_overflows: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL ES: 2.3.4.2 16-Bit Floating-Point Numbers (3.0: 2.1.2, 3.1: 2.3.3.2): infinity stands for magnitudes that are too large; no sentence gives the result of a conversion",
         ),
         flushes_small_floats: permit(
             true,

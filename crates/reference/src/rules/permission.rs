@@ -307,6 +307,9 @@ rules! {
     snap: Snap,
     /// Samples on edges.
     shared_edge: SharedEdge,
+    /// True if a sample is covered at the position that the adapter tells for it; otherwise anywhere in its
+    /// texel.
+    covers_at_positions: bool,
     /// Conversion at the store and of clear values.
     store: Rounding,
     /// Blending.
@@ -352,6 +355,9 @@ rules! {
     same_depth: SameDepth,
     /// The coarsest step, in texels, to which coordinates may be rounded in filtering.
     filter_step: f64,
+    /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise as
+    /// anything.
+    half_overflows: bool,
     /// True if subnormal floats may be stored as zero.
     flushes_small_floats: bool,
     /// True if a shader that counts in storage runs for a fragment that never contributes to the

@@ -101,7 +101,7 @@ fn add<const N: usize>(
 
 /// Vulkan's tables are those of 1.0 to this day: 1.0 (2016-02-16), 1.3.302 and 1.4.303 were compared.
 fn vulkan(rows: &mut Vec<Required>) {
-    use Requirement::{Blending, ColorAttachments, Drawing, Format, Samples, Size};
+    use Requirement::{Blending, ColorAttachments, Drawing, Feature as Has, Format, Samples, Size};
     let since = (Api::Vulkan, ApiVersion::new(1, 0));
     let formats = "Vulkan: Required Format Support";
     // COLOR_ATTACHMENT and COLOR_ATTACHMENT_BLEND.
@@ -141,6 +141,18 @@ fn vulkan(rows: &mut Vec<Required>) {
     let limits =
         "Vulkan: Required Limits, maxImageDimension2D, maxFramebufferWidth, maxColorAttachments";
     add(rows, since, limits, [Size(4096), ColorAttachments(4)]);
+    add(
+        rows,
+        (Api::Vulkan, ApiVersion::new(1, 4)),
+        "Vulkan 1.4: Feature Requirements",
+        [
+            Has(Feature::DepthBiasClamp),
+            Has(Feature::DepthClamp),
+            Has(Feature::IndependentBlend),
+            Has(Feature::SampleShading),
+            Has(Feature::StorageCounters),
+        ],
+    );
 }
 
 fn opengl(rows: &mut Vec<Required>) {
@@ -196,8 +208,14 @@ fn opengl(rows: &mut Vec<Required>) {
 fn opengl_es(rows: &mut Vec<Required>) {
     use Requirement::{ColorAttachments, Drawing, Feature as Has, Size};
     let since = (Api::OpenGlEs, ApiVersion::new(3, 0));
-    let formats = "OpenGL ES 3.0: 3.8.3.1, Required Texture Formats";
-    let more = [TextureFormat::Rgb10a2Unorm, TextureFormat::Rgba8Uint];
+    let formats =
+        "OpenGL ES 3.0: 3.8.3.1, Required Texture Formats; 4.4.2.2, Required Renderbuffer Formats";
+    // Stencil alone as a renderbuffer.
+    let more = [
+        TextureFormat::Rgb10a2Unorm,
+        TextureFormat::Rgba8Uint,
+        TextureFormat::Stencil8,
+    ];
     add(rows, since, formats, BYTES.map(Drawing));
     add(rows, since, formats, SHORT.map(Drawing));
     add(rows, since, formats, more.map(Drawing));
@@ -334,7 +352,7 @@ mod tests {
     fn every_row_names_its_text() {
         for row in rows() {
             let name = match row.api {
-                Api::Vulkan => "Vulkan: ",
+                Api::Vulkan => "Vulkan",
                 Api::OpenGl => "OpenGL ",
                 Api::OpenGlEs => "OpenGL ES ",
                 Api::WebGpu => "WebGPU: ",

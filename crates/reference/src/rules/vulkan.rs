@@ -57,6 +57,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "Vulkan: Basic Polygon Rasterization: a common edge with identical end points gives \
              exactly one fragment per sample",
         ),
+        covers_at_positions: permit(
+            true,
+            "Vulkan: Multisampling: with standardSampleLocations samples lie at the standard locations",
+        ),
         store: permit(
             Rounding::EitherNeighbour,
             "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized Fixed-Point: one of \
@@ -162,6 +166,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         filter_step: permit(
             1.0 / 16.0,
             "Vulkan: Limits, subTexelPrecisionBits is at least 4; the rounding to its divisions is not stated",
+        ),
+        half_overflows: permit(
+            true,
+            "Vulkan: Fundamentals, Floating-Point Format Conversions: the largest finite value or infinity",
         ),
         flushes_small_floats: permit(
             false,

@@ -33,6 +33,10 @@ pub(super) fn rules() -> Rules {
             "WebGPU: 23.2.5.4 Polygon Rasterization: whether a sample on an edge is inside is not \
              defined",
         ),
+        covers_at_positions: permit(
+            true,
+            "WebGPU: 23.2.5 Rasterization: samples lie at the standard patterns",
+        ),
         store: permit(
             Rounding::EitherNeighbour,
             "WebGPU: silent on the rounding of stores; Vulkan and OpenGL: one of the two closest \
@@ -124,6 +128,10 @@ pub(super) fn rules() -> Rules {
         filter_step: permit(
             1.0 / 16.0,
             "WebGPU: silent on the precision of filter weights; Vulkan: at least 4 bits",
+        ),
+        half_overflows: permit(
+            true,
+            "WebGPU: silent on overflow; Vulkan: the largest finite value or infinity",
         ),
         flushes_small_floats: permit(
             true,

@@ -33,6 +33,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
         ),
         snap: permit(snap, "Direct3D 11.3: 3.4.1 Coordinate Snapping: nearest"),
         shared_edge: permit(SharedEdge::TopLeft, "Direct3D 11.3: 3.4.2.1 Top-Left Rule"),
+        covers_at_positions: permit(true, "Yardstick: at the positions that are told"),
         store: permit(
             Rounding::Within(0.6),
             "Direct3D 11.3: 3.2.3.6 FLOAT to UNORM: 0.6 ULP",
@@ -108,6 +109,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             1.0 / 256.0,
             "Yardstick: 8 bits of fraction (Direct3D 11.3, 7.18.7 and 7.18.8)",
         ),
+        half_overflows: permit(true, "Yardstick: the largest finite value or infinity"),
         flushes_small_floats: permit(false, "Yardstick: representable values are kept"),
         runs_for_discarded: permit(true, "Yardstick: one run for every fragment"),
         runs_for_overwritten: permit(true, "Yardstick: one run for every fragment"),

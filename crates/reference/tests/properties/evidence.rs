@@ -213,3 +213,50 @@ fn a_fragment_that_is_overwritten_may_go_without_a_run_in_es() {
         [(32, Some(32)); 2]
     );
 }
+
+#[test]
+fn samples_at_edges_are_covered_where_the_text_says_so() {
+    // A triangle whose right edge goes through the middle of column 1.
+    let scene = scene(
+        r#"{"attachments":{"c":{"format":"rgba8unorm","size":[4,4],"samples":4,"clear":[0,0,0,0]}},
+            "passes":[{"color":["c"],"draws":[{"shader":"uniform_color","params":{"color":[1,1,1,1]},
+              "mesh":{"kind":"vertices","positions":[[-9,-40,0],[-0.25,-40,0],[-0.25,40,0]]}}]}],"read":["c"]}"#,
+    );
+    let (covered, kept) = ([255; 4], [0; 4]);
+    for exact in [version(Api::Vulkan, 1, 3), version(Api::OpenGl, 3, 3)] {
+        // The standard positions: 3/8 and 7/8 from the left.
+        assert_eq!(allowed(&scene, &exact, 0, &covered), ALWAYS);
+        assert_eq!(allowed(&scene, &exact, 0, &kept), NEVER);
+        assert_eq!(allowed(&scene, &exact, 1, &covered), NEVER);
+    }
+    for open in [version(Api::OpenGl, 4, 6), version(Api::OpenGlEs, 3, 2)] {
+        assert_eq!(allowed(&scene, &open, 0, &covered), ALWAYS);
+        assert_eq!(allowed(&scene, &open, 0, &kept), DISPUTED);
+        assert_eq!(allowed(&scene, &open, 1, &covered), DISPUTED);
+    }
+}
+
+#[test]
+fn a_half_float_that_overflows_is_no_nan_by_musts_in_vulkan_alone() {
+    let scene = scene(
+        r#"{"attachments":{"c":{"format":"rgba16float","size":[4,4],"clear":[0,0,0,0]}},
+            "passes":[{"color":["c"],"draws":[{"mesh":{"kind":"full"},"shader":"uniform_color",
+              "params":{"color":[100000,100000,100000,100000]}}]}],"read":["c"]}"#,
+    );
+    let (largest, infinity, nan) = ([0x7bff; 4], [0x7c00; 4], [0x7e00; 4]);
+    let vulkan = version(Api::Vulkan, 1, 3);
+    for legal in [largest, infinity] {
+        assert_eq!(allowed(&scene, &vulkan, 0, &legal), ALWAYS);
+        assert_eq!(
+            allowed(&scene, &version(Api::OpenGlEs, 3, 1), 0, &legal),
+            ALWAYS
+        );
+    }
+    assert_eq!(allowed(&scene, &vulkan, 0, &nan), NEVER);
+    assert_eq!(
+        allowed(&scene, &version(Api::OpenGlEs, 3, 1), 0, &nan),
+        DISPUTED
+    );
+    // What is copied in WebGPU may change where it is no number.
+    assert_eq!(allowed(&scene, &limits(Api::WebGpu), 0, &nan), ALWAYS);
+}
