@@ -74,6 +74,16 @@ impl Rejection {
         }
     }
 
+    /// Returns what is said of several draws that do not reach a sample; `None` for those that come to it.
+    pub(crate) fn elsewhere(self) -> Option<&'static str> {
+        match self {
+            Self::Coverage => Some("do not cover it"),
+            Self::Viewport => Some("are outside their viewports"),
+            Self::Scissor => Some("are outside their scissor rectangles"),
+            _ => None,
+        }
+    }
+
     /// Returns the clause, with document, version and section.
     pub(crate) fn clause(
         self,

@@ -253,17 +253,14 @@ impl Walk<'_> {
             let forced = place.draw.early_tests == EarlyTests::Forced;
             let certain = !forced || self.rules.mask_acts_first.value;
             self.note_rejection(notes, place, Rejection::SampleMask, certain, &|| {
-                format!(
-                    "the sample mask {:#x} leaves sample {sample} out",
-                    state.mask
-                )
+                format!("the sample mask {:#x} leaves it out", state.mask)
             });
         } else if !must {
             self.note_rejection(notes, place, Rejection::AlphaToCoverage, !can, &|| {
                 let alpha = alpha.hull();
                 match can {
                     true => {
-                        format!("alpha {alpha} may or may not keep sample {sample}: two worlds")
+                        format!("alpha {alpha} may or may not keep the sample: two worlds")
                     }
                     false => format!("alpha {alpha} keeps no sample"),
                 }

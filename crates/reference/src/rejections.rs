@@ -102,17 +102,21 @@ impl Walk<'_> {
                 (n, all) if n == all => format!("all {n} primitives"),
                 _ => format!("primitives {}", ranges(&which)),
             };
-            let [one, is] = match which.len() {
-                1 => ["its", "does"],
-                _ => ["their", "do"],
+            let [lie, cover] = match which.len() {
+                1 => ["lies", "does not cover"],
+                _ => ["lie", "do not cover"],
             };
             let detail = match rejection {
                 Rejection::Viewport => {
                     let rect = draw.2.viewport.area().map(|v| v.to_string());
-                    format!("outside the viewport [{}] of {who}", rect.join(","))
+                    let rect = rect.join(",");
+                    match which.len() == count {
+                        true => format!("outside its viewport [{rect}]"),
+                        false => format!("outside its viewport [{rect}] with {who}"),
+                    }
                 }
-                Rejection::NearFar => format!("{who}: beyond {one} near or far plane"),
-                _ => format!("{who} {is} not cover the sample"),
+                Rejection::NearFar => format!("{who} {lie} beyond the near or far plane"),
+                _ => format!("{who} {cover} the sample"),
             };
             self.note_primitives(notes, draw, which, rejection, || detail);
         }

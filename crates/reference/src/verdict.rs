@@ -90,6 +90,22 @@ fn views(walk: &Walk<'_>, at: Sample) -> Vec<View> {
     views
 }
 
+/// The end of a draw before a sample.
+struct End {
+    /// What is said of several draws that do not reach the sample for the same reason.
+    elsewhere: Option<&'static str>,
+    text: String,
+}
+
+impl End {
+    fn here(text: String) -> Self {
+        Self {
+            elsewhere: None,
+            text,
+        }
+    }
+}
+
 impl Telling<'_> {
     /// Returns the values that came back, in the channels of the set; `None` if the frame is of another
     /// scene.
@@ -293,7 +309,7 @@ impl Telling<'_> {
                         Some(open) if self.set.worlds.len() > 1 => {
                             format!("of {name}, {}", open.line.detail)
                         }
-                        _ => format!("{name} passes all its tests and stores it"),
+                        _ => self.stored(&name, note),
                     });
                 }
                 None => return format!("it is resolved from {}", note.line.detail),
@@ -304,13 +320,37 @@ impl Telling<'_> {
         parts.extend(ends.into_iter().take(LISTED));
         match more {
             0 => {}
-            1 => parts.push("one more draw ends before it too".to_owned()),
-            n => parts.push(format!("{n} more draws end before it too")),
+            1 => parts.push("one more draw ends before it".to_owned()),
+            n => parts.push(format!("{n} more draws end before it")),
         }
         if parts.is_empty() {
             return "no draw concerns it".to_owned();
         }
-        parts.join(", ")
+        list(&parts, "and")
+    }
+
+    /// Returns what is said of the draw that stores last.
+    fn stored(&self, name: &str, store: &Note) -> String {
+        let of_fragment = |operation: &str| {
+            let own = |n: &&Note| n.line.at == store.line.at && n.line.operation == operation;
+            self.notes.iter().rfind(own)
+        };
+        let aspect = match store.effect {
+            Effect::Stores { aspect, .. } => aspect,
+            _ => Aspect::Color,
+        };
+        match (aspect, of_fragment("shade")) {
+            (Aspect::Color, Some(shade)) => {
+                let verb = match of_fragment("blend") {
+                    Some(_) => "blends it",
+                    None => "stores it",
+                };
+                let gives = &shade.line.detail;
+                format!("{name} passes all its tests and {verb} ({gives})")
+            }
+            (Aspect::Stencil, _) => format!("{name} stores it ({})", store.line.detail),
+            _ => format!("{name} passes all its tests and stores it"),
+        }
     }
 
     /// Returns the ends of all draws after one, or of all: the operation that each comes to at last.
@@ -335,25 +375,38 @@ impl Telling<'_> {
             });
             let name = self.draw_name(*draw);
             if let Some(kept) = kept {
-                return format!("{name} leaves it: {}", kept.line.detail);
+                return End::here(format!("{name} leaves it: {}", kept.line.detail));
             }
-            let rejections = self
-                .notes
-                .iter()
-                .filter(own)
-                .filter_map(|n| match n.effect {
-                    Effect::Rejects(rejection) => Some((rejection, &n.line.detail)),
-                    _ => None,
-                });
-            match rejections.max_by_key(|(rejection, _)| *rejection) {
+            let all = || self.notes.iter().filter(own);
+            let certain = all().filter_map(|n| match n.effect {
+                Effect::Rejects(rejection) => Some((rejection, &n.line.detail)),
+                _ => None,
+            });
+            let possible = all().filter_map(|n| match n.effect {
+                Effect::MayReject(rejection) => Some((rejection, &n.line.detail)),
+                _ => None,
+            });
+            let last = certain.max_by_key(|(rejection, _)| *rejection);
+            match last.or_else(|| possible.max_by_key(|(rejection, _)| *rejection)) {
                 Some((Rejection::Coverage, detail)) if detail.contains("edge") => {
-                    format!("{name} does not cover it: {detail}")
+                    End::here(format!("{name} does not cover it: {detail}"))
                 }
-                Some((rejection, detail)) => format!("{name} {}", rejection.predicate(detail)),
-                None => format!("{name} does not write {}", view.aspect.name()),
+                Some((rejection, detail)) => End {
+                    elsewhere: rejection.elsewhere(),
+                    text: format!("{name} {}", rejection.predicate(detail)),
+                },
+                None => End::here(format!("{name} does not write {}", view.aspect.name())),
             }
         };
-        draws.iter().map(end).collect()
+        // Draws that are elsewhere for the same reason are told together.
+        let all: Vec<End> = draws.iter().map(end).collect();
+        let together = all.chunk_by(|a, b| a.elsewhere.is_some() && a.elsewhere == b.elsewhere);
+        together
+            .map(|group| match (group[0].elsewhere, group.len()) {
+                (Some(place), 2..) => format!("{} draws {place}", group.len()),
+                _ => group[0].text.clone(),
+            })
+            .collect()
     }
 
     fn draw_name(&self, (pass, draw): (usize, usize)) -> String {

@@ -134,7 +134,8 @@ fn of_differences(
         (texel(&sides[0]), moved)
     };
     let predicate = format!("must be the same {same}: {}", differences(first, &names));
-    let mut verdict = StoryLine::verdict(subject, predicate, permission.citation.to_owned());
+    let judged_by = format!("judged by {}: {}", rules.text, permission.citation);
+    let mut verdict = StoryLine::verdict(subject, predicate, judged_by);
     add_grade(&mut verdict, permission.value);
     let mut lines = vec![verdict];
     let mut told = Vec::new();
