@@ -174,10 +174,8 @@ impl Record {
             return false;
         }
         if self.due_fail {
-            !matches!(
-                self.verdict,
-                Verdict::Fail | Verdict::NotSupported | Verdict::Skipped
-            )
+            let undrawn = matches!(self.verdict, Verdict::NotSupported | Verdict::Skipped);
+            !undrawn && !self.verdict.is_violation()
         } else {
             self.verdict.is_bad()
         }
@@ -334,7 +332,11 @@ mod tests {
             record.due_fail = true;
             let due = matches!(
                 verdict,
-                Verdict::Fail | Verdict::NotSupported | Verdict::Skipped
+                Verdict::Fail
+                    | Verdict::RequiredByCts
+                    | Verdict::Disputed
+                    | Verdict::NotSupported
+                    | Verdict::Skipped
             );
             assert_eq!(record.unexpected(), !due, "{verdict}");
         }

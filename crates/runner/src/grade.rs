@@ -93,8 +93,6 @@ fn forbidden(
             Ok(Some(fitted)) => fitted.legal,
             _ => open,
         };
-        let fitted = fit(scene, limits, rules, texels, &set, frame).ok()?;
-        let set = fitted.map_or(set, |fitted| fitted.legal);
         // The first wrong samples come in the same order under any rules, and fewer are wrong under
         // wider ones: those that are kept reach as far as a record's.
         let found = compare(frame, &set, &set, MAX_WRONG_TEXELS).ok()?;

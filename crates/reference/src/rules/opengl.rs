@@ -139,10 +139,8 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             ),
         },
         signed_result: match old {
-            true => narrowed(
-                SignedClamp::Unit,
+            true => permit(
                 SignedClamp::Either,
-                Grade::Disputed,
                 "OpenGL 3.3: 4.1.8 sRGB Conversion: clamped to [0,1] for every fixed-point buffer; 2.1.5 has signed ones",
             ),
             false => narrowed(

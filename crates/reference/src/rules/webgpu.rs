@@ -73,7 +73,7 @@ pub(super) fn rules() -> Rules {
             DepthOrder::Either,
             "WebGPU: 23.2.6 Fragment Processing is silent on the order of conversion and comparison",
         ),
-        depth_bias_unit: permit(
+        depth_bias_unit: narrowed(
             BiasUnit {
                 unorm16: &[(0.999, 1.001)],
                 unorm: &[(0.999, 2.001)],
@@ -82,6 +82,14 @@ pub(super) fn rules() -> Rules {
                 float: &[(0.999, 1.001), (0.999 * 8_388_608.0, 1.001 * 8_388_608.0)],
                 assumed: None,
             },
+            // By musts alone depth24plus may be a float, and the step of a float any that is told.
+            BiasUnit {
+                unorm16: &[(0.999, 1.001)],
+                unorm: &[(0.499, 16_777_216.0)],
+                float: &[(0.499, 1.001 * 8_388_608.0)],
+                assumed: None,
+            },
+            Grade::Disputed,
             "WebGPU: GPUDepthStencilState, biased fragment depth: r is the least positive value of a unorm format; which one depth24plus is, is not told, so as Vulkan has it; of floats 2^(e-23), or 2^e as the text says by its letter (gpuweb#6350)",
         ),
         depth_range: permit(

@@ -40,7 +40,7 @@ impl Conclusion {
         match verdict {
             Verdict::NotSupported | Verdict::Skipped => Self::Skipped,
             Verdict::Measured => Self::Measured,
-            Verdict::Fail if record.due_fail => Self::Due,
+            bad if record.due_fail && bad.is_violation() => Self::Due,
             bad if bad.is_bad() => Self::Excused,
             _ => Self::Passed,
         }

@@ -195,7 +195,7 @@ impl<'s> AdapterRun<'s, '_> {
             };
         }
         let kept = observed.frame.take().filter(|_| self.keeps_frame(record));
-        if record.due_fail && record.verdict == Verdict::Fail {
+        if record.due_fail && record.verdict.is_violation() {
             // The frame file shows the rest of a failure that is due.
             record.wrong.truncate(4);
         }

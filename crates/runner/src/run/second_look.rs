@@ -92,7 +92,7 @@ fn needs_confirmation(run: &AdapterRun<'_, '_>, observed: &Observation) -> bool 
         .process
         .as_ref()
         .is_none_or(|p| p.kind != LossKind::NotStarted);
-    let due = record.due_fail && record.verdict == Verdict::Fail;
+    let due = record.due_fail && record.verdict.is_violation();
     record.unexpected()
         && record.verdict.is_bad()
         && started

@@ -25,7 +25,7 @@ impl Standing {
         match record.verdict {
             Verdict::NotSupported => Self::NotSupported,
             Verdict::Skipped => Self::Skipped,
-            Verdict::Fail if record.due_fail => Self::Right,
+            bad if record.due_fail && bad.is_violation() => Self::Right,
             // A selftest that was missed is as grave as what it missed.
             good if record.due_fail && !good.is_bad() => Self::Wrong(Verdict::Fail.severity()),
             bad if bad.is_bad() => Self::Wrong(bad.severity()),
