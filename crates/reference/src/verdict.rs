@@ -201,8 +201,9 @@ impl Telling<'_> {
                 .iter()
                 .zip(one)
                 .map(|(view, values)| {
-                    let kept =
-                        *values == view.of(&self.initial) && values.iter().all(|v| v.is_exact());
+                    let untouched = self.stores(view).next().is_none();
+                    let kept = *values == view.of(&self.initial)
+                        && (untouched || values.iter().all(|v| v.is_exact()));
                     let value = self.value(view, values);
                     match (kept, view.aspect) {
                         (true, _) => format!("keep {}", self.first_contents(view)),

@@ -46,6 +46,9 @@ pub(crate) fn body(folder: &Path, record: &Record, budget: &mut Budget) -> Marku
         @if !record.counters.is_empty() { (counters(record)) }
         @if !record.wrong.is_empty() { (texels(record)) }
         @if let Some(story) = &record.story { (operations(story, record)) }
+        @if !record.wrong.is_empty() {
+            p.again { "Explain it: " code { (command::explain(record)) } }
+        }
         p.again {
             "Draw it again: "
             code { (command::run(&record.case, &record.adapter)) }
