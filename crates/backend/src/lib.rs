@@ -14,6 +14,9 @@
 //! - Front faces: `ccw` is counter-clockwise as seen on the framebuffer.
 
 pub mod codes;
+mod read_fault;
+
+pub use read_fault::ReadFault;
 
 use etalon_frame::{Frame, Limits, Requirement};
 use etalon_scene::Scene;

@@ -1,5 +1,6 @@
 //! Attachments: clears, texels, names to indices.
 
+use crate::codes::codes;
 use crate::error::At;
 use crate::wire::{AttachmentWire, ClearWire, SceneWire, TexelsWire};
 use etalon_frame::{ChannelEncoding, TextureFormat};
@@ -153,6 +154,7 @@ fn texels(
             })
             .collect::<Result<Vec<_>, At>>()
         }),
+        TexelsWire::Codes => return Ok(Contents::Texels(codes(format, size))),
     };
     let all = rows.map_err(|e| e.key("values"))?.concat();
     debug_assert_eq!(all.len(), width * height * channels);

@@ -64,6 +64,12 @@ impl Case {
         all.into_iter().collect()
     }
 
+    /// Returns true if the case draws what a version of an API may require of every adapter. There, an
+    /// adapter that denies what its version requires fails.
+    pub fn is_requirement(&self) -> bool {
+        self.id.starts_with("capabilities/required/")
+    }
+
     /// Returns the first part of the id.
     pub fn area(&self) -> &str {
         self.id.split('/').next().unwrap_or_default()

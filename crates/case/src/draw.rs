@@ -87,10 +87,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
         let message = "a promise about the written depth needs a shader that writes one";
         return Err(At::new(message).key("early_tests"));
     }
-    if samples == 1 && wire.multisample != Multisample::default() {
-        let message = "with one sample, OpenGL ignores what Vulkan obeys; give the pass several";
-        return Err(At::new(message).key("multisample"));
-    }
+    multisample(&wire.multisample, samples).map_err(|e| e.key("multisample"))?;
     let color_targets = color_targets(wire, target.color.len())?;
     check_shader(wire, &color_targets)?;
     check_integers(wire, target, &color_targets)?;
@@ -138,6 +135,30 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
 
 /// The farthest that a vertex may lie from the middle of clip space.
 const FARTHEST: f32 = 64.0;
+
+/// Checks which samples are drawn.
+fn multisample(state: &Multisample, samples: u32) -> Result<(), At> {
+    // With one sample, these two change nothing in any API.
+    let rest = Multisample {
+        min_sample_shading: None,
+        sample_coverage: None,
+        ..*state
+    };
+    if samples == 1 && rest != Multisample::default() {
+        let message = "with one sample, OpenGL ignores what Vulkan obeys; give the pass several";
+        return Err(At::new(message));
+    }
+    let share = |v: f32| (0.0..=1.0).contains(&v);
+    if !state.min_sample_shading.is_none_or(share) {
+        let message = "a share of the samples lies between 0 and 1";
+        return Err(At::new(message).key("min_sample_shading"));
+    }
+    if !state.sample_coverage.is_none_or(|c| c.value.is_finite()) {
+        let message = "a share of the samples is a finite number";
+        return Err(At::new(message).key("value").key("sample_coverage"));
+    }
+    Ok(())
+}
 
 /// Checks how a texture is sampled.
 fn sampler(wire: &DrawWire, target: &Target<'_>, textures: &[usize]) -> Result<(), At> {
@@ -376,5 +397,40 @@ fn stencil(wire: &StencilWire) -> StencilState {
     StencilState {
         front: face(&wire.front),
         back: face(wire.back.as_ref().unwrap_or(&wire.front)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_scene::SampleCoverage;
+
+    #[test]
+    fn shares_of_one_sample_are_allowed_and_senseless_ones_are_not() {
+        let shading = |share| Multisample {
+            min_sample_shading: Some(share),
+            ..Multisample::default()
+        };
+        let coverage = |value| Multisample {
+            sample_coverage: Some(SampleCoverage {
+                value,
+                invert: true,
+            }),
+            ..Multisample::default()
+        };
+        for samples in [1, 4] {
+            assert!(multisample(&shading(1.0), samples).is_ok());
+            assert!(multisample(&shading(1.5), samples).is_err());
+            assert!(multisample(&shading(f32::NAN), samples).is_err());
+            // OpenGL clamps it.
+            assert!(multisample(&coverage(-1.0), samples).is_ok());
+            assert!(multisample(&coverage(f32::INFINITY), samples).is_err());
+        }
+        let masked = Multisample {
+            mask: 1,
+            ..coverage(0.5)
+        };
+        assert!(multisample(&masked, 4).is_ok());
+        assert!(multisample(&masked, 1).is_err());
     }
 }

@@ -6,6 +6,7 @@
 mod attachment;
 mod build;
 mod case;
+mod codes;
 mod draw;
 mod error;
 mod file;

@@ -2,7 +2,8 @@
 //!
 //! A scene is made as the JSON that a case file would hold, so that whoever looks at one can copy it
 //! out and change it by hand. Inputs keep to what can be proven: written depths are 0, 1 or far
-//! apart, samples lie clear of edges, alpha is 0 or 1 where it decides on coverage.
+//! apart, samples lie clear of edges, alpha is 0 or 1 where it decides on coverage, and colours lie
+//! clear of where rounding is open (see [`Palette`]).
 
 use etalon_scene::{
     BlendFactor, BlendOperation, CompareFunction, LogicOperation, StencilOperation,
@@ -37,6 +38,51 @@ enum Extra {
     AlphaToOne,
 }
 
+/// The colours of a scene, of which few codes are legal.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Palette {
+    /// Sums of powers of two, of which no multiple by `2^b - 1` is nearly an integer: two codes each.
+    Normalized,
+    /// Values between two codes that differ in the last bit alone, at 8 and at 10 bits: a logic operation
+    /// carries no more than that bit into the result.
+    Bits,
+    /// Exact in floats, as are their products, and of different factors, so that few differences are
+    /// nearly 0 and so small that many codes are legal; textures hold such values too.
+    Float,
+}
+
+impl Palette {
+    const fn values(self) -> [f64; 6] {
+        match self {
+            Self::Normalized => [0.0, 0.25, 0.375, 0.625, 0.75, 1.0],
+            Self::Float => [0.0, 0.4375, 0.8125, 1.0, 1.375, 2.125],
+            Self::Bits => [0.0, 0.11, 0.3, 0.62, 0.81, 1.0],
+        }
+    }
+
+    /// Returns a value near an 8-bit code that a 16-bit float holds.
+    fn near(self, code: u32) -> f64 {
+        match self {
+            Self::Normalized | Self::Float => {
+                let values = self.values();
+                values[code as usize * values.len() / 256]
+            }
+            Self::Bits => {
+                let between = |most: f64, v: f64| {
+                    let at = v * most;
+                    at.floor() % 2.0 == 0.0 && (0.05..0.95).contains(&at.fract())
+                };
+                let fits = |v: &f64| between(255.0, *v) && between(1023.0, *v);
+                let mut from = (code * 4..1024).map(|k| f64::from(k) / 1024.0);
+                match code {
+                    0 => 0.0,
+                    _ => from.find(fits).unwrap_or(1.0),
+                }
+            }
+        }
+    }
+}
+
 /// The size of all attachments, a side.
 const SIZE: u32 = 16;
 
@@ -67,9 +113,16 @@ pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
     // Of the 10-bit format and of floats not every driver resolves or counts samples alike.
     let color = if samples > 1 { "rgba8unorm" } else { color };
     let depth = *dice.of(&["depth24plus-stencil8", "depth32float-stencil8"]);
+    let palette = match (color, extra) {
+        ("rgba16float", _) => Palette::Float,
+        (_, Extra::Logic) => Palette::Bits,
+        _ => Palette::Normalized,
+    };
     let mut maker = Maker {
         samples,
         extra,
+        palette,
+        whole_alpha: color == "rgb10a2unorm",
         reference: dice.range(1, 200),
         dice,
     };
@@ -96,6 +149,10 @@ pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
 struct Maker {
     samples: u32,
     extra: Extra,
+    palette: Palette,
+    /// True if alpha is 0 or 1: of two bits, all between would be legal as thirds, and as a factor carry
+    /// that into the colours.
+    whole_alpha: bool,
     /// One reference for all draws of a scene or none would ever be equal.
     reference: u32,
     dice: Dice,
@@ -225,9 +282,13 @@ impl Maker {
 
     /// Channels of 0, 1 and values between; alpha 0 or 1 where several samples hang on it.
     fn color(&mut self) -> Value {
-        let mut color = [0, 0, 0, 0].map(|_| *self.dice.of(&[0.0, 0.25, 0.4, 0.6, 0.75, 1.0]));
+        let values = self.palette.values();
+        let mut color = [0, 0, 0, 0].map(|_| *self.dice.of(&values));
         if self.samples > 1 {
             color[3] = *self.dice.of(&[0.0, 1.0, 1.0]);
+        }
+        if self.whole_alpha {
+            color[3] = color[3].round();
         }
         json!(color)
     }
@@ -240,11 +301,22 @@ impl Maker {
                 if !one_sample {
                     texel[3] = *self.dice.of(&[0, 255]);
                 }
+                if self.whole_alpha {
+                    texel[3] = texel[3] / 128 * 255;
+                }
                 texel
             })
             .collect();
         let kind = *self.dice.of(&["columns", "rows"]);
-        json!({ "format": "rgba8unorm", "size": [SIZE, SIZE], "texels": { "kind": kind, "values": values } })
+        let palette = self.palette;
+        if palette == Palette::Normalized {
+            return json!({ "format": "rgba8unorm", "size": [SIZE, SIZE], "texels": { "kind": kind, "values": values } });
+        }
+        let values: Vec<_> = values
+            .iter()
+            .map(|t| t.map(|code| palette.near(code)))
+            .collect();
+        json!({ "format": "rgba16float", "size": [SIZE, SIZE], "texels": { "kind": kind, "values": values } })
     }
 
     fn compare(&mut self) -> CompareFunction {

@@ -1,18 +1,20 @@
-//! `etalon run --bless`: the expectations file follows the verdicts of a run.
+//! `etalon run --bless`: a list of expectations or a folder of findings follows the verdicts of a run.
 
 use crate::cases::ids;
-use crate::expectations::{today, write};
+use crate::expectations::{replace, today, write};
 use crate::failure::Failure;
-use etalon_record::{Expectations, Run};
+use crate::output::say;
+use etalon_record::{Blessing, Expectations, Run, Source};
+use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The file that is updated by default.
-const DEFAULT: &str = "ci/expectations.json";
+/// The folder that is updated by default.
+const DEFAULT: &str = "ci/findings";
 
-/// Returns the file that `--bless` writes.
+/// Returns the list or folder that `--bless` writes.
 ///
 /// # Errors
-/// In CI, where expectations are never written, and if no file is named or found.
+/// In CI, where expectations are never written, and if no path is named or found.
 pub(crate) fn to_bless(named: Option<&Path>) -> Result<PathBuf, Failure> {
     let ci = std::env::var("CI").unwrap_or_default();
     if !matches!(ci.to_lowercase().as_str(), "" | "0" | "false" | "no") {
@@ -23,14 +25,14 @@ pub(crate) fn to_bless(named: Option<&Path>) -> Result<PathBuf, Failure> {
     }
     match named {
         Some(path) => Ok(path.to_owned()),
-        None if Path::new(DEFAULT).is_file() => Ok(PathBuf::from(DEFAULT)),
+        None if Path::new(DEFAULT).is_dir() => Ok(PathBuf::from(DEFAULT)),
         None => Err(Failure::usage(format!(
-            "there is no {DEFAULT} here; name the file to write with --expect"
+            "there is no {DEFAULT} here; name the list or folder to write with --expect"
         ))),
     }
 }
 
-/// Updates the file from the verdicts of a run.
+/// Updates the list or folder from the verdicts of a run.
 pub(crate) fn bless(
     path: &Path,
     run: &Run,
@@ -40,27 +42,62 @@ pub(crate) fn bless(
 ) -> Result<(), Failure> {
     let ids = ids(cases)?;
     let blessing = expected.bless(run, &ids, all_adapters, &today());
-    write(path, &blessing.entries)?;
-    eprintln!(
-        "{}: {} entries added, {} removed",
+    let (what, added) = if path.is_dir() {
+        write_findings(path, &blessing)?;
+        ("findings", blessing.findings.len())
+    } else {
+        let finding = |source: &Source| matches!(source, Source::Finding(_));
+        if expected.all().iter().any(|known| finding(&known.source)) {
+            return Err(Failure::usage(format!(
+                "{} holds one finding; name its folder, or a list of expectations",
+                path.display()
+            )));
+        }
+        write(path, &blessing.entries)?;
+        ("entries", blessing.added)
+    };
+    say!(
+        "{}: {added} {what} added, {} removed",
         path.display(),
-        blessing.added,
         blessing.removed.len()
     );
-    if blessing.added > 0 {
-        eprintln!("write the reason of each new entry before it is reviewed");
+    if added > 0 {
+        say!("write reason, clause and grade of each before it is reviewed");
     }
-    for entry in &blessing.to_narrow {
-        eprintln!(
-            "narrow by hand, since some of its cases improved: {} {} {}",
-            entry.adapter, entry.verdict, entry.case
+    for known in &blessing.to_narrow {
+        say!(
+            "narrow by hand, since some of its cases improved: {}: {} {}",
+            known.place(),
+            known.verdict,
+            known.reason
         );
     }
     if blessing.unblessed > 0 {
-        eprintln!(
+        say!(
             "{} selftests that do not fail cannot be expected",
             blessing.unblessed
         );
+    }
+    Ok(())
+}
+
+/// Adds a file per new finding, and removes those of findings that are fixed.
+fn write_findings(folder: &Path, blessing: &Blessing) -> Result<(), Failure> {
+    for (name, finding) in &blessing.findings {
+        let numbered = (2..).map(|number| format!("{name}-{number}"));
+        let mut names = std::iter::once(name.clone()).chain(numbered);
+        let free = names
+            .by_ref()
+            .map(|name| folder.join(format!("{name}.json")))
+            .find(|path| !path.exists());
+        // The names are endless.
+        let Some(path) = free else { continue };
+        replace(&path, &finding.to_text().map_err(Failure::usage)?)?;
+    }
+    for known in &blessing.removed {
+        fs::remove_file(&known.path).map_err(|e| {
+            Failure::incomplete(format!("cannot remove {}: {e}", known.path.display()))
+        })?;
     }
     Ok(())
 }

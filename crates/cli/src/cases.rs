@@ -11,7 +11,12 @@ const MEASURING: [&str; 2] = ["methods", "perf"];
 
 /// True if a case belongs to an area that measures.
 pub(crate) fn is_measuring(case: &Case) -> bool {
-    MEASURING.contains(&case.area())
+    is_measuring_area(case.area())
+}
+
+/// True if the cases of an area are measured.
+pub(crate) fn is_measuring_area(area: &str) -> bool {
+    MEASURING.contains(&area)
 }
 
 /// Returns the selected cases, built, so that errors of case files show before anything is drawn.
@@ -54,9 +59,24 @@ pub(crate) fn build(
         .collect()
 }
 
+/// Returns the round trips that cases lean on: those of the folder, and built-in ones where it holds none.
+pub(crate) fn round_trips(folder: Option<&PathBuf>, cases: &[Case]) -> Result<Vec<Case>, Failure> {
+    let own = folder.map(|_| library(folder)).transpose()?;
+    let built_in = library(None)?;
+    let libraries: Vec<&Library> = own.iter().chain([&built_in]).collect();
+    etalon_runner::round_trips(&libraries, cases).map_err(Failure::usage)
+}
+
 /// Returns the ids of all cases.
 pub(crate) fn ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
     let library = library(cases)?;
     let all = build(&library, Profile::Full, &[])?;
     Ok(all.into_iter().map(|case| case.id).collect())
+}
+
+/// Returns the ids of all cases, without building them.
+pub(crate) fn all_ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
+    let library = library(cases)?;
+    let all = etalon_runner::select(&library, Profile::Full, &[]).map_err(Failure::usage)?;
+    Ok(all.cases.iter().map(|case| case.id()).collect())
 }

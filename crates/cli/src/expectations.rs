@@ -6,14 +6,14 @@ use etalon_record::{Entry, Expectations, RecordError};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Returns the expectations of a file, or the built-in ones.
-pub(crate) fn read(file: Option<&Path>) -> Result<Expectations, Failure> {
-    match file {
-        Some(file) => Expectations::read(file),
-        None => Expectations::parse(
-            include_str!("../../../ci/expectations.json"),
-            Path::new("ci/expectations.json"),
-        ),
+/// The files of `ci/findings`: paths and texts.
+const FINDINGS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/findings.rs"));
+
+/// Returns the expectations of a file or folder, or the built-in findings.
+pub(crate) fn read(path: Option<&Path>) -> Result<Expectations, Failure> {
+    match path {
+        Some(path) => Expectations::read(path),
+        None => Expectations::of_findings(FINDINGS),
     }
     .map_err(Failure::usage)
 }

@@ -14,37 +14,32 @@ pub(crate) const IMPROVED: u8 = 2;
 /// An unexpected bad result.
 pub(crate) const UNEXPECTED: u8 = 1;
 
-/// The reason for which a command ended early.
+/// The error for which a command ended early.
 #[derive(Debug)]
-pub(crate) enum Failure {
-    /// The reader closed standard output.
-    Closed,
-    /// An error that is printed.
-    Message {
-        /// The exit code.
-        code: u8,
-        /// The message.
-        message: String,
-    },
+pub(crate) struct Failure {
+    /// The exit code.
+    pub(crate) code: u8,
+    /// The message, which is printed.
+    pub(crate) message: String,
 }
 
 impl Failure {
     pub(crate) fn usage(message: impl Display) -> Self {
-        Self::Message {
+        Self {
             code: USAGE,
             message: message.to_string(),
         }
     }
 
     pub(crate) fn incomplete(message: impl Display) -> Self {
-        Self::Message {
+        Self {
             code: INCOMPLETE,
             message: message.to_string(),
         }
     }
 
     pub(crate) fn nothing(message: impl Display) -> Self {
-        Self::Message {
+        Self {
             code: NOTHING,
             message: message.to_string(),
         }
@@ -52,12 +47,8 @@ impl Failure {
 }
 
 impl From<io::Error> for Failure {
-    /// Converts an error of writing to standard output.
+    /// Converts an error of reading or writing a pipe.
     fn from(error: io::Error) -> Self {
-        if error.kind() == io::ErrorKind::BrokenPipe {
-            Self::Closed
-        } else {
-            Self::incomplete(format!("cannot write the output: {error}"))
-        }
+        Self::incomplete(error)
     }
 }

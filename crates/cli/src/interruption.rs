@@ -1,6 +1,7 @@
 //! Interruption by the user or the system, and the command that resumes the run.
 
 use crate::failure::{Failure, INCOMPLETE};
+use crate::output::say;
 use crate::provenance;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -11,7 +12,7 @@ pub(crate) fn listen() -> Result<&'static AtomicBool, Failure> {
         if STOP.swap(true, Ordering::Relaxed) {
             std::process::exit(i32::from(INCOMPLETE));
         }
-        eprintln!("\nstopping; interrupt again to stop immediately");
+        say!("\nstopping; interrupt again to stop immediately");
     })
     .map_err(|e| Failure::incomplete(format!("cannot handle signals: {e}")))?;
     Ok(&STOP)

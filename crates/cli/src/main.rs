@@ -1,6 +1,11 @@
 //! The `etalon` binary. Each command is a file of `commands` that holds its flags and its steps; the files beside it
 //! hold what several commands share.
 
+#![deny(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a write that fails must not panic"
+)]
 #![cfg_attr(
     test,
     expect(clippy::unwrap_used, reason = "a test that panics has failed")
@@ -24,17 +29,16 @@ mod worker;
 
 use clap::{CommandFactory, Parser};
 use command_line::{Command, CommandLine};
-use failure::{Failure, USAGE};
+use failure::{Failure, INCOMPLETE, USAGE};
+use output::say;
+use std::io::ErrorKind;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let command_line = match CommandLine::try_parse() {
         Ok(command_line) => command_line,
         Err(error) => {
-            let code = if error.use_stderr() { USAGE } else { 0 };
-            // If printing fails, the exit code remains.
-            let _ = error.print();
-            return ExitCode::from(code);
+            return ExitCode::from(answer(&error));
         }
     };
     let outcome = match command_line.command {
@@ -57,11 +61,18 @@ fn main() -> ExitCode {
     };
     match outcome {
         Ok(code) => ExitCode::from(code),
-        // The reader has closed the pipe, as `head` does.
-        Err(Failure::Closed) => ExitCode::SUCCESS,
-        Err(Failure::Message { code, message }) => {
-            eprintln!("etalon: {message}");
+        Err(Failure { code, message }) => {
+            say!("etalon: {message}");
             ExitCode::from(code)
         }
+    }
+}
+
+/// Prints help, version or an error of usage. Returns the exit code.
+fn answer(error: &clap::Error) -> u8 {
+    match error.print() {
+        _ if error.use_stderr() => USAGE,
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => INCOMPLETE,
+        _ => 0,
     }
 }

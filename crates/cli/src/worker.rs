@@ -6,7 +6,7 @@ use clap::Args;
 use etalon_backend::{Backend, Unavailable};
 use etalon_cpu::CpuBackend;
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Write};
+use std::io::{self, BufReader, BufWriter, ErrorKind, Write};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -35,8 +35,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let input = BufReader::new(io::stdin());
     let pipe = output.try_clone()?;
     let mut output = BufWriter::new(output);
-    etalon_runner::serve(|| open(&what, pipe), input, &mut output)?;
-    Ok(0)
+    match etalon_runner::serve(|| open(&what, pipe), input, &mut output) {
+        // The parent wants no more.
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(0),
+        served => Ok(served.map(|()| 0)?),
+    }
 }
 
 fn parse<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Failure> {
@@ -62,6 +65,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
             },
             library: what.egl.clone(),
             debug: what.validate,
+            read_fault: what.read_fault,
         };
         etalon_gl::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
@@ -70,6 +74,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
             via,
             device,
             validate: what.validate,
+            read_fault: what.read_fault,
         };
         etalon_wgpu::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
@@ -82,6 +87,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
             let options = etalon_vulkan::Options {
                 device,
                 validate: what.validate,
+                read_fault: what.read_fault,
             };
             etalon_vulkan::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
         }

@@ -1,10 +1,19 @@
 //! The software drivers under test: what each lacks and what it is known to do wrong.
 
 use crate::lacks::Lacks;
-use etalon_frame::Api;
+use crate::subject::Subject;
+use etalon_backend::Backend;
+use etalon_frame::{Api, Feature};
 
-/// A check and its defect in a driver.
+/// A check and its defect in a driver; or [`FOUR_SAMPLES`] or [`COUNTING_SHADERS`].
 pub type Defect = (&'static str, &'static str);
+
+/// The name of a defect of four samples: all scenes that need them are left out.
+pub const FOUR_SAMPLES: &str = "four samples";
+/// The name of a defect of shaders that count: all scenes that need them are left out.
+pub const COUNTING_SHADERS: &str = "counting shaders";
+/// The names of defects that are no check's.
+pub(crate) const WHOLE: [&str; 2] = [FOUR_SAMPLES, COUNTING_SHADERS];
 
 /// What is known of a driver.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +26,21 @@ pub struct Known {
     pub lacks: Option<Lacks>,
     /// Checks that it fails. They are not run.
     pub defects: &'static [&'static [Defect]],
+}
+
+impl Known {
+    /// Returns an open backend as the subject of checks, without what the driver offers and does wrong.
+    pub fn subject<'a>(&self, backend: &'a dyn Backend, tolerated: &'a [&'a str]) -> Subject<'a> {
+        let defects = self.defects.iter().copied().flatten();
+        defects.fold(
+            Subject::new(backend, tolerated),
+            |subject, (name, _)| match *name {
+                FOUR_SAMPLES => subject.without_four_samples(),
+                COUNTING_SHADERS => subject.without_feature(Feature::StorageCounters),
+                _ => subject,
+            },
+        )
+    }
 }
 
 /// What is known of the adapter of this name.
@@ -84,18 +108,18 @@ const EVERY_FORMAT: &str = "r8unorm rg8unorm rgba8unorm rgba8unorm-srgb bgra8uno
     depth16unorm depth24plus depth24plus-stencil8 depth32float depth32float-stencil8 stencil8";
 
 const VULKAN: Lacks = Lacks {
-    features: &["depth-bounds"],
+    features: &["depth-bounds sample-coverage"],
     blending: &["rgba8snorm"],
     samples: &["depth24plus depth24plus-stencil8"],
     ..NOTHING
 };
 
-/// The core profile of llvmpipe and zink. No driver of OpenGL stores blue first. The backend withdraws
-/// the samples: what was drawn does not come back right.
+/// The core profile of llvmpipe and zink. No driver of OpenGL stores blue first. No fetch
+/// tells 24 bits for certain.
 const GL: Lacks = Lacks {
     features: &["depth-bounds mirrored-viewport"],
     formats: &["bgra8unorm"],
-    samples: &["rgba8snorm depth24plus depth24plus-stencil8"],
+    samples: &["depth24plus depth24plus-stencil8"],
     ..NOTHING
 };
 const GL_SOFTPIPE: Lacks = Lacks {
@@ -122,8 +146,9 @@ const ES_SOFTPIPE: Lacks = Lacks {
 };
 
 const WGPU_FEATURES: &str = "alpha-to-one constant-alpha-blend-factor depth-bounds \
-    front-and-back-culling logic-operations min-max-blend-factors mirrored-viewport precise-occlusion \
-    rasterizer-discard reversed-depth-range scissor-outside separate-stencil-masks triangle-fans";
+    front-and-back-culling logic-operations min-max-blend-factors min-sample-shading \
+    mirrored-viewport polygon-mode-line precise-occlusion rasterizer-discard reversed-depth-range \
+    sample-coverage scissor-outside separate-stencil-masks triangle-fans";
 /// Codes of two formats' samples could not be told for certain; WebGPU does not resolve integers.
 const WGPU_VULKAN: Lacks = Lacks {
     features: &[WGPU_FEATURES],
@@ -132,20 +157,17 @@ const WGPU_VULKAN: Lacks = Lacks {
     samples: &["rgba8snorm rgba8uint depth16unorm"],
     ..NOTHING
 };
-/// wgpu 30 over OpenGL asks for extensions that core contexts have no need of. It offers four samples
-/// where the driver has one, and makes no texture of which a shader could read them.
+/// wgpu 30 over OpenGL asks for extensions that core contexts have no need of.
 const WGPU_GL: Lacks = Lacks {
     features: &[WGPU_FEATURES, "depth-bias-clamp fragment-invocations"],
     drawing: &["rgba8snorm rg11b10ufloat rgba32float"],
     blending: &[],
-    samples: &[EVERY_FORMAT],
     ..WGPU_VULKAN
 };
-/// Of softpipe's GLSL 330 wgpu offers storage counters, and then does not translate them.
 const WGPU_SOFTPIPE: Lacks = Lacks {
     features: &[
         WGPU_FEATURES,
-        "depth-bias-clamp fragment-invocations independent-blend sample-shading storage-counters",
+        "depth-bias-clamp fragment-invocations independent-blend sample-shading",
     ],
     drawing: &["rgba8snorm"],
     ..WGPU_GL
@@ -176,6 +198,8 @@ const CLAMP: &str = "depths are clamped to the range that clip depths from -1 on
 const WGPU_GL_WRONG: &[Defect] = &[
     ("raster::strips_begin_again", "strips that are joined"),
     ("formats::uploads_come_back", "negative codes of rgba8snorm that come back as 0"),
+    // It offers them also where the driver has one, and makes no texture of which a shader could read them.
+    (FOUR_SAMPLES, "textures of four samples that stay empty"),
 ];
 /// wgpu's OpenGL leaves the factors of a draw with two sources behind, and Mesa refuses later draws to
 /// several targets with GL_INVALID_OPERATION.
@@ -185,6 +209,7 @@ const FACTORS: &[Defect] = &[
 ];
 #[rustfmt::skip]
 const WGPU_SOFTPIPE_WRONG: &[Defect] = &[
+    (COUNTING_SHADERS, "storage buffers that wgpu does not translate to GLSL 330"),
     ("integers::integers_are_drawn_through_the_write_mask", "a clear that is lost to the pass's draws"),
     ("targets::the_second_source_is_a_factor", SECOND),
     ("targets::the_second_source_weighs_one_side", SECOND),

@@ -3,7 +3,10 @@
 //! Drivers are described by what they lack, so that a capability which is new to the suite is
 //! expected of all of them.
 
-use etalon_frame::{Api, Feature, FormatSupport, Limits, ReadPath, Requirement, TextureFormat};
+use etalon_frame::{
+    Api, ApiVersion, Feature, FormatSupport, Limits, ReadPath, Requirement, TextureFormat,
+};
+use std::collections::BTreeSet;
 
 /// Names of features or formats, separated by spaces.
 pub type Names = &'static [&'static str];
@@ -38,6 +41,9 @@ impl Lacks {
             max_color_attachments: 4,
             formats: formats.map(|f| (f, self.support(api, f))).collect(),
             features: features.collect(),
+            version: ApiVersion::UNKNOWN,
+            properties: BTreeSet::new(),
+            exempt: BTreeSet::new(),
             sample_positions: [(1, vec![[128, 128]]), (4, four)].into(),
         }
     }

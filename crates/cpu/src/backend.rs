@@ -7,9 +7,11 @@ use crate::steps::Faithful;
 use crate::surface::depth_encoding;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
 use etalon_frame::{
-    Api, Feature, FormatSupport, Limits, ReadPath, TextureFormat, standard_sample_positions,
+    Api, ApiVersion, Feature, FormatSupport, Limits, Property, ReadPath, TextureFormat,
+    standard_sample_positions,
 };
 use etalon_scene::Scene;
+use std::collections::BTreeSet;
 
 /// The rasterizer.
 #[derive(Debug)]
@@ -47,11 +49,14 @@ impl CpuBackend {
             },
             limits: Limits {
                 api: Api::Vulkan,
+                version: ApiVersion::new(1, 4),
+                properties: Property::ALL.into_iter().collect(),
                 sub_pixel_bits: SUB_PIXEL_BITS,
                 max_size: 4096,
                 max_color_attachments: 8,
                 formats,
                 features: Feature::ALL.into_iter().collect(),
+                exempt: BTreeSet::new(),
                 sample_positions: SAMPLES
                     .into_iter()
                     .map(|n| (n, standard_sample_positions(n)))

@@ -14,15 +14,17 @@ pub(crate) const UNITS: i64 = 1 << SUB_PIXEL_BITS;
 pub(crate) struct Linear(pub(crate) DepthPlane);
 
 impl Linear {
-    /// Returns the values at the centres of a span's texels.
-    pub(crate) fn at_centers(&self, x: usize, y: usize) -> [f32; LANES] {
-        let center = Point {
-            x: UNITS / 2,
-            y: UNITS / 2,
-        };
-        std::array::from_fn(|lane| self.0.at(position(x + lane, y, center)) as f32)
+    /// Returns the values at one point of each of a span's texels.
+    pub(crate) fn at(&self, x: usize, y: usize, point: Point) -> [f32; LANES] {
+        std::array::from_fn(|lane| self.0.at(position(x + lane, y, point)) as f32)
     }
 }
+
+/// The centre of a texel.
+pub(crate) const CENTER: Point = Point {
+    x: UNITS / 2,
+    y: UNITS / 2,
+};
 
 /// Returns a position in a texel in sub-texel units of the window.
 pub(crate) fn position(x: usize, y: usize, sample: Point) -> Point {

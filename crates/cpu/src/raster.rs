@@ -1,7 +1,7 @@
 //! Rasterization of primitives to spans.
 
 use crate::lanes::{LANES, Mask};
-use crate::linear::{Linear, UNITS, position};
+use crate::linear::{CENTER, Linear, UNITS, position};
 use crate::span::{Counted, Span, SpanState};
 use crate::steps::Steps;
 use crate::surface::Surface;
@@ -168,7 +168,7 @@ pub(crate) fn draw<S: Steps>(
             }
         })
         .collect();
-    let mut state = SpanState::new(scene, pass, draw, surfaces, counters, steps);
+    let mut state = SpanState::new(scene, pass, draw, &samples, surfaces, counters, steps);
     let encoding = state.depth_encoding();
     let front = steps.lines_face_front();
     for primitive in draw.mesh.primitives(draw.topology) {
@@ -422,15 +422,11 @@ fn texel<S: Steps>(
     }
     let (x, y) = (x as usize, y as usize);
     let start = x / LANES * LANES;
-    let center = Point {
-        x: UNITS / 2,
-        y: UNITS / 2,
-    };
     let masks: Vec<Mask> = samples
         .iter()
         .map(|covered| {
             let mut mask = std::array::from_fn(|lane| *covered && start + lane == x);
-            planes.clip(&mut mask, start, y, center);
+            planes.clip(&mut mask, start, y, CENTER);
             mask
         })
         .collect();
@@ -440,7 +436,7 @@ fn texel<S: Steps>(
         masks: &masks,
         front,
         color,
-        depth: &|_| planes.at(start, y, center),
+        depth: &|_| planes.at(start, y, CENTER),
         uv: planes.uv,
     });
 }

@@ -1,12 +1,12 @@
 //! The fragment pipeline for one span of texels, all lanes at once.
 
 use crate::lanes::{Codes, LANES, Mask, Real};
-use crate::linear::Linear;
+use crate::linear::{CENTER, Linear, UNITS};
 use crate::steps::{Path, Steps, Tests};
 use crate::surface::{Surface, depth_encoding};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, cost, fragment};
-use etalon_pipeline::{Arithmetic, BlendInput, Plain, takes_logic};
+use etalon_pipeline::{Arithmetic, BlendInput, Plain, Point, takes_logic};
 use etalon_scene::{Draw, EarlyTests, Pass, Scene, Shader, StencilFace};
 
 /// The covered texels of one primitive in one row. `x` is a multiple of [`LANES`].
@@ -27,6 +27,8 @@ pub(crate) struct Span<'a> {
 pub(crate) struct SpanState<'a, S> {
     draw: &'a Draw,
     pass: &'a Pass,
+    /// The positions of a texel's samples.
+    samples: &'a [Point],
     depth: Option<ChannelEncoding>,
     encodings: Vec<[ChannelEncoding; 4]>,
     /// True for each target that logic operations apply to.
@@ -96,6 +98,7 @@ fn reads_depth(shader: Shader) -> bool {
         shader,
         Shader::ExpensiveColor
             | Shader::FlatColor
+            | Shader::FragCoordColor
             | Shader::SampledColor
             | Shader::SampledDiscard
             | Shader::TexelColor
@@ -103,6 +106,15 @@ fn reads_depth(shader: Shader) -> bool {
             | Shader::TexelDiscard
             | Shader::UniformColor
     )
+}
+
+/// Returns the window coordinates of one point of each of a span's texels.
+fn window_position(span: &Span<'_>, point: Point) -> [Real; 2] {
+    let within = |v: i64| v as f32 / UNITS as f32;
+    [
+        std::array::from_fn(|lane| (span.x + lane) as f32 + within(point.x)),
+        [span.y as f32 + within(point.y); LANES],
+    ]
 }
 
 fn is_expensive(shader: Shader) -> bool {
@@ -117,6 +129,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         scene: &Scene,
         pass: &'a Pass,
         draw: &'a Draw,
+        samples: &'a [Point],
         surfaces: &'a mut [Surface],
         counters: &'a mut [Counted],
         steps: &'a S,
@@ -125,6 +138,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         Self {
             draw,
             pass,
+            samples,
             depth: pass.depth_stencil.and_then(|i| depth_encoding(format(i))),
             encodings: pass
                 .color
@@ -154,20 +168,27 @@ impl<'a, S: Steps> SpanState<'a, S> {
 
     /// Shades, tests, blends and stores a span.
     pub(crate) fn run(&mut self, span: &Span<'_>) {
-        let per_sample = self.steps.runs_per_sample(self.draw.shader);
+        let samples = span.masks.len();
+        let state = &self.draw.multisample;
+        let runs = self.steps.shader_runs(self.draw.shader, state, samples);
         let mut shaded: Option<FragmentOutput<Real>> = None;
-        // A shader run for all samples sees the depth of the first covered one.
+        // A shader run for several samples sees the depth of the first covered one.
         let mut seen: Option<Real> = None;
         let mut ran = [false; LANES];
-        for sample in 0..span.masks.len() {
+        let mut run = 0;
+        for sample in 0..samples {
+            if std::mem::replace(&mut run, sample * runs / samples) != sample * runs / samples {
+                self.count(|kind| !kind.is_occlusion(), ran);
+                (shaded, seen, ran) = (None, None, [false; LANES]);
+            }
             let mut mask = self
                 .steps
                 .covered(span.x, span.y, self.size, span.masks[sample]);
-            if self.draw.multisample.mask & (1 << sample) == 0 || !mask.contains(&true) {
+            if !self.steps.sample_drawn(state, sample, samples) || !mask.contains(&true) {
                 continue;
             }
             let own_depth = if self.asks_depth {
-                (span.depth)(self.steps.depth_sample(sample, span.masks.len()))
+                (span.depth)(self.steps.depth_sample(sample, samples))
             } else {
                 [0.0; LANES]
             };
@@ -179,16 +200,12 @@ impl<'a, S: Steps> SpanState<'a, S> {
                     continue;
                 }
             }
-            let new = if per_sample { mask } else { and_not(mask, ran) };
+            let new = and_not(mask, ran);
             ran = or(ran, mask);
-            // A shader that does not use the sample index runs once. The depth is each sample's own
-            // unless the shader writes one.
+            // The depth is each sample's own unless the shader writes one.
             let mut output = match shaded {
-                Some(output) if !per_sample => output,
-                _ => {
-                    let depth = if per_sample { own_depth } else { first_depth };
-                    self.shade(span, sample, depth)
-                }
+                Some(output) => output,
+                None => self.shade(span, sample, first_depth),
             };
             self.run_expensive_loop(span, new, &mut output);
             shaded = Some(output);
@@ -196,9 +213,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 mask = and(mask, self.steps.kept(kept));
             }
             if self.draw.multisample.alpha_to_coverage {
-                let covers = self
-                    .steps
-                    .alpha_covers(output.color[3], sample, span.masks.len());
+                let covers = self.steps.alpha_covers(output.color[3], sample, samples);
                 mask = and(mask, covers);
             }
             if !self.early {
@@ -215,13 +230,19 @@ impl<'a, S: Steps> SpanState<'a, S> {
 
     /// Runs the fragment shader without the loop of an expensive shader.
     fn shade(&self, span: &Span<'_>, sample: usize, depth: Real) -> FragmentOutput<Real> {
+        let state = &self.draw.multisample;
+        let point = match self.steps.shaded_at(state, sample, self.samples.len()) {
+            Some(sample) => self.samples[sample],
+            None => CENTER,
+        };
         let input = FragmentInput {
             color: span.color.map(|v| [v; LANES]),
             front: span.front,
             depth,
             sample: sample as u32,
+            position: window_position(span, point),
             texels: [self.texel(span, 0), self.texel(span, 1)],
-            uv: self.uv(span),
+            uv: self.uv(span, point),
             params: &self.draw.params,
         };
         fragment(&mut Plain::<LANES>, self.draw.shader, &input)
@@ -265,12 +286,12 @@ impl<'a, S: Steps> SpanState<'a, S> {
         span.y * self.surfaces[index].stride + span.x
     }
 
-    /// Returns the texture coordinates of a span's texels.
-    fn uv(&self, span: &Span<'_>) -> [Real; 2] {
+    /// Returns the texture coordinates at one point of each of a span's texels.
+    fn uv(&self, span: &Span<'_>, point: Point) -> [Real; 2] {
         match &span.uv {
             Some(planes) => planes
                 .each_ref()
-                .map(|plane| plane.at_centers(span.x, span.y)),
+                .map(|plane| plane.at(span.x, span.y, point)),
             None => [[0.0; LANES]; 2],
         }
     }
@@ -284,7 +305,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
             (Some(sampler), Some(planes)) => {
                 let [u, v] = planes
                     .each_ref()
-                    .map(|plane| plane.at_centers(span.x, span.y));
+                    .map(|plane| plane.at(span.x, span.y, CENTER));
                 self.steps.sample(surface, sampler, u, v)
             }
             _ => self.steps.fetch(surface, span.x, span.y),

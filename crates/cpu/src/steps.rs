@@ -275,10 +275,36 @@ pub trait Steps {
         alpha.map(|a| (sample as f32) < (a.clamp(0.0, 1.0) * count).round())
     }
 
-    /// Returns true if a shader runs once per sample.
+    /// Returns true if the sample mask and sample coverage draw a sample: of the coverage, the first
+    /// samples, in proportion to its value, or the others.
     #[inline(always)]
-    fn runs_per_sample(&self, shader: Shader) -> bool {
-        shader.runs_per_sample()
+    fn sample_drawn(&self, state: &Multisample, sample: usize, samples: usize) -> bool {
+        let covered = match state.sample_coverage {
+            Some(share) if samples > 1 => {
+                let count = (share.value.clamp(0.0, 1.0) * samples as f32).round();
+                ((sample as f32) < count) != share.invert
+            }
+            _ => true,
+        };
+        covered && state.mask & (1 << sample) != 0
+    }
+
+    /// Returns the number of runs of a shader that share a texel's samples: those of each run lie side
+    /// by side.
+    #[inline(always)]
+    fn shader_runs(&self, shader: Shader, state: &Multisample, samples: usize) -> usize {
+        if shader.runs_per_sample() {
+            samples
+        } else {
+            state.least_runs(samples as u32) as usize
+        }
+    }
+
+    /// Returns the sample at whose position a run of a shader takes its inputs, given the run's first
+    /// covered one; `None` for the texel's centre.
+    #[inline(always)]
+    fn shaded_at(&self, state: &Multisample, first: usize, _samples: usize) -> Option<usize> {
+        state.min_sample_shading.map(|_| first)
     }
 
     /// Returns the sample whose stored value a sample's test or blend reads.

@@ -51,6 +51,16 @@ impl ChannelEncoding {
         }
     }
 
+    /// The order of the smallest normal value above 0; 0 for encodings without subnormal ones.
+    pub fn least_normal_order(self) -> i64 {
+        match self {
+            Self::Ufloat(mantissa) => 1 << mantissa,
+            Self::Float16 => 1 << 10,
+            Self::Float32 => 1 << 23,
+            Self::Unorm(_) | Self::Uint(_) | Self::Srgb8 | Self::Snorm(_) => 0,
+        }
+    }
+
     /// True if the encoding is a float.
     pub fn is_float(self) -> bool {
         matches!(self, Self::Float16 | Self::Float32 | Self::Ufloat(_))

@@ -35,6 +35,8 @@ state_enum! {
         LogicOperations = "logic-operations",
         /// The operations `min` and `max` with factors other than `one` (which they ignore).
         MinMaxBlendFactors = "min-max-blend-factors",
+        /// A least share of a texel's samples that have a shader run of their own.
+        MinSampleShading = "min-sample-shading",
         /// A viewport of negative height, which turns the picture over.
         MirroredViewport = "mirrored-viewport",
         /// Drawing the edges of polygons.
@@ -45,6 +47,8 @@ state_enum! {
         RasterizerDiscard = "rasterizer-discard",
         /// A viewport whose near depth is above its far depth.
         ReversedDepthRange = "reversed-depth-range",
+        /// Drawing a share of a texel's samples, or the others, whatever the fragment.
+        SampleCoverage = "sample-coverage",
         /// Shaders that run once per sample and know which.
         SampleShading = "sample-shading",
         /// A scissor rectangle that reaches beyond the attachments.

@@ -14,13 +14,16 @@ mod distance;
 mod encoding;
 mod feature;
 mod format;
+mod grade;
 mod image;
 mod legal;
 mod limits;
 mod message;
 mod names;
+mod property;
 mod samples;
 mod story;
+mod version;
 
 pub use accuracy::Accuracy;
 pub use api::Api;
@@ -31,6 +34,7 @@ pub use distance::Distance;
 pub use encoding::{ChannelEncoding, linear_to_srgb, srgb_to_linear};
 pub use feature::Feature;
 pub use format::{Aspect, TextureFormat};
+pub use grade::Grade;
 pub use image::{Frame, FrameError, Image, ReadPath};
 pub use legal::{
     AspectStatistics, CodeInterval, ImageInfo, LegalSet, LegalSetBuilder, SampleGroup, TexelSet,
@@ -38,5 +42,7 @@ pub use legal::{
 };
 pub use limits::{FormatSupport, Limits, Requirement};
 pub use message::shortened;
+pub use property::Property;
 pub use samples::standard_sample_positions;
 pub use story::{Story, StoryLine};
+pub use version::ApiVersion;

@@ -5,12 +5,14 @@ use crate::encoding::ChannelEncoding;
 use crate::feature::Feature;
 use crate::format::TextureFormat;
 use crate::image::ReadPath;
+use crate::property::Property;
+use crate::version::ApiVersion;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 /// One thing that a scene needs of an adapter.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Requirement {
     /// A capability.
@@ -65,6 +67,12 @@ pub struct FormatSupport {
 pub struct Limits {
     /// Whose rules bind the adapter.
     pub api: Api,
+    /// The version of the specification that binds it; 0.0 if the API has none, or the record is older.
+    #[serde(default)]
+    pub version: ApiVersion,
+    /// The promises that narrow what the specification permits.
+    #[serde(default)]
+    pub properties: BTreeSet<Property>,
     /// Bits of sub-pixel precision in vertex positions; the API's minimum where it does not tell.
     pub sub_pixel_bits: u8,
     /// The largest width and height of an attachment.
@@ -75,6 +83,10 @@ pub struct Limits {
     pub formats: BTreeMap<TextureFormat, FormatSupport>,
     /// Features.
     pub features: BTreeSet<Feature>,
+    /// Requirements that are not met for a reason other than the driver's word: the backend does not
+    /// use what the driver offers, or the driver claims less than the API.
+    #[serde(default)]
+    pub exempt: BTreeSet<Requirement>,
     /// Sample positions in units of 1/256 texel from the top left corner, per sample count.
     pub sample_positions: BTreeMap<u32, Vec<[u16; 2]>>,
 }

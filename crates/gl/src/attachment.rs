@@ -1,7 +1,6 @@
 //! The attachments of a scene and their initial contents.
 
 use crate::context::Context;
-use crate::state;
 use crate::surface::{Surface, upload};
 use etalon_frame::TextureFormat;
 use glow::HasContext;
@@ -35,7 +34,6 @@ pub(crate) fn set_initial_contents(context: &Context, attachments: &[Attachment]
                 InitialContents::Uploaded => {}
                 InitialContents::Upload(bytes) => upload(context, format, surface, bytes),
                 InitialContents::Color(color) => {
-                    state::set_srgb(context, format == TextureFormat::Rgba8UnormSrgb);
                     gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
                     gl.clear_buffer_f32_slice(glow::COLOR, 0, color);
                 }

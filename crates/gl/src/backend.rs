@@ -8,9 +8,10 @@ use crate::prepared::PreparedScene;
 use crate::probe::Probed;
 use crate::state;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
-use etalon_frame::{Api, Limits, standard_sample_positions};
+use etalon_frame::{Api, ApiVersion, Limits, standard_sample_positions};
 use etalon_scene::Scene;
 use glow::HasContext;
+use std::collections::BTreeSet;
 
 /// An open OpenGL context.
 pub struct GlBackend {
@@ -90,6 +91,11 @@ fn info(name: &str, context: &Context) -> AdapterInfo {
     }
 }
 
+fn version((major, minor): (u32, u32)) -> ApiVersion {
+    let part = |number| u8::try_from(number).unwrap_or(u8::MAX);
+    ApiVersion::new(part(major), part(minor))
+}
+
 fn limits(context: &Context, probed: &Probed) -> Limits {
     let gl = &context.gl;
     let [width, height] = context.caps.max_viewport;
@@ -114,6 +120,9 @@ fn limits(context: &Context, probed: &Probed) -> Limits {
         } else {
             Api::OpenGl
         },
+        version: version(context.caps.version),
+        properties: BTreeSet::new(),
+        exempt: probed.exempt.clone(),
         // OpenGL 4.6, table 23.53: at least 4.
         sub_pixel_bits: u8::try_from(bits).unwrap_or(4).max(4),
         max_size: u32::try_from(max_size).unwrap_or(0),

@@ -17,6 +17,8 @@ pub(crate) struct Caps {
     pub(crate) dual_source: bool,
     /// 32-bit float attachments can be blended.
     pub(crate) float_blend: bool,
+    /// Signed normalized attachments can be drawn to.
+    pub(crate) snorm_attachments: bool,
     /// Depths can be clamped instead of clipped.
     pub(crate) depth_clamp: bool,
     /// Alpha can be set to one (`GL_SAMPLE_ALPHA_TO_ONE`).
@@ -89,6 +91,7 @@ impl Caps {
             indexed_blend: since((4, 0), (3, 2)) || (!es && has("GL_ARB_draw_buffers_blend")),
             dual_source: dual_source && dual_targets,
             float_blend: since(ALWAYS, NEVER) || has("GL_EXT_float_blend"),
+            snorm_attachments: !es || has("GL_EXT_render_snorm"),
             depth_clamp: since(ALWAYS, NEVER) || has("GL_EXT_depth_clamp"),
             alpha_to_one: since(ALWAYS, NEVER) || has("GL_EXT_multisample_compatibility"),
             // naga names the ES extension, which version 3.2 need not list.

@@ -5,7 +5,7 @@ use crate::debug_output::{self, Log};
 use crate::egl::{EglContext, function_at};
 use crate::entry_points::EntryPoints;
 use crate::options::{Options, Profile, Tuning};
-use etalon_backend::{BackendError, Unavailable};
+use etalon_backend::{BackendError, ReadFault, Unavailable};
 use glow::HasContext;
 use std::ffi::{CStr, c_char};
 use std::sync::PoisonError;
@@ -20,6 +20,8 @@ pub(crate) struct Context {
     pub(crate) gl: glow::Context,
     pub(crate) caps: Caps,
     pub(crate) names: Names,
+    /// The fault that a test plants in everything that is read back.
+    pub(crate) read_fault: Option<ReadFault>,
     pub(crate) entry_points: EntryPoints,
     // Fields drop in order: the driver may write to the log until the context is destroyed.
     egl: EglContext,
@@ -63,6 +65,7 @@ impl Context {
             gl,
             caps,
             names,
+            read_fault: options.read_fault,
             entry_points,
             egl,
             log: Box::default(),

@@ -7,7 +7,6 @@ use crate::program::{PARAMS_BINDING, RUNS_BINDING};
 use crate::query::Query;
 use crate::state::{self, DrawState};
 use crate::surface::Surface;
-use etalon_frame::TextureFormat;
 use etalon_scene::Vertex;
 use glow::HasContext;
 use std::mem::offset_of;
@@ -32,8 +31,6 @@ impl Inputs {
 
 pub(crate) struct Pass {
     pub(crate) target: Target,
-    /// True if a colour attachment is sRGB.
-    pub(crate) srgb: bool,
     pub(crate) draws: Vec<DrawCall>,
     /// Multisampled attachments and their resolve targets.
     pub(crate) resolves: Vec<(usize, usize)>,
@@ -99,7 +96,6 @@ pub(crate) fn draw_all(
         if inputs.indices.is_some() {
             state::set_restart(context);
         }
-        state::set_srgb(context, pass.srgb);
         // SAFETY: the framebuffer is the context's own.
         unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(pass.target.framebuffer)) };
         for draw in &pass.draws {
@@ -109,7 +105,6 @@ pub(crate) fn draw_all(
             if let (Some(from), Some(to)) = (attachments.get(*from), attachments.get(*to)) {
                 // Blits are subject to the scissor test.
                 state::reset(context);
-                state::set_srgb(context, to.format == TextureFormat::Rgba8UnormSrgb);
                 resolve(context, &from.surface, &to.surface);
                 closed = true;
             }

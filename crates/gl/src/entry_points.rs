@@ -26,6 +26,7 @@ entry_points! {
     debug_callback: fn(Option<DebugCallback>, *const c_void);
     get_multisample: fn(u32, u32, *mut f32);
     sample_mask: fn(u32, u32);
+    min_sample_shading: fn(f32);
     logic_op: fn(u32);
     clamp_color: fn(u32, u32);
     polygon_offset_clamp: fn(f32, f32, f32);
@@ -74,6 +75,11 @@ impl EntryPoints {
                 load!(get_multisample, c"glGetMultisamplefv");
                 load!(sample_mask, c"glSampleMaski");
             }
+            if version >= (3, 2) {
+                load!(min_sample_shading, c"glMinSampleShading");
+            } else if has("GL_OES_sample_shading") {
+                load!(min_sample_shading, c"glMinSampleShadingOES");
+            }
             if has("GL_OES_viewport_array") {
                 load!(viewport_indexed, c"glViewportIndexedfOES");
             }
@@ -93,6 +99,11 @@ impl EntryPoints {
             }
             if version >= (4, 5) || has("GL_KHR_robustness") {
                 load!(get_reset_status, c"glGetGraphicsResetStatus");
+            }
+            if version >= (4, 0) {
+                load!(min_sample_shading, c"glMinSampleShading");
+            } else if has("GL_ARB_sample_shading") {
+                load!(min_sample_shading, c"glMinSampleShadingARB");
             }
             if version >= (4, 1) || has("GL_ARB_viewport_array") {
                 load!(viewport_indexed, c"glViewportIndexedf");

@@ -15,6 +15,7 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         | Feature::MinMaxBlendFactors
         | Feature::RasterizerDiscard
         | Feature::ReversedDepthRange
+        | Feature::SampleCoverage
         | Feature::ScissorOutside
         | Feature::SeparateStencilMasks
         | Feature::TriangleFans
@@ -29,6 +30,7 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         Feature::FragmentInvocations => caps.fragment_invocations,
         Feature::IndependentBlend => caps.indexed_blend,
         Feature::LogicOperations => entry_points.logic_op.is_some(),
+        Feature::MinSampleShading => entry_points.min_sample_shading.is_some(),
         // Viewport heights are positive.
         Feature::MirroredViewport => false,
         // ES has no `glPolygonMode`.

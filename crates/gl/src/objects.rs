@@ -5,7 +5,6 @@ use crate::context::Context;
 use crate::pool::Pool;
 use crate::probe::{self, Probed};
 use crate::program::Programs;
-use crate::read::Reading;
 use crate::support::Support;
 use etalon_backend::Unavailable;
 use etalon_frame::TextureFormat;
@@ -27,7 +26,7 @@ pub(crate) struct Objects {
 }
 
 impl Objects {
-    /// Creates the objects and probes the formats with them.
+    /// Creates the objects and asks about the formats.
     pub(crate) fn new(context: &Context) -> Result<(Self, Probed), Unavailable> {
         let gl = &context.gl;
         let refused = |message: String| Unavailable::new(message, "use another driver");
@@ -52,17 +51,11 @@ impl Objects {
             )
         };
         let alignment = usize::try_from(alignment).unwrap_or(0).max(1);
-        let (mut pool, mut programs) = (Pool::default(), Programs::default());
-        let probed = probe::probe(&mut Reading {
-            context,
-            pool: &mut pool,
-            programs: &mut programs,
-            no_vertices,
-        });
+        let probed = probe::probe(context);
         let objects = Self {
             formats: probed.formats.clone(),
-            pool: RefCell::new(pool),
-            programs: RefCell::new(programs),
+            pool: RefCell::default(),
+            programs: RefCell::default(),
             params_stride: size_of::<Params>().next_multiple_of(alignment),
             vertex_array,
             no_vertices,

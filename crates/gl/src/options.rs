@@ -1,6 +1,7 @@
 //! The options of an adapter: the API, and the way to its driver.
 
 use crate::egl::Platform;
+use etalon_backend::ReadFault;
 use std::path::PathBuf;
 
 /// The OpenGL variant of a context.
@@ -23,6 +24,8 @@ pub struct Options {
     pub library: Option<PathBuf>,
     /// Enables debug output. Its messages are returned by [`etalon_backend::Backend::messages`].
     pub debug: bool,
+    /// A fault that a test of the suite plants in the read path.
+    pub read_fault: Option<ReadFault>,
 }
 
 /// Capabilities that tests can disable.

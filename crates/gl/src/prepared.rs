@@ -207,9 +207,6 @@ impl<'a> PreparedScene<'a> {
                 resolves.push((*from, *to));
             }
         }
-        let srgb = color
-            .iter()
-            .any(|a| a.format == TextureFormat::Rgba8UnormSrgb);
         let surfaces: Vec<&Surface> = color.iter().map(|a| &a.surface).collect();
         let target = pool
             .target(context, &surfaces, depth.map(|a| &a.surface))?
@@ -221,7 +218,6 @@ impl<'a> PreparedScene<'a> {
         }
         self.passes.push(Pass {
             target,
-            srgb,
             draws,
             resolves,
         });

@@ -1,23 +1,25 @@
-//! Probing of the formats that a driver supports.
+//! The formats and features that a context offers, by its own word.
 //!
-//! A driver may use another internal format than the requested one. A format is offered only if the
-//! framebuffer reports exactly the channels of the format's name, and all codes survive an upload
-//! and a read.
+//! Nothing is drawn, uploaded or read here: a format is offered if a framebuffer with it is complete and
+//! the queries of its attachment report exactly the channels of the format's name, since a driver may
+//! use another internal format than the requested one. Whether its texels survive is for the cases to
+//! tell. Where GL has several ways to read a format, [`read_plan`] takes one that the specification
+//! says is exact.
 
 use crate::context::Context;
 use crate::format::gl_format;
-use crate::read::{self, Reading};
+use crate::program::translates;
 use crate::support::{ReadPlan, ShaderStencil, Support};
-use crate::surface::{Surface, SurfaceKind, upload};
+use crate::surface::{Surface, SurfaceKind};
 use crate::{codes, features};
-use etalon_frame::{ChannelEncoding, Feature, FormatSupport, ReadPath, TextureFormat};
+use etalon_frame::{ChannelEncoding, Feature, FormatSupport, ReadPath, Requirement, TextureFormat};
 use etalon_scene::{EarlyTests, Shader};
 use glow::HasContext;
 use std::collections::{BTreeMap, BTreeSet};
 
 const SAMPLE_COUNTS: [u32; 4] = [2, 4, 8, 16];
-/// Enough texels for every code of a 16-bit channel spread over four channels.
-const SIZE: [u32; 2] = [128, 128];
+/// Width and height of the surfaces that are asked about.
+const SIZE: [u32; 2] = [16, 16];
 
 /// Sample positions by sample count, in 1/256 texel from the top left corner.
 type Positions = BTreeMap<u32, Vec<[u16; 2]>>;
@@ -28,37 +30,49 @@ pub(crate) struct Probed {
     pub(crate) formats: BTreeMap<TextureFormat, Support>,
     pub(crate) positions: Positions,
     pub(crate) features: BTreeSet<Feature>,
+    /// What the driver may offer and this backend does not use.
+    pub(crate) exempt: BTreeSet<Requirement>,
 }
 
-/// Probes every format.
-pub(crate) fn probe(reading: &mut Reading<'_>) -> Probed {
+/// Asks about every format and feature.
+pub(crate) fn probe(context: &Context) -> Probed {
     let mut probed = Probed::default();
-    let context = reading.context;
     for format in TextureFormat::ALL {
-        let Some(mut support) = with_surface(context, format, 1, |surface| {
-            examine(reading, format, surface)
-        }) else {
-            // A refused format may leave errors behind.
-            context.check("probing formats").ok();
+        let found = with_surface(context, format, 1, |surface| {
+            Some((surface.is_complete(), examine(context, format, surface)))
+        });
+        // A refused format leaves an error behind.
+        let accepted = context.check("probing formats").is_ok();
+        let (complete, support) = match found {
+            Some(found) if accepted => found,
+            _ => (false, None),
+        };
+        let Some(mut support) = support else {
+            if complete || gl_format(format).is_none() {
+                let both = [Requirement::Format(format), Requirement::Drawing(format)];
+                probed.exempt.extend(both);
+            }
             continue;
         };
-        if context.check("probing formats").is_ok() {
-            let more = sample_counts(reading, format, &support, &mut probed.positions);
-            support.limits.samples.extend(more);
-            probed.formats.insert(format, support);
+        let more = sample_counts(context, format, &support, &mut probed.positions);
+        support.limits.samples.extend(more);
+        probed.formats.insert(format, support);
+    }
+    for feature in features::features(context) {
+        if can_be_written(context, feature) {
+            probed.features.insert(feature);
+        } else {
+            probed.exempt.insert(Requirement::Feature(feature));
         }
     }
-    probed.features = features::features(context)
-        .into_iter()
-        .filter(|feature| compiles(reading, *feature))
-        .collect();
     probed
 }
 
-/// Returns true if naga can write the shaders of a feature and the driver compiles them.
-fn compiles(reading: &mut Reading<'_>, feature: Feature) -> bool {
+/// Returns true if naga can write the shaders of a feature in the context's GLSL. A driver that then
+/// refuses to compile them fails the feature's cases.
+fn can_be_written(context: &Context, feature: Feature) -> bool {
     let shader = Shader::FlatColorDepth;
-    let tried: &[_] = match feature {
+    let needed: &[_] = match feature {
         Feature::CentroidInterpolation => &[(Shader::Centroid, EarlyTests::Implicit)],
         Feature::ConservativeDepth => &[
             (shader, EarlyTests::GreaterEqual),
@@ -69,9 +83,9 @@ fn compiles(reading: &mut Reading<'_>, feature: Feature) -> bool {
         Feature::StorageCounters => &[(Shader::CountedColor, EarlyTests::Implicit)],
         _ => &[],
     };
-    let context = reading.context;
-    let mut takes = |&(shader, tests)| reading.programs.shader(context, shader, tests).is_ok();
-    tried.iter().all(&mut takes)
+    needed
+        .iter()
+        .all(|(shader, tests)| translates(context, *shader, *tests))
 }
 
 /// Calls `body` with a surface of a format.
@@ -89,8 +103,7 @@ fn with_surface<T>(
     result
 }
 
-fn examine(reading: &mut Reading<'_>, format: TextureFormat, surface: &Surface) -> Option<Support> {
-    let context = reading.context;
+fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Option<Support> {
     let done = |samples: &[u32], blendable, depth: &[ChannelEncoding], read| {
         let path = match read {
             ReadPlan::Shader { depth: true, .. } => ReadPath::Shader,
@@ -106,65 +119,71 @@ fn examine(reading: &mut Reading<'_>, format: TextureFormat, surface: &Surface) 
             read,
         })
     };
-    if format.is_color() && !surface.is_complete() {
-        // Useful as an exact source of values even if it is not drawable.
-        let useful = format == TextureFormat::Rgba32Float
-            && color_round_trips(reading, surface, format, ReadPlan::Fetched);
-        return if useful {
-            done(&[], false, &[], ReadPlan::Fetched)
-        } else {
-            None
-        };
+    if format == TextureFormat::Rgba32Float && !surface.is_complete() {
+        // Every version has it as a texture: an exact source of values even if it is not drawable.
+        return done(&[], false, &[], ReadPlan::Fetched);
+    }
+    // Without its extension ES has no rules for what is drawn to it.
+    if format == TextureFormat::Rgba8Snorm && !context.caps.snorm_attachments {
+        return None;
     }
     if !surface.is_complete() || !has_promised_channels(context, surface, format) {
         return None;
     }
-    if format.is_color() {
-        // Mesa's ES reads negative values of `rgba8snorm` as 0, and a shader sees one value for
-        // both codes of -1, so nothing reads that format exactly there.
-        let plans: &[ReadPlan] = if format.is_integer() {
-            &[ReadPlan::Integers]
+    let encoding = if format.has_depth() {
+        Some(depth_encoding(context, surface)?)
+    } else {
+        None
+    };
+    let read = read_plan(context, format, encoding)?;
+    let blendable = match format {
+        TextureFormat::Rgba32Float => context.caps.float_blend,
+        _ => format.is_color() && !format.is_integer(),
+    };
+    done(&[1], blendable, encoding.as_slice(), read)
+}
+
+/// Returns the way to read single-sample surfaces of a format; `None` if the context has no exact one.
+///
+/// OpenGL converts to any format and type, so the layout of uploads returns each code (4.6, 18.2.8, with
+/// read color clamping off). Before 4.2 a type other than a float clamps signed values to 0..=1 (3.3,
+/// 4.3.1, Final Conversion), so those are read as floats, in which both codes of -1 are one value.
+///
+/// ES has four bytes for normalized formats, the packed type for `rgb10a2unorm` and floats for floats
+/// (ES 3.2, 16.1.2). No type of it returns negative values (16.1.5), depth or stencil: a shader fetches
+/// them.
+fn read_plan(
+    context: &Context,
+    format: TextureFormat,
+    depth: Option<ChannelEncoding>,
+) -> Option<ReadPlan> {
+    let caps = &context.caps;
+    if let Some(encoding) = depth {
+        return if caps.es {
+            by_shader(context, format)
         } else {
-            &[ReadPlan::Packed, ReadPlan::Bytes, ReadPlan::Floats]
+            Some(copy_plan(format, encoding))
         };
-        let read = plans
-            .iter()
-            .copied()
-            .find(|plan| color_round_trips(reading, surface, format, *plan))?;
-        let blendable = match format {
-            TextureFormat::Rgba32Float => context.caps.float_blend,
-            _ => !format.is_integer(),
-        };
-        return done(&[1], blendable, &[], read);
     }
     if format == TextureFormat::Stencil8 {
-        // In ES only a shader can read stencil.
-        if !context.caps.es {
-            return done(&[1], false, &[], ReadPlan::Stencil);
-        }
         let shader = ReadPlan::Shader {
             depth: false,
             stencil: ShaderStencil::Shader,
         };
-        let can = context.caps.stencil_textures && context.caps.stencil_texturing;
-        return if can {
-            done(&[1], false, &[], shader)
-        } else {
-            None
+        return match caps.es {
+            false => Some(ReadPlan::Stencil),
+            true => (caps.stencil_textures && caps.stencil_texturing).then_some(shader),
         };
     }
-    let encoding = depth_encoding(context, surface)?;
-    let read = if context.caps.es {
-        by_shader(context, format)?
-    } else {
-        let plan = copy_plan(format, encoding);
-        if depth_round_trips(context, surface, format, plan) {
-            plan
-        } else {
-            by_shader(context, format)?
-        }
-    };
-    done(&[1], false, &[encoding], read)
+    let first = format.color_channels().first()?;
+    Some(match first {
+        ChannelEncoding::Uint(_) => ReadPlan::Integers,
+        ChannelEncoding::Snorm(_) if caps.es => ReadPlan::Fetched,
+        ChannelEncoding::Snorm(_) if caps.version < (4, 2) => ReadPlan::Floats,
+        _ if !caps.es || format == TextureFormat::Rgb10a2Unorm => ReadPlan::Packed,
+        ChannelEncoding::Unorm(_) | ChannelEncoding::Srgb8 => ReadPlan::Bytes,
+        _ => ReadPlan::Floats,
+    })
 }
 
 fn by_shader(context: &Context, format: TextureFormat) -> Option<ReadPlan> {
@@ -256,51 +275,19 @@ fn depth_encoding(context: &Context, surface: &Surface) -> Option<ChannelEncodin
     }
 }
 
-/// Returns true if all codes are read back unchanged: every code of channels of up to 16 bits, each
-/// channel in another order, and a spread of 32-bit floats. NaNs are left out, since their payload
-/// may change.
-fn color_round_trips(
-    reading: &mut Reading<'_>,
-    surface: &Surface,
-    format: TextureFormat,
-    plan: ReadPlan,
-) -> bool {
-    let channels = format.color_channels();
-    let mut all = Vec::new();
-    for texel in 0..SIZE[0] * SIZE[1] {
-        for (c, encoding) in (0..).zip(channels) {
-            // Odd factors reach every code; four channels share those of a 16-bit float.
-            let code = match codes::bits(*encoding) {
-                32 => (texel * 4 + c).wrapping_mul(0x9e37_79b1),
-                bits => (texel * 4 + c).wrapping_mul(2 * c + 1) >> (2 * u32::from(bits < 16)),
-            };
-            let code = code & (u32::MAX >> (32 - codes::bits(*encoding)));
-            all.push(if encoding.is_nan(code) { c } else { code });
-        }
-    }
-    crate::state::reset(reading.context);
-    upload(reading.context, format, surface, &codes::pack(format, &all));
-    let read = reading.color(surface, format, plan);
-    let clean = reading.context.check("probing a format").is_ok();
-    clean && read.is_ok_and(|codes| codes == all)
-}
-
-/// Returns the sample counts above 1 for which the driver creates, draws to and reads attachments.
+/// Returns the sample counts above 1 of complete attachments that a shader can read exactly.
 fn sample_counts(
-    reading: &mut Reading<'_>,
+    context: &Context,
     format: TextureFormat,
     support: &Support,
     positions: &mut Positions,
 ) -> Vec<u32> {
-    let context = reading.context;
     let caps = &context.caps;
     let stencil_fetched =
         caps.stencil_texturing && (caps.stencil_textures || format != TextureFormat::Stencil8);
     let drawn = !support.limits.samples.is_empty();
-    // A shader sees one value for both codes of -1.
-    let has_distinct_codes = format != TextureFormat::Rgba8Snorm;
-    let readable = drawn && has_distinct_codes && (!format.has_stencil() || stencil_fetched);
-    if !caps.multisample_textures || !readable {
+    let readable = (!format.has_stencil() || stencil_fetched) && fetch_is_exact(support);
+    if !caps.multisample_textures || !drawn || !readable {
         return Vec::new();
     }
     let mut counts = Vec::new();
@@ -311,48 +298,21 @@ fn sample_counts(
         });
         let clean = context.check("probing samples").is_ok();
         if let (Some(found), true) = (found, clean) {
-            // One table for all formats.
-            if positions.entry(count).or_insert_with(|| found.clone()) == &found {
-                counts.push(count);
-            }
+            // Fixed sample locations are those of every format (OpenGL 4.6, 8.8).
+            positions.entry(count).or_insert(found);
+            counts.push(count);
         }
     }
-    if counts.is_empty() || fetch_is_exact(reading, format, support) {
-        counts
-    } else {
-        Vec::new()
-    }
+    counts
 }
 
-/// Returns true if a shader's fetch returns the same codes as a copy. Short normalized codes and
-/// floats are exact in any float; sRGB and 24-bit depth may not be.
-fn fetch_is_exact(reading: &mut Reading<'_>, format: TextureFormat, support: &Support) -> bool {
-    if format == TextureFormat::Rgba8UnormSrgb {
-        let context = reading.context;
-        return with_surface(context, format, 1, |surface| {
-            Some(color_round_trips(
-                reading,
-                surface,
-                format,
-                ReadPlan::Fetched,
-            ))
-        })
-        .unwrap_or(false);
-    }
-    let copied = support.limits.read == ReadPath::Copy;
-    if copied && support.limits.depth.contains(&ChannelEncoding::Unorm(24)) {
-        let context = reading.context;
-        return with_surface(context, format, 1, |surface| {
-            // The surface then holds a spread of codes.
-            let plan = support.read;
-            let exact = depth_round_trips(context, surface, format, plan);
-            let (expected, _) = read::copy(context, surface, format, plan);
-            let seen = reading.fetched_depth(surface, ChannelEncoding::Unorm(24));
-            Some(exact && seen.is_ok_and(|codes| codes == expected))
-        })
-        .unwrap_or(false);
-    }
-    true
+/// Returns true if a shader's fetch determines the code that a copy would return. Floating-point
+/// operations are accurate to 1 part in 10^5 (OpenGL 4.6, 2.3.4), less than what lies between two codes
+/// of colour, sRGB included. Codes of depth of up to 16 bits are told apart by rounding too, as in
+/// Vulkan; those of 24 bits are not.
+fn fetch_is_exact(support: &Support) -> bool {
+    let is_long = |e: &ChannelEncoding| matches!(e, ChannelEncoding::Unorm(17..));
+    support.limits.read == ReadPath::Shader || !support.limits.depth.iter().any(is_long)
 }
 
 /// Returns the sample positions of a surface; `None` if it has another sample count.
@@ -382,94 +342,26 @@ fn sample_positions(context: &Context, surface: &Surface, count: u32) -> Option<
     }
 }
 
-/// Returns the first 32-bit code that is not below a 24-bit one. Truncation and rounding both
-/// return it to the same code.
-fn widened(code: u32) -> u32 {
-    let exact = u64::from(code) * u64::from(u32::MAX);
-    exact.div_ceil(0xff_ffff) as u32
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Returns true if codes uploaded to a depth texture are read back unchanged, so that reading is an
-/// exact copy: GL describes both ways as conversions, which might round.
-fn depth_round_trips(
-    context: &Context,
-    surface: &Surface,
-    format: TextureFormat,
-    plan: ReadPlan,
-) -> bool {
-    let Some(texture) = surface.texture() else {
-        return false;
-    };
-    let size = surface.size();
-    let last = size[0] * size[1] - 1;
-    let spread = |most: u32| {
-        let code = move |i| (u64::from(i) * u64::from(most) / u64::from(last)) as u32;
-        (0..=last).map(code)
-    };
-    let floats = || (0..=last).map(|i| (i as f32 / last as f32).to_bits());
-    let stencils = || (0..=last).map(|i| i & 0xff);
-    let (kind, bytes, codes): (u32, Vec<u8>, Vec<u32>) = match plan {
-        ReadPlan::Depth16 => (
-            glow::UNSIGNED_SHORT,
-            spread(0xffff)
-                .flat_map(|c| (c as u16).to_ne_bytes())
-                .collect(),
-            spread(0xffff).collect(),
-        ),
-        ReadPlan::Depth24 => (
-            glow::UNSIGNED_INT,
-            spread(0xff_ffff)
-                .flat_map(|c| widened(c).to_ne_bytes())
-                .collect(),
-            spread(0xff_ffff).collect(),
-        ),
-        ReadPlan::DepthFloat => (
-            glow::FLOAT,
-            floats().flat_map(u32::to_ne_bytes).collect(),
-            floats().collect(),
-        ),
-        ReadPlan::Depth24Stencil8 => (
-            glow::UNSIGNED_INT_24_8,
-            spread(0xff_ffff)
-                .zip(stencils())
-                .flat_map(|(c, s)| (c << 8 | s).to_ne_bytes())
-                .collect(),
-            spread(0xff_ffff).collect(),
-        ),
-        ReadPlan::DepthFloatStencil8 => (
-            glow::FLOAT_32_UNSIGNED_INT_24_8_REV,
-            floats()
-                .zip(stencils())
-                .flat_map(|(c, s)| [c, s])
-                .flat_map(u32::to_ne_bytes)
-                .collect(),
-            floats().collect(),
-        ),
-        _ => return false,
-    };
-    let layout = if format.has_stencil() {
-        glow::DEPTH_STENCIL
-    } else {
-        glow::DEPTH_COMPONENT
-    };
-    let gl = &context.gl;
-    crate::state::reset(context);
-    // SAFETY: the context is current, rows are packed tightly, and the bytes cover the texture.
-    unsafe {
-        gl.active_texture(glow::TEXTURE0);
-        gl.bind_texture(glow::TEXTURE_2D, Some(texture));
-        gl.tex_sub_image_2d(
-            glow::TEXTURE_2D,
-            0,
-            0,
-            0,
-            size[0] as i32,
-            size[1] as i32,
-            layout,
-            kind,
-            glow::PixelUnpackData::Slice(Some(&bytes)),
-        );
+    #[test]
+    fn the_fetch_of_a_24_bit_depth_is_no_copy() {
+        let support = |read, depth| Support {
+            limits: FormatSupport {
+                samples: vec![1],
+                blendable: false,
+                depth,
+                read,
+            },
+            read: ReadPlan::Depth24,
+        };
+        let long = vec![ChannelEncoding::Unorm(24)];
+        assert!(!fetch_is_exact(&support(ReadPath::Copy, long.clone())));
+        assert!(fetch_is_exact(&support(ReadPath::Shader, long)));
+        let short = vec![ChannelEncoding::Unorm(16)];
+        assert!(fetch_is_exact(&support(ReadPath::Copy, short)));
+        assert!(fetch_is_exact(&support(ReadPath::Copy, Vec::new())));
     }
-    let (read, stencil) = read::copy(context, surface, format, plan);
-    read == codes && stencil.is_none_or(|s| s.into_iter().eq(stencils()))
 }

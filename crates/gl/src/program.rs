@@ -134,6 +134,11 @@ impl Programs {
     }
 }
 
+/// Returns true if naga can write a shader in the context's GLSL.
+pub(crate) fn translates(context: &Context, shader: Shader, tests: EarlyTests) -> bool {
+    Translated::new(context, shader, tests).is_ok()
+}
+
 /// A shader in GLSL.
 struct Translated {
     vertex: String,

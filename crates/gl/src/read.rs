@@ -53,23 +53,44 @@ impl Reading<'_> {
         }
         let (depth, stencil) = self.depth_stencil(source)?;
         let mut images = Vec::new();
-        if let Some(codes) = depth {
+        if let Some(mut codes) = depth {
             let (channels, path) = match source.plan {
                 ReadPlan::Shader { .. } => (vec![ChannelEncoding::Float32], ReadPath::Shader),
                 _ => (source.depth.to_vec(), ReadPath::Copy),
             };
+            self.plant(source.surface, &channels, &mut codes);
             images.push(image(Aspect::Depth, channels, path, codes));
         }
-        if let Some(codes) = stencil {
+        if let Some(mut codes) = stencil {
             // Both ways of reading integers are exact.
             let channels = vec![ChannelEncoding::Uint(8)];
+            self.plant(source.surface, &channels, &mut codes);
             images.push(image(Aspect::Stencil, channels, ReadPath::Copy, codes));
         }
         Ok(images)
     }
 
+    /// Returns the codes of a colour surface.
+    fn color(
+        &mut self,
+        surface: &Surface,
+        format: TextureFormat,
+        plan: ReadPlan,
+    ) -> Result<Vec<u32>, BackendError> {
+        let mut codes = self.stored_color(surface, format, plan)?;
+        self.plant(surface, format.color_channels(), &mut codes);
+        Ok(codes)
+    }
+
+    /// Applies the fault that a test plants.
+    fn plant(&self, surface: &Surface, channels: &[ChannelEncoding], codes: &mut [u32]) {
+        if let Some(fault) = self.context.read_fault {
+            fault.apply(codes, surface.size(), surface.samples(), channels);
+        }
+    }
+
     /// Returns the codes of a colour surface. Several samples are always fetched.
-    pub(crate) fn color(
+    fn stored_color(
         &mut self,
         surface: &Surface,
         format: TextureFormat,
@@ -91,7 +112,7 @@ impl Reading<'_> {
     }
 
     /// Returns the codes of depths that a shader fetches.
-    pub(crate) fn fetched_depth(
+    fn fetched_depth(
         &mut self,
         surface: &Surface,
         encoding: ChannelEncoding,
@@ -212,7 +233,7 @@ fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
 
 /// Reads a single-sample surface by `glReadPixels`: colour, depth or else stencil, and the stencil
 /// beside depth.
-pub(crate) fn copy(
+fn copy(
     context: &Context,
     surface: &Surface,
     format: TextureFormat,

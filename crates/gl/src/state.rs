@@ -1,4 +1,8 @@
-//! Pipeline state. All of it is set for every draw, so that no cache can be stale.
+//! Pipeline state. What is on or off is set for every draw, so that no cache can be stale.
+//!
+//! The parameters of what is off are left as an earlier draw or [`reset`] set them. None of them may
+//! act, so `reset` chooses those that would be seen: a driver that forgets to ask whether a test is
+//! enabled must not pass by chance.
 
 use crate::context::Context;
 use crate::enums::{compare, equations, logic_operation, mask, operation};
@@ -6,11 +10,12 @@ use etalon_backend::BackendError;
 use etalon_frame::{Feature, Requirement};
 use etalon_scene::{
     ColorTarget, CullMode, DepthBias, DepthState, Draw, FrontFace, Multisample, PolygonMode,
-    RESTART, StencilFace, StencilState, Viewport,
+    PrimitiveTopology, RESTART, SampleCoverage, StencilFace, StencilState, Viewport,
 };
 use glow::HasContext;
 
 const DEPTH_BOUNDS_TEST: u32 = 0x8890;
+const SAMPLE_SHADING: u32 = 0x8C36;
 
 /// The state of a draw, ready to be set.
 #[derive(Clone, Debug)]
@@ -18,6 +23,10 @@ pub(crate) struct DrawState {
     cull: Option<u32>,
     front_face: u32,
     polygon_mode: u32,
+    /// The capability that biases the draw's polygons.
+    offset: u32,
+    /// True if the draw has polygons.
+    polygons: bool,
     rasterizer_discard: bool,
     viewport: Viewport,
     scissor: Option<[i32; 4]>,
@@ -61,6 +70,18 @@ impl DrawState {
                 PolygonMode::Fill => glow::FILL,
                 PolygonMode::Line => glow::LINE,
             },
+            offset: match draw.polygon_mode {
+                PolygonMode::Fill => glow::POLYGON_OFFSET_FILL,
+                PolygonMode::Line => glow::POLYGON_OFFSET_LINE,
+            },
+            polygons: match draw.topology {
+                PrimitiveTopology::PointList
+                | PrimitiveTopology::LineList
+                | PrimitiveTopology::LineStrip => false,
+                PrimitiveTopology::TriangleList
+                | PrimitiveTopology::TriangleStrip
+                | PrimitiveTopology::TriangleFan => true,
+            },
             rasterizer_discard: draw.rasterizer_discard,
             viewport: draw.viewport,
             scissor: draw.scissor.map(scissor),
@@ -94,7 +115,7 @@ impl DrawState {
         set(gl, glow::CULL_FACE, self.cull.is_some());
         set(gl, glow::RASTERIZER_DISCARD, self.rasterizer_discard);
         set(gl, glow::SCISSOR_TEST, self.scissor.is_some());
-        set(gl, glow::POLYGON_OFFSET_FILL, self.depth_bias.is_some());
+        self.apply_offset(context);
         // SAFETY: the context is current; entry points are of version 3 or supported, and
         // polygon modes are set in core profiles only.
         unsafe {
@@ -104,9 +125,6 @@ impl DrawState {
             gl.front_face(self.front_face);
             if !context.caps.es {
                 gl.polygon_mode(glow::FRONT_AND_BACK, self.polygon_mode);
-                // Polygons may be drawn as lines or points; lines and points are never biased.
-                set(gl, glow::POLYGON_OFFSET_LINE, self.depth_bias.is_some());
-                set(gl, glow::POLYGON_OFFSET_POINT, self.depth_bias.is_some());
             }
             let [x, y, w, h] = self.viewport.rect;
             match context.entry_points.viewport_indexed {
@@ -122,21 +140,34 @@ impl DrawState {
             if let Some([x, y, w, h]) = self.scissor {
                 gl.scissor(x, y, w, h);
             }
-            if let Some(DepthBias {
-                constant,
-                slope,
-                clamp,
-            }) = self.depth_bias
-            {
-                let constant = constant as f32;
-                match context.entry_points.polygon_offset_clamp {
-                    Some(offset) if clamp != 0.0 => offset(slope, constant, clamp),
-                    _ => gl.polygon_offset(slope, constant),
-                }
-            }
         }
         if context.caps.depth_clamp {
             set(gl, glow::DEPTH_CLAMP, self.depth_clamp);
+        }
+    }
+
+    /// Sets the depth bias. It obeys the capability of the draw's polygon mode alone (OpenGL 4.6,
+    /// 14.6.5), so the others stay as they are. Points and lines are no polygons: no capability
+    /// biases them, so all are set.
+    fn apply_offset(&self, context: &Context) {
+        let gl = &context.gl;
+        let own = [self.offset];
+        let all: &[u32] = match (self.polygons, context.caps.es) {
+            (true, _) => &own,
+            (false, false) => &POLYGON_OFFSETS,
+            (false, true) => &POLYGON_OFFSETS[..1],
+        };
+        for capability in all {
+            set(gl, *capability, self.depth_bias.is_some());
+        }
+        if let Some(DepthBias {
+            constant,
+            slope,
+            clamp,
+        }) = self.depth_bias
+        {
+            // SAFETY: the context is current; entry points are supported.
+            unsafe { offset(context, constant as f32, slope, clamp) };
         }
     }
 
@@ -174,6 +205,8 @@ impl DrawState {
             mask,
             alpha_to_coverage,
             alpha_to_one,
+            min_sample_shading,
+            sample_coverage,
         } = self.multisample;
         set(gl, glow::SAMPLE_ALPHA_TO_COVERAGE, alpha_to_coverage);
         if context.caps.alpha_to_one {
@@ -181,8 +214,22 @@ impl DrawState {
         }
         if let Some(set_mask) = context.entry_points.sample_mask {
             set(gl, glow::SAMPLE_MASK, mask != u32::MAX);
-            // SAFETY: the context is current and has the function.
-            unsafe { set_mask(0, mask) };
+            if mask != u32::MAX {
+                // SAFETY: the context is current and has the function.
+                unsafe { set_mask(0, mask) };
+            }
+        }
+        set(gl, glow::SAMPLE_COVERAGE, sample_coverage.is_some());
+        if let Some(SampleCoverage { value, invert }) = sample_coverage {
+            // SAFETY: the context is current.
+            unsafe { gl.sample_coverage(value, invert) };
+        }
+        if let Some(set_share) = context.entry_points.min_sample_shading {
+            set(gl, SAMPLE_SHADING, min_sample_shading.is_some());
+            if let Some(share) = min_sample_shading {
+                // SAFETY: the context is current and has the function.
+                unsafe { set_share(share) };
+            }
         }
     }
 
@@ -190,8 +237,10 @@ impl DrawState {
         let gl = &context.gl;
         if let Some(set_logic) = context.entry_points.logic_op {
             set(gl, glow::COLOR_LOGIC_OP, self.logic.is_some());
-            // SAFETY: the context is current and has the function.
-            unsafe { set_logic(self.logic.unwrap_or(glow::COPY)) };
+            if let Some(operation) = self.logic {
+                // SAFETY: the context is current and has the function.
+                unsafe { set_logic(operation) };
+            }
         }
         // SAFETY: the context is current; the entry points are of version 3, and targets
         // differ only if the context supports it.
@@ -209,13 +258,13 @@ impl DrawState {
                         gl.blend_func_separate(color.1, color.2, alpha.1, alpha.2);
                     }
                     // With a second source as a factor, Mesa refuses several targets even if
-                    // blending is disabled.
-                    None => gl.blend_func(glow::ONE, glow::ZERO),
+                    // blending is disabled. These factors would keep the destination.
+                    None => gl.blend_func(glow::ZERO, glow::ONE),
                 }
                 return;
             }
             // The same holds for draw buffers beyond the targets, which the loop does not reach.
-            gl.blend_func(glow::ONE, glow::ZERO);
+            gl.blend_func(glow::ZERO, glow::ONE);
             for (i, target) in (0..).zip(&self.targets) {
                 let [r, g, b, a] = mask(target);
                 gl.color_mask_draw_buffer(i, r, g, b, a);
@@ -228,10 +277,32 @@ impl DrawState {
                     }
                     None => {
                         gl.disable_draw_buffer(glow::BLEND, i);
-                        gl.blend_func_draw_buffer(i, glow::ONE, glow::ZERO);
+                        gl.blend_func_draw_buffer(i, glow::ZERO, glow::ONE);
                     }
                 }
             }
+        }
+    }
+}
+
+/// The capabilities that bias polygons, that of filled ones first: ES has no other.
+const POLYGON_OFFSETS: [u32; 3] = [
+    glow::POLYGON_OFFSET_FILL,
+    glow::POLYGON_OFFSET_LINE,
+    glow::POLYGON_OFFSET_POINT,
+];
+
+/// Sets the parameters of the depth bias.
+///
+/// # Safety
+/// The context is current.
+unsafe fn offset(context: &Context, constant: f32, slope: f32, clamp: f32) {
+    // SAFETY: the caller's, and the entry point is supported.
+    unsafe {
+        match context.entry_points.polygon_offset_clamp {
+            // Without a clamp the older function is used, which sets the clamp to 0.
+            Some(offset) if clamp != 0.0 => offset(slope, constant, clamp),
+            _ => context.gl.polygon_offset(slope, constant),
         }
     }
 }
@@ -273,13 +344,6 @@ pub(crate) fn set_restart(context: &Context) {
         set(gl, glow::PRIMITIVE_RESTART, true);
         // SAFETY: the context is current and has the function.
         unsafe { index(RESTART) };
-    }
-}
-
-/// Enables sRGB conversion of attachments. ES always has it enabled.
-pub(crate) fn set_srgb(context: &Context, on: bool) {
-    if !context.caps.es {
-        set(&context.gl, glow::FRAMEBUFFER_SRGB, on);
     }
 }
 
@@ -335,6 +399,10 @@ pub(crate) fn reset(context: &Context) {
                 context.entry_points.depth_bounds.is_some(),
                 DEPTH_BOUNDS_TEST,
             ),
+            (
+                context.entry_points.min_sample_shading.is_some(),
+                SAMPLE_SHADING,
+            ),
         ] {
             if known {
                 gl.disable(capability);
@@ -342,7 +410,6 @@ pub(crate) fn reset(context: &Context) {
         }
         if !context.caps.es {
             for capability in [
-                glow::FRAMEBUFFER_SRGB,
                 glow::COLOR_LOGIC_OP,
                 glow::POLYGON_OFFSET_LINE,
                 glow::POLYGON_OFFSET_POINT,
@@ -352,6 +419,8 @@ pub(crate) fn reset(context: &Context) {
                 gl.disable(capability);
             }
             gl.enable(glow::MULTISAMPLE);
+            // As ES has it: the attachments' formats alone decide.
+            gl.enable(glow::FRAMEBUFFER_SRGB);
             gl.polygon_mode(glow::FRONT_AND_BACK, glow::FILL);
         }
         gl.line_width(1.0);
@@ -372,5 +441,36 @@ pub(crate) fn reset(context: &Context) {
         // Only the first texture of a draw is ever sampled.
         gl.bind_sampler(0, None);
     }
+    set_idle_parameters(context);
     context.set_clip_control();
+}
+
+/// Sets the parameters of everything that is off to values that would be seen.
+fn set_idle_parameters(context: &Context) {
+    let gl = &context.gl;
+    let entry_points = &context.entry_points;
+    // SAFETY: the context is current and has the functions.
+    unsafe {
+        gl.cull_face(glow::FRONT_AND_BACK);
+        gl.scissor(0, 0, 0, 0);
+        gl.depth_func(glow::NEVER);
+        gl.stencil_func(glow::NEVER, 0, 0xff);
+        gl.stencil_op(glow::INVERT, glow::INVERT, glow::INVERT);
+        gl.blend_func(glow::ZERO, glow::ONE);
+        gl.sample_coverage(0.0, false);
+        offset(context, 1e6, 0.0, 0.0);
+        if let Some(set_mask) = entry_points.sample_mask {
+            set_mask(0, 0);
+        }
+        if let Some(set_share) = entry_points.min_sample_shading {
+            set_share(1.0);
+        }
+        if let Some(set_logic) = entry_points.logic_op {
+            set_logic(glow::CLEAR);
+        }
+        if let Some(bounds) = entry_points.depth_bounds {
+            // No depth that a case stores lies here alone.
+            bounds(0.999_999, 0.999_999_5);
+        }
+    }
 }

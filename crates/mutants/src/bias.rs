@@ -118,21 +118,17 @@ fn biases(list: &mut List) {
     );
 }
 
-/// Steps that the text allows: twice as large on fixed-point depth, half as large on floats.
-const LEGAL_STEPS: [&str; 3] = [
-    "d16-step-of-15-bits",
-    "d24-step-of-23-bits",
-    "float-step-halved",
-];
+/// Steps that the text allows: twice as large on fixed-point depth.
+const LEGAL_STEPS: [&str; 2] = ["d16-step-of-15-bits", "d24-step-of-23-bits"];
 
-const STEP: &str = "Vulkan: Depth Bias: r is at most 2 * 2^-n for fixed point, and 2^(e-n) for floats, \
-                    whose n may count the hidden bit";
+const STEP: &str =
+    "Vulkan: Depth Bias: r is one for the attachment and at most 2 * 2^-n for fixed point";
 
 fn units(list: &mut List) {
     use ChannelEncoding::{Float32, Unorm};
     // The bug gets the right step. The powers of two are those of 15, 16, 17, 23, 24 and 32 bits.
     type Step = (&'static str, ChannelEncoding, &'static str, fn(f64) -> f64);
-    let steps: [Step; 13] = [
+    let steps: [Step; 15] = [
         ("d16-step-of-15-bits", Unorm(16), "that of 15 bits", |r| {
             r * 2.0
         }),
@@ -168,6 +164,18 @@ fn units(list: &mut List) {
         ("float-step-quartered", Float32, "a quarter as large", |r| {
             r / 4.0
         }),
+        (
+            "float-step-of-3-quarters",
+            Float32,
+            "three quarters as large",
+            |r| r * 0.75,
+        ),
+        (
+            "float-step-1-percent-less",
+            Float32,
+            "a hundredth smaller",
+            |r| r * 0.99,
+        ),
     ];
     for (name, format, about, bug) in steps {
         let source = if format == Float32 {
@@ -188,5 +196,91 @@ fn units(list: &mut List) {
         if LEGAL_STEPS.contains(&name) {
             mutant.legal(STEP);
         }
+    }
+    uneven_steps(list);
+}
+
+/// Steps that the text allows one by one, but not beside each other in one attachment.
+fn uneven_steps(list: &mut List) {
+    use ChannelEncoding::Unorm;
+    type Step = (&'static str, &'static str, fn(f64, f64) -> f64);
+    let by_depth: [Step; 3] = [
+        (
+            "far-doubled",
+            "twice as large beyond depth 0.5",
+            |r, largest| {
+                if largest > 0.5 { r * 2.0 } else { r }
+            },
+        ),
+        (
+            "near-doubled",
+            "twice as large up to depth 0.5",
+            |r, largest| {
+                if largest > 0.5 { r } else { r * 2.0 }
+            },
+        ),
+        (
+            "growing",
+            "larger with the depth, up to twice",
+            |r, largest| r * (1.0 + largest.clamp(0.0, 1.0)),
+        ),
+    ];
+    for (bits, word) in [(16, "d16"), (24, "d24")] {
+        for (name, about, bug) in by_depth {
+            list.add(
+                &format!("{word}-step-{name}"),
+                "a step of floats on fixed-point depth",
+                format!("On fixed-point depth of {bits} bits, a step is {about}."),
+                bias_unit(move |encoding, largest| {
+                    let right = Faithful.bias_unit(encoding, largest);
+                    if encoding == Unorm(bits) {
+                        bug(right, largest)
+                    } else {
+                        right
+                    }
+                }),
+            );
+        }
+    }
+    type Constant = (&'static str, &'static str, fn(i32) -> f64);
+    let by_constant: [Constant; 3] = [
+        (
+            "large-constant-grows",
+            "Of a constant, what is above 8192 counts half more.",
+            |c| {
+                let above = f64::from((c.abs() - 8192).max(0));
+                f64::from(c) + above * 0.5 * f64::from(c.signum())
+            },
+        ),
+        (
+            "negative-constant-grows",
+            "Constants below 0 count half more.",
+            |c| f64::from(c) * if c < 0 { 1.5 } else { 1.0 },
+        ),
+        (
+            "constant-of-2-digits",
+            "A constant keeps two significant digits and grows by 4 percent.",
+            |c| {
+                let size = 10_f64.powi((c.unsigned_abs().max(10).ilog10() as i32 - 1).max(0));
+                (f64::from(c) / size * 1.04).round() * size
+            },
+        ),
+    ];
+    for (name, about, bug) in by_constant {
+        list.add(
+            name,
+            CONFUSION,
+            about,
+            bias(move |state, unit, slope| {
+                let zero = DepthBias {
+                    constant: 0,
+                    ..*state
+                };
+                if state.clamp != 0.0 {
+                    return Faithful.bias(state, unit, slope);
+                }
+                bug(state.constant) * unit + Faithful.bias(&zero, unit, slope)
+            }),
+        );
     }
 }

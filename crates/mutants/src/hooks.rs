@@ -80,8 +80,13 @@ hooks! {
     sample_positions(Vec<[u16; 2]>) -> Vec<[u16; 2]>;
     /// True if a fragment's alpha covers a sample, given its index and the number of samples.
     alpha_covers(f32, usize, usize) -> bool;
-    /// True if a shader runs once per sample.
-    runs_per_sample(Shader) -> bool;
+    /// True if a sample is drawn, given its index and the number of samples.
+    sample_drawn(&Multisample, usize, usize) -> bool;
+    /// The number of runs of a shader that share a texel, given the number of samples.
+    shader_runs(Shader, &Multisample, usize) -> usize;
+    /// The sample at whose position a run takes its inputs, given its first sample and the number of
+    /// samples; `None` for the centre.
+    shaded_at(&Multisample, usize, usize) -> Option<usize>;
     /// The sample whose stored value a sample's test or blend reads.
     stored_sample(Aspect, usize) -> usize;
     /// The sample at whose position a sample's depth is taken, given the number of samples.
@@ -303,10 +308,24 @@ impl Steps for &Hooks {
         }
     }
 
-    fn runs_per_sample(&self, shader: Shader) -> bool {
-        match &self.runs_per_sample {
-            None => Faithful.runs_per_sample(shader),
-            Some(bug) => bug(shader),
+    fn sample_drawn(&self, state: &Multisample, sample: usize, samples: usize) -> bool {
+        match &self.sample_drawn {
+            None => Faithful.sample_drawn(state, sample, samples),
+            Some(bug) => bug(state, sample, samples),
+        }
+    }
+
+    fn shader_runs(&self, shader: Shader, state: &Multisample, samples: usize) -> usize {
+        match &self.shader_runs {
+            None => Faithful.shader_runs(shader, state, samples),
+            Some(bug) => bug(shader, state, samples).clamp(1, samples),
+        }
+    }
+
+    fn shaded_at(&self, state: &Multisample, first: usize, samples: usize) -> Option<usize> {
+        match &self.shaded_at {
+            None => Faithful.shaded_at(state, first, samples),
+            Some(bug) => bug(state, first, samples),
         }
     }
 

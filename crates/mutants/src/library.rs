@@ -3,9 +3,10 @@
 use crate::list::List;
 use crate::mutant::Mutant;
 use crate::{
-    bias, blend, bounds, clear, counter, cull, depth, depth_range, discard, dual_source, early,
-    fetch, formats, geometry, invariance, logic, mask, read_only, readback, resolve, samples,
-    scissor, stencil, sticky, targets, texture, topology, upload, viewport,
+    bias, blend, bounds, capability, clear, counter, cull, depth, depth_range, discard,
+    dual_source, early, fetch, formats, geometry, invariance, logic, mask, read_only, readback,
+    resolve, sample_coverage, sample_shading, samples, scissor, stencil, sticky, targets, texture,
+    topology, upload, viewport,
 };
 use std::sync::LazyLock;
 
@@ -29,9 +30,12 @@ pub fn mutants() -> &'static [Mutant] {
         cull::add(&mut list);
         topology::add(&mut list);
         samples::add(&mut list);
+        sample_shading::add(&mut list);
+        sample_coverage::add(&mut list);
         resolve::add(&mut list);
         scissor::add(&mut list);
         viewport::add(&mut list);
+        capability::add(&mut list);
         clear::add(&mut list);
         geometry::add(&mut list);
         upload::add(&mut list);

@@ -1,7 +1,7 @@
 //! Bugs of several samples per texel.
 
 use super::hooks::{
-    alpha_covers, depth_sample, runs_per_sample, sample_positions, second_source, stored_sample,
+    alpha_covers, depth_sample, sample_positions, second_source, shader_runs, stored_sample,
 };
 use super::list::{CONFUSION, List, Row};
 use super::plant::{Plant, scene};
@@ -319,7 +319,7 @@ fn per_sample(list: &mut List) {
         "shaded-once",
         "per-sample shading run once",
         "A shader that asks for the sample runs once per texel.",
-        runs_per_sample(|_| false),
+        shader_runs(|_, state, n| state.least_runs(n as u32) as usize),
     );
     for (aspect, name) in [
         (Aspect::Color, "blend"),

@@ -7,7 +7,7 @@ use etalon_scene::{DepthBias, Draw};
 type Leftover = fn(&Draw, &mut Draw);
 
 /// The state that persists, the area that must catch it, and the copy from the previous draw.
-const LEFTOVERS: [(&str, &str, Leftover); 32] = [
+const LEFTOVERS: [(&str, &str, Leftover); 35] = [
     ("depth-test", "depth", |before, draw| {
         draw.depth = before.depth
     }),
@@ -122,6 +122,16 @@ const LEFTOVERS: [(&str, &str, Leftover); 32] = [
     }),
     ("alpha-to-one", "multisample", |before, draw| {
         draw.multisample.alpha_to_one = before.multisample.alpha_to_one;
+    }),
+    ("min-sample-shading", "multisample", |before, draw| {
+        draw.multisample.min_sample_shading = before.multisample.min_sample_shading;
+    }),
+    ("sample-coverage", "multisample", |before, draw| {
+        draw.multisample.sample_coverage = before.multisample.sample_coverage;
+    }),
+    ("sample-coverage-when-off", "multisample", |before, draw| {
+        let state = &mut draw.multisample;
+        state.sample_coverage = state.sample_coverage.or(before.multisample.sample_coverage);
     }),
     ("polygon-mode", "cull", |before, draw| {
         draw.polygon_mode = before.polygon_mode;

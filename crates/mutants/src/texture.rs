@@ -2,10 +2,11 @@
 
 use super::list::{CONFUSION, List, SMALL};
 use super::plant::{Plant, draws, scene};
-use etalon_scene::{AddressMode, Contents, FilterMode};
+use etalon_scene::{AddressMode, Contents, Draw, FilterMode};
 
 pub(super) fn add(list: &mut List) {
     list.class("texture", "texture");
+    drawn(list);
     for right in AddressMode::ALL {
         for wrong in AddressMode::ALL.iter().filter(|w| *w != right) {
             for (axis, word) in ["across", "down"].into_iter().enumerate() {
@@ -114,6 +115,93 @@ pub(super) fn add(list: &mut List) {
                 if let Contents::Texels(codes) = &mut scene.attachments[texture].contents {
                     codes[0] ^= 0xff;
                 }
+            }
+        }),
+    );
+}
+
+/// Changes draws that sample what an earlier pass drew, given the size of the texture.
+fn samplers_of_drawn(bug: fn(&mut Draw, [u32; 2])) -> Plant {
+    scene(move |scene| {
+        let sizes: Vec<[u32; 2]> = scene.attachments.iter().map(|a| a.size).collect();
+        let mut drawn: Vec<usize> = Vec::new();
+        for pass in &mut scene.passes {
+            for draw in &mut pass.draws {
+                let read = draw.textures.iter().find(|t| drawn.contains(t));
+                if let (Some(texture), true) = (read, draw.sampler.is_some()) {
+                    bug(draw, sizes[*texture]);
+                }
+            }
+            drawn.extend(&pass.color);
+        }
+    })
+}
+
+/// Bugs of textures that were drawn, which those of uploaded ones do not show.
+fn drawn(list: &mut List) {
+    let source = "a texture of a framebuffer treated unlike an uploaded one";
+    list.add(
+        "drawn-upside-down",
+        source,
+        "A sampler sees drawn textures upside down.",
+        samplers_of_drawn(|draw, _| {
+            for vertex in &mut draw.mesh.vertices {
+                vertex.uv[1] = 1.0 - vertex.uv[1];
+            }
+        }),
+    );
+    list.add(
+        "drawn-next-texel",
+        source,
+        "A sampler takes the texel to the right of the nearest one of drawn textures.",
+        samplers_of_drawn(|draw, [width, _]| {
+            for vertex in &mut draw.mesh.vertices {
+                vertex.uv[0] += 1.0 / width as f32;
+            }
+        }),
+    );
+    list.add(
+        "drawn-half-texel",
+        source,
+        "A sampler of drawn textures counts from the first texel's centre.",
+        samplers_of_drawn(|draw, [width, height]| {
+            for vertex in &mut draw.mesh.vertices {
+                vertex.uv[0] -= 0.5 / width as f32;
+                vertex.uv[1] -= 0.5 / height as f32;
+            }
+        }),
+    );
+    list.add(
+        "drawn-clamped",
+        source,
+        "A sampler clamps drawn textures to their edge.",
+        samplers_of_drawn(|draw, _| {
+            if let Some(sampler) = &mut draw.sampler {
+                sampler.address = [AddressMode::ClampToEdge; 2];
+            }
+        }),
+    );
+    list.add(
+        "drawn-filtered",
+        source,
+        "Drawn textures are filtered linearly.",
+        samplers_of_drawn(|draw, _| {
+            if let Some(sampler) = &mut draw.sampler {
+                sampler.filter = FilterMode::Linear;
+            }
+        }),
+    );
+    list.add(
+        "drawn-too-late",
+        source,
+        "A sampler sees what a texture held before the first pass drew to it.",
+        scene(|scene| {
+            let Some(first) = scene.passes.first().map(|p| p.color.clone()) else {
+                return;
+            };
+            let mut later = scene.passes.iter().skip(1).flat_map(|p| &p.draws);
+            if later.any(|d| d.sampler.is_some() && d.textures.iter().any(|t| first.contains(t))) {
+                scene.passes[0].draws.clear();
             }
         }),
     );

@@ -1,23 +1,31 @@
 //! Blessing: expectations are made to agree with a run.
+//!
+//! New ones are of the grade [`Grade::Unread`]: a run can say what happened, and only people can say which clause it
+//! breaks.
 
 use crate::adapter::AdapterRecord;
 use crate::driver_version::driver_version;
-use crate::expectations::{Entry, Expectation, Expectations};
+use crate::expectations::{Entry, Expectation, Expectations, Known, Source};
+use crate::findings::{Evidence, Finding};
+use crate::grade::Grade;
+use crate::record::Record;
 use crate::run::Run;
 use crate::verdict::Verdict;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The expectations after a run was blessed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Blessing {
-    /// All entries, the new ones at the end.
+    /// All entries of a list, the new ones at the end.
     pub entries: Vec<Entry>,
-    /// The number of new ones.
+    /// The new ones as findings, each with a name for its file: driver, case file and verdict.
+    pub findings: Vec<(String, Finding)>,
+    /// The number of new entries.
     pub added: usize,
-    /// Entries that were removed: all cases that they name were drawn, and all are better.
-    pub removed: Vec<Entry>,
-    /// Entries of which some cases are better: to be narrowed by hand.
-    pub to_narrow: Vec<Entry>,
+    /// Expectations that were removed: all cases that they name were drawn, and all are better.
+    pub removed: Vec<Known>,
+    /// Expectations of which some cases are better: to be narrowed by hand.
+    pub to_narrow: Vec<Known>,
     /// Records that no expectation excuses: selftests that do not fail.
     pub unblessed: u64,
 }
@@ -29,9 +37,9 @@ impl Expectations {
     /// explanations are for people to write.
     pub fn bless(&self, run: &Run, ids: &[String], all_adapters: bool, today: &str) -> Blessing {
         let mut blessing = Blessing::default();
-        let mut drawn: Vec<BTreeSet<&str>> = vec![BTreeSet::new(); self.entries().len()];
-        let mut better = vec![0_u64; self.entries().len()];
-        let mut worse = vec![0_u64; self.entries().len()];
+        let mut drawn: Vec<BTreeSet<&str>> = vec![BTreeSet::new(); self.all().len()];
+        let mut better = vec![0_u64; self.all().len()];
+        let mut worse = vec![0_u64; self.all().len()];
         let mut new = Vec::new();
         for record in &run.records {
             let Some(adapter) = run.header.adapter(&record.adapter) else {
@@ -47,41 +55,57 @@ impl Expectations {
             if !record.unexpected() {
                 continue;
             }
+            // It is expected as soon as its round trip is.
+            let follows = record.blocked_by.iter().any(|id| {
+                let mut all = run.records.iter();
+                all.any(|r| r.adapter == record.adapter && r.case == *id)
+            });
             if !record.verdict.is_bad() {
                 blessing.unblessed += 1;
-            } else if !matches!(
-                self.look_up(adapter, &record.case, record.verdict),
-                Expectation::Agrees(_)
-            ) {
-                new.push(entry(record, adapter, run, today));
+            } else if !follows
+                && !matches!(
+                    self.look_up(adapter, &record.case, record.verdict),
+                    Expectation::Agrees(_)
+                )
+            {
+                new.push((record, entry(record, adapter, run, today)));
             }
         }
-        for (number, entry) in self.entries().iter().enumerate() {
-            // What is flaky passes now and then, and what is skipped was not drawn.
-            let tried = !matches!(entry.verdict, Verdict::Flaky | Verdict::Skipped);
-            if !tried || better[number] == 0 {
+        let mut keep = |known: &Known| {
+            if let Source::Entry(entry) = &known.source {
                 blessing.entries.push(entry.clone());
+            }
+        };
+        for (number, known) in self.all().iter().enumerate() {
+            // What is flaky passes now and then, and what is skipped was not drawn.
+            let tried = !matches!(known.verdict, Verdict::Flaky | Verdict::Skipped);
+            if !tried || better[number] == 0 {
+                keep(known);
                 continue;
             }
-            let one_adapter = !entry.adapter.contains(['*', '?', '[', '{']);
+            let pattern = |glob: &String| glob.contains(['*', '?', '[', '{']);
+            let one_adapter = known.adapters.len() == 1 && !known.adapters.iter().any(pattern);
             let whole = ids
                 .iter()
                 .filter(|id| self.names(number, id))
                 .all(|id| drawn[number].contains(id.as_str()));
             if worse[number] == 0 && whole && (one_adapter || all_adapters) {
-                blessing.removed.push(entry.clone());
+                blessing.removed.push(known.clone());
             } else {
-                blessing.to_narrow.push(entry.clone());
-                blessing.entries.push(entry.clone());
+                blessing.to_narrow.push(known.clone());
+                keep(known);
             }
         }
         blessing.added = new.len();
-        blessing.entries.extend(new);
+        blessing.findings = findings(&new, today);
+        blessing
+            .entries
+            .extend(new.into_iter().map(|(_, entry)| entry));
         blessing
     }
 }
 
-fn entry(record: &crate::record::Record, adapter: &AdapterRecord, run: &Run, today: &str) -> Entry {
+fn entry(record: &Record, adapter: &AdapterRecord, run: &Run, today: &str) -> Entry {
     let seen = match record.message.as_str() {
         "" => format!(
             "{} of {} samples wrong",
@@ -100,9 +124,73 @@ fn entry(record: &crate::record::Record, adapter: &AdapterRecord, run: &Run, tod
             "The run of {}: {}: {seen}",
             run.header.started, record.verdict
         ),
+        grade: Some(Grade::Unread),
         link: None,
         expires: None,
     }
+}
+
+/// New entries as findings: one per driver, case file and verdict. Adapters share one where they show it in the
+/// same cases, so that none is excused that was not seen.
+fn findings(new: &[(&Record, Entry)], today: &str) -> Vec<(String, Finding)> {
+    let mut groups: BTreeMap<_, Vec<&(&Record, Entry)>> = BTreeMap::new();
+    for one in new {
+        let (record, entry) = one;
+        let file = record.case_file();
+        let key = (
+            &entry.driver,
+            &entry.version,
+            entry.verdict,
+            file,
+            &entry.adapter,
+        );
+        groups.entry(key).or_default().push(one);
+    }
+    let mut found: Vec<(String, Finding)> = Vec::new();
+    for ((driver, version, verdict, file, adapter), group) in groups {
+        let cases: Vec<String> = group.iter().map(|(_, e)| e.case.clone()).collect();
+        let same = found.iter_mut().find(|(_, f)| {
+            f.driver == *driver
+                && f.versions == *version
+                && f.verdict == Some(verdict)
+                && f.cases == cases
+        });
+        if let Some((_, finding)) = same {
+            finding.adapters.push(adapter.clone());
+            continue;
+        }
+        let Some((record, first)) = group.first() else {
+            continue;
+        };
+        let name = record.adapter.rsplit(':').next().unwrap_or_default();
+        found.push((
+            slug(&format!("{name} {file} {verdict}")),
+            Finding {
+                title: format!("{name}: {file}: {verdict}, not explained yet; blessed on {today}"),
+                adapters: vec![adapter.clone()],
+                driver: driver.clone(),
+                versions: version.clone(),
+                cases,
+                verdict: Some(verdict),
+                grade: Grade::Unread,
+                clause: String::new(),
+                evidence: Evidence::Text(format!("{}: {}", record.case, first.evidence)),
+                link: None,
+                expires: None,
+            },
+        ));
+    }
+    found
+}
+
+/// A text in lower case, with a `-` for every run of characters that are no letter or digit.
+fn slug(text: &str) -> String {
+    let words = text.split(|c: char| !c.is_ascii_alphanumeric());
+    let words: Vec<String> = words
+        .filter(|w| !w.is_empty())
+        .map(str::to_lowercase)
+        .collect();
+    words.join("-")
 }
 
 #[cfg(test)]
@@ -110,7 +198,6 @@ mod tests {
     use super::*;
     use crate::header::{FORMAT, Header, Settings};
     use crate::machine::Machine;
-    use crate::record::Record;
     use std::path::Path;
 
     fn run(verdicts: &[(&str, Verdict)], expectations: &Expectations) -> Run {
@@ -152,6 +239,10 @@ mod tests {
         Expectations::parse(&text, Path::new("e.json")).unwrap()
     }
 
+    fn adapter_of(run: &Run) -> &AdapterRecord {
+        &run.header.adapters[0]
+    }
+
     fn ids(all: &[&str]) -> Vec<String> {
         all.iter().map(|id| (*id).to_owned()).collect()
     }
@@ -186,9 +277,59 @@ mod tests {
         };
         let found = after.look_up(&other, "a/x=*", Verdict::Fail);
         assert_eq!(found, Expectation::None, "another version is news");
+        assert!(
+            blessing
+                .entries
+                .iter()
+                .all(|e| e.grade == Some(Grade::Unread))
+        );
+        let named = |(name, f): &(String, Finding)| (name.clone(), f.cases.clone(), f.expected());
+        assert_eq!(
+            blessing.findings.iter().map(named).collect::<Vec<_>>(),
+            [
+                (
+                    "soft-a-fail".to_owned(),
+                    vec!["a/x=[*]".to_owned()],
+                    Verdict::Fail
+                ),
+                (
+                    "soft-a-z-flaky".to_owned(),
+                    vec!["a/z".to_owned()],
+                    Verdict::Flaky
+                ),
+            ]
+        );
+        let texts = blessing
+            .findings
+            .iter()
+            .map(|(name, f)| (name.as_str(), f.to_text().unwrap()));
+        let texts: Vec<_> = texts.collect();
+        let texts: Vec<_> = texts.iter().map(|(n, t)| (*n, t.as_str())).collect();
+        let found = Expectations::of_findings(&texts).unwrap();
+        assert!(matches!(
+            found.look_up(adapter_of(&seen), "a/x=*", Verdict::Fail),
+            Expectation::Agrees(_)
+        ));
         // Blessed once, there is nothing more to bless.
         let again = run(&[("a/x=*", Verdict::Fail), ("a/z", Verdict::Flaky)], &after);
         assert_eq!(after.bless(&again, &[], true, "d").added, 0);
+    }
+
+    #[test]
+    fn what_is_blocked_follows_its_round_trip() {
+        let none = Expectations::default();
+        let mut seen = run(
+            &[("a/trip", Verdict::Fail), ("b/x", Verdict::Blocked)],
+            &none,
+        );
+        seen.records[1].blocked_by = vec!["a/trip".to_owned()];
+        let blessing = none.bless(&seen, &[], true, "d");
+        let cases: Vec<&str> = blessing.entries.iter().map(|e| e.case.as_str()).collect();
+        assert_eq!(cases, ["a/trip"]);
+        // Without it in the run, the case has to speak for itself.
+        seen.records.remove(0);
+        let blessing = none.bless(&seen, &[], true, "d");
+        assert_eq!(blessing.entries[0].verdict, Verdict::Blocked);
     }
 
     #[test]

@@ -67,6 +67,10 @@ pub(crate) fn resume_conflict(there: &Header, here: &Header) -> Option<String> {
     if let Some(conflict) = there.conflict(here) {
         return Some(conflict);
     }
+    if there.format != here.format {
+        let (before, now) = (there.format, here.format);
+        return Some(format!("its format is {before}, and {now} is written now"));
+    }
     let shard = |h: &Header| match h.settings.shard {
         Some(shard) => format!("shard {shard}"),
         None => "not sharded".to_owned(),

@@ -1,19 +1,23 @@
 //! Expectations: bad verdicts that are known and explained.
+//!
+//! They come from two kinds of files, a list of entries and a finding per bug, and are looked up in one form, [`Known`].
 
 use crate::adapter::AdapterRecord;
 use crate::driver_version::driver_version;
 use crate::error::RecordError;
+use crate::findings::{self, Finding};
+use crate::grade::Grade;
 use crate::json::without_position;
 use crate::verdict::Verdict;
 use etalon_frame::shortened;
 use globset::{GlobBuilder, GlobMatcher};
 use semver::VersionReq;
 use serde::{Deserialize, Serialize};
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// One known verdict.
+/// One known verdict, as a list of expectations has it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Entry {
@@ -27,12 +31,16 @@ pub struct Entry {
     pub version: Option<String>,
     /// A glob over case ids; `*` also matches `/`.
     pub case: String,
-    /// The expected verdict. `flaky` excuses every bad verdict, `skipped` keeps the case from being drawn.
+    /// The expected verdict, which excuses no other one. `flaky` excuses every bad verdict, `skipped` keeps the
+    /// case from being drawn.
     pub verdict: Verdict,
     /// The reason why the verdict is accepted.
     pub reason: String,
     /// The evidence: a bug report, a section of a specification.
     pub evidence: String,
+    /// The grade of the evidence, where somebody stated it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grade: Option<Grade>,
     /// The bug report's address.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub link: Option<String>,
@@ -41,135 +49,287 @@ pub struct Entry {
     pub expires: Option<String>,
 }
 
-/// The file as it is written.
+/// A list of entries as it is written.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
     entries: Vec<Entry>,
 }
 
-/// The entries of an expectations file, with compiled globs.
+/// The file form of an expectation.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// An entry of a list.
+    Entry(Entry),
+    /// A finding, the only one of its file.
+    Finding(Finding),
+}
+
+/// One expectation: verdicts of cases on adapters that are known.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Known {
+    /// Globs over adapter names.
+    pub adapters: Vec<String>,
+    /// A glob over driver and version.
+    pub driver: String,
+    /// A range of driver versions.
+    pub version: Option<String>,
+    /// Globs over case ids.
+    pub cases: Vec<String>,
+    /// The expected verdict.
+    pub verdict: Verdict,
+    /// The reason why the verdict is accepted; of a finding the title.
+    pub reason: String,
+    /// The last day on which it counts.
+    pub expires: Option<String>,
+    /// The file.
+    pub path: PathBuf,
+    /// The number in a list, from 1; `None` for a finding.
+    pub number: Option<usize>,
+    /// The file form.
+    pub source: Source,
+}
+
+impl Known {
+    fn of_entry(entry: Entry, number: usize, path: &Path) -> Self {
+        Self {
+            adapters: vec![entry.adapter.clone()],
+            driver: entry.driver.clone(),
+            version: entry.version.clone(),
+            cases: vec![entry.case.clone()],
+            verdict: entry.verdict,
+            reason: entry.reason.clone(),
+            expires: entry.expires.clone(),
+            path: path.to_owned(),
+            number: Some(number),
+            source: Source::Entry(entry),
+        }
+    }
+
+    fn of_finding(finding: Finding, path: &Path) -> Self {
+        Self {
+            adapters: finding.adapters.clone(),
+            driver: finding.driver.clone(),
+            version: finding.versions.clone(),
+            cases: finding.cases.clone(),
+            verdict: finding.expected(),
+            reason: finding.title.clone(),
+            expires: finding.expires.clone(),
+            path: path.to_owned(),
+            number: None,
+            source: Source::Finding(finding),
+        }
+    }
+
+    /// File and number, for messages.
+    pub fn place(&self) -> String {
+        let path = self.path.display();
+        match self.number {
+            None => path.to_string(),
+            Some(number) => format!("{path}: entry {number}"),
+        }
+    }
+
+    /// True if it excuses a verdict. An entry excuses its verdict alone; a finding also violations on weaker
+    /// evidence, as which its bug shows in some cases; `flaky` every bad one.
+    pub(crate) fn excuses(&self, verdict: Verdict) -> bool {
+        let finding = matches!(self.source, Source::Finding(_));
+        self.verdict == verdict
+            || self.verdict == Verdict::Flaky && verdict.is_bad()
+            || finding
+                && self.verdict.is_violation()
+                && verdict.is_violation()
+                && verdict.severity() < self.verdict.severity()
+    }
+}
+
+/// Known verdicts, with compiled globs.
 #[derive(Clone, Debug, Default)]
 pub struct Expectations {
-    entries: Vec<Entry>,
+    all: Vec<Known>,
     globs: Vec<Globs>,
-    /// The day that entries expire before, as `2027-01-31`; none do where it is not set.
+    /// The day that expectations expire before, as `2027-01-31`; none do where it is not set.
     today: Option<String>,
 }
 
 #[derive(Clone, Debug)]
 struct Globs {
-    adapter: GlobMatcher,
+    adapters: Vec<GlobMatcher>,
     driver: GlobMatcher,
     version: Option<VersionReq>,
-    case: GlobMatcher,
+    cases: Vec<GlobMatcher>,
 }
 
 impl Globs {
     fn match_adapter(&self, adapter: &AdapterRecord) -> bool {
-        self.adapter.is_match(&adapter.name)
+        self.adapters.iter().any(|g| g.is_match(&adapter.name))
             && self.driver.is_match(adapter.driver_text())
             && self.version.as_ref().is_none_or(|range| {
                 driver_version(&adapter.driver_version).is_some_and(|v| range.matches(&v))
             })
+    }
+
+    fn match_case(&self, case: &str) -> bool {
+        self.cases.iter().any(|g| g.is_match(case))
     }
 }
 
 /// The expectation about a verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expectation<'a> {
-    /// No entry names it.
+    /// None names it.
     None,
-    /// The verdict is the entry's.
-    Agrees(&'a Entry),
-    /// The verdict is better than the entry's: the entry may go.
-    Better(&'a Entry),
-    /// The verdict was the entry's until that expired.
-    Expired(&'a Entry),
+    /// The verdict is excused.
+    Agrees(&'a Known),
+    /// The verdict is better than the expected one: the expectation may go.
+    Better(&'a Known),
+    /// The verdict was excused until the expectation expired.
+    Expired(&'a Known),
 }
 
-/// The most bytes of an expectations file; the rest of a longer one does not parse.
+/// The most bytes of a file; the rest of a longer one does not parse.
 const MAX_BYTES: u64 = 64 << 20;
 const REMEDY: &str = "each entry needs adapter, driver, case, verdict, reason and evidence";
 
+/// Compiles a glob, in which `*` also matches `/`.
+pub(crate) fn compiled(glob: &str) -> Result<GlobMatcher, globset::Error> {
+    let built = GlobBuilder::new(glob).literal_separator(false).build();
+    built.map(|g| g.compile_matcher())
+}
+
 impl Expectations {
-    /// Reads an expectations file.
+    /// Reads a list of entries, a finding, or a folder of findings in the order of their names.
     ///
     /// # Errors
-    /// When the file cannot be read, does not parse, or holds a glob that does not; the error
+    /// When a file cannot be read, does not parse, or holds a glob that does not; the error
     /// names file and line.
     pub fn read(path: &Path) -> Result<Self, RecordError> {
-        let mut text = String::new();
-        File::open(path)
-            .and_then(|file| file.take(MAX_BYTES).read_to_string(&mut text))
-            .map_err(RecordError::io("read", path))?;
-        Self::parse(&text, path)
+        if !path.is_dir() {
+            return Self::parse(&text_of(path)?, path);
+        }
+        let mut files = Vec::new();
+        for entry in fs::read_dir(path).map_err(RecordError::io("read", path))? {
+            let file = entry.map_err(RecordError::io("read", path))?.path();
+            if file.extension().is_some_and(|e| e == "json") {
+                files.push(file);
+            }
+        }
+        files.sort();
+        let mut all = Self::default();
+        for file in files {
+            let finding = Finding::parse(&text_of(&file)?, &file)?;
+            all.add(Known::of_finding(finding, &file), &text_of(&file)?)?;
+        }
+        Ok(all)
     }
 
-    /// Parses the text of an expectations file; `path` serves messages only.
+    /// Parses findings: the paths, which serve messages only, and texts of their files.
+    ///
+    /// # Errors
+    /// When a text does not parse or holds a glob that does not.
+    pub fn of_findings(files: &[(&str, &str)]) -> Result<Self, RecordError> {
+        let mut all = Self::default();
+        for (path, text) in files {
+            let path = Path::new(path);
+            all.add(Known::of_finding(Finding::parse(text, path)?, path), text)?;
+        }
+        Ok(all)
+    }
+
+    /// Parses the text of a list of entries or of a finding; `path` serves messages only. A text without content
+    /// and `[]` are empty lists.
     ///
     /// # Errors
     /// When the text does not parse or holds a glob that does not.
     pub fn parse(text: &str, path: &Path) -> Result<Self, RecordError> {
-        let fail = |line, message| RecordError::Parse {
-            path: path.to_owned(),
-            line,
-            message,
-            remedy: REMEDY,
-        };
-        let file: Written =
-            serde_json::from_str(text).map_err(|e| fail(e.line(), without_position(&e)))?;
-        let mut globs = Vec::with_capacity(file.entries.len());
-        for (i, entry) in file.entries.iter().enumerate() {
-            let build = |key: &str, glob: &str| {
-                GlobBuilder::new(glob)
-                    .literal_separator(false)
-                    .build()
-                    .map(|g| g.compile_matcher())
-                    .map_err(|e| {
-                        let line = line_of(text, glob);
-                        let e = shortened(&e.to_string());
-                        fail(line, format!("entry {}: \"{key}\": {e}", i + 1))
-                    })
-            };
-            if entry.reason.trim().is_empty() || entry.evidence.trim().is_empty() {
-                let line = line_of(text, &entry.case);
-                let message = format!("entry {}: reason and evidence must say something", i + 1);
-                return Err(fail(line, message));
-            }
-            let version = match &entry.version {
-                None => None,
-                Some(text_) => Some(VersionReq::parse(text_).map_err(|e| {
-                    let e = shortened(&e.to_string());
-                    let message = format!(
-                        "entry {}: \"version\": {e}; ranges are written as \">=22.3, <25.1\"",
-                        i + 1
-                    );
-                    fail(line_of(text, text_), message)
-                })?),
-            };
-            if let Some(date) = &entry.expires
-                && !is_date(date)
-            {
-                let message = format!(
-                    "entry {}: \"expires\": {:?} is no day; days are written as \"2027-01-31\"",
-                    i + 1,
-                    shortened(date)
-                );
-                return Err(fail(line_of(text, date), message));
-            }
-            globs.push(Globs {
-                version,
-                adapter: build("adapter", &entry.adapter)?,
-                driver: build("driver", &entry.driver)?,
-                case: build("case", &entry.case)?,
-            });
+        let mut all = Self::default();
+        if text.trim().is_empty() {
+            return Ok(all);
         }
-        Ok(Self {
-            entries: file.entries,
-            globs,
-            today: None,
-        })
+        // What does not parse at all is told of as a list.
+        let value: serde_json::Value = serde_json::from_str(text).unwrap_or_default();
+        if value.get("title").is_some() && value.get("entries").is_none() {
+            all.add(Known::of_finding(Finding::parse(text, path)?, path), text)?;
+            return Ok(all);
+        }
+        let parsed = match value.is_array() {
+            true => serde_json::from_str(text),
+            false => serde_json::from_str(text).map(|written: Written| written.entries),
+        };
+        let entries: Vec<Entry> = parsed.map_err(|e| RecordError::Parse {
+            path: path.to_owned(),
+            line: e.line(),
+            message: without_position(&e),
+            remedy: REMEDY,
+        })?;
+        for (i, entry) in entries.into_iter().enumerate() {
+            if entry.reason.trim().is_empty() || entry.evidence.trim().is_empty() {
+                return Err(RecordError::Parse {
+                    path: path.to_owned(),
+                    line: line_of(text, &entry.case),
+                    message: format!("entry {}: reason and evidence must say something", i + 1),
+                    remedy: REMEDY,
+                });
+            }
+            all.add(Known::of_entry(entry, i + 1, path), text)?;
+        }
+        Ok(all)
+    }
+
+    /// Adds an expectation of a file with this text.
+    fn add(&mut self, known: Known, text: &str) -> Result<(), RecordError> {
+        let (keys, remedy) = match known.number {
+            Some(_) => (["adapter", "case", "version"], REMEDY),
+            None => (["adapters", "cases", "versions"], findings::REMEDY),
+        };
+        let of = known
+            .number
+            .map_or(String::new(), |n| format!("entry {n}: "));
+        let fail = |value: &str, message: String| RecordError::Parse {
+            path: known.path.clone(),
+            line: line_of(text, value),
+            message: format!("{of}{message}"),
+            remedy,
+        };
+        let build = |key: &str, glob: &String| {
+            compiled(glob).map_err(|e| {
+                let e = shortened(&e.to_string());
+                fail(glob, format!("\"{key}\": {e}"))
+            })
+        };
+        let version = match &known.version {
+            None => None,
+            Some(range) => Some(VersionReq::parse(range).map_err(|e| {
+                let e = shortened(&e.to_string());
+                let message = format!(
+                    "\"{}\": {e}; ranges are written as \">=22.3, <25.1\"",
+                    keys[2]
+                );
+                fail(range, message)
+            })?),
+        };
+        if let Some(date) = &known.expires
+            && !is_date(date)
+        {
+            let message = format!(
+                "\"expires\": {:?} is no day; days are written as \"2027-01-31\"",
+                shortened(date)
+            );
+            return Err(fail(date, message));
+        }
+        let each = |key: &str, globs: &[String]| {
+            let each = globs.iter().map(|glob| build(key, glob));
+            each.collect::<Result<Vec<_>, _>>()
+        };
+        let globs = Globs {
+            version,
+            adapters: each(keys[0], &known.adapters)?,
+            driver: build("driver", &known.driver)?,
+            cases: each(keys[1], &known.cases)?,
+        };
+        self.all.push(known);
+        self.globs.push(globs);
+        Ok(())
     }
 
     /// The same, as they count on a day, written as `2027-01-31`.
@@ -181,14 +341,15 @@ impl Expectations {
         }
     }
 
-    /// The entry that keeps a case from being drawn on an adapter.
-    pub fn skips(&self, adapter: &AdapterRecord, case: &str) -> Option<&Entry> {
+    /// The expectation that keeps a case from being drawn on an adapter.
+    pub fn skips(&self, adapter: &AdapterRecord, case: &str) -> Option<&Known> {
         let mut skips = self.matching(adapter, case);
-        skips.find(|entry| entry.verdict == Verdict::Skipped && !self.expired(entry))
+        skips.find(|known| known.verdict == Verdict::Skipped && !self.expired(known))
     }
 
-    fn expired(&self, entry: &Entry) -> bool {
-        match (&self.today, &entry.expires) {
+    /// True if an expectation does not count any more.
+    pub fn expired(&self, known: &Known) -> bool {
+        match (&self.today, &known.expires) {
             // Days written this way sort as they follow each other.
             (Some(today), Some(last)) => today > last,
             _ => false,
@@ -199,37 +360,44 @@ impl Expectations {
         &'e self,
         adapter: &'a AdapterRecord,
         case: &'a str,
-    ) -> impl Iterator<Item = &'e Entry> + use<'e, 'a> {
-        self.numbers(adapter, case)
-            .map(|number| &self.entries[number])
+    ) -> impl Iterator<Item = &'e Known> + use<'e, 'a> {
+        self.numbers(adapter, case).map(|number| &self.all[number])
     }
 
-    /// The numbers of the entries that name a case on an adapter.
+    /// The numbers of the expectations that name a case on an adapter.
     pub(crate) fn numbers<'e, 'a>(
         &'e self,
         adapter: &'a AdapterRecord,
         case: &'a str,
     ) -> impl Iterator<Item = usize> + use<'e, 'a> {
         let all = self.globs.iter().enumerate();
-        all.filter(move |(_, globs)| globs.case.is_match(case) && globs.match_adapter(adapter))
+        all.filter(move |(_, globs)| globs.match_case(case) && globs.match_adapter(adapter))
             .map(|(number, _)| number)
     }
 
-    /// True if an entry names a case, on any adapter.
+    /// True if an expectation names a case, on any adapter.
     pub(crate) fn names(&self, number: usize, case: &str) -> bool {
-        self.globs
-            .get(number)
-            .is_some_and(|g| g.case.is_match(case))
+        self.globs.get(number).is_some_and(|g| g.match_case(case))
     }
 
-    /// The first entry that counts and expects a bad verdict of a case on an adapter.
-    pub(crate) fn first_bad(&self, adapter: &AdapterRecord, case: &str) -> Option<&Entry> {
-        self.numbers(adapter, case)
-            .map(|number| &self.entries[number])
-            .find(|entry| entry.verdict.is_bad() && !self.expired(entry))
+    /// True if an expectation is about an adapter.
+    pub(crate) fn is_about(&self, number: usize, adapter: &AdapterRecord) -> bool {
+        let globs = self.globs.get(number);
+        globs.is_some_and(|g| g.match_adapter(adapter))
     }
 
-    /// The text of an expectations file with these entries.
+    /// True if an expectation excuses a verdict of the cases and adapters that it names.
+    pub(crate) fn excuses(&self, number: usize, verdict: Verdict) -> bool {
+        self.all.get(number).is_some_and(|k| k.excuses(verdict))
+    }
+
+    /// The first expectation that counts and names a bad verdict of a case on an adapter.
+    pub(crate) fn first_bad(&self, adapter: &AdapterRecord, case: &str) -> Option<&Known> {
+        self.matching(adapter, case)
+            .find(|known| known.verdict.is_bad() && !self.expired(known))
+    }
+
+    /// The text of a list with these entries.
     ///
     /// # Errors
     /// When an entry has no JSON form.
@@ -243,38 +411,53 @@ impl Expectations {
         Ok(text)
     }
 
-    /// The entries, in file order.
-    pub fn entries(&self) -> &[Entry] {
-        &self.entries
+    /// All, in the order of their files.
+    pub fn all(&self) -> &[Known] {
+        &self.all
     }
 
-    /// Looks up a verdict. An entry that agrees goes before one that
-    /// names another verdict; otherwise the first in the file counts.
+    /// The entries of a list.
+    pub fn entries(&self) -> Vec<&Entry> {
+        let entries = self.all.iter().filter_map(|known| match &known.source {
+            Source::Entry(entry) => Some(entry),
+            Source::Finding(_) => None,
+        });
+        entries.collect()
+    }
+
+    /// Looks up a verdict. An expectation that agrees goes before one that names another verdict;
+    /// otherwise the first counts.
     pub fn look_up(
         &self,
         adapter: &AdapterRecord,
         case: &str,
         verdict: Verdict,
     ) -> Expectation<'_> {
-        let agrees = |entry: &&Entry| {
-            entry.verdict == verdict || (entry.verdict == Verdict::Flaky && verdict.is_bad())
-        };
+        let agrees = |known: &&Known| known.excuses(verdict);
         let all = || self.matching(adapter, case);
-        if let Some(entry) = all().find(|e| agrees(e) && !self.expired(e)) {
-            return Expectation::Agrees(entry);
+        if let Some(known) = all().find(|k| agrees(k) && !self.expired(k)) {
+            return Expectation::Agrees(known);
         }
-        if let Some(entry) = all().find(agrees) {
-            return Expectation::Expired(entry);
+        if let Some(known) = all().find(agrees) {
+            return Expectation::Expired(known);
         }
         // A case that is not supported any more has not become better, and one that is flaky may pass.
         let good =
             !verdict.is_bad() && !matches!(verdict, Verdict::NotSupported | Verdict::Skipped);
-        let bad = |e: &&Entry| e.verdict.is_bad() && e.verdict != Verdict::Flaky;
+        let bad = |k: &&Known| k.verdict.is_bad() && k.verdict != Verdict::Flaky;
         match all().find(bad) {
-            Some(entry) if good => Expectation::Better(entry),
+            Some(known) if good => Expectation::Better(known),
             _ => Expectation::None,
         }
     }
+}
+
+fn text_of(path: &Path) -> Result<String, RecordError> {
+    let mut text = String::new();
+    File::open(path)
+        .and_then(|file| file.take(MAX_BYTES).read_to_string(&mut text))
+        .map_err(RecordError::io("read", path))?;
+    Ok(text)
 }
 
 /// True if a text has the form of a day: `2027-01-31`.
@@ -314,6 +497,9 @@ mod tests {
             software: true,
             limits: Limits {
                 api: Api::OpenGl,
+                version: etalon_frame::ApiVersion::UNKNOWN,
+                properties: Default::default(),
+                exempt: Default::default(),
                 sub_pixel_bits: 4,
                 max_size: 2048,
                 max_color_attachments: 8,
@@ -392,7 +578,7 @@ mod tests {
                 .clone()
                 .on(day)
                 .look_up(&adapter, "a/b", Verdict::Fail)
-                == Expectation::Agrees(&dated.entries[0])
+                == Expectation::Agrees(&dated.all()[0])
         };
         assert!(on("2027-01-31") && !on("2027-02-01"));
         let late = dated.clone().on("2028-01-01");
@@ -447,5 +633,67 @@ mod tests {
         );
         let empty = parse(&TEXT.replace("\"slow\"", "\" \""));
         assert!(empty.contains("entry 2"), "{empty}");
+    }
+
+    #[test]
+    fn an_empty_list_has_many_forms() {
+        for text in ["", " \n", "[]", "{ \"entries\": [] }"] {
+            let read = Expectations::parse(text, Path::new("e.json")).unwrap();
+            assert!(read.all().is_empty(), "{text:?}");
+        }
+        for text in ["{}", "null", "[{}]", "[", "{ \"entry\": [] }"] {
+            let error = Expectations::parse(text, Path::new("e.json")).unwrap_err();
+            assert!(error.to_string().starts_with("e.json:1: "), "{error}");
+        }
+    }
+
+    #[test]
+    fn an_entry_excuses_its_verdict_and_a_finding_also_weaker_violations() {
+        let adapter = adapter("gl:x", "Mesa", "25");
+        let finding = |verdict: &str| {
+            let text = format!(
+                r#"{{ "title": "t", "adapters": ["gl:y", "gl:x"], "driver": "*", "cases": ["b", "a/*"],
+                    "verdict": "{verdict}", "grade": "proven", "clause": "c", "evidence": "e" }}"#
+            );
+            Expectations::parse(&text, Path::new("f.json")).unwrap()
+        };
+        let agrees = |e: &Expectations, verdict| {
+            matches!(e.look_up(&adapter, "a/b", verdict), Expectation::Agrees(_))
+        };
+        use Verdict::{Blocked, Crash, Disputed, Fail, RequiredByCts};
+        let graded = [Fail, RequiredByCts, Disputed, Blocked, Crash];
+        for (i, verdict) in graded.into_iter().enumerate() {
+            let entry = one("", verdict.name());
+            let finding = finding(verdict.name());
+            for (j, other) in graded.into_iter().enumerate() {
+                assert_eq!(agrees(&entry, other), i == j, "{verdict} {other}");
+                let weaker = i <= j && j < 3;
+                assert_eq!(
+                    agrees(&finding, other),
+                    i == j || weaker,
+                    "{verdict} {other}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_folder_holds_a_finding_per_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let finding = r#"{ "title": "t", "adapters": ["*"], "driver": "*", "cases": ["a/*"],
+            "grade": "disputed", "clause": "c", "evidence": "e" }"#;
+        for name in ["b.json", "a.json"] {
+            fs::write(folder.join(name), finding).unwrap();
+        }
+        fs::write(folder.join("README.md"), "no finding").unwrap();
+        let read = Expectations::read(folder).unwrap();
+        let places: Vec<String> = read.all().iter().map(Known::place).collect();
+        let due = ["a.json", "b.json"].map(|name| folder.join(name).display().to_string());
+        assert_eq!(places, due);
+        assert_eq!(read.all()[0].verdict, Verdict::Disputed);
+        fs::write(folder.join("c.json"), finding.replace("a/*", "a/[")).unwrap();
+        let error = Expectations::read(folder).unwrap_err().to_string();
+        assert!(error.contains("c.json:1: \"cases\": "), "{error}");
     }
 }

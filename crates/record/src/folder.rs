@@ -10,6 +10,8 @@ pub(crate) const BENCH_FILE: &str = "bench.jsonl";
 pub const CASES_FILE: &str = "cases.txt";
 /// The file of a merged run that lists the records that no part has: adapter, space, case.
 pub const MISSING_FILE: &str = "missing.txt";
+/// The file of a run folder that lists the dead expectations.
+pub const DEAD_FILE: &str = "dead-expectations.json";
 /// The folder of frame files in a run folder.
 pub(crate) const FRAMES: &str = "frames";
 /// The folder of pictures in a run folder.

@@ -171,6 +171,7 @@ fn entry(id: &str, verdict: Verdict, about: &About) -> Entry {
         verdict,
         reason: about.reason.clone(),
         evidence: about.evidence.clone(),
+        grade: None,
         link: about.link.clone(),
         expires: about.expires.clone(),
     }

@@ -1,8 +1,9 @@
 //! One run of several: shards of a selection, or adapters that ran elsewhere.
 
+use crate::dead::Dead;
 use crate::error::RecordError;
 use crate::folder::MISSING_FILE;
-use crate::header::Header;
+use crate::header::{FORMAT, Header};
 use crate::paths::below;
 use crate::record::Record;
 use crate::report_files::ReportFiles;
@@ -23,6 +24,8 @@ pub struct Merge {
     /// By place of the adapter in the header and of the case in the list: the record, and its folder.
     records: HashMap<(usize, usize), (Record, PathBuf)>,
     merged: Merged,
+    /// The dead expectations that every part names.
+    dead: Vec<Dead>,
 }
 
 /// The counts of a merge.
@@ -67,11 +70,18 @@ impl Merge {
         };
         let ids = selection(&parts)?;
         let header = header(first, &parts)?;
+        let mut dead = Dead::read(first)?;
+        for (folder, _) in &parts {
+            let also = Dead::read(folder)?;
+            // What a part never matched, another may have.
+            dead.retain(|one| also.contains(one));
+        }
         let mut merge = Self {
             header,
             ids,
             records: HashMap::new(),
             merged,
+            dead,
         };
         for (folder, run) in parts {
             merge.take(folder, run)?;
@@ -148,6 +158,7 @@ impl Merge {
             }
         }
         writer.sync()?;
+        Dead::write(out, &self.dead)?;
         if !merged.missing.is_empty() {
             let lines = merged.missing.iter();
             let text: String = lines.map(|(a, c)| format!("{a} {c}\n")).collect();
@@ -196,6 +207,7 @@ fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError
         let whole = match &mut whole {
             None => {
                 let mut begun = header.clone();
+                begun.format = FORMAT;
                 begun.settings.shard = None;
                 begun.adapters.clear();
                 begun.absent.clear();

@@ -75,6 +75,9 @@ pub struct Record {
     /// alone, the case has a better one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub after: Vec<String>,
+    /// The round trips that failed, for which a Blocked case was not drawn.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub blocked_by: Vec<String>,
 }
 
 /// The way in which a process was lost.
@@ -136,6 +139,7 @@ impl Record {
             validation: Vec::new(),
             repeats: Vec::new(),
             after: Vec::new(),
+            blocked_by: Vec::new(),
         }
     }
 
@@ -182,6 +186,13 @@ impl Record {
     /// True if the verdict is better than expected.
     pub fn improvement(&self) -> bool {
         self.improves.is_some() && !self.unexpected()
+    }
+
+    /// True if the frame that came back was held against something.
+    pub fn asserts(&self) -> bool {
+        let judged = self.verdict.is_judged() && self.verdict != Verdict::Open;
+        let channels = self.assertions.iter().any(|a| a.asserted > 0);
+        judged || channels || self.counters.iter().any(CounterOutcome::is_asserted)
     }
 
     /// The case's area: the first part of its id.

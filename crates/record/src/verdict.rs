@@ -13,12 +13,18 @@ state_enum! {
         Imprecise = "imprecise",
         /// A texel lies outside what the API's text allows.
         Fail = "fail",
+        /// The text is open, but a case of the Khronos CTS's mustpass lists forbids a texel.
+        RequiredByCts = "required-by-cts",
+        /// Only a contested reading of the text forbids a texel.
+        Disputed = "disputed",
         /// Nothing could be asserted.
         Open = "open",
         /// Numbers without judgement.
         Measured = "measured",
         /// The adapter lacks something that the scene needs.
         NotSupported = "not-supported",
+        /// Not drawn: what the adapter offers failed a round trip that the case leans on.
+        Blocked = "blocked",
         /// The expectations forbid drawing the case on this adapter.
         Skipped = "skipped",
         /// The same case gave different frames.
@@ -44,6 +50,9 @@ impl Verdict {
                 false
             }
             Self::Fail
+            | Self::RequiredByCts
+            | Self::Disputed
+            | Self::Blocked
             | Self::Open
             | Self::Flaky
             | Self::Crash
@@ -54,11 +63,22 @@ impl Verdict {
         }
     }
 
+    /// True if a texel lies outside of what the rules allow, on whatever grade of evidence.
+    pub fn is_violation(self) -> bool {
+        matches!(self, Self::Fail | Self::RequiredByCts | Self::Disputed)
+    }
+
     /// True if a frame came back and was compared with its legal set.
     pub fn is_judged(self) -> bool {
         matches!(
             self,
-            Self::Pass | Self::Imprecise | Self::Fail | Self::Open | Self::Flaky
+            Self::Pass
+                | Self::Imprecise
+                | Self::Fail
+                | Self::RequiredByCts
+                | Self::Disputed
+                | Self::Open
+                | Self::Flaky
         )
     }
 
@@ -72,13 +92,16 @@ impl Verdict {
             Self::Pass => 3,
             Self::Imprecise => 4,
             Self::Open => 5,
-            Self::Flaky => 6,
-            Self::ResourceError => 7,
-            Self::InternalError => 8,
-            Self::Timeout => 9,
-            Self::Crash => 10,
-            Self::DeviceLost => 11,
-            Self::Fail => 12,
+            Self::Blocked => 6,
+            Self::Flaky => 7,
+            Self::ResourceError => 8,
+            Self::InternalError => 9,
+            Self::Timeout => 10,
+            Self::Crash => 11,
+            Self::DeviceLost => 12,
+            Self::Disputed => 13,
+            Self::RequiredByCts => 14,
+            Self::Fail => 15,
         }
     }
 }

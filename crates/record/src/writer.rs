@@ -2,7 +2,7 @@
 
 use crate::conflict::resume_conflict;
 use crate::error::RecordError;
-use crate::folder::{CASES_FILE, FRAMES, MISSING_FILE, PICTURES, RUN_FILE};
+use crate::folder::{CASES_FILE, DEAD_FILE, FRAMES, MISSING_FILE, PICTURES, RUN_FILE};
 use crate::frame_file::FrameFile;
 use crate::header::Header;
 use crate::json::json_line;
@@ -32,7 +32,7 @@ const SYNC_EVERY: Duration = Duration::from_secs(1);
 /// there, the rest is known to belong to a run.
 const OWN: ReportFiles = ReportFiles {
     folders: &[FRAMES, PICTURES],
-    files: &[MISSING_FILE, CASES_FILE, RUN_FILE],
+    files: &[MISSING_FILE, DEAD_FILE, CASES_FILE, RUN_FILE],
 };
 
 impl RunWriter {

@@ -19,17 +19,13 @@ pub(crate) fn depth_bias(
     let (Some(encoding), true) = (context.depth, state.constant != 0 || state.slope != 0.0) else {
         return Interval::exact(0.0);
     };
-    let rules = context.rules.depth_bias_unit.value;
+    let range = context.rules.depth_bias_unit.value.range(encoding);
     let unit = match encoding {
         ChannelEncoding::Unorm(bits) => {
             let least = 2_f64.powi(-i32::from(bits));
-            let (low, high) = match bits {
-                16 => rules.unorm16,
-                _ => rules.unorm,
-            };
             Interval {
-                low: least * low,
-                high: least * high,
+                low: least * range.0,
+                high: least * range.1,
             }
         }
         _ => {
@@ -40,8 +36,8 @@ pub(crate) fn depth_bias(
             let low = if low > 1.0 { inside } else { low };
             let high = z.iter().map(|z| z.high).fold(0.0, f64::max);
             Interval {
-                low: 2_f64.powi(exponent(low) - 23) * rules.float.0,
-                high: 2_f64.powi(exponent(high) - 23) * rules.float.1,
+                low: 2_f64.powi(exponent(low) - 23) * range.0,
+                high: 2_f64.powi(exponent(high) - 23) * range.1,
             }
         }
     };

@@ -2,10 +2,11 @@
 
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
+use crate::notes::{Effect, Note, Notes};
 use crate::rules::Resolve;
-use crate::walk::{Notes, Sample, Walk, codes_text};
+use crate::walk::{Sample, Walk, codes_text};
 use crate::world::{Cell, World};
-use etalon_frame::CodeInterval;
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, StoryLine};
 use etalon_pipeline::Arithmetic;
 use etalon_scene::Contents;
 use smallvec::SmallVec;
@@ -13,10 +14,11 @@ use smallvec::SmallVec;
 impl Walk<'_> {
     /// Returns the values that a texel can be resolved to after the first passes; `None` if a sample is
     /// open. An average is the hull over samples and worlds, never their product; integers resolve to one
-    /// of the samples (Vulkan, Resolving Multisample Images; OpenGL 4.6, 18.3.1).
+    /// of the samples (OpenGL 4.6, 18.3.1), in Vulkan's render passes to the first.
     pub(crate) fn resolve(
         &self,
         source: usize,
+        target: usize,
         at: Sample,
         passes: usize,
         notes: &mut Notes<'_>,
@@ -25,6 +27,7 @@ impl Walk<'_> {
         let mut single: Vec<[CodeInterval; 4]> = Vec::new();
         let encodings = attachment.format.color_channels();
         let mut sum = [Interval::exact(0.0); 4];
+        let mut codes = [Interval::exact(0.0); 4];
         let mut hull: [Option<CodeInterval>; 4] = [None; 4];
         for sample in 0..attachment.samples {
             let at = Sample {
@@ -33,7 +36,9 @@ impl Walk<'_> {
                 ..at
             };
             let worlds = self.earlier(at, passes)?;
-            single.extend(worlds.iter().map(|w| w.cells[source].channels));
+            if sample == 0 || self.rules.resolve.value != Resolve::CoarseAverage {
+                single.extend(worlds.iter().map(|w| w.cells[source].channels));
+            }
             for (c, encoding) in encodings.iter().enumerate() {
                 let all = worlds.iter().map(|w| w.cells[source].channels[c]);
                 let Some(one) = all.reduce(CodeInterval::hull) else {
@@ -42,50 +47,110 @@ impl Walk<'_> {
                 hull[c] = Some(hull[c].map_or(one, |h| h.hull(one)));
                 let value = Judging::new(self.rules).decode(*encoding, one).float;
                 sum[c] = sum[c].corners(value, |a, b| a + b);
+                codes[c].low += one.low as f64;
+                codes[c].high += one.high as f64;
             }
         }
         if attachment.format.is_integer() {
             single.sort_unstable();
             single.dedup();
-            notes.add(
-                || format!("after pass {}", passes - 1),
-                "resolve",
-                || format!("{} keeps one of its samples", attachment.name),
-                Some(self.rules.resolve.citation),
-            );
+            let all = || single.iter().map(|one| codes_list(encodings, one));
+            self.note_resolve(notes, [source, target], passes, &single, || {
+                let which = match self.rules.resolve.value {
+                    Resolve::CoarseAverage => "the first of the samples",
+                    _ => "one of the samples",
+                };
+                format!("{which}: {}", all().collect::<Vec<_>>().join(" or "))
+            });
             return Some(single);
         }
         let mut judging = Judging::new(self.rules);
         let mut result = [CodeInterval::exact(0); 4];
+        // The averages of the codes, for sRGB that is not made linear.
+        let mut of_codes = result;
+        let halvings = f64::from(attachment.samples.max(1).ilog2());
         for (c, encoding) in encodings.iter().enumerate() {
             let between = hull[c].unwrap_or(CodeInterval::exact(0));
             let count = f64::from(attachment.samples);
             // The error is relative to the samples, of which the sum may be a small difference.
             let values = [between.low, between.high].map(|o| encoding.value_of_order(o).abs());
             let error = values[0].max(values[1]) * count * self.rules.float_error.value;
-            let average = sum[c].map_increasing(|v| v / count).widen(error);
-            let average = judging.encode(*encoding, Range::same(average));
+            let exact = sum[c].map_increasing(|v| v / count).widen(error);
+            let average = judging.encode(*encoding, Range::same(exact));
+            let rounded = |codes: Interval| CodeInterval {
+                low: ((codes.low - halvings).floor() as i64).clamp(between.low, between.high),
+                high: ((codes.high + halvings).ceil() as i64).clamp(between.low, between.high),
+            };
+            of_codes[c] = rounded(codes[c].map_increasing(|v| v / count));
             result[c] = match self.rules.resolve.value {
                 _ if between.is_exact() && !encoding.is_float() => between,
                 Resolve::Between if encoding.is_float() => between.hull(average),
                 Resolve::Between => between,
+                Resolve::CoarseAverage if encoding.is_float() => {
+                    // A code is as large as that of the largest sample.
+                    let largest = between.low.abs().max(between.high.abs());
+                    let next = (largest + 1).min(encoding.max_order());
+                    let [at, past] = [largest, next].map(|o| encoding.value_of_order(o));
+                    let off = exact.widen((past - at) * halvings);
+                    judging.encode(*encoding, Range::same(off))
+                }
+                Resolve::CoarseAverage => rounded(Interval {
+                    low: average.low as f64,
+                    high: average.high as f64,
+                }),
                 Resolve::Average => average,
             };
+            if *encoding != ChannelEncoding::Srgb8 {
+                of_codes[c] = result[c];
+            }
         }
-        notes.add(
-            || format!("after pass {}", passes - 1),
-            "resolve",
-            || {
-                let text = encodings
-                    .iter()
-                    .zip(&result)
-                    .map(|(e, codes)| codes_text(*e, *codes))
-                    .collect::<Vec<_>>();
-                format!("{} gives {}", attachment.name, text.join(", "))
+        let mut all = vec![result];
+        if self.rules.resolve.value == Resolve::CoarseAverage && of_codes != result {
+            all.push(of_codes);
+        }
+        single.dedup();
+        self.note_resolve(notes, [source, target], passes, &all, || {
+            let samples: Vec<String> = single.iter().map(|s| codes_list(encodings, s)).collect();
+            let samples = samples.join("; ");
+            let results: Vec<String> = all.iter().map(|r| codes_list(encodings, r)).collect();
+            format!("of samples ({samples}) gives {}", results.join(" or "))
+        });
+        Some(all)
+    }
+
+    fn note_resolve(
+        &self,
+        notes: &mut Notes<'_>,
+        [source, target]: [usize; 2],
+        passes: usize,
+        outcomes: &[[CodeInterval; 4]],
+        detail: impl FnOnce() -> String,
+    ) {
+        notes.push(|| Note {
+            line: StoryLine {
+                at: format!("after pass {}", passes - 1),
+                operation: "resolve".to_owned(),
+                detail: {
+                    let [source, target] =
+                        [source, target].map(|i| &self.scene.attachments[i].name);
+                    format!("{source} into {target}, {}", detail())
+                },
+                citation: Some(self.rules.resolve.citation.to_owned()),
             },
-            Some(self.rules.resolve.citation),
-        );
-        Some(vec![result])
+            origin: None,
+            effect: Effect::Stores {
+                attachment: target,
+                aspect: Aspect::Color,
+                contents: Cell {
+                    channels: outcomes
+                        .first()
+                        .copied()
+                        .unwrap_or([CodeInterval::exact(0); 4]),
+                    stencil: 0,
+                    origin: None,
+                },
+            },
+        });
     }
 
     /// Returns the contents of a texel of an attachment before the first pass.
@@ -154,4 +219,11 @@ impl Walk<'_> {
             events: SmallVec::new(),
         }
     }
+}
+
+fn codes_list(encodings: &[ChannelEncoding], codes: &[CodeInterval; 4]) -> String {
+    let each = encodings.iter().zip(codes);
+    each.map(|(e, c)| codes_text(*e, *c))
+        .collect::<Vec<_>>()
+        .join(", ")
 }

@@ -15,8 +15,9 @@ struct Count {
     certain: u64,
     /// Of this texel: possible events, summed over samples; `None` where a sample is open.
     possible: Option<u64>,
-    /// Fragments of this texel of which a sample counts for certain, and of which one may.
-    must: Vec<(u32, u32)>,
+    /// Fragments of this texel of which a sample counts for certain, with the number of these samples,
+    /// and fragments of which one may.
+    must: Vec<((u32, u32), u32)>,
     may: Vec<(u32, u32)>,
 }
 
@@ -25,6 +26,8 @@ pub(crate) struct Tally<'a> {
     scene: &'a Scene,
     rules: &'a Rules,
     counts: Vec<Count>,
+    /// Per draw of the scene, the least number of runs that share a wholly covered texel.
+    least_runs: Vec<u32>,
 }
 
 impl<'a> Tally<'a> {
@@ -41,6 +44,15 @@ impl<'a> Tally<'a> {
             scene,
             rules,
             counts: vec![count; scene.counters.len()],
+            least_runs: scene
+                .passes
+                .iter()
+                .flat_map(|pass| {
+                    let samples = scene.pass_samples(pass);
+                    let draws = pass.draws.iter();
+                    draws.map(move |draw| draw.multisample.least_runs(samples))
+                })
+                .collect(),
         }
     }
 
@@ -60,6 +72,7 @@ impl<'a> Tally<'a> {
             count.certain += each.iter().map(certain).min().unwrap_or(0);
             let most = each.iter().map(|events| events.len() as u64).max();
             count.possible = count.possible.map(|p| p + most.unwrap_or(0));
+            let mut here: Vec<(u32, u32)> = Vec::new();
             for event in each.iter().flatten() {
                 if !count.may.contains(&event.fragment) {
                     count.may.push(event.fragment);
@@ -68,8 +81,14 @@ impl<'a> Tally<'a> {
                     let same = |e: &Event| e.certain && e.fragment == event.fragment;
                     events.iter().any(same)
                 };
-                if !count.must.contains(&event.fragment) && each.iter().all(sure) {
-                    count.must.push(event.fragment);
+                if !here.contains(&event.fragment) && each.iter().all(sure) {
+                    here.push(event.fragment);
+                }
+            }
+            for fragment in here {
+                match count.must.iter_mut().find(|(f, _)| *f == fragment) {
+                    Some((_, samples)) => *samples += 1,
+                    None => count.must.push((fragment, 1)),
                 }
             }
         }
@@ -87,10 +106,22 @@ impl<'a> Tally<'a> {
                     };
                     (count.certain, high)
                 }
-                // A shader may run more often than its fragments ask for, but not without one.
+                // Never without a fragment; how often for one, the rules say: at most once for each covered
+                // sample, or as often as the implementation likes.
                 CounterKind::ShaderRuns => {
                     let none = count.possible == Some(0);
-                    (count.must.len() as u64, none.then_some(0))
+                    let high = if self.rules.runs_once.value {
+                        count.possible
+                    } else {
+                        none.then_some(0)
+                    };
+                    // Each run has a sample of its own; a sample that is not covered may have been
+                    // that of one of them.
+                    let runs = |((draw, _), covered): &((u32, u32), u32)| {
+                        let least = self.least_runs[*draw as usize - 1];
+                        u64::from((least + covered).saturating_sub(samples).max(1))
+                    };
+                    (count.must.iter().map(runs).sum(), high)
                 }
                 // Statistics compare a driver with itself (Vulkan, Pipeline Statistics
                 // Queries).

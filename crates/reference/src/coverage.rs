@@ -1,8 +1,10 @@
 //! Coverage of a sample by primitives, world by world.
 
+use crate::clause::Rejection;
+use crate::notes::{Effect, Notes};
 use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, inside_of, is_outside};
 use crate::rules::SharedEdge;
-use crate::walk::{Notes, Place, Walk, Worlds};
+use crate::walk::{Place, Walk, Worlds};
 use crate::world::{Decision, World};
 use etalon_pipeline::{Point, front_facing, is_top_left};
 use etalon_scene::Draw;
@@ -49,10 +51,14 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) -> Worlds {
         let mut result = SmallVec::new();
-        let several = worlds.len() > 1;
+        let count = worlds.len();
+        let several = count > 1;
         for (w, world) in worlds.into_iter().enumerate() {
             let mut place = place;
-            place.world = if several { w + 1 } else { 0 };
+            if several {
+                place.world = (w + 1, count);
+                self.note_world(notes, place, &world);
+            }
             match &place.primitive.shape {
                 Shape::Triangle(triangle) => {
                     self.triangle(place, triangle, world, &mut result, notes);
@@ -98,6 +104,15 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) {
         let (least, most) = place.primitive.times(place.point, self.units);
+        if most == 0 || least < most {
+            self.note_rejection(notes, place, Rejection::Coverage, most == 0, &|| match (
+                least, most,
+            ) {
+                (_, 0) => "it does not cover the sample".to_owned(),
+                (0, 1) => "it may or may not cover the sample: two worlds".to_owned(),
+                _ => format!("it may cover the sample {least} to {most} times: a world for each"),
+            });
+        }
         let mut worlds: Worlds = SmallVec::new();
         worlds.push(world);
         for time in 0..=most {
@@ -131,6 +146,18 @@ impl Walk<'_> {
         }
         // A triangle that legal snapping can flatten may also cover nothing.
         if least <= 0 && most >= 0 {
+            let certain = least == 0 && most == 0;
+            self.note_rejection(
+                notes,
+                place,
+                Rejection::Coverage,
+                certain,
+                &|| match certain {
+                    true => "it has no area".to_owned(),
+                    false => "snapping may leave it without area: it covers nothing in one world"
+                        .to_owned(),
+                },
+            );
             result.push(world);
         }
     }
@@ -153,6 +180,20 @@ impl Walk<'_> {
             .into_iter()
             .any(|side| is_outside(side, positive_area))
         {
+            let (least, most) = primitive.area;
+            let certain = least > 0 || most < 0;
+            self.note_rejection(
+                notes,
+                place,
+                Rejection::Coverage,
+                certain,
+                &|| match certain {
+                    true => "it does not cover the sample".to_owned(),
+                    false => {
+                        "facing one of its possible ways, it does not cover the sample".to_owned()
+                    }
+                },
+            );
             result.append(&mut pending);
             return;
         }
@@ -164,13 +205,16 @@ impl Walk<'_> {
                 let (p, q) = primitive.edge(i);
                 let (p, q) = if positive_area { (q, p) } else { (p, q) };
                 if !is_top_left(p, q) {
+                    self.note_rejection(notes, place, Rejection::Coverage, true, &|| {
+                        format!("the sample lies on edge {i}, neither a top nor a left one")
+                    });
                     result.append(&mut pending);
                     return;
                 }
                 continue;
             }
             let (a, b) = (primitive.ids[i], primitive.ids[(i + 1) % 3]);
-            let decision = Decision {
+            let decision = Decision::Edge {
                 draw: place.draw_id,
                 ends: (a.min(b), a.max(b)),
                 owner: (self.rules.shared_edge.value == SharedEdge::Independent)
@@ -179,29 +223,95 @@ impl Walk<'_> {
             // The side is named by the edge's canonical direction.
             let wanted = (inside == Side::Positive) == (a < b);
             let mut inside_worlds = SmallVec::new();
+            let edge = Edge { number: i, side };
             for world in pending {
                 match world.decided(decision) {
-                    Some(outcome) if outcome == wanted => inside_worlds.push(world),
-                    Some(_) => result.push(world),
+                    Some(outcome) if outcome == wanted => {
+                        self.note_edge(notes, place, edge, Some(true));
+                        inside_worlds.push(world);
+                    }
+                    Some(_) => {
+                        self.note_edge(notes, place, edge, Some(false));
+                        result.push(world);
+                    }
                     None => {
+                        self.note_edge(notes, place, edge, None);
                         result.push(world.with(decision, !wanted));
                         inside_worlds.push(world.with(decision, wanted));
                     }
                 }
             }
             pending = inside_worlds;
-            notes.add(
-                || place.name(),
-                "coverage",
-                || format!("edge {i} is too near to tell: covered and not covered both stand"),
-                Some(match side {
-                    Side::On => self.rules.shared_edge.citation,
-                    _ => self.rules.snap.citation,
-                }),
-            );
         }
         for world in pending {
             self.fragment(place, world, positive_area, result, notes);
         }
     }
+
+    /// Notes the state of a world in which a primitive is drawn, where there are several.
+    fn note_world(&self, notes: &mut Notes<'_>, place: Place<'_>, world: &World) {
+        let pass = &self.scene.passes[place.pass];
+        let targets = pass.color.iter().chain(&pass.depth_stencil);
+        notes.add(
+            || place.name(),
+            "world",
+            || {
+                let holds = |i: &usize| {
+                    let name = &self.scene.attachments[*i].name;
+                    format!("{name} holds {}", self.cell_text(*i, &world.cells[*i]))
+                };
+                let all: Vec<String> = targets.map(holds).collect();
+                all.join("; ")
+            },
+            None,
+        );
+    }
+
+    /// Notes the outcome at an edge that may or may not leave the sample inside: decided by an earlier
+    /// primitive of the same edge, or open.
+    fn note_edge(
+        &self,
+        notes: &mut Notes<'_>,
+        place: Place<'_>,
+        edge: Edge,
+        decided: Option<bool>,
+    ) {
+        let effect = match decided {
+            Some(true) => Effect::Plain,
+            Some(false) => Effect::Rejects(Rejection::Coverage),
+            None => Effect::MayReject(Rejection::Coverage),
+        };
+        let detail = || {
+            let number = edge.number;
+            match (decided, edge.side) {
+                (Some(true), _) => format!(
+                    "edge {number} is shared, and its other primitive did not cover the sample in this \
+                     world: this one does"
+                ),
+                (Some(false), _) => format!(
+                    "edge {number} is shared, and its other primitive covered the sample in this world: \
+                     this one does not"
+                ),
+                (None, Side::On) => format!(
+                    "the sample lies on edge {number}: two worlds, covered (told on) and not covered"
+                ),
+                (None, _) => format!(
+                    "the sample is within the snapping distance of edge {number}: two worlds, covered \
+                     (told on) and not covered"
+                ),
+            }
+        };
+        let citation = || match edge.side {
+            Side::On => self.rules.shared_edge.citation.to_owned(),
+            _ => self.rules.snap.citation.to_owned(),
+        };
+        self.note_effect(notes, place, effect, "coverage", [&detail, &citation]);
+    }
+}
+
+/// An edge of a triangle and the side of it on which the sample lies.
+#[derive(Clone, Copy)]
+struct Edge {
+    number: usize,
+    side: Side,
 }

@@ -12,7 +12,7 @@ pub(crate) struct Depth {
     planes: Vec<DepthPlane>,
     /// The largest distance of a depth from its plane.
     pub(crate) error: f64,
-    /// The range of the vertices' depths.
+    /// The range of the vertices' depths, with the error of interpolating between them.
     pub(crate) hull: Interval,
 }
 
@@ -26,9 +26,22 @@ impl Depth {
         }
     }
 
+    /// Adds the error of interpolating: a weighted sum, which need not be what all vertices have.
+    pub(crate) fn interpolated(mut self, float_error: f64) -> Self {
+        let largest = self.hull.low.abs().max(self.hull.high.abs());
+        self.error += largest * float_error;
+        self.hull = self.hull.widen(largest * float_error);
+        self
+    }
+
     /// Over a line: its own rectangle and the texels at its ends reach beyond the vertices.
-    pub(crate) fn along(ends: [SnapBox; 2], z: [Interval; 2], units: i64) -> Self {
-        let mut depth = Self::flat(&z);
+    pub(crate) fn along(
+        ends: [SnapBox; 2],
+        z: [Interval; 2],
+        units: i64,
+        float_error: f64,
+    ) -> Self {
+        let mut depth = Self::flat(&z).interpolated(float_error);
         if z[0] == z[1] {
             return depth;
         }
@@ -48,7 +61,7 @@ impl Depth {
         grid: i64,
         float_error: f64,
     ) -> Self {
-        let mut depth = Self::flat(&z);
+        let mut depth = Self::flat(&z).interpolated(float_error);
         if z[0] == z[1] && z[1] == z[2] {
             return depth;
         }
@@ -60,9 +73,14 @@ impl Depth {
         depth.planes = planes(vertices, middle).collect();
         // Positions may be interpolated before or after snapping: one step of the grid.
         let own = z.iter().map(|z| z.high - z.low).fold(0.0, f64::max);
-        let largest = z.iter().map(|z| z.high.abs()).fold(0.0, f64::max);
-        depth.error = depth.steepest() * grid as f64 + own + largest * float_error;
+        depth.error += depth.steepest() * grid as f64 + own;
         depth
+    }
+
+    /// Returns this depth held to those of the vertices.
+    pub(crate) fn between(mut self, z: &[Interval]) -> Self {
+        self.hull = Self::flat(z).hull;
+        self
     }
 
     /// Returns the largest growth of the depth over one unit right and one down.

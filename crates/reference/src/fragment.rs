@@ -1,12 +1,14 @@
 //! One fragment in one world: culling, shading, tests, blending, stores.
 
+use crate::clause::Rejection;
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
+use crate::notes::{Effect, Notes};
 use crate::primitive::Shape;
-use crate::rules::{DepthOrder, DepthRange, EarlyUpdates, SameDepth};
-use crate::walk::{Notes, Place, Walk};
+use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, SameDepth};
+use crate::walk::{Place, Walk};
 use crate::world::{Cell, Event, World};
-use etalon_frame::{ChannelEncoding, CodeInterval, CounterKind};
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
 use etalon_pipeline::{
     Arithmetic, compare, front_facing, is_culled, stencil_passes, stencil_write,
@@ -31,68 +33,92 @@ impl Walk<'_> {
             Shape::Triangle(_) | Shape::Outline(_)
         );
         if polygon && is_culled(draw.cull, front) {
-            notes.add(
-                || place.name(),
-                "cull",
-                || {
-                    let face = if front { "front" } else { "back" };
-                    format!("a {face} face, culled by {}", draw.cull.name())
-                },
-                Some(self.rules.facing),
-            );
+            self.note_rejection(notes, place, Rejection::Culling, true, &|| {
+                let face = if front { "front" } else { "back" };
+                format!("a {face} face, and the cull mode is {}", draw.cull.name())
+            });
             result.push(world);
             return;
         }
         let outline = matches!(place.primitive.shape, Shape::Outline(_));
-        if outline && !self.rules.outlines_face_as_polygons.value {
-            self.shade(place, world.clone(), !front, result, notes);
+        for (world, drawn) in self.by_sample_coverage(place, world, notes) {
+            if outline && !self.rules.outlines_face_as_polygons.value {
+                self.shade(place, world.clone(), !front, drawn, result, notes);
+            }
+            self.shade(place, world, front, drawn, result, notes);
         }
-        self.shade(place, world, front, result, notes);
     }
 
-    /// The fragment of a primitive that is not culled, facing front or back.
+    /// The fragment of a primitive that is not culled, facing front or back; `drawn` is false if sample
+    /// coverage removes the sample.
     fn shade(
         &self,
         place: Place<'_>,
         world: World,
         front: bool,
+        drawn: bool,
         result: &mut SmallVec<[World; 2]>,
         notes: &mut Notes<'_>,
     ) {
         let draw = place.draw;
         let output = self.shader(place, &world, front, notes);
         let own_depth = place.primitive.depth_at(place.point);
-        let covered = self.covered_after_shading(place, &output, notes);
+        let covered = match drawn {
+            true => self.covered_after_shading(place, &output, notes),
+            false => Covered {
+                kept: (true, true),
+                coverage: (false, false),
+            },
+        };
         let mut world = world;
         // A masked sample asks for no run of the shader.
-        let masked = draw.multisample.mask & (1 << place.at.sample) == 0;
+        let masked = !drawn || draw.multisample.mask & (1 << place.at.sample) == 0;
         if draw.early_tests == EarlyTests::Forced {
             let incoming = self.in_range(place, own_depth, Source::Own);
             if masked {
-                // The sample mask comes before all tests; its order against counting alone is open.
-                let outcomes = self.tests(place, world.clone(), front, incoming, notes);
+                // The order of the sample mask against counting is open; against the tests, the rules
+                // tell.
+                let mut silent = Notes(None);
+                let told = match self.rules.mask_acts_first.value {
+                    true => &mut silent,
+                    false => &mut *notes,
+                };
+                let outcomes = self.tests(place, world.clone(), front, incoming, told);
                 if outcomes.iter().any(|(_, passes)| *passes) {
                     self.count(place, &mut world, false, |_| true);
+                }
+                if !self.rules.mask_acts_first.value {
+                    for (mut outcome, passes) in outcomes {
+                        if passes {
+                            outcome.events.clone_from(&world.events);
+                            self.write_depth(place, &mut outcome, incoming, notes);
+                        }
+                        result.push(outcome);
+                    }
                 }
                 result.push(world);
                 return;
             }
-            for (outcome, passes) in self.tests(place, world.clone(), front, incoming, notes) {
+            for (mut outcome, passes) in self.tests(place, world.clone(), front, incoming, notes) {
                 if passes {
                     let worlds = [&world, &outcome];
                     self.early_fragment(place, worlds, &output, incoming, covered, result, notes);
                 } else {
+                    if !self.rules.skips_rejected.value {
+                        self.run(place, &mut outcome, false);
+                    }
                     result.push(outcome);
                 }
             }
             return;
         }
-        self.count(place, &mut world, !masked, |kind| {
-            kind == CounterKind::ShaderRuns
-        });
-        let (can, must) = covered;
+        // A fragment that contributes nothing asks for a run only where the rules say so.
+        let asks = !masked && self.rules.runs_for_discarded.value;
+        let (can, must) = (covered.can(), covered.must());
         if !must {
-            result.push(world.clone());
+            let mut lost = world.clone();
+            self.run(place, &mut lost, asks);
+            result.push(lost);
             if !can {
                 return;
             }
@@ -103,6 +129,8 @@ impl Walk<'_> {
         };
         let incoming = self.in_range(place, output.depth.unwrap_or(own_depth), source);
         for (mut outcome, passes) in self.tests(place, world, front, incoming, notes) {
+            let contributes = passes && self.contributes(place);
+            self.run(place, &mut outcome, asks || (!masked && contributes));
             if passes {
                 self.count(place, &mut outcome, true, CounterKind::is_occlusion);
                 self.write_depth(place, &mut outcome, incoming, notes);
@@ -122,9 +150,10 @@ impl Walk<'_> {
     ) -> FragmentOutput<Range> {
         let draw = place.draw;
         let mut judging = Judging::new(self.rules);
-        let mut depth = place
-            .primitive
-            .depth_seen(place.point, self.units, place.at.samples);
+        let mut depth =
+            place
+                .primitive
+                .depth_seen(place.point, self.units, self.samples_shaded(place));
         if draw.depth_clamp {
             // Whether the shader sees the depth before or after it is clamped is not told.
             let [near, far] = draw.viewport.depth.map(f64::from);
@@ -136,6 +165,7 @@ impl Walk<'_> {
             front,
             depth,
             sample: place.at.sample,
+            position: self.frag_coord(place),
             texels: [self.texel(place, world, 0), self.texel(place, world, 1)],
             uv: self.uv(place),
             params: &draw.params,
@@ -147,11 +177,41 @@ impl Walk<'_> {
             || {
                 let color = output.color.map(|c| c.hull().to_string()).join(", ");
                 let face = if front { "front" } else { "back" };
-                format!("{face} face, {} gives ({color})", draw.shader.name())
+                let read = (0..draw.textures.len()).map(|t| {
+                    let name = &self.scene.attachments[draw.textures[t]].name;
+                    let texel = input.texels[t].map(|c| c.hull().to_string()).join(", ");
+                    format!(" from texel ({texel}) of {name}")
+                });
+                let read: String = read.collect();
+                format!("{face} face, {} gives ({color}){read}", draw.shader.name())
             },
             None,
         );
         output
+    }
+
+    /// True if a fragment that passes its tests changes an attachment.
+    fn contributes(&self, place: Place<'_>) -> bool {
+        let pass = &self.scene.passes[place.pass];
+        let depth = pass.depth_stencil.is_some() && place.draw.depth.is_some_and(|d| d.write);
+        let mut targets = pass.color.iter().zip(&place.draw.targets);
+        depth || targets.any(|(_, target)| target.write_mask != 0)
+    }
+
+    /// Adds a run of the shader for a fragment; `certain` if the rules demand it. Where a later fragment
+    /// may take away the need of earlier ones, theirs are certain no longer.
+    fn run(&self, place: Place<'_>, world: &mut World, certain: bool) {
+        if certain && !self.rules.runs_for_overwritten.value && self.contributes(place) {
+            for event in &mut world.events {
+                let kind = self.scene.counters[usize::from(event.counter)].kind;
+                if kind == CounterKind::ShaderRuns {
+                    event.certain = false;
+                }
+            }
+        }
+        self.count(place, world, certain, |kind| {
+            kind == CounterKind::ShaderRuns
+        });
     }
 
     /// Returns whether the shader, the sample mask and alpha to coverage can keep the sample, and whether
@@ -161,8 +221,7 @@ impl Walk<'_> {
         place: Place<'_>,
         output: &FragmentOutput<Range>,
         notes: &mut Notes<'_>,
-    ) -> (bool, bool) {
-        let word = |can: bool| if can { "may or may not" } else { "does not" };
+    ) -> Covered {
         let (kept_can, kept_must) = match output.kept {
             None => (true, true),
             Some(kept) => {
@@ -176,30 +235,41 @@ impl Walk<'_> {
                 }
             }
         };
-        if !kept_must {
-            notes.add(
-                || place.name(),
-                "discard",
-                || format!("the fragment {} survive the shader", word(kept_can)),
-                None,
-            );
+        if let (Some(kept), false) = (output.kept, kept_must) {
+            self.note_rejection(notes, place, Rejection::Discard, !kept_can, &|| {
+                let (value, limit) = (kept.value.hull(), kept.limit.hull());
+                let relation = if kept.strict { "above" } else { "at least" };
+                match kept_can {
+                    true => format!("{value} may or may not be {relation} {limit}: two worlds"),
+                    false => format!("{value} is not {relation} {limit}"),
+                }
+            });
         }
-        let (can, must) = self.sample_passes(place, output.color[3]);
-        if !must {
-            notes.add(
-                || place.name(),
-                "coverage",
-                || {
-                    let sample = place.at.sample;
-                    format!(
-                        "sample {sample} {} pass mask and alpha to coverage",
-                        word(can)
-                    )
-                },
-                Some(self.rules.alpha_to_coverage),
-            );
+        let state = place.draw.multisample;
+        let (sample, alpha) = (place.at.sample, output.color[3]);
+        let (can, must) = self.sample_passes(place, alpha);
+        if state.mask & (1 << sample) == 0 {
+            // Whether forced early tests come before the mask is for the rules to say.
+            let forced = place.draw.early_tests == EarlyTests::Forced;
+            let certain = !forced || self.rules.mask_acts_first.value;
+            self.note_rejection(notes, place, Rejection::SampleMask, certain, &|| {
+                format!("the sample mask {:#x} leaves it out", state.mask)
+            });
+        } else if !must {
+            self.note_rejection(notes, place, Rejection::AlphaToCoverage, !can, &|| {
+                let alpha = alpha.hull();
+                match can {
+                    true => {
+                        format!("alpha {alpha} may or may not keep the sample: two worlds")
+                    }
+                    false => format!("alpha {alpha} keeps no sample"),
+                }
+            });
         }
-        (kept_can && can, kept_must && must)
+        Covered {
+            kept: (kept_can, kept_must),
+            coverage: (can, must),
+        }
     }
 
     /// A fragment that passed forced early tests: one that the shader then discards may still have
@@ -214,22 +284,22 @@ impl Walk<'_> {
         [before, tested]: [&World; 2],
         output: &FragmentOutput<Range>,
         incoming: Incoming,
-        (can, must): (bool, bool),
+        covered: Covered,
         result: &mut SmallVec<[World; 2]>,
         notes: &mut Notes<'_>,
     ) {
         let mut passed = tested.clone();
-        self.count(place, &mut passed, true, |kind| {
-            kind == CounterKind::ShaderRuns
-        });
-        if can {
-            let mut kept = passed.clone();
+        self.run(place, &mut passed, self.rules.runs_for_discarded.value);
+        if covered.can() {
+            let mut kept = tested.clone();
+            let asks = self.rules.runs_for_discarded.value || self.contributes(place);
+            self.run(place, &mut kept, asks);
             self.count(place, &mut kept, true, CounterKind::is_occlusion);
             self.write_depth(place, &mut kept, incoming, notes);
             self.write_colors(place, &mut kept, output, notes);
             result.push(kept);
         }
-        if must {
+        if covered.must() {
             return;
         }
         notes.add(
@@ -243,7 +313,11 @@ impl Walk<'_> {
         let mut updated = passed.clone();
         self.write_depth(place, &mut updated, incoming, notes);
         result.push(updated);
-        if self.rules.early_updates.value == EarlyUpdates::Either {
+        let may_not_happen =
+            |lost: bool, updates: EarlyUpdates| lost && updates == EarlyUpdates::Either;
+        if may_not_happen(!covered.kept.1, self.rules.early_updates.value)
+            || may_not_happen(!covered.coverage.1, self.rules.early_coverage.value)
+        {
             // As if the fragment had never been tested, but for what it counted.
             let mut untouched = before.clone();
             untouched.events = passed.events;
@@ -284,7 +358,6 @@ impl Walk<'_> {
         let draw = place.draw;
         let pass = &self.scene.passes[place.pass];
         let depth_stencil = pass.depth_stencil;
-        let mut world = world;
         // Without a depth attachment the test passes.
         let bounded = depth_stencil.filter(|i| self.scene.attachments[*i].format.has_depth());
         if let (Some(bounds), Some(index)) = (draw.depth_bounds, bounded) {
@@ -302,7 +375,10 @@ impl Walk<'_> {
             .map(|s| if front { s.front } else { s.back });
         if let (Some(face), Some(index)) = (face, depth_stencil) {
             let stored = world.cells[index].stencil;
-            if !stencil_passes(&face, stored) {
+            let masked = stencil_passes(&face, stored);
+            let unmasked = compare(face.compare, face.reference, stored & face.read_mask);
+            let either = !self.rules.masks_reference.value && masked != unmasked;
+            if !masked || either {
                 let new = stencil_write(&face, face.fail_op, stored);
                 self.note_stencil(
                     place,
@@ -313,9 +389,12 @@ impl Walk<'_> {
                     new,
                     notes,
                 );
-                world.cells[index].stencil = new;
-                result.push((world, false));
-                return result;
+                let mut failed = world.clone();
+                failed.cells[index].stencil = new;
+                result.push((failed, false));
+                if !either {
+                    return result;
+                }
             }
         }
         let outcomes = match (draw.depth, depth_stencil) {
@@ -395,7 +474,10 @@ impl Walk<'_> {
         }
         let alpha = alpha.hull();
         let several = place.at.samples > 1;
-        (alpha.high > 0.0 || !several, alpha.low >= 1.0)
+        match self.rules.alpha_to_coverage.value {
+            AlphaToCoverage::Ends => (alpha.high > 0.0 || !several, alpha.low >= 1.0),
+            AlphaToCoverage::Any => (true, false),
+        }
     }
 
     /// Returns whether the stored depth can lie within the bounds, and whether it must (Vulkan, Depth
@@ -422,19 +504,18 @@ impl Walk<'_> {
         let (low, high) = (bound(low), bound(high));
         let can = stored.high >= low.low && stored.low <= high.high;
         let must = stored.low >= low.high && stored.high <= high.low;
-        notes.add(
-            || place.name(),
-            "depth bounds",
-            || {
-                let word = match (can, must) {
-                    (_, true) => "inside",
-                    (true, false) => "perhaps inside",
-                    (false, _) => "outside",
-                };
-                format!("stored {stored} is {word} {low} to {high}")
-            },
-            Some(self.rules.depth_order.citation),
-        );
+        let detail = || {
+            let word = match (can, must) {
+                (_, true) => "inside",
+                (true, false) => "perhaps inside",
+                (false, _) => "outside",
+            };
+            format!("stored {stored} is {word} {low} to {high}")
+        };
+        match must {
+            true => notes.add(|| place.name(), "depth bounds", detail, None),
+            false => self.note_rejection(notes, place, Rejection::DepthBounds, !can, &detail),
+        }
         (can, must)
     }
 
@@ -452,21 +533,49 @@ impl Walk<'_> {
         new: u8,
         notes: &mut Notes<'_>,
     ) {
-        notes.add(
-            || place.name(),
-            "stencil",
-            || {
-                format!(
-                    "reference {} {} stored {stored} under read mask {:#04x} {outcome}; {operation} \
-                     under write mask {:#04x} leaves {new}",
-                    face.reference,
-                    face.compare.name(),
-                    face.read_mask,
-                    face.write_mask
-                )
-            },
-            Some(self.rules.stencil),
-        );
+        let detail = || {
+            format!(
+                "reference {} {} stored {stored} under read mask {:#04x} {outcome}",
+                face.reference,
+                face.compare.name(),
+                face.read_mask
+            )
+        };
+        if outcome == "fails" {
+            self.note_rejection(notes, place, Rejection::Stencil, true, &detail);
+        } else {
+            notes.add(
+                || place.name(),
+                "stencil test",
+                detail,
+                Some(self.rules.stencil),
+            );
+        }
+        let Some(attachment) = self.scene.passes[place.pass].depth_stencil else {
+            return;
+        };
+        let aspect = Aspect::Stencil;
+        let (effect, word) = if new == stored {
+            (Effect::Keeps { attachment, aspect }, "keep stencil")
+        } else {
+            let contents = Cell {
+                channels: [CodeInterval::exact(0); 4],
+                stencil: new,
+                origin: None,
+            };
+            let effect = Effect::Stores {
+                attachment,
+                aspect,
+                contents,
+            };
+            (effect, "store stencil")
+        };
+        let detail = || {
+            let mask = face.write_mask;
+            format!("{operation} under write mask {mask:#04x}: {stored} becomes {new}")
+        };
+        let citation = || self.rules.stencil.to_owned();
+        self.note_effect(notes, place, effect, word, [&detail, &citation]);
     }
 
     /// Returns whether a depth test can pass, and whether it can fail.
@@ -481,12 +590,13 @@ impl Walk<'_> {
     ) -> [bool; 2] {
         if incoming.origin.is_some() && incoming.origin == stored.origin {
             let passes = compare(function, 0, 0);
-            notes.add(
-                || place.name(),
-                "depth test",
-                || format!("the same depth {} itself is {passes}", function.name()),
-                Some(self.rules.same_depth.citation),
-            );
+            let effect = match passes {
+                true => Effect::Plain,
+                false => Effect::Rejects(Rejection::Depth),
+            };
+            let detail = || format!("the same depth {} itself is {passes}", function.name());
+            let citation = || self.rules.same_depth.citation.to_owned();
+            self.note_effect(notes, place, effect, "depth test", [&detail, &citation]);
             return [passes, !passes];
         }
         let (incoming, stored) = (incoming.depth, stored.channels[0]);
@@ -501,20 +611,42 @@ impl Walk<'_> {
             DepthOrder::ConvertedFirst => (of_codes(codes), of_codes(stored)),
         };
         let outcomes = possible(function, left, right);
-        notes.add(
-            || place.name(),
-            "depth test",
-            || {
-                let word = match outcomes {
-                    [true, true] => "may be either",
-                    [true, false] => "is true",
-                    _ => "is false",
-                };
-                format!("{left} {} stored {right} {word}", function.name())
-            },
-            Some(self.rules.depth_order.citation),
-        );
+        let detail = || {
+            let word = match outcomes {
+                [true, true] => "may be true or false: two worlds",
+                [true, false] => "is true",
+                _ => "is false",
+            };
+            format!("{left} {} stored {right} {word}", function.name())
+        };
+        let open = || self.rules.depth_order.citation.to_owned();
+        match outcomes {
+            [true, false] => notes.add(|| place.name(), "depth test", detail, None),
+            [true, true] => {
+                let effect = Effect::MayReject(Rejection::Depth);
+                self.note_effect(notes, place, effect, "depth test", [&detail, &open]);
+            }
+            _ => self.note_rejection(notes, place, Rejection::Depth, true, &detail),
+        }
         outcomes
+    }
+}
+
+/// The outcomes of shading for a sample: whether it can survive and whether it must, by the shader's
+/// discard, and by sample mask and alpha to coverage.
+#[derive(Clone, Copy, Debug)]
+struct Covered {
+    kept: (bool, bool),
+    coverage: (bool, bool),
+}
+
+impl Covered {
+    fn can(self) -> bool {
+        self.kept.0 && self.coverage.0
+    }
+
+    fn must(self) -> bool {
+        self.kept.1 && self.coverage.1
     }
 }
 

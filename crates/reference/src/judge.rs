@@ -1,11 +1,15 @@
 //! Legal sets and stories: the walk, over all samples in both bands or over one.
 
 use crate::counting::Tally;
+use crate::notes::{Note, Notes};
 use crate::rules::Rules;
 use crate::texels::Texels;
-use crate::walk::{Notes, Sample, Walk};
-use etalon_frame::{CountRange, LegalSet, LegalSetBuilder, Limits, Story, TexelSet};
-use etalon_scene::Scene;
+use crate::verdict::verdict;
+use crate::walk::{Sample, Walk};
+use etalon_frame::{
+    CountRange, Frame, LegalSet, LegalSetBuilder, Limits, Story, StoryLine, TexelSet,
+};
+use etalon_scene::{Draw, Scene};
 
 /// Both bands of one scene for one possible set of limits.
 #[derive(Clone, Debug)]
@@ -19,6 +23,9 @@ pub struct Judgement {
     /// The number of judged samples of all images of one size, summed over sizes and sample counts. Of
     /// others nothing is asserted.
     pub looked_at: u64,
+    /// The rules of the legal set, with what was assumed of them.
+    pub rules: Rules,
+    pub(crate) texels: Texels,
 }
 
 /// Returns both bands of a scene, once per depth encoding that the adapter may have.
@@ -34,7 +41,8 @@ pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judg
         .alternatives(&scene.formats())
         .into_iter()
         .map(|limits| {
-            let legal = judge_some(scene, &limits, &Rules::of(limits.api), texels);
+            let rules = Rules::of(&limits);
+            let legal = judge_some(scene, &limits, &rules, texels);
             let yardstick = judge_some(scene, &limits, &Rules::yardstick(&limits), texels);
             let groups = legal.groups.iter();
             Judgement {
@@ -44,6 +52,8 @@ pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judg
                 legal,
                 yardstick,
                 limits,
+                rules,
+                texels,
             }
         })
         .collect()
@@ -55,7 +65,9 @@ pub fn judge(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
     judge_some(scene, limits, rules, Texels::All)
 }
 
-fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> LegalSet {
+/// Returns [`judge`]'s set of some texels; see [`judgements_of`].
+pub fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> LegalSet {
+    let texels = texels.of(scene);
     let walk = Walk::new(scene, limits, rules, texels);
     let mut builder = LegalSetBuilder::default();
     for index in &scene.read {
@@ -141,14 +153,45 @@ fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> 
     builder.build()
 }
 
-/// Returns the story of one sample: every operation on it with its outcome and the citation of each
-/// permission that was used.
-pub fn explain(scene: &Scene, limits: &Limits, rules: &Rules, at: Sample) -> Story {
-    let mut story = Story::default();
-    let texels = Texels::One([at.x, at.y]);
-    Walk::new(scene, limits, rules, texels).sample(at, Some(&mut story));
-    story
+/// Returns the story of one sample: the verdict in one sentence, then every operation on it with its
+/// outcome and the citation of each permission that was used, and every draw and primitive that ends
+/// before it with its clause. With the frame that a driver returned, the verdict tells what came back.
+pub fn explain(
+    scene: &Scene,
+    limits: &Limits,
+    rules: &Rules,
+    at: Sample,
+    frame: Option<&Frame>,
+) -> Story {
+    let (_, mut lines, notes) = told(scene, limits, rules, at, frame);
+    lines.extend(notes.into_iter().map(|note| note.line));
+    Story { lines }
 }
 
+/// Returns the legal values of one sample, the line of its verdict, and its notes.
+fn told(
+    scene: &Scene,
+    limits: &Limits,
+    rules: &Rules,
+    at: Sample,
+    frame: Option<&Frame>,
+) -> (TexelSet, Vec<StoryLine>, Vec<Note>) {
+    // A sampler may read what was drawn to other texels.
+    let samples = |draw: &Draw| draw.sampler.is_some();
+    let mut later = scene.passes.iter().skip(1).flat_map(|p| &p.draws);
+    let texels = match later.any(samples) {
+        true => Texels::All,
+        false => Texels::One([at.x, at.y]),
+    };
+    let walk = Walk::new(scene, limits, rules, texels);
+    let mut notes = Vec::new();
+    let set = walk.sample(at, &mut notes);
+    let initial = walk.initial(at, &mut Notes(None));
+    let verdict = verdict(&walk, at, &set, &initial, &notes, frame);
+    (set, vec![verdict], notes)
+}
+
+#[cfg(test)]
+mod stories;
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! The judging number system: intervals that hold every value the rules allow.
 
 use crate::interval::Interval;
-use crate::rules::{BlendPrecision, FactorClamp, Rounding, Rules};
+use crate::rules::{BlendPrecision, FactorClamp, Rounding, Rules, SignedClamp};
 use etalon_frame::{ChannelEncoding, CodeInterval, srgb_to_linear};
 use etalon_pipeline::{Arithmetic, logic_operation};
 use etalon_scene::LogicOperation;
@@ -32,6 +32,11 @@ impl Range {
             float: interval,
             coarse: interval,
         }
+    }
+
+    /// Returns the values of either range, way by way.
+    pub(crate) fn joined(self, other: Self) -> Self {
+        self.zip(other, Interval::hull)
     }
 
     /// Returns the values of both ways.
@@ -143,6 +148,22 @@ impl<'r> Judging<'r> {
         }
     }
 
+    /// Clamps what is blended into a normalized format.
+    fn blend_clamp(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
+        let Some((low, high)) = encoding.normalized_range() else {
+            return value;
+        };
+        let whole = value.clamp(f64::from(low), f64::from(high));
+        if low >= 0.0 {
+            return whole;
+        }
+        match self.rules.signed_clamp.value {
+            SignedClamp::Signed => whole,
+            SignedClamp::Unit => value.clamp(0.0, 1.0),
+            SignedClamp::Either => whole.hull(value.clamp(0.0, 1.0)),
+        }
+    }
+
     fn store(&self, encoding: ChannelEncoding, value: Interval, slack: f64) -> CodeInterval {
         if value.may_be_nan() && encoding.is_float() {
             return all_codes(encoding);
@@ -156,6 +177,15 @@ impl<'r> Judging<'r> {
             encoding.position(held)
         };
         if let (Some(low), Some(high)) = (position(value.low), position(value.high)) {
+            // The code before rounding, f * (2^b - 1), is itself computed. Ends of the range are exact by
+            // the text, and what was rounded to codes before is no result of floating-point.
+            let is_computed = slack == 0.0 && encoding.normalized_range().is_some();
+            let error = if is_computed { self.error() } else { 0.0 };
+            let off = |at: f64| match at == ends.1 || at == -ends.1 {
+                true => 0.0,
+                false => at.abs() * error,
+            };
+            let (low, high) = (low - off(low), high + off(high));
             let (low, high) = match self.rules.store.value {
                 Rounding::EitherNeighbour => ((low + slack).floor(), (high - slack).ceil()),
                 Rounding::Within(codes) => ((low - codes).ceil(), (high + codes).floor()),
@@ -172,6 +202,10 @@ impl<'r> Judging<'r> {
             return CodeInterval::new(order_below(value.low), order_above(value.high));
         }
         let limit = encoding.value_of_order(encoding.max_order());
+        let beyond = value.high > limit || value.low < -limit;
+        if beyond && encoding == ChannelEncoding::Float16 && !self.rules.half_overflows.value {
+            return all_codes(encoding);
+        }
         let low = match value.low {
             v if v > limit => encoding.max_order(),
             v => encoding.order_below(v),
@@ -202,7 +236,7 @@ impl<'r> Judging<'r> {
 }
 
 /// Returns all codes of a float encoding, those of infinities and NaN too.
-fn all_codes(encoding: ChannelEncoding) -> CodeInterval {
+pub(crate) fn all_codes(encoding: ChannelEncoding) -> CodeInterval {
     match encoding {
         ChannelEncoding::Ufloat(mantissa) => CodeInterval::new(0, (32 << mantissa) - 1),
         ChannelEncoding::Float16 => CodeInterval::new(-0x7fff, 0x7fff),
@@ -354,15 +388,9 @@ impl Arithmetic for Judging<'_> {
     }
 
     fn blend_operand(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
-        let clamped = match encoding.normalized_range() {
-            Some((low, high)) => {
-                let (low, high) = (f64::from(low), f64::from(high));
-                Range {
-                    float: value.float.clamp(low, high),
-                    coarse: value.coarse.clamp(low, high),
-                }
-            }
-            None => value,
+        let clamped = Range {
+            float: self.blend_clamp(encoding, value.float),
+            coarse: self.blend_clamp(encoding, value.coarse),
         };
         Range {
             float: clamped.float,
@@ -385,12 +413,8 @@ impl Arithmetic for Judging<'_> {
     }
 
     fn blend_factor(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
-        let Some((low, high)) = encoding.normalized_range() else {
-            return value;
-        };
-        let (low, high) = (f64::from(low), f64::from(high));
         let clamp = |v: Interval| {
-            let clamped = v.clamp(low, high);
+            let clamped = self.blend_clamp(encoding, v);
             match self.rules.factor_clamp.value {
                 FactorClamp::Clamped => clamped,
                 FactorClamp::Either => clamped.hull(v),
@@ -478,7 +502,7 @@ mod tests {
 
     #[test]
     fn zero_and_one_are_exact_and_other_codes_have_neighbours() {
-        let rules = Rules::of(Api::Vulkan);
+        let rules = Rules::of(&crate::test_limits::limits(Api::Vulkan));
         let mut a = Judging::new(&rules);
         let e = ChannelEncoding::Unorm(8);
         for (value, low, high) in [(0.0, 0, 0), (1.0, 255, 255), (0.5, 127, 128)] {
@@ -504,7 +528,7 @@ mod tests {
 
     #[test]
     fn any_float_is_exact_as_a_float() {
-        let rules = Rules::of(Api::OpenGl);
+        let rules = Rules::of(&crate::test_limits::limits(Api::OpenGl));
         let mut a = Judging::new(&rules);
         for value in [0.0, 1e-30, 0.3, 0.99999994, 1.0_f32] {
             let v = a.constant(value);

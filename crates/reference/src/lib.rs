@@ -6,17 +6,22 @@
 //! between is legal. The permissions are data in [`rules`], with their citations.
 
 mod bias;
+mod clause;
 mod contents;
 mod context;
 mod counting;
 mod coverage;
 mod depth;
+mod fit;
 mod fragment;
 mod interval;
 mod judge;
 mod judging;
+mod notes;
 mod primitive;
+mod rejections;
 pub mod rules;
+mod sample_state;
 mod sampling;
 mod setup;
 mod snap;
@@ -24,12 +29,14 @@ mod store;
 #[cfg(test)]
 mod test_limits;
 mod texels;
+mod verdict;
 mod walk;
 mod world;
 
+pub use fit::{Fitted, fit};
 pub use interval::Interval;
-pub use judge::{Judgement, explain, judge, judgements, judgements_of};
+pub use judge::{Judgement, explain, judge, judge_some, judgements, judgements_of};
 pub use judging::{Judging, Range};
 pub use rules::{Permission, Rules};
 pub use texels::Texels;
-pub use walk::Sample;
+pub use walk::{Sample, codes_text};

@@ -19,12 +19,23 @@ pub(crate) enum Shape {
     Point(SnapBox),
 }
 
+/// The identity of a vertex's place in the picture: its clip-space x, y and w, bit for bit. Edges are the
+/// same if both ends are; x and y alone would join vertices that the perspective division parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct VertexId([u32; 3]);
+
+impl VertexId {
+    pub(crate) fn new([x, y, _, w]: [f32; 4]) -> Self {
+        Self([x, y, w].map(f32::to_bits))
+    }
+}
+
 /// A triangle's vertices in their own order.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Triangle {
     pub(crate) vertices: [SnapBox; 3],
-    /// Numbers of the positions: equal for equal positions in clip space.
-    pub(crate) ids: [u64; 3],
+    /// The identities of the vertices' places.
+    pub(crate) ids: [VertexId; 3],
     /// Least and greatest signed area, y up.
     pub(crate) area: (i64, i64),
 }
@@ -264,4 +275,17 @@ pub(crate) fn misses(triangle: &Triangle, sides: [Side; 3]) -> bool {
 /// True if a side of one edge is certainly outside a triangle.
 pub(crate) fn is_outside(side: Side, positive_area: bool) -> bool {
     matches!(side, Side::Positive | Side::Negative) && side != inside_of(positive_area)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vertices_are_the_same_if_x_y_and_w_are() {
+        let id = VertexId::new([0.5, -0.25, 0.75, 1.0]);
+        assert_eq!(id, VertexId::new([0.5, -0.25, 0.125, 1.0]));
+        assert_ne!(id, VertexId::new([0.5, -0.25, 0.75, 2.0]));
+        assert_ne!(id, VertexId::new([0.5, 0.25, 0.75, 1.0]));
+    }
 }

@@ -8,6 +8,18 @@ use etalon_frame::CodeInterval;
 use etalon_pipeline::{Arithmetic, texel_position};
 use etalon_scene::{AddressMode, FilterMode, Sampler};
 
+/// A texture as a sampler sees it.
+#[derive(Clone, Copy)]
+struct Texture {
+    /// The attachment.
+    index: usize,
+    /// The pass that reads it, where an earlier one drew to it.
+    pass: Option<usize>,
+}
+
+/// The most texels of a drawn texture that one coordinate may meet; past it the result may be anything.
+const MOST_DRAWN_TEXELS: usize = 9;
+
 impl Walk<'_> {
     /// Returns the value that the shader reads of a texture at the sample, in a world.
     pub(crate) fn texel(&self, place: Place<'_>, world: &World, t: usize) -> [Range; 4] {
@@ -16,8 +28,19 @@ impl Walk<'_> {
         };
         let drawn = self.is_drawn_before(index, place.pass);
         match (place.draw.sampler, self.coordinates(place)) {
-            (Some(_), Some(_)) if drawn => self.anything(index),
-            (Some(sampler), Some(uv)) => self.sampled(index, sampler, uv),
+            (Some(sampler), Some(uv)) => {
+                let texture = Texture {
+                    index,
+                    pass: drawn.then_some(place.pass),
+                };
+                // A linear filter of what was drawn is not followed: it meets four texels at a time.
+                match sampler.filter {
+                    FilterMode::Linear if drawn => self.anything(index),
+                    _ => self
+                        .sampled(texture, sampler, uv)
+                        .unwrap_or_else(|| self.anything(index)),
+                }
+            }
             _ if drawn => self.left_before(place, world, index),
             _ => self.fetched(index, [place.at.x as usize, place.at.y as usize]),
         }
@@ -30,8 +53,8 @@ impl Walk<'_> {
     }
 
     fn coordinates(&self, place: Place<'_>) -> Option<[Interval; 2]> {
-        let at = place.at;
-        place.primitive.uv_seen(place.point, self.units, at.samples)
+        let samples = self.samples_shaded(place);
+        place.primitive.uv_seen(place.point, self.units, samples)
     }
 
     /// True if a pass before this one draws or resolves to an attachment.
@@ -103,16 +126,16 @@ impl Walk<'_> {
     }
 
     /// Returns all results of legal filtering at a coordinate: the hull over all coordinates that rounding
-    /// can lead to. A linear filter is linear in each coordinate between two texel centres, so its extremes
-    /// lie at ends and centres.
-    fn sampled(&self, texture: usize, sampler: Sampler, uv: [Interval; 2]) -> [Range; 4] {
+    /// can lead to; `None` if a texel among them may hold anything. A linear filter is linear in each
+    /// coordinate between two texel centres, so its extremes lie at ends and centres.
+    fn sampled(&self, texture: Texture, sampler: Sampler, uv: [Interval; 2]) -> Option<[Range; 4]> {
         if uv
             .iter()
             .any(|v| !(v.low.is_finite() && v.high.is_finite()))
         {
-            return self.anything(texture);
+            return None;
         }
-        let texels = self.scene.attachments[texture].size;
+        let texels = self.scene.attachments[texture.index].size;
         let step = self.rules.filter_step.value;
         let along = |axis: usize| -> Vec<f64> {
             let size = texels[axis];
@@ -130,12 +153,15 @@ impl Walk<'_> {
             }
         };
         let (across, down) = (along(0), along(1));
+        if texture.pass.is_some() && across.len() * down.len() > MOST_DRAWN_TEXELS {
+            return None;
+        }
         let mut result: Option<[Interval; 4]> = None;
         for y in &down {
             for x in &across {
                 let one = match sampler.filter {
-                    FilterMode::Nearest => self.tap(texture, sampler, [*x as i64, *y as i64]),
-                    FilterMode::Linear => self.weighted(texture, sampler, [*x, *y]),
+                    FilterMode::Nearest => self.tap(texture, sampler, [*x as i64, *y as i64])?,
+                    FilterMode::Linear => self.weighted(texture, sampler, [*x, *y])?,
                 };
                 result = Some(match result {
                     None => one,
@@ -143,20 +169,46 @@ impl Walk<'_> {
                 });
             }
         }
-        result.map_or([Range::exact(0.0); 4], |all| all.map(Range::same))
+        Some(result.map_or([Range::exact(0.0); 4], |all| all.map(Range::same)))
     }
 
-    fn tap(&self, texture: usize, sampler: Sampler, at: [i64; 2]) -> [Interval; 4] {
+    fn tap(&self, texture: Texture, sampler: Sampler, at: [i64; 2]) -> Option<[Interval; 4]> {
+        let index = texture.index;
         let inside = |axis: usize| {
             let mode: AddressMode = sampler.address[axis];
-            texel_position(mode, at[axis], self.scene.attachments[texture].size[axis])
+            texel_position(mode, at[axis], self.scene.attachments[index].size[axis])
         };
-        self.fetched(texture, [inside(0), inside(1)])
-            .map(|channel| channel.float.hull(channel.coarse))
+        let at = [inside(0), inside(1)];
+        let texel = match texture.pass {
+            None => self.fetched(index, at),
+            Some(pass) => self.drawn(index, at, pass)?,
+        };
+        Some(texel.map(|channel| channel.float.hull(channel.coarse)))
+    }
+
+    /// Returns one texel of a texture after earlier passes: all that it can be; `None` if that is not known.
+    fn drawn(&self, index: usize, [x, y]: [usize; 2], pass: usize) -> Option<[Range; 4]> {
+        let attachment = &self.scene.attachments[index];
+        let (x, y) = (x as u32, y as u32);
+        // Away from the judged texels not all primitives are set up.
+        if attachment.samples != 1 || !self.texels.contains(attachment.size, x, y) {
+            return None;
+        }
+        let at = Sample {
+            size: attachment.size,
+            samples: 1,
+            x,
+            y,
+            sample: 0,
+        };
+        let worlds = self.earlier(at, pass)?;
+        let all = worlds.iter().map(|w| w.cells[index].channels);
+        let hull = all.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])))?;
+        Some(self.decoded(index, hull))
     }
 
     /// Returns the average at a position counted from the centre of the first texel.
-    fn weighted(&self, texture: usize, sampler: Sampler, at: [f64; 2]) -> [Interval; 4] {
+    fn weighted(&self, texture: Texture, sampler: Sampler, at: [f64; 2]) -> Option<[Interval; 4]> {
         let first = at.map(f64::floor);
         let weight = [at[0] - first[0], at[1] - first[1]];
         let mut sum = [Interval::exact(0.0); 4];
@@ -171,13 +223,13 @@ impl Walk<'_> {
                 (first[0] as i64).saturating_add(dx),
                 (first[1] as i64).saturating_add(dy),
             ];
-            for (sum, tap) in sum.iter_mut().zip(self.tap(texture, sampler, position)) {
+            for (sum, tap) in sum.iter_mut().zip(self.tap(texture, sampler, position)?) {
                 largest = largest.max(tap.low.abs()).max(tap.high.abs());
                 let scaled = tap.map_increasing(|v| v * share);
                 *sum = sum.corners(scaled, |a, b| a + b);
             }
         }
-        sum.map(|sum| sum.widen(largest * self.rules.float_error.value * 4.0))
+        Some(sum.map(|sum| sum.widen(largest * self.rules.float_error.value * 4.0)))
     }
 }
 

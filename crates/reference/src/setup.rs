@@ -5,7 +5,7 @@ use crate::context::PassContext;
 use crate::depth::Depth;
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
-use crate::primitive::{Shape, SnappedPrimitive, Triangle};
+use crate::primitive::{Shape, SnappedPrimitive, Triangle, VertexId};
 use crate::rules::Snap;
 use crate::snap::{SnapBox, area, units_per_texel};
 use crate::texels::Lattice;
@@ -25,7 +25,7 @@ struct Vertex {
     snapped: SnapBox,
     window_z: Interval,
     clip_z: Interval,
-    id: u64,
+    id: VertexId,
 }
 
 pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> DrawSetup {
@@ -122,8 +122,9 @@ fn primitive(
             let v = line.map(of);
             (
                 Shape::Line(v.map(|v| v.snapped)),
-                Depth::along(v.map(|v| v.snapped), v.map(|v| v.window_z), units),
-                Depth::along(v.map(|v| v.snapped), v.map(|v| v.clip_z), units),
+                Depth::along(v.map(|v| v.snapped), v.map(|v| v.window_z), units, error),
+                // Vertices decide whether anything is clipped.
+                Depth::along(v.map(|v| v.snapped), v.map(|v| v.clip_z), units, 0.0),
             )
         }
         PrimitiveVertices::Triangle(triangle) => {
@@ -140,7 +141,9 @@ fn primitive(
                 PolygonMode::Fill => Shape::Triangle(triangle),
                 PolygonMode::Line => Shape::Outline(triangle),
             };
-            let mut depths = [window, Depth::over(boxes, v.map(|v| v.clip_z), grid, error)];
+            let clip = Depth::over(boxes, v.map(|v| v.clip_z), grid, error);
+            // Vertices decide whether anything is clipped.
+            let mut depths = [window, clip.between(&v.map(|v| v.clip_z))];
             if draw.polygon_mode == PolygonMode::Line {
                 depths.iter_mut().for_each(|depth| depth.reach_out(units));
             }
@@ -217,7 +220,15 @@ fn texture_coordinates(
     let grid = units >> context.limits.sub_pixel_bits;
     let error = context.rules.float_error.value;
     let value = |i: usize, axis: usize| Interval::exact(f64::from(draw.mesh.vertices[i].uv[axis]));
+    let w = |i: usize| draw.mesh.vertices[i].position[3];
     Some([0, 1].map(|axis| match (shape, one) {
+        // Under a perspective coordinates are not linear in the picture, and all between the vertices'.
+        (_, PrimitiveVertices::Triangle([a, b, c])) if w(a) != w(b) || w(b) != w(c) => {
+            Depth::flat(&[a, b, c].map(|i| value(i, axis))).interpolated(error)
+        }
+        (_, PrimitiveVertices::Line([a, b])) if w(a) != w(b) => {
+            Depth::flat(&[a, b].map(|i| value(i, axis))).interpolated(error)
+        }
         (Shape::Triangle(triangle), PrimitiveVertices::Triangle(own)) => {
             Depth::over(triangle.vertices, own.map(|i| value(i, axis)), grid, error)
         }
@@ -228,7 +239,7 @@ fn texture_coordinates(
             plane
         }
         (Shape::Line(ends), PrimitiveVertices::Line(own)) => {
-            Depth::along(*ends, own.map(|i| value(i, axis)), units)
+            Depth::along(*ends, own.map(|i| value(i, axis)), units, error)
         }
         (_, PrimitiveVertices::Point(i)) => Depth::flat(&[value(i, axis)]),
         (_, PrimitiveVertices::Line(own)) => Depth::flat(&own.map(|i| value(i, axis))),
@@ -259,6 +270,6 @@ fn vertex(context: &PassContext<'_>, draw: &Draw, position: [f32; 4]) -> Vertex 
         },
         window_z: window[2].hull(),
         clip_z: clip.hull(),
-        id: u64::from(position[0].to_bits()) << 32 | u64::from(position[1].to_bits()),
+        id: VertexId::new(position),
     }
 }

@@ -2,9 +2,11 @@
 
 use crate::fragment::Incoming;
 use crate::judging::{Judging, Range};
-use crate::walk::{Notes, Place, Walk, codes_text};
+use crate::notes::{Effect, Notes};
+use crate::rules::{SignedClamp, SrgbLogic};
+use crate::walk::{Place, Walk, codes_text};
 use crate::world::World;
-use etalon_frame::ChannelEncoding;
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, TextureFormat};
 use etalon_pipeline::shader::FragmentOutput;
 use etalon_pipeline::{Arithmetic, BlendInput, blend, takes_logic};
 
@@ -26,15 +28,59 @@ impl Walk<'_> {
             let codes = judging.encode(encoding, incoming.depth);
             world.cells[index].channels[0] = codes;
             world.cells[index].origin = incoming.origin;
-            notes.add(
-                || place.name(),
-                "store depth",
-                || {
-                    let depth = incoming.depth.hull();
-                    format!("{depth} as {}", codes_text(encoding, codes))
-                },
-                Some(self.rules.store.citation),
-            );
+            let effect = Effect::Stores {
+                attachment: index,
+                aspect: Aspect::Depth,
+                contents: world.cells[index],
+            };
+            let detail = || {
+                let depth = incoming.depth.hull();
+                format!("{depth} as {}", codes_text(encoding, codes))
+            };
+            let citation = || self.rules.store.citation.to_owned();
+            self.note_effect(notes, place, effect, "store depth", [&detail, &citation]);
+        } else if let Some(attachment) = pass.depth_stencil
+            && self.scene.attachments[attachment].format.has_depth()
+        {
+            let aspect = Aspect::Depth;
+            let effect = Effect::Keeps { attachment, aspect };
+            let detail = || match place.draw.depth {
+                Some(_) => "depth writes are off".to_owned(),
+                None => "without a depth test, nothing is written".to_owned(),
+            };
+            let citation = || self.rules.write_mask.to_owned();
+            self.note_effect(notes, place, effect, "keep depth", [&detail, &citation]);
+        }
+    }
+
+    /// Returns the codes of a colour that a shader or a blend stores.
+    fn store_color(
+        &self,
+        judging: &mut Judging<'_>,
+        encoding: ChannelEncoding,
+        value: Range,
+    ) -> CodeInterval {
+        let whole = judging.encode(encoding, value);
+        if !matches!(encoding, ChannelEncoding::Snorm(_)) {
+            return whole;
+        }
+        let clamped = Range {
+            float: value.float.clamp(0.0, 1.0),
+            coarse: value.coarse.clamp(0.0, 1.0),
+        };
+        match self.rules.signed_result.value {
+            SignedClamp::Signed => whole,
+            SignedClamp::Unit => judging.encode(encoding, clamped),
+            SignedClamp::Either => whole.hull(judging.encode(encoding, clamped)),
+        }
+    }
+
+    /// Returns whether logic operations apply to a format.
+    fn logic_on(&self, format: TextureFormat) -> SrgbLogic {
+        match format {
+            _ if takes_logic(format) => SrgbLogic::Applies,
+            TextureFormat::Rgba8UnormSrgb => self.rules.srgb_logic.value,
+            _ => SrgbLogic::PassesThrough,
         }
     }
 
@@ -73,7 +119,13 @@ impl Walk<'_> {
                         Some(value) => Range::exact(value),
                         None => judging.decode(all[c], cell.channels[c]),
                     });
-                    let constant = place.draw.blend_constant.map(|v| judging.constant(v));
+                    let constant = place.draw.blend_constant.map(|v| {
+                        let plain = judging.constant(v);
+                        match self.rules.clamps_constant.value {
+                            true => plain.joined(judging.constant(v.clamp(0.0, 1.0))),
+                            false => plain,
+                        }
+                    });
                     let input = BlendInput {
                         src: color,
                         src1: second,
@@ -107,33 +159,57 @@ impl Walk<'_> {
             };
             for (c, encoding) in encodings.iter().enumerate() {
                 if target.write_mask & (1 << c) != 0 {
-                    let codes = judging.encode(*encoding, value[c]);
-                    cell.channels[c] = match place.draw.logic {
-                        Some(operation) if takes_logic(attachment.format) => {
-                            judging.logic(*encoding, operation, codes, cell.channels[c])
-                        }
+                    let codes = self.store_color(&mut judging, *encoding, value[c]);
+                    let (stored, logic) = (cell.channels[c], place.draw.logic);
+                    // On sRGB attachments the operation works on the codes, which are those of 8 bits.
+                    let bits = match encoding {
+                        ChannelEncoding::Srgb8 => ChannelEncoding::Unorm(8),
+                        other => *other,
+                    };
+                    let mut worked = |operation| judging.logic(bits, operation, codes, stored);
+                    cell.channels[c] = match (logic, self.logic_on(attachment.format)) {
+                        (Some(operation), SrgbLogic::Applies) => worked(operation),
+                        (Some(operation), SrgbLogic::Either) => codes.hull(worked(operation)),
                         _ => codes,
                     };
                 }
             }
             let cell = *cell;
-            let masked = target.write_mask != 0xf;
-            notes.add(
-                || place.name(),
-                "store color",
-                || {
-                    format!(
-                        "{} holds {}",
-                        attachment.name,
-                        self.cell_text(*index, &cell)
-                    )
-                },
-                Some(if masked {
-                    self.rules.write_mask
-                } else {
-                    self.rules.store.citation
-                }),
-            );
+            let contents = || self.cell_text(*index, &cell);
+            let (attachment_index, aspect) = (*index, Aspect::Color);
+            let name = &attachment.name;
+            let written = target.write_mask & ((1 << encodings.len()) - 1);
+            if written == 0 {
+                let effect = Effect::Keeps {
+                    attachment: attachment_index,
+                    aspect,
+                };
+                let detail = || {
+                    let mask = target.write_mask;
+                    format!("write mask {mask:#x}: {name} still holds {}", contents())
+                };
+                let citation = || self.rules.write_mask.to_owned();
+                self.note_effect(notes, place, effect, "keep color", [&detail, &citation]);
+                continue;
+            }
+            let effect = Effect::Stores {
+                attachment: attachment_index,
+                aspect,
+                contents: cell,
+            };
+            let masked = written.count_ones() != encodings.len() as u32;
+            let detail = || {
+                let of = match masked {
+                    true => format!(" (write mask {:#x})", target.write_mask),
+                    false => String::new(),
+                };
+                format!("{name} holds {}{of}", contents())
+            };
+            let citation = || match masked {
+                true => self.rules.write_mask.to_owned(),
+                false => self.rules.store.citation.to_owned(),
+            };
+            self.note_effect(notes, place, effect, "store color", [&detail, &citation]);
         }
     }
 }

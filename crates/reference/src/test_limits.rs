@@ -1,6 +1,6 @@
 //! Limits for tests.
 
-use etalon_frame::{Api, Feature, FormatSupport, Limits, ReadPath, TextureFormat};
+use etalon_frame::{Api, ApiVersion, Feature, FormatSupport, Limits, ReadPath, TextureFormat};
 
 /// Limits of an adapter that has everything, copies everything, and has 8 sub-pixel bits.
 pub(crate) fn limits(api: Api) -> Limits {
@@ -18,6 +18,9 @@ pub(crate) fn limits(api: Api) -> Limits {
         .collect();
     Limits {
         api,
+        version: ApiVersion::UNKNOWN,
+        properties: Default::default(),
+        exempt: Default::default(),
         sub_pixel_bits: 8,
         max_size: 4096,
         max_color_attachments: 8,

@@ -1,17 +1,17 @@
 //! The walk of one sample through its worlds. Samples are walked one by one, so that a story needs no walk
 //! over the others.
 
+use crate::clause::Rejection;
 use crate::context::PassContext;
-use crate::judging::{Judging, Range};
-use crate::primitive::{Shape, Side, SnappedPrimitive, misses};
-use crate::rules::Rules;
+use crate::judging::{Judging, Range, all_codes};
+use crate::notes::{Note, Notes, Skipped};
+use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
+use crate::rules::{Copies, Rules};
 use crate::setup::{self, DrawSetup};
 use crate::snap::units_per_texel;
 use crate::texels::Texels;
-use crate::world::{Cell, World, merge};
-use etalon_frame::{
-    Aspect, ChannelEncoding, CodeInterval, Limits, ReadPath, Story, StoryLine, TexelSet, WorldBox,
-};
+use crate::world::{Cell, Decision, World, merge};
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Limits, ReadPath, TexelSet, WorldBox};
 use etalon_pipeline::{Arithmetic, Point};
 use etalon_scene::{Draw, Scene};
 use smallvec::SmallVec;
@@ -21,7 +21,7 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 /// One sample of the attachments of one shape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Sample {
     /// The attachments' width and height.
     pub size: [u32; 2],
@@ -37,8 +37,8 @@ pub struct Sample {
 
 pub(crate) type Worlds = SmallVec<[World; 2]>;
 
-/// Worlds by samples per texel, sample and passes; `None` if the sample is open.
-type Known = HashMap<(u32, u32, usize), Option<Rc<Worlds>>>;
+/// Worlds by sample and passes; `None` if the sample is open.
+type Known = HashMap<(Sample, usize), Option<Rc<Worlds>>>;
 
 /// True if a texel lies inside a draw's scissor rectangle.
 fn in_scissor(draw: &Draw, at: Sample) -> bool {
@@ -53,7 +53,9 @@ pub(crate) struct Walk<'a> {
     /// Per pass and draw.
     setups: Vec<Vec<DrawSetup>>,
     pub(crate) units: i64,
-    /// The samples of the current texel after some passes, as far as they were needed.
+    /// The judged texels.
+    pub(crate) texels: Texels,
+    /// The samples after some passes that the current texel needed.
     known: RefCell<Known>,
 }
 
@@ -72,38 +74,15 @@ pub(crate) struct Place<'a> {
     pub(crate) primitive: &'a SnappedPrimitive,
     /// Unique over the scene.
     pub(crate) draw_id: u32,
-    /// The number of the world, for the story; 0 if there is one.
-    pub(crate) world: usize,
-}
-
-/// The story, if one is recorded; without one, notes cost nothing.
-pub(crate) struct Notes<'s>(pub(crate) Option<&'s mut Story>);
-
-impl Notes<'_> {
-    pub(crate) fn add(
-        &mut self,
-        at: impl FnOnce() -> String,
-        operation: &str,
-        detail: impl FnOnce() -> String,
-        citation: Option<&str>,
-    ) {
-        if let Some(story) = &mut self.0 {
-            story.lines.push(StoryLine {
-                at: at(),
-                operation: operation.to_owned(),
-                detail: detail(),
-                citation: citation.map(str::to_owned),
-            });
-        }
-    }
+    /// The number of the world and how many there are, for the story; 0 if there is one.
+    pub(crate) world: (usize, usize),
 }
 
 impl Place<'_> {
     pub(crate) fn name(&self) -> String {
-        let world = if self.world == 0 {
-            String::new()
-        } else {
-            format!(", world {}", self.world)
+        let world = match self.world {
+            (0, _) => String::new(),
+            (one, all) => format!(", world {one} of {all}"),
         };
         format!(
             "pass {}, draw {}, primitive {}{world}",
@@ -143,14 +122,15 @@ impl<'a> Walk<'a> {
             rules,
             setups,
             units: units_per_texel(limits),
+            texels,
             known: RefCell::default(),
         }
     }
 
-    /// Returns another sample of the current texel after the first passes; `None` if it is open. Cached,
-    /// since passes that read or resolve earlier ones need the same repeatedly.
+    /// Returns another sample after the first passes; `None` if it is open. Cached, since passes that read
+    /// or resolve earlier ones need the same repeatedly.
     pub(crate) fn earlier(&self, at: Sample, passes: usize) -> Option<Rc<Worlds>> {
-        let key = (at.samples, at.sample, passes);
+        let key = (at, passes);
         if let Some(known) = self.known.borrow().get(&key) {
             return known.clone();
         }
@@ -192,8 +172,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    pub(crate) fn sample(&self, at: Sample, story: Option<&mut Story>) -> TexelSet {
-        let mut notes = Notes(story);
+    pub(crate) fn sample(&self, at: Sample, notes: &mut Vec<Note>) -> TexelSet {
+        let mut notes = Notes(Some(notes));
         match self.worlds(at, self.scene.passes.len(), &mut notes) {
             Some(worlds) => self.finish(&worlds, at, &mut notes),
             None => TexelSet::default(),
@@ -212,11 +192,19 @@ impl<'a> Walk<'a> {
         let mut draw_id = 0;
         for (p, pass) in self.scene.passes[..passes].iter().enumerate() {
             let shape = (self.scene.pass_size(pass), self.scene.pass_samples(pass));
+            if shape != (at.size, at.samples) && !pass.draws.is_empty() {
+                note_other_attachments(notes, p, shape);
+            }
             for (d, draw) in pass.draws.iter().enumerate() {
                 draw_id += 1;
-                if shape != (at.size, at.samples) || !in_scissor(draw, at) {
+                if shape != (at.size, at.samples) {
                     continue;
                 }
+                if draw.rasterizer_discard || !in_scissor(draw, at) {
+                    self.note_draw(notes, (p, d, draw));
+                    continue;
+                }
+                let mut skipped = Skipped::new(notes);
                 let point = self.sample_point(at);
                 let setup = &self.setups[p][d];
                 for i in &setup.rows[at.y as usize] {
@@ -227,11 +215,18 @@ impl<'a> Walk<'a> {
                     }
                     let (can, must) = self.in_viewport(draw, primitive, point);
                     if !can {
+                        let reached = self.reaches(primitive, at, point);
+                        let reason = if reached {
+                            Rejection::Viewport
+                        } else {
+                            Rejection::Coverage
+                        };
+                        skipped.add(primitive.index, Some(reason));
                         continue;
                     }
                     let sides = match &primitive.shape {
                         Shape::Triangle(triangle) => {
-                            let sides = [0, 1, 2].map(|i| triangle.side(i, point));
+                            let sides = self.sides(triangle, at, point);
                             if misses(triangle, sides) {
                                 continue;
                             }
@@ -249,13 +244,18 @@ impl<'a> Walk<'a> {
                         primitive_index: primitive.index as usize,
                         primitive,
                         draw_id,
-                        world: 0,
+                        world: (0, 1),
                     };
                     let (inside_can, inside_must) = primitive.inside_depth(point);
                     if !draw.depth_clamp && !inside_can {
+                        skipped.add(primitive.index, Some(Rejection::NearFar));
                         continue;
                     }
+                    skipped.add(primitive.index, None);
                     let certain = must && (draw.depth_clamp || inside_must);
+                    if !certain {
+                        self.note_clipping(notes, place, !must);
+                    }
                     let before = (!certain).then(|| worlds.clone());
                     worlds = self.primitive(place, worlds, notes);
                     // A sample that may be clipped away also keeps what it was.
@@ -270,15 +270,19 @@ impl<'a> Walk<'a> {
                         return None;
                     }
                 }
-                // No later draw refers to this one's choices.
-                worlds.iter_mut().for_each(|w| w.decisions.clear());
+                self.note_skipped(notes, (p, d, draw), skipped);
+                // No later draw refers to this one's edges.
+                let outlives = |(decision, _): &mut (Decision, bool)| decision.outlives_its_draw();
+                worlds.iter_mut().for_each(|w| w.decisions.retain(outlives));
                 merge(&mut worlds);
             }
+            worlds.iter_mut().for_each(|w| w.decisions.clear());
+            merge(&mut worlds);
             for (source, target) in pass.color.iter().zip(&pass.resolve) {
                 let Some(target) = *target else { continue };
                 let attachment = &self.scene.attachments[target];
                 if (attachment.size, attachment.samples) == (at.size, at.samples) {
-                    let outcomes = self.resolve(*source, at, p + 1, notes)?;
+                    let outcomes = self.resolve(*source, target, at, p + 1, notes)?;
                     worlds = worlds
                         .iter()
                         .flat_map(|world| {
@@ -298,6 +302,14 @@ impl<'a> Walk<'a> {
         Some(worlds)
     }
 
+    /// True if a primitive may cover a sample, were it not for the viewport.
+    fn reaches(&self, primitive: &SnappedPrimitive, at: Sample, point: Point) -> bool {
+        match &primitive.shape {
+            Shape::Triangle(triangle) => !misses(triangle, self.sides(triangle, at, point)),
+            _ => primitive.times(point, self.units).1 > 0,
+        }
+    }
+
     pub(crate) fn cell_text(&self, attachment: usize, cell: &Cell) -> String {
         let format = self.scene.attachments[attachment].format;
         let mut parts = Vec::new();
@@ -314,7 +326,27 @@ impl<'a> Walk<'a> {
         parts.join(", ")
     }
 
-    fn sample_point(&self, at: Sample) -> Point {
+    /// Returns the sides of a triangle's edges on which a sample lies.
+    fn sides(&self, triangle: &Triangle, at: Sample, point: Point) -> [Side; 3] {
+        if at.samples == 1 || self.rules.covers_at_positions.value {
+            return [0, 1, 2].map(|i| triangle.side(i, point));
+        }
+        // Wherever in the texel the sample is covered: on one side only if all of the texel is.
+        let corner = |dx: i64, dy: i64| Point {
+            x: (i64::from(at.x) + dx) * self.units,
+            y: (i64::from(at.y) + dy) * self.units,
+        };
+        let corners = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
+        [0, 1, 2].map(|i| {
+            let [first, others @ ..] = corners.map(|corner| triangle.side(i, corner));
+            match first {
+                Side::Positive | Side::Negative if others.iter().all(|o| *o == first) => first,
+                _ => Side::Unknown,
+            }
+        })
+    }
+
+    pub(crate) fn sample_point(&self, at: Sample) -> Point {
         let position = self
             .limits
             .sample_positions
@@ -334,7 +366,7 @@ impl<'a> Walk<'a> {
     /// Returns the boxes of the attachments that are read back.
     pub(crate) fn finish(&self, worlds: &[World], at: Sample, notes: &mut Notes<'_>) -> TexelSet {
         let mut set = TexelSet::default();
-        for world in worlds {
+        for (w, world) in worlds.iter().enumerate() {
             let mut channels = SmallVec::new();
             for index in &self.scene.read {
                 let attachment = &self.scene.attachments[*index];
@@ -346,7 +378,9 @@ impl<'a> Walk<'a> {
                     match aspect {
                         Aspect::Color => {
                             let n = attachment.format.color_channels().len();
-                            channels.extend_from_slice(&cell.channels[..n]);
+                            let encodings = attachment.format.color_channels();
+                            let stored = cell.channels[..n].iter().zip(encodings);
+                            channels.extend(stored.map(|(c, e)| self.read_color(*e, *c)));
                         }
                         Aspect::Depth => channels.push(self.read_depth(*index, cell.channels[0])),
                         Aspect::Stencil => {
@@ -361,7 +395,10 @@ impl<'a> Walk<'a> {
                     _ => "",
                 };
                 notes.add(
-                    || "at the end".to_owned(),
+                    || match worlds.len() {
+                        1 => "at the end".to_owned(),
+                        n => format!("at the end, world {} of {n}", w + 1),
+                    },
                     "read back",
                     || {
                         format!(
@@ -378,8 +415,35 @@ impl<'a> Walk<'a> {
         set
     }
 
+    /// Returns a colour as it is read back.
+    fn read_color(&self, encoding: ChannelEncoding, stored: CodeInterval) -> CodeInterval {
+        if self.rules.copies.value == Copies::Exact {
+            return stored;
+        }
+        match encoding {
+            // Both codes of -1.
+            ChannelEncoding::Snorm(_) if stored.low <= encoding.min_order() + 1 => {
+                CodeInterval::new(encoding.min_order(), stored.high)
+            }
+            _ if !encoding.is_float() => stored,
+            _ => {
+                let finite = CodeInterval::new(encoding.min_order(), encoding.max_order());
+                if !finite.contains(stored.low) || !finite.contains(stored.high) {
+                    return all_codes(encoding);
+                }
+                // A subnormal value may be flushed to zero.
+                match encoding.least_normal_order() {
+                    least if stored.low.abs() < least || stored.high.abs() < least => {
+                        stored.hull(CodeInterval::exact(0))
+                    }
+                    _ => stored,
+                }
+            }
+        }
+    }
+
     /// Returns a depth as it is read back: its code, or the float that a shader reads.
-    fn read_depth(&self, attachment: usize, stored: CodeInterval) -> CodeInterval {
+    pub(crate) fn read_depth(&self, attachment: usize, stored: CodeInterval) -> CodeInterval {
         let encoding = self.depth_encoding(attachment);
         let (read, _) = self.read_encoding(attachment, Aspect::Depth);
         if read[0] == encoding {
@@ -391,7 +455,27 @@ impl<'a> Walk<'a> {
     }
 }
 
-fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {
+/// Notes that no draw of a pass concerns the sample.
+fn note_other_attachments(
+    notes: &mut Notes<'_>,
+    pass: usize,
+    ([width, height], samples): ([u32; 2], u32),
+) {
+    notes.add(
+        || format!("pass {pass}"),
+        "attachments",
+        || {
+            let samples = match samples {
+                1 => String::new(),
+                n => format!(" with {n} samples"),
+            };
+            format!("others: of {width} by {height} texels{samples}")
+        },
+        None,
+    );
+}
+
+pub(crate) fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {
     let format = scene.attachments[attachment].format;
     let of = |encodings: &[ChannelEncoding]| encodings.first().copied();
     limits
@@ -402,9 +486,14 @@ fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelE
         .unwrap_or(ChannelEncoding::Float32)
 }
 
-pub(crate) fn codes_text(encoding: ChannelEncoding, codes: CodeInterval) -> String {
+/// Returns codes as stories tell them: of a float its value, of wide codes both.
+pub fn codes_text(encoding: ChannelEncoding, codes: CodeInterval) -> String {
+    // Codes, but of a float its value. Of many codes, the value tells more than the number.
     let text = |order: i64| match encoding {
-        ChannelEncoding::Float32 => format!("{:?}", encoding.value_of_order(order) as f32),
+        ChannelEncoding::Unorm(9..) | ChannelEncoding::Snorm(9..) => {
+            format!("{order} ({})", encoding.value_of_order(order) as f32)
+        }
+        _ if encoding.is_float() => format!("{:?}", encoding.value_of_order(order) as f32),
         _ => order.to_string(),
     };
     if codes.is_exact() {

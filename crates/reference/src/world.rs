@@ -1,5 +1,6 @@
 //! Worlds: the consistent stories of one sample.
 
+use crate::primitive::VertexId;
 use etalon_frame::CodeInterval;
 use smallvec::SmallVec;
 
@@ -28,17 +29,29 @@ pub(crate) struct Event {
     pub(crate) certain: bool,
 }
 
-/// A choice that the rules leave open, taken once per world: on which side of the edge between two
-/// positions of a draw the sample lies.
+/// A choice that the rules leave open, taken once per world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Decision {
-    /// The draw, counted over the scene. The invariance rules do not reach across draws whose state
-    /// differs, so neither does a choice.
-    pub(crate) draw: u32,
-    /// The positions, the lower number first.
-    pub(crate) ends: (u64, u64),
-    /// The primitive, where the rules let each decide for itself.
-    pub(crate) owner: Option<u32>,
+pub(crate) enum Decision {
+    /// The side of the edge between two positions of a draw on which the sample lies.
+    Edge {
+        /// The draw, counted over the scene. The invariance rules do not reach across draws whose
+        /// state differs, so neither does a choice.
+        draw: u32,
+        /// The positions, the lower one first.
+        ends: (VertexId, VertexId),
+        /// The primitive, where the rules let each decide for itself.
+        owner: Option<u32>,
+    },
+    /// True if a value of sample coverage, given by its bits, covers the sample: the same for all draws
+    /// of a pass.
+    SampleCoverage { value: u32 },
+}
+
+impl Decision {
+    /// True if later draws of the pass may refer to the choice.
+    pub(crate) fn outlives_its_draw(self) -> bool {
+        matches!(self, Self::SampleCoverage { .. })
+    }
 }
 
 /// One consistent story: the contents of every attachment, and the choices that led there.
@@ -58,7 +71,7 @@ impl World {
             .map(|(_, outcome)| *outcome)
     }
 
-    /// Returns this world with a choice taken; `true` is the positive side of the edge from the lower to
+    /// Returns this world with a choice taken; of an edge, `true` is the positive side from the lower to
     /// the higher number.
     pub(crate) fn with(&self, decision: Decision, outcome: bool) -> Self {
         let mut world = self.clone();

@@ -1,10 +1,13 @@
 //! One run: `index.html` and the summary for a terminal.
 
+mod dead;
 pub(crate) mod grid;
 mod index;
 mod table;
+mod undrawn;
 pub(crate) mod unexpected;
 mod write;
 
+pub use dead::dead_lines;
 pub use table::table;
 pub use write::{RUN_FILES, RUN_FOLDERS, Written, write};

@@ -292,9 +292,8 @@ impl Bench<'_, '_> {
                         case: case.id.clone(),
                         adapter: name.clone(),
                     });
-                    let api = adapter.record.limits.api;
                     (measured.picture != pair.picture)
-                        .then(|| changed(api))
+                        .then(|| changed(&adapter.record.limits))
                         .flatten()
                         .map(|message| (number + 1, Verdict::Flaky, message))
                 }
@@ -327,8 +326,8 @@ impl Bench<'_, '_> {
 }
 
 /// The message about a frame that differs from the judged one; `None` where the API permits that.
-fn changed(api: etalon_frame::Api) -> Option<String> {
-    let promise = Rules::invariance(api, Invariance::Repeat);
+fn changed(limits: &Limits) -> Option<String> {
+    let promise = Rules::invariance(limits, Invariance::Repeat);
     promise.value.map(|_| {
         format!(
             "the picture after a round is not the one that was judged: {}",

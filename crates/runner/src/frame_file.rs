@@ -14,7 +14,7 @@ pub(crate) fn frame_file(
     verdict: Verdict,
 ) -> FrameFile {
     let shown = match verdict {
-        Verdict::Fail => &judgement.legal,
+        verdict if verdict.is_violation() => &judgement.legal,
         _ => &judgement.yardstick,
     };
     let mut images = Vec::new();

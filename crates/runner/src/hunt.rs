@@ -176,7 +176,7 @@ impl Mutant {
         let (count, outcome) = match sighting.verdict {
             Verdict::Pass => (&mut tally.pass, Catch::Survived),
             Verdict::Imprecise => (&mut tally.imprecise, Catch::Noticed),
-            Verdict::Fail => (&mut tally.fail, Catch::Caught),
+            verdict if verdict.is_violation() => (&mut tally.fail, Catch::Caught),
             _ => (&mut tally.broken, Catch::Broken),
         };
         *count += 1;

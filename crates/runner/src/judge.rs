@@ -2,14 +2,19 @@
 
 use crate::expected_values::expected_values;
 use crate::frame_file::frame_file;
-use crate::judgement_cache::{JudgementCache, judged_scene};
+use crate::grade::Grades;
+use crate::judgement_cache::{JUDGED, JudgementCache, judged_scene};
 use crate::relation::{self, Differences};
+use crate::story;
 use etalon_case::{Case, Relation};
 use etalon_frame::{
     Aspect, AspectStatistics, Band, Comparison, CounterOutcome, Frame, Limits, WrongTexel, compare,
 };
 use etalon_record::{Assertion, FrameFile, MAX_WRONG_TEXELS, Record, Verdict};
-use etalon_reference::{Judgement, Rules, Sample, explain};
+use etalon_reference::{Judgement, Rules, Sample};
+use etalon_scene::Scene;
+use std::borrow::Cow;
+use std::cmp::Reverse;
 
 /// Judges frames; legal sets are cached by case and limits, so that adapters share them.
 #[derive(Debug, Default)]
@@ -57,6 +62,7 @@ impl Judge {
             && judged.record.verdict != Verdict::InternalError
         {
             let found = relation::check(relation, case, frames);
+            story::tell_relation(&mut judged.record, case, relation, limits, (frames, &found));
             note_differences(&mut judged.record, relation, limits, found);
         }
         judged
@@ -75,7 +81,8 @@ impl Judge {
         let judgements = self.cache.get(number, case, index, limits);
         let mut record = Record::new(&case.id, adapter, Verdict::Pass);
         record.due_fail = case.judged_as.is_some();
-        let (comparison, judgement) = match best(&judgements, frame) {
+        let scene = judged_scene(case, index);
+        let (comparison, judgement) = match best(scene, &judgements, frame) {
             Ok(best) => best,
             Err(message) => {
                 record.verdict = Verdict::InternalError;
@@ -86,11 +93,19 @@ impl Judge {
                 };
             }
         };
-        let worst = comparison.worst();
+        let mut comparison = comparison;
+        let mut worst = comparison.worst();
+        if worst == Some(Band::Fail)
+            && let Some(grades) = Grades::of(judged_scene(case, index), limits, JUDGED, frame)
+        {
+            worst = Some(grades.frame());
+            regrade(&mut comparison, &grades);
+        }
         record.texels = comparison.texels;
         record.wrong = comparison.wrong;
         record.counters = comparison.counters;
         record.accuracy = comparison.accuracy;
+        let judgement = judgement.as_ref();
         record.assertions = assertions(judgement);
         let texels: u64 = record.assertions.iter().map(|a| a.asserted).sum();
         let counters = record.counters.iter().filter(|c| c.is_asserted()).count();
@@ -98,10 +113,10 @@ impl Judge {
         let unasserted =
             record.texels.open > record.texels.total.saturating_sub(judgement.looked_at);
         record.verdict = match worst {
-            Some(Band::Fail) => Verdict::Fail,
+            Some(band) if band > Band::Imprecise => violation(band),
             _ if case.method.is_some() && (unasserted || texels == 0) => Verdict::Measured,
             _ if texels == 0 && counters == 0 => Verdict::Open,
-            Some(Band::Imprecise) => Verdict::Imprecise,
+            Some(_) => Verdict::Imprecise,
             None => Verdict::Pass,
         };
         if let Some(message) = counter_message(&record.counters) {
@@ -111,15 +126,16 @@ impl Judge {
             expected_values(case, frame, &judgement.legal, &mut record);
         }
         let mut file = None;
-        if matches!(record.verdict, Verdict::Fail | Verdict::Imprecise) {
+        if record.verdict.is_violation() || record.verdict == Verdict::Imprecise {
             if let Some(wrong) = record.wrong.first() {
                 let rules = match wrong.band {
-                    Band::Fail => Rules::of(judgement.limits.api),
                     Band::Imprecise => Rules::yardstick(&judgement.limits),
+                    _ => judgement.rules.clone(),
                 };
                 if let Some(at) = sample_of(case, wrong) {
-                    let scene = judged_scene(case, index);
-                    record.story = Some(explain(scene, &judgement.limits, &rules, at));
+                    let by = (&judgement.limits, &rules);
+                    let came = (Some(frame), Some(wrong.band));
+                    record.story = Some(story::story_of_sample(case, index, by, at, came));
                 }
             }
             file = Some(frame_file(case, adapter, frame, judgement, record.verdict));
@@ -146,7 +162,7 @@ impl Judge {
         let mut first = None;
         for (index, frame) in frames.iter().enumerate() {
             let judgements = self.cache.get(number, case, index, limits);
-            let (comparison, _) = best(&judgements, frame)?;
+            let (comparison, _) = best(judged_scene(case, index), &judgements, frame)?;
             if comparison.worst() > worst {
                 worst = comparison.worst();
                 first = comparison.wrong.into_iter().next();
@@ -154,18 +170,42 @@ impl Judge {
         }
         if let Some(relation) = &case.relation {
             let found = relation::check(relation, case, frames);
-            let band = Rules::invariance(limits.api, relation.invariance).value;
+            let band = Rules::invariance(limits, relation.invariance).value;
             if found.differing > 0 && band > worst {
                 worst = band;
                 first = found.wrong.into_iter().next();
             }
         }
         let verdict = match worst {
-            Some(Band::Fail) => Verdict::Fail,
-            Some(Band::Imprecise) => Verdict::Imprecise,
+            Some(band) => violation(band),
             None => Verdict::Pass,
         };
         Ok((verdict, first))
+    }
+}
+
+/// Gives a comparison's violations the bands of the evidence that forbids them, the strongest first.
+pub(crate) fn regrade(comparison: &mut Comparison, grades: &Grades) {
+    for wrong in &mut comparison.wrong {
+        if wrong.band == Band::Fail {
+            wrong.band = grades.sample((wrong.x, wrong.y, wrong.sample));
+        }
+    }
+    comparison.wrong.sort_by_key(|w| Reverse(w.band));
+    for (index, counter) in comparison.counters.iter_mut().enumerate() {
+        if counter.band == Some(Band::Fail) {
+            counter.band = Some(grades.counter(index));
+        }
+    }
+}
+
+/// The verdict on a texel that left a band.
+fn violation(band: Band) -> Verdict {
+    match band {
+        Band::Imprecise => Verdict::Imprecise,
+        Band::Disputed => Verdict::Disputed,
+        Band::RequiredByCts => Verdict::RequiredByCts,
+        Band::Fail => Verdict::Fail,
     }
 }
 
@@ -175,8 +215,10 @@ fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
     // worse than an Imprecise, and a Fail, as a proof, worst of all. Within one case, an open scene takes
     // nothing from one that asserts something, and an InternalError makes a Fail beside it no proof.
     let badness = |judged: &Judged| match judged.record.verdict {
-        Verdict::InternalError => 4,
-        Verdict::Fail => 3,
+        Verdict::InternalError => 6,
+        Verdict::Fail => 5,
+        Verdict::RequiredByCts => 4,
+        Verdict::Disputed => 3,
         Verdict::Imprecise => 2,
         Verdict::Pass => 1,
         _ => 0,
@@ -231,6 +273,10 @@ fn counter_message(counters: &[CounterOutcome]) -> Option<String> {
             let legal = c.range();
             let due = match c.band {
                 Some(Band::Fail) => format!("{legal} is legal"),
+                Some(Band::RequiredByCts) => {
+                    format!("the text leaves it open, but the Khronos CTS requires {legal}")
+                }
+                Some(Band::Disputed) => format!("a disputed reading of the text requires {legal}"),
                 _ => format!("{legal} is legal, but the yardstick wants another"),
             };
             format!(
@@ -246,7 +292,7 @@ fn counter_message(counters: &[CounterOutcome]) -> Option<String> {
 
 /// Adds the differences that a relation forbids to a record.
 fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, found: Differences) {
-    let permission = Rules::invariance(limits.api, relation.invariance);
+    let permission = Rules::invariance(limits, relation.invariance);
     let Some(band) = permission.value else { return };
     if record.verdict == Verdict::Open && found.compared > 0 {
         record.verdict = Verdict::Pass;
@@ -280,13 +326,15 @@ fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, f
 }
 
 /// The judgement under which the fewest samples are wrong. An API may hide which of several encodings a
-/// format has, but it is the same one for the whole frame.
-fn best<'a>(
+/// format has, but it is the same one for the whole frame; and so is the step of a depth bias.
+pub(crate) fn best<'a>(
+    scene: &Scene,
     judgements: &'a [Judgement],
     frame: &Frame,
-) -> Result<(Comparison, &'a Judgement), String> {
-    let mut best: Option<(Comparison, &Judgement)> = None;
+) -> Result<(Comparison, Cow<'a, Judgement>), String> {
+    let mut best: Option<(Comparison, Cow<'_, Judgement>)> = None;
     for judgement in judgements {
+        let judgement = judgement.fitted(scene, frame).map_err(|e| e.to_string())?;
         let (legal, yardstick) = (&judgement.legal, &judgement.yardstick);
         let comparison =
             compare(frame, legal, yardstick, MAX_WRONG_TEXELS).map_err(|e| e.to_string())?;

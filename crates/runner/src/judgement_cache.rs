@@ -2,8 +2,8 @@
 
 use crate::sync::lock;
 use etalon_case::Case;
-use etalon_frame::Limits;
-use etalon_reference::{Judgement, Texels, judgements_of};
+use etalon_frame::{ApiVersion, Limits};
+use etalon_reference::{Judgement, Rules, Texels, judgements_of};
 use etalon_scene::Scene;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, OnceLock};
@@ -14,10 +14,10 @@ const CACHE_BYTES: usize = 512 << 20;
 /// The most texels of an image that are judged, on a lattice that meets every row and column. Large
 /// frames exist to be measured, and judging all their texels would take longer than drawing them. The
 /// texels left out count as not asserted.
-const MOST_TEXELS: u64 = 4096;
+pub(crate) const JUDGED: Texels = Texels::AtMost(4096);
 
-/// A case, one of its scenes, and the limits it is judged by.
-type Key = (usize, usize, Limits);
+/// A case, one of its scenes, the limits it is judged by, and the values of the permissions.
+type Key = (usize, usize, Limits, String);
 type Entry = Arc<OnceLock<Arc<Vec<Judgement>>>>;
 
 /// Judgements by case, scene and limits.
@@ -40,7 +40,8 @@ impl JudgementCache {
         index: usize,
         limits: &Limits,
     ) -> Arc<Vec<Judgement>> {
-        let key = (number, index, limits_that_matter(limits));
+        let permissions = Rules::of(limits).values();
+        let key = (number, index, limits_that_matter(limits), permissions);
         let entry = {
             let mut cache = lock(&self.0);
             match cache.entries.get(&key) {
@@ -56,7 +57,7 @@ impl JudgementCache {
         let sets = Arc::clone(entry.get_or_init(|| {
             fresh = true;
             let scene = judged_scene(case, index);
-            Arc::new(judgements_of(scene, limits, Texels::AtMost(MOST_TEXELS)))
+            Arc::new(judgements_of(scene, limits, JUDGED))
         }));
         if fresh {
             let weight = |all: &[Judgement]| -> usize {
@@ -94,6 +95,9 @@ fn limits_that_matter(limits: &Limits) -> Limits {
     let mut key = limits.clone();
     key.features.clear();
     key.max_size = 0;
+    // The values of the permissions stand for both; several versions share them.
+    key.version = ApiVersion::UNKNOWN;
+    key.properties.clear();
     for support in key.formats.values_mut() {
         support.samples.clear();
     }

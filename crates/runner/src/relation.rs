@@ -16,6 +16,20 @@ pub(crate) struct Differences {
     /// The first differing samples, one side as the legal value and the other as the actual one. Their
     /// band is Fail; the caller replaces it by that of the permission.
     pub(crate) wrong: Vec<WrongTexel>,
+    /// Both sides of the first difference.
+    pub(crate) sides: Option<[Side; 2]>,
+}
+
+/// One of two texels that must be the same.
+#[derive(Clone, Debug)]
+pub(crate) struct Side {
+    /// 0 for the case's own scene, else the variant's number plus 1.
+    pub(crate) scene: usize,
+    /// The attachment, if attachments of one frame are compared.
+    pub(crate) attachment: Option<String>,
+    pub(crate) size: [u32; 2],
+    pub(crate) samples: u32,
+    pub(crate) at: [u32; 2],
 }
 
 /// Compares a case's frames as its relation demands.
@@ -25,15 +39,15 @@ pub(crate) fn check(relation: &Relation, case: &Case, frames: &[Frame]) -> Diffe
         let Some((first, others)) = frames.split_first() else {
             return found;
         };
-        for (variant, frame) in case.variants.iter().zip(others) {
+        for (i, (variant, frame)) in case.variants.iter().zip(others).enumerate() {
             let between = format!("the scene in variant {}", variant.name);
             for (due, came) in first.images.iter().zip(&frame.images) {
-                found.compare(relation, due, came, relation.offset, &between);
+                found.compare(relation, (due, 0), (came, i + 1), relation.offset, &between);
             }
         }
         return found;
     }
-    for frame in frames {
+    for (scene, frame) in frames.iter().enumerate() {
         let names: Vec<&str> = relation
             .attachments
             .iter()
@@ -49,7 +63,7 @@ pub(crate) fn check(relation: &Relation, case: &Case, frames: &[Frame]) -> Diffe
         for other in others {
             let between = format!("attachment {first} in attachment {other}");
             for (due, came) in of(first).into_iter().zip(of(other)) {
-                found.compare(relation, due, came, [0, 0], &between);
+                found.compare(relation, (due, scene), (came, scene), [0, 0], &between);
             }
         }
     }
@@ -60,8 +74,8 @@ impl Differences {
     fn compare(
         &mut self,
         relation: &Relation,
-        due: &Image,
-        came: &Image,
+        (due, due_scene): (&Image, usize),
+        (came, came_scene): (&Image, usize),
         offset: [i32; 2],
         between: &str,
     ) {
@@ -88,6 +102,18 @@ impl Differences {
                     self.differing += 1;
                     if self.between.is_empty() {
                         between.clone_into(&mut self.between);
+                        let side = |image: &Image, scene, at| Side {
+                            scene,
+                            attachment: (!relation.attachments.is_empty())
+                                .then(|| image.attachment.clone()),
+                            size: image.size,
+                            samples: image.samples,
+                            at,
+                        };
+                        self.sides = Some([
+                            side(due, due_scene, [x, y]),
+                            side(came, came_scene, [to_x, to_y]),
+                        ]);
                     }
                     if self.wrong.len() < MAX_WRONG_TEXELS {
                         self.wrong.push(WrongTexel {

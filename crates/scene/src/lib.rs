@@ -32,7 +32,7 @@ pub use invariance::Invariance;
 pub use mesh::{MAX_VERTICES, Mesh, PrimitiveVertices, RESTART, Vertex};
 pub use mesh_source::{MeshSource, Splat, Units};
 pub use rasterization::{
-    CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, Viewport,
+    CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, SampleCoverage, Viewport,
 };
 pub use sampler::{AddressMode, FilterMode, Sampler};
 pub use scene::{Counter, Pass, Scene};

@@ -89,7 +89,7 @@ impl Viewport {
 }
 
 /// The samples of a fragment that are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Multisample {
     /// Bit `i` lets sample `i` through.
@@ -98,6 +98,30 @@ pub struct Multisample {
     pub alpha_to_coverage: bool,
     /// True if alpha then counts as 1.
     pub alpha_to_one: bool,
+    /// The least share of a texel's samples, 0 to 1, that have a shader run of their own; `None` is off.
+    pub min_sample_shading: Option<f32>,
+    /// The share of the samples that is drawn, whatever the fragment; `None` is off.
+    pub sample_coverage: Option<SampleCoverage>,
+}
+
+/// A share of a texel's samples that is drawn (OpenGL 4.6, 14.9.3).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SampleCoverage {
+    /// The share, held to 0 and 1.
+    pub value: f32,
+    /// True if the other samples are drawn instead.
+    #[serde(default)]
+    pub invert: bool,
+}
+
+impl Multisample {
+    /// Returns the least number of shader runs that share a wholly covered texel of so many samples
+    /// (Vulkan, Sample Shading; OpenGL 4.6, 14.3.1.1).
+    pub fn least_runs(&self, samples: u32) -> u32 {
+        let share = self.min_sample_shading.unwrap_or(0.0);
+        ((share * samples as f32).ceil() as u32).clamp(1, samples.max(1))
+    }
 }
 
 impl Default for Multisample {
@@ -106,6 +130,31 @@ impl Default for Multisample {
             mask: u32::MAX,
             alpha_to_coverage: false,
             alpha_to_one: false,
+            min_sample_shading: None,
+            sample_coverage: None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_are_rounded_up_and_at_least_one() {
+        let runs = |share, samples| {
+            let state = Multisample {
+                min_sample_shading: share,
+                ..Multisample::default()
+            };
+            state.least_runs(samples)
+        };
+        assert_eq!(runs(None, 4), 1);
+        assert_eq!(runs(Some(0.0), 4), 1);
+        assert_eq!(runs(Some(0.25), 4), 1);
+        assert_eq!(runs(Some(0.26), 4), 2);
+        assert_eq!(runs(Some(0.8), 4), 4);
+        assert_eq!(runs(Some(1.0), 16), 16);
+        assert_eq!(runs(Some(1.0), 1), 1);
     }
 }

@@ -96,6 +96,14 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
     );
     need(draw.multisample.alpha_to_one, Feature::AlphaToOne);
     need(draw.shader.runs_per_sample(), Feature::SampleShading);
+    need(
+        draw.multisample.min_sample_shading.is_some(),
+        Feature::MinSampleShading,
+    );
+    need(
+        draw.multisample.sample_coverage.is_some(),
+        Feature::SampleCoverage,
+    );
     need(draw.shader.has_second_source(), Feature::DualSourceBlending);
     need(
         draw.targets.windows(2).any(|pair| pair[0] != pair[1]),

@@ -216,6 +216,8 @@ shaders! {
     /// The vertex colour, faded to `params.back_color` with the distance between the near and far
     /// planes in `params.color`'s red and green.
     Fog = "fog" { params: true },
+    /// The fragment's window coordinates times `params.color`'s red and green; its blue and alpha.
+    FragCoordColor = "frag_coord_color" { params: true },
     /// The vertex colour, flat; writes the fragment's own window depth as depth.
     FragCoordDepth = "frag_coord_depth" { depth: Depth::Computed },
     /// `params.color` on front faces, `params.back_color` on back faces.

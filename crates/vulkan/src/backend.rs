@@ -5,7 +5,7 @@ use crate::error::unavailable;
 use crate::gpu::Gpu;
 use crate::instance::Instance;
 use crate::prepared::PreparedScene;
-use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
+use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, ReadFault, Unavailable};
 use etalon_frame::Limits;
 use etalon_scene::Scene;
 use std::rc::Rc;
@@ -19,6 +19,8 @@ pub struct Options {
     /// Enables the Khronos validation layer, synchronization validation included. Its messages are
     /// returned by [`Backend::messages`].
     pub validate: bool,
+    /// A fault that a test of the suite plants in the read path.
+    pub read_fault: Option<ReadFault>,
 }
 
 /// An open Vulkan device. It belongs to one thread.
@@ -65,7 +67,7 @@ pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable>
             name: name.to_owned(),
             ..identity.info
         },
-        gpu: Gpu::new(device).map_err(|error| unavailable(&error))?,
+        gpu: Gpu::new(device, options.read_fault).map_err(|error| unavailable(&error))?,
     })
 }
 
@@ -99,6 +101,7 @@ mod tests {
         let options = Options {
             device: 0,
             validate: true,
+            read_fault: None,
         };
         let backend = open("vulkan:0", &options).expect("this test needs a Vulkan driver");
         assert_eq!(backend.messages(), Vec::<String>::new());
@@ -123,6 +126,7 @@ mod tests {
         let options = Options {
             device: 0,
             validate: true,
+            read_fault: None,
         };
         let backend = open("vulkan:0", &options).expect("this test needs a Vulkan driver");
         let library = Library::built_in().expect("built-in files parse");

@@ -1,9 +1,11 @@
 //! Physical devices and the logical device.
 
 use crate::error::{Check, describe};
-use crate::instance::Instance;
+use crate::instance::{INSTANCE_VERSION, Instance};
 use ash::vk;
 use etalon_backend::{AdapterInfo, BackendError, Unavailable};
+use etalon_frame::{ApiVersion, Property};
+use std::collections::BTreeSet;
 use std::ffi::CStr;
 use std::rc::Rc;
 
@@ -21,6 +23,10 @@ pub(crate) struct Device {
     pub(crate) queue: vk::Queue,
     pub(crate) queue_family: u32,
     pub(crate) limits: vk::PhysicalDeviceLimits,
+    /// The version whose text binds the device: its own, or the instance's if that is older.
+    pub(crate) version: ApiVersion,
+    /// The promises of the device that narrow the text.
+    pub(crate) properties: BTreeSet<Property>,
     pub(crate) memory: vk::PhysicalDeviceMemoryProperties,
     /// True if the queue supports compute shaders.
     pub(crate) compute: bool,
@@ -109,6 +115,46 @@ fn short_name(id: vk::DriverId, vendor: u32) -> String {
     }
 }
 
+/// Returns the version of the text that binds a device: instances ask for 1.3.
+fn bound_version(device: u32) -> ApiVersion {
+    let bound = device.min(INSTANCE_VERSION);
+    let part = |number| u8::try_from(number).unwrap_or(u8::MAX);
+    ApiVersion::new(
+        part(vk::api_version_major(bound)),
+        part(vk::api_version_minor(bound)),
+    )
+}
+
+/// Returns the promises of maintenance5, where the device has it.
+fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Property> {
+    // SAFETY: `physical` is of this instance.
+    let extensions = unsafe { api.enumerate_device_extension_properties(physical) };
+    let has = |name: &CStr| {
+        let all = extensions.iter().flatten();
+        all.into_iter()
+            .any(|e| e.extension_name_as_c_str().is_ok_and(|n| n == name))
+    };
+    if !has(ash::khr::maintenance5::NAME) {
+        return BTreeSet::new();
+    }
+    let mut raw = vk::PhysicalDeviceMaintenance5PropertiesKHR::default();
+    let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut raw);
+    // SAFETY: the chained structure is of an extension that the device has.
+    unsafe { api.get_physical_device_properties2(physical, &mut both) };
+    let promised = [
+        (
+            Property::CoverageAfterCounting,
+            raw.early_fragment_multisample_coverage_after_sample_counting,
+        ),
+        (
+            Property::MaskBeforeCounting,
+            raw.early_fragment_sample_mask_test_before_sample_counting,
+        ),
+    ];
+    let kept = promised.into_iter().filter(|(_, has)| *has == vk::TRUE);
+    kept.map(|(property, _)| property).collect()
+}
+
 /// Returns the features of a device that the suite uses.
 fn used_features(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures {
     vk::PhysicalDeviceFeatures {
@@ -159,6 +205,7 @@ impl Device {
         };
         // SAFETY: as above.
         let features = unsafe { api.get_physical_device_features(physical) };
+        let promises = promises(api, physical);
         // SAFETY: as above.
         let memory = unsafe { api.get_physical_device_memory_properties(physical) };
 
@@ -193,6 +240,8 @@ impl Device {
             queue,
             queue_family: index,
             limits: properties.limits,
+            version: bound_version(properties.api_version),
+            properties: promises,
             memory,
             compute: family.queue_flags.contains(compute),
             features: enabled,

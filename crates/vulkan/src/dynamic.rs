@@ -1,5 +1,8 @@
 //! Dynamic state, set for each draw: everything that Vulkan 1.3 allows, so that draws share
 //! pipelines.
+//!
+//! Vulkan asks for the parameters of tests that are off as well. They may not act, so they are those
+//! that would be seen: a driver that forgets to ask whether a test is enabled must not pass by chance.
 
 use crate::device::Device;
 use crate::error::internal;
@@ -85,13 +88,10 @@ impl Dynamic {
     /// `commands` is recording, and the device has the features that the draw needs.
     pub(crate) unsafe fn set(&self, device: &Device, commands: vk::CommandBuffer) {
         let api = &device.raw;
-        let bias = self.depth_bias;
-        let biased = bias.constant != 0 || bias.slope != 0.0;
-        let [low, high] = self.depth_bounds.unwrap_or([0.0, 1.0]);
-        let depth = self.depth.unwrap_or(DepthState {
-            compare: CompareFunction::Always,
-            write: false,
-        });
+        let biased = self.depth_bias.constant != 0 || self.depth_bias.slope != 0.0;
+        let bias = if biased { self.depth_bias } else { IDLE_BIAS };
+        let [low, high] = self.depth_bounds.unwrap_or(IDLE_BOUNDS);
+        let depth = self.depth.unwrap_or(IDLE_DEPTH);
         // SAFETY: the caller's; no call here takes a pointer that outlives it.
         unsafe {
             api.cmd_set_viewport(commands, 0, &[self.viewport]);
@@ -111,8 +111,8 @@ impl Dynamic {
             api.cmd_set_blend_constants(commands, &self.blend_constant);
             api.cmd_set_stencil_test_enable(commands, self.stencil.is_some());
             let stencil = self.stencil.unwrap_or(StencilState {
-                front: NO_OP_FACE,
-                back: NO_OP_FACE,
+                front: IDLE_FACE,
+                back: IDLE_FACE,
             });
             for (face, side) in [
                 (vk::StencilFaceFlags::FRONT, &stencil.front),
@@ -134,12 +134,28 @@ impl Dynamic {
     }
 }
 
-/// A face that changes nothing, for a disabled stencil test.
-const NO_OP_FACE: StencilFace = StencilFace {
-    compare: CompareFunction::Always,
-    fail_op: StencilOperation::Keep,
-    depth_fail_op: StencilOperation::Keep,
-    pass_op: StencilOperation::Keep,
+/// A disabled depth bias.
+const IDLE_BIAS: DepthBias = DepthBias {
+    constant: 1_000_000,
+    slope: 0.0,
+    clamp: 0.0,
+};
+
+/// Disabled depth bounds, which no depth that a case stores lies in.
+const IDLE_BOUNDS: [f32; 2] = [0.999_999, 0.999_999_5];
+
+/// A disabled depth test.
+const IDLE_DEPTH: DepthState = DepthState {
+    compare: CompareFunction::Never,
+    write: true,
+};
+
+/// A face of a disabled stencil test.
+const IDLE_FACE: StencilFace = StencilFace {
+    compare: CompareFunction::Never,
+    fail_op: StencilOperation::Invert,
+    depth_fail_op: StencilOperation::Invert,
+    pass_op: StencilOperation::Invert,
     read_mask: 0xff,
     write_mask: 0xff,
     reference: 0,

@@ -6,6 +6,9 @@ use etalon_backend::Unavailable;
 use std::ffi::{CStr, c_void};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
+/// The version that instances ask for.
+pub(crate) const INSTANCE_VERSION: u32 = vk::API_VERSION_1_3;
+
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 /// The most messages kept between two calls of [`Instance::take_messages`].
 const MAX_MESSAGES: usize = 1000;
@@ -56,7 +59,7 @@ impl Instance {
         let application = vk::ApplicationInfo::default()
             .application_name(c"etalon")
             .engine_name(c"etalon")
-            .api_version(vk::API_VERSION_1_3);
+            .api_version(INSTANCE_VERSION);
         let mut layers = Vec::new();
         let mut extensions = Vec::new();
         let mut messages = None;

@@ -5,9 +5,10 @@ use crate::format::{self, Native};
 use crate::samples;
 use ash::vk;
 use etalon_frame::{
-    Api, Aspect, Feature, FormatSupport, Limits, ReadPath, TextureFormat, standard_sample_positions,
+    Api, Aspect, Feature, FormatSupport, Limits, ReadPath, Requirement, TextureFormat,
+    standard_sample_positions,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The sample counts above 1 that a case may use.
 const COUNTS: [u32; 4] = [2, 4, 8, 16];
@@ -45,6 +46,9 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
     }
     Limits {
         api: Api::Vulkan,
+        version: device.version,
+        properties: device.properties.clone(),
+        exempt: exempt(device, natives),
         sub_pixel_bits: u8::try_from(raw.sub_pixel_precision_bits).unwrap_or(u8::MAX),
         max_size,
         max_color_attachments: raw
@@ -76,7 +80,9 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::LogicOperations => features.logic_op,
         Feature::PolygonModeLine => features.fill_mode_non_solid,
         Feature::PreciseOcclusion => features.occlusion_query_precise,
-        Feature::SampleShading => features.sample_rate_shading,
+        // Only OpenGL has it.
+        Feature::SampleCoverage => vk::FALSE,
+        Feature::MinSampleShading | Feature::SampleShading => features.sample_rate_shading,
         Feature::StorageCounters => features.fragment_stores_and_atomics,
         Feature::CentroidInterpolation
         | Feature::ConservativeDepth
@@ -95,19 +101,34 @@ fn has(device: &Device, feature: Feature) -> bool {
     flag != vk::FALSE
 }
 
+/// Returns the counts of samples that the device may have and nothing could be asserted of.
+fn exempt(device: &Device, natives: &BTreeMap<TextureFormat, Native>) -> BTreeSet<Requirement> {
+    let unread = |(format, native): &(&TextureFormat, &Native)| {
+        native.attachment && !samples_are_readable(device, **format, **native)
+    };
+    let all = natives.iter().filter(unread);
+    all.flat_map(|(format, _)| COUNTS.map(|count| Requirement::Samples(*format, count)))
+        .collect()
+}
+
+/// True if several samples of a format can be read back and lie where the standard puts them. Without
+/// standard sample locations nothing could be asserted of more than one sample.
+fn samples_are_readable(device: &Device, format: TextureFormat, native: Native) -> bool {
+    let readable = format.aspects().iter().all(|aspect| {
+        let channels = format::channels(format, native.raw, *aspect);
+        channels.iter().all(|c| samples::can_read(*c))
+    });
+    device.limits.standard_sample_locations != 0 && device.compute && readable
+}
+
 /// Returns the sample counts of a format that can be drawn, cleared and read back sample by sample.
-/// Without standard sample locations nothing could be asserted of more than one sample.
 fn sample_counts(device: &Device, format: TextureFormat, native: Native) -> Vec<u32> {
     if !native.attachment {
         return Vec::new();
     }
     let mut counts = vec![1];
     let raw = &device.limits;
-    let readable = format.aspects().iter().all(|aspect| {
-        let channels = format::channels(format, native.raw, *aspect);
-        channels.iter().all(|c| samples::can_read(*c))
-    });
-    if raw.standard_sample_locations == 0 || !device.compute || !readable {
+    if !samples_are_readable(device, format, native) {
         return counts;
     }
     let usage =

@@ -40,9 +40,30 @@ struct Key {
     class: PrimitiveTopology,
     polygon_mode: PolygonMode,
     depth_clamp: bool,
-    multisample: Multisample,
+    multisample: MultisampleKey,
     logic: Option<LogicOperation>,
     color: Vec<ColorTarget>,
+}
+
+/// The multisample state of a pipeline, which is compared bit by bit.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct MultisampleKey {
+    mask: u32,
+    alpha_to_coverage: bool,
+    alpha_to_one: bool,
+    min_sample_shading: Option<u32>,
+}
+
+impl MultisampleKey {
+    /// Vulkan has no sample coverage, so the limits deny it.
+    fn of(state: &Multisample) -> Self {
+        Self {
+            mask: state.mask,
+            alpha_to_coverage: state.alpha_to_coverage,
+            alpha_to_one: state.alpha_to_one,
+            min_sample_shading: state.min_sample_shading.map(f32::to_bits),
+        }
+    }
 }
 
 fn class(topology: PrimitiveTopology) -> PrimitiveTopology {
@@ -161,7 +182,7 @@ impl Pipelines {
             class: class(draw.topology),
             polygon_mode: draw.polygon_mode,
             depth_clamp: draw.depth_clamp,
-            multisample: draw.multisample,
+            multisample: MultisampleKey::of(&draw.multisample),
             logic: draw.logic,
             color: draw.targets.clone(),
         };
@@ -266,9 +287,12 @@ fn create(
         .line_width(1.0);
     // One word holds the masks of up to 32 samples.
     let mask = [key.multisample.mask];
+    let min_sample_shading = key.multisample.min_sample_shading.map(f32::from_bits);
     let multisample = vk::PipelineMultisampleStateCreateInfo::default()
         .rasterization_samples(state::samples(key.targets.samples))
         .sample_mask(&mask)
+        .sample_shading_enable(min_sample_shading.is_some())
+        .min_sample_shading(min_sample_shading.unwrap_or(0.0))
         .alpha_to_coverage_enable(key.multisample.alpha_to_coverage)
         .alpha_to_one_enable(key.multisample.alpha_to_one);
     let depth_stencil = vk::PipelineDepthStencilStateCreateInfo::default();

@@ -206,7 +206,7 @@ impl Prepared for PreparedScene<'_> {
                 .read(device, slot, self.counts.as_ref())?,
         };
         for read in &self.plan.reads {
-            frame.images.push(read.image(output)?);
+            frame.images.push(read.image(output, self.gpu.read_fault)?);
         }
         Ok(frame)
     }

@@ -11,8 +11,8 @@ use crate::inputs::OffsetAllocator;
 use crate::samples::{self, SampleReader, SampleReaders, SampleType};
 use crate::slot::Slot;
 use ash::vk;
-use etalon_backend::BackendError;
 use etalon_backend::codes::code_of_fetched;
+use etalon_backend::{BackendError, ReadFault};
 use etalon_frame::{Aspect, ChannelEncoding, ReadPath};
 use etalon_scene::Scene;
 
@@ -117,15 +117,22 @@ impl ReadPlan {
     }
 
     /// Returns the image, after the device wrote the output buffer.
-    pub(crate) fn image(&self, output: &Buffer) -> Result<etalon_frame::Image, BackendError> {
+    pub(crate) fn image(
+        &self,
+        output: &Buffer,
+        fault: Option<ReadFault>,
+    ) -> Result<etalon_frame::Image, BackendError> {
         let length =
             usize::try_from(self.bytes).map_err(|_| internal("an image too large to read"))?;
         let bytes = output.read(self.offset, length)?;
-        let codes = if self.reader.is_some() {
+        let mut codes = if self.reader.is_some() {
             self.codes_of_samples(&bytes)
         } else {
             format::decode(&bytes, self.raw, self.aspect)
         };
+        if let Some(fault) = fault {
+            fault.apply(&mut codes, self.size, self.samples, &self.channels);
+        }
         Ok(etalon_frame::Image {
             attachment: self.name.clone(),
             aspect: self.aspect,

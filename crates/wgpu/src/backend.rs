@@ -1,11 +1,10 @@
 //! Enumeration of adapters and the open adapter.
 
 use crate::gpu::Gpu;
-use crate::limits::{Abilities, deny_samples, limits, used_features};
+use crate::limits::{Abilities, limits, used_features};
 use crate::messages;
 use crate::prepared::PreparedScene;
-use crate::probe;
-use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
+use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, ReadFault, Unavailable};
 use etalon_frame::Limits;
 use etalon_scene::Scene;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -30,6 +29,8 @@ pub struct Options {
     /// Enables the Vulkan validation layer or OpenGL's debug output. Their messages are returned by
     /// [`Backend::messages`], unless the program has set its own logger, which receives them.
     pub validate: bool,
+    /// A fault that a test of the suite plants in the read path.
+    pub read_fault: Option<ReadFault>,
 }
 
 /// An open WebGPU device.
@@ -75,7 +76,7 @@ pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
     };
     let mut info = info(options.via, &adapter);
     name.clone_into(&mut info.name);
-    let gpu = device(&adapter).map_err(|reason| {
+    let gpu = device(&adapter, options.read_fault).map_err(|reason| {
         Unavailable::new(
             format!("{} gives no device: {reason}", info.device),
             remedy(options.via),
@@ -138,7 +139,7 @@ fn adapters(via: Via, flags: InstanceFlags) -> Result<Vec<wgpu::Adapter>, Unavai
     Ok(found)
 }
 
-fn device(adapter: &wgpu::Adapter) -> Result<Gpu, String> {
+fn device(adapter: &wgpu::Adapter, read_fault: Option<ReadFault>) -> Result<Gpu, String> {
     let features = adapter.features() & used_features();
     let descriptor = wgpu::DeviceDescriptor {
         label: None,
@@ -155,18 +156,7 @@ fn device(adapter: &wgpu::Adapter) -> Result<Gpu, String> {
         .map_err(|error| error.to_string())?;
     let abilities = Abilities::of(adapter);
     let limits = limits(adapter, features, abilities);
-    let mut gpu = Gpu::new(device, queue, limits, abilities).map_err(|error| error.to_string())?;
-    let has_samples = probe::samples_work(&gpu).map_err(|error| error.to_string())?;
-    if !has_samples {
-        deny_samples(&mut gpu.limits);
-    }
-    let denied = probe::deny_uncompilable_features(&mut gpu).map_err(|error| error.to_string())?;
-    if denied || !has_samples {
-        // Messages about denied features are not the scenes'.
-        gpu.forget();
-        drop(messages::take());
-    }
-    Ok(gpu)
+    Gpu::new(device, queue, limits, abilities, read_fault).map_err(|error| error.to_string())
 }
 
 fn backends(via: Via) -> Backends {
@@ -263,6 +253,7 @@ mod tests {
             via,
             device: 0,
             validate: true,
+            read_fault: None,
         };
         let backend = open("wgpu", &options).expect("this test needs a driver and its validation");
         assert_eq!(backend.messages(), Vec::<String>::new());

@@ -8,7 +8,7 @@ use crate::limits::{Abilities, fetched};
 use crate::pipeline::Pipelines;
 use crate::pool::{Lease, Pool};
 use crate::target::Target;
-use etalon_backend::BackendError;
+use etalon_backend::{BackendError, ReadFault};
 use etalon_frame::{Limits, TextureFormat};
 use std::rc::Rc;
 use wgpu::{BufferUsages, TextureUsages};
@@ -26,6 +26,8 @@ pub(crate) struct Gpu {
     pub(crate) limits: Limits,
     pub(crate) abilities: Abilities,
     pub(crate) clock: Option<Clock>,
+    /// The fault that a test plants in everything that is read back.
+    pub(crate) read_fault: Option<ReadFault>,
     pub(crate) pipelines: Pipelines,
     textures: Pool<TextureKey, Rc<Target>>,
     buffers: Pool<BufferKey, wgpu::Buffer>,
@@ -53,6 +55,7 @@ impl Gpu {
         queue: wgpu::Queue,
         limits: Limits,
         abilities: Abilities,
+        read_fault: Option<ReadFault>,
     ) -> Result<Self, BackendError> {
         let errors = Errors::of(&device);
         let (clock, pipelines) = errors.guard("opening the device", || {
@@ -67,6 +70,7 @@ impl Gpu {
             limits,
             abilities,
             clock,
+            read_fault,
             pipelines,
             textures: Pool::new(IDLE_BYTES),
             buffers: Pool::new(IDLE_BYTES),

@@ -27,7 +27,6 @@ mod messages;
 mod pipeline;
 mod pool;
 mod prepared;
-mod probe;
 mod read;
 mod state;
 mod target;

@@ -2,8 +2,8 @@
 
 use crate::format;
 use etalon_frame::{
-    Api, ChannelEncoding, Feature, FormatSupport, Limits, ReadPath, TextureFormat,
-    standard_sample_positions,
+    Api, ApiVersion, ChannelEncoding, Feature, FormatSupport, Limits, ReadPath, Requirement,
+    TextureFormat, standard_sample_positions,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use wgpu::{DownlevelFlags, Features, TextureFormatFeatureFlags, TextureUsages};
@@ -27,7 +27,6 @@ pub(crate) fn used_features() -> Features {
         | Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
         | Features::DUAL_SOURCE_BLENDING
         | Features::DEPTH_CLIP_CONTROL
-        | Features::POLYGON_MODE_LINE
         | Features::PIPELINE_STATISTICS_QUERY
         | Features::SHADER_EARLY_DEPTH_TEST
 }
@@ -163,10 +162,10 @@ fn support(
 
 /// Returns the features that wgpu offers beyond WebGPU's minimum. It lacks or refuses the rest:
 /// reversed depth ranges, mirrored viewports, scissors beyond the attachments, factors of `min` and
-/// `max`, counts of samples.
+/// `max`, counts of samples, sample coverage, least shares of sample shading.
 ///
 /// Shaders with early-test attributes keep them in translation, since the wgpu feature requires the
-/// GLSL versions that have them. [`crate::probe`] removes what does not compile.
+/// GLSL versions that have them. What wgpu offers and then refuses fails its cases.
 fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTreeSet<Feature> {
     let max_size = of.max_texture_dimension_2d;
     let flag = |flag| flags.contains(flag);
@@ -198,10 +197,8 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
             Feature::IndependentBlend,
             flag(DownlevelFlags::INDEPENDENT_BLEND),
         ),
-        (
-            Feature::PolygonModeLine,
-            feature(Features::POLYGON_MODE_LINE),
-        ),
+        // WebGPU has no polygon modes; a native feature of wgpu answers to no text.
+        (Feature::PolygonModeLine, false),
         (
             Feature::SampleShading,
             flag(DownlevelFlags::MULTISAMPLED_SHADING),
@@ -219,8 +216,31 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
         .collect()
 }
 
-/// Returns the limits of an adapter's device with these features. [`crate::probe`] checks that
-/// multisampling works.
+/// Returns what an adapter may lack without breaking WebGPU's word: what this backend does not use, and
+/// everything where wgpu itself says that the adapter has less than WebGPU.
+fn exempt(adapter: &wgpu::Adapter, abilities: Abilities) -> BTreeSet<Requirement> {
+    let complete = adapter.get_downlevel_capabilities().is_webgpu_compliant();
+    // Only four targets of the shortest texels fit into WebGPU's bytes.
+    let mut exempt = BTreeSet::from([Requirement::ColorAttachments(4)]);
+    for format in TextureFormat::ALL {
+        if !complete || format.is_integer() || !samples_are_exact(format, abilities) {
+            exempt.insert(Requirement::Samples(format, SAMPLES));
+        }
+        if !complete {
+            exempt.extend([
+                Requirement::Format(format),
+                Requirement::Drawing(format),
+                Requirement::Blending(format),
+            ]);
+        }
+    }
+    if !complete {
+        exempt.extend(Feature::ALL.map(Requirement::Feature));
+    }
+    exempt
+}
+
+/// Returns the limits of an adapter's device with these features, all of them by wgpu's own word.
 pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abilities) -> Limits {
     let of = adapter.limits();
     let flags = adapter.get_downlevel_capabilities().flags;
@@ -231,6 +251,9 @@ pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abi
     let max_size = of.max_texture_dimension_2d;
     Limits {
         api: Api::WebGpu,
+        version: ApiVersion::UNKNOWN,
+        properties: BTreeSet::new(),
+        exempt: exempt(adapter, abilities),
         sub_pixel_bits: SUB_PIXEL_BITS,
         max_size,
         max_color_attachments: of
@@ -241,12 +264,4 @@ pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abi
         // WebGPU requires the standard ones of all adapters (Rasterization).
         sample_positions: BTreeMap::from([1, SAMPLES].map(|n| (n, standard_sample_positions(n)))),
     }
-}
-
-/// Removes multisampling from the limits.
-pub(crate) fn deny_samples(limits: &mut Limits) {
-    for support in limits.formats.values_mut() {
-        support.samples.retain(|count| *count == 1);
-    }
-    limits.sample_positions.remove(&SAMPLES);
 }

@@ -9,8 +9,7 @@ use crate::state::{self, Shape};
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
 use etalon_scene::{
-    ColorTarget, DepthBias, DepthState, Draw, EarlyTests, Multisample, Sampler, Shader,
-    StencilState, Vertex,
+    ColorTarget, DepthBias, DepthState, Draw, EarlyTests, Sampler, Shader, StencilState, Vertex,
 };
 use std::borrow::Cow;
 
@@ -41,7 +40,8 @@ pub(crate) struct DrawKey {
     targets: Vec<(TextureFormat, ColorTarget)>,
     depth_stencil: Option<TextureFormat>,
     samples: u32,
-    multisample: Multisample,
+    sample_mask: u32,
+    alpha_to_coverage: bool,
 }
 
 /// A depth bias with floats as bits, for hashing.
@@ -113,7 +113,8 @@ impl DrawKey {
             targets: colors.zip(draw.targets.iter().copied()).collect(),
             depth_stencil,
             samples,
-            multisample: draw.multisample,
+            sample_mask: draw.multisample.mask,
+            alpha_to_coverage: draw.multisample.alpha_to_coverage,
         }
     }
 }
@@ -177,8 +178,8 @@ impl Pipelines {
                 depth_stencil: depth_stencil.transpose()?,
                 multisample: wgpu::MultisampleState {
                     count: key.samples,
-                    mask: key.multisample.mask.into(),
-                    alpha_to_coverage_enabled: key.multisample.alpha_to_coverage,
+                    mask: key.sample_mask.into(),
+                    alpha_to_coverage_enabled: key.alpha_to_coverage,
                 },
                 fragment: Some(wgpu::FragmentState {
                     module: &module,
@@ -235,6 +236,7 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::DepthGrey
         | Shader::DepthLinearized
         | Shader::DepthRange
+        | Shader::FragCoordColor
         | Shader::FrontFacing
         | Shader::SampleDepth
         | Shader::SampleIndex

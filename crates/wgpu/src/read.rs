@@ -6,8 +6,8 @@ use crate::gpu::{Gpu, TextureLease, extent};
 use crate::limits::{Abilities, read_path};
 use crate::target::Target;
 use crate::texel;
-use etalon_backend::BackendError;
 use etalon_backend::codes::code_of_fetched;
+use etalon_backend::{BackendError, ReadFault};
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, ReadPath, TextureFormat};
 use wgpu::BufferUsages;
 
@@ -83,7 +83,10 @@ pub(crate) fn frame(
             .get_mapped_range()
             .map_err(|error| BackendError::Internal(format!("mapping a buffer: {error}")))?;
         Frame {
-            images: plans.iter().map(|plan| plan.image(&bytes)).collect(),
+            images: plans
+                .iter()
+                .map(|plan| plan.image(&bytes, gpu.read_fault))
+                .collect(),
             counters: counting.counts(&bytes[size as usize..]),
         }
     };
@@ -284,8 +287,8 @@ impl<'a> ReadPlan<'a> {
     }
 
     /// Returns the image from the mapped buffer.
-    fn image(&self, bytes: &[u8]) -> Image {
-        let codes = match self.method {
+    fn image(&self, bytes: &[u8], fault: Option<ReadFault>) -> Image {
+        let mut codes = match self.method {
             ReadMethod::Copy | ReadMethod::FetchDepth => self.copied(bytes),
             ReadMethod::FetchSamples => self.samples(bytes),
             ReadMethod::StencilBits => {
@@ -298,6 +301,10 @@ impl<'a> ReadPlan<'a> {
                     .collect()
             }
         };
+        if let Some(fault) = fault {
+            let (size, samples) = (self.source.size, self.source.samples);
+            fault.apply(&mut codes, size, samples, &self.channels);
+        }
         Image {
             attachment: self.source.name.to_owned(),
             aspect: self.aspect,

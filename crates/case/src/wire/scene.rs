@@ -111,6 +111,8 @@ pub(crate) enum TexelsWire {
         /// As many rows as the attachment is high, each of as many texels as it is wide.
         values: Vec<Vec<[f64; 4]>>,
     },
+    /// Codes computed from the format, which tell rows, columns, channels and bits apart.
+    Codes,
 }
 
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

@@ -48,6 +48,7 @@ fn every_area_holds_its_cases() {
         ("multisample", 1200),
         ("scissor", 130),
         ("selftest", 86),
+        ("capabilities", 250),
     ];
     for (area, least) in due {
         let count = counts.get(area).copied().unwrap_or(0);
@@ -74,8 +75,9 @@ fn the_quick_profile_takes_some_of_every_file() {
         if measures.iter().any(|area| file.name().starts_with(area)) {
             continue;
         }
-        // One seed is as good as another.
-        if file.name().starts_with("combined/") {
+        // One seed is as good as another, and the other areas draw every format and feature too.
+        let partly = ["combined/", "capabilities/"];
+        if partly.iter().any(|area| file.name().starts_with(area)) {
             all += quick.len();
             continue;
         }
@@ -86,7 +88,7 @@ fn the_quick_profile_takes_some_of_every_file() {
         assert_eq!(met, due, "{}", file.name());
         all += quick.len();
     }
-    assert!(all <= 1500, "{all} cases are not quick");
+    assert!(all <= 1700, "{all} cases are not quick");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use super::open::Open;
 use super::origin::Origin;
 use super::query::Query;
 use super::runtime_folder::default_runtime_folder;
-use etalon_backend::AdapterInfo;
+use etalon_backend::{AdapterInfo, ReadFault};
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, StartError, Worker};
 use std::path::{Path, PathBuf};
@@ -57,6 +57,7 @@ fn open(name: &str, backend: BackendName) -> Open {
         egl: None,
         validate: false,
         hidden: None,
+        read_fault: None,
     }
 }
 
@@ -77,6 +78,25 @@ impl Candidate {
             hidden: Some(hidden),
             ..open(name, BackendName::Cpu)
         })
+    }
+
+    /// Returns the adapter with a fault planted in its read path, under another name; `None` for the rasterizer, which
+    /// has none to plant it in.
+    pub(super) fn with_read_fault(&self, name: &str, fault: ReadFault) -> Option<Self> {
+        match self {
+            Self::Described(description, file) if description.backend != BackendName::Cpu => {
+                let mut description = description.clone();
+                name.clone_into(&mut description.name);
+                description.read_fault = Some(fault);
+                Some(Self::Described(description, file.clone()))
+            }
+            Self::Enumerated(open) => Some(Self::Enumerated(Open {
+                name: name.to_owned(),
+                read_fault: Some(fault),
+                ..open.clone()
+            })),
+            Self::Described(..) | Self::Hidden(_) => None,
+        }
     }
 
     pub(super) fn name(&self) -> &str {
@@ -182,6 +202,7 @@ impl Candidate {
             Self::Described(description, _) => Open {
                 device: description.device,
                 egl: resolved.egl.clone(),
+                read_fault: description.read_fault,
                 ..open(&description.name, description.backend)
             },
             Self::Enumerated(open) | Self::Hidden(open) => open.clone(),

@@ -3,6 +3,7 @@
 use super::backend_name::BackendName;
 use super::names::{MAX_NAME, is_name};
 use crate::failure::Failure;
+use etalon_backend::ReadFault;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
@@ -51,6 +52,9 @@ pub(super) struct Description {
     /// A word that the name of the device or driver must contain: if the driver that the environment selects is
     /// missing, another one answers.
     pub(super) answers: Option<String>,
+    /// A planted fault of reading back; no file can name one.
+    #[serde(skip)]
+    pub(super) read_fault: Option<ReadFault>,
     /// The way to get the driver.
     #[serde(default)]
     pub(super) remedy: String,
@@ -85,6 +89,15 @@ pub(super) fn built_in() -> Result<Vec<Description>, Failure> {
         include_str!("../../adapters.json"),
         "the built-in adapters.json",
     )
+}
+
+/// Returns the names of the adapters that the built-in file and another one describe.
+pub(crate) fn described_names(file: Option<&Path>) -> Result<Vec<String>, Failure> {
+    let mut all = built_in()?;
+    if let Some(file) = file {
+        all.append(&mut read(file)?);
+    }
+    Ok(all.into_iter().map(|entry| entry.name).collect())
 }
 
 /// Reads the entries of a file.
@@ -370,7 +383,7 @@ mod tests {
             (&long, "at most 64"),
         ] {
             let error = parse(text, "mine.json").map(|_| ()).unwrap_err();
-            let Failure::Message {
+            let Failure {
                 code: USAGE,
                 message,
             } = error

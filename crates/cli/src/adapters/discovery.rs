@@ -9,6 +9,8 @@ use super::hidden::Hidden;
 use super::origin::Origin;
 use super::query::Query;
 use crate::failure::Failure;
+use crate::output::say;
+use etalon_backend::ReadFault;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, Worker};
 use std::collections::{BTreeMap, BTreeSet};
@@ -86,10 +88,23 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
     }
     let is_known =
         |candidates: &[Candidate], name: &str| candidates.iter().any(|c| c.name() == name);
-    let all_known = query.names.iter().all(|name| is_known(&candidates, name));
+    let all_known = query.names.iter().all(|name| {
+        is_known(
+            &candidates,
+            planted(name).map_or(name.as_str(), |(driver, _)| driver),
+        )
+    });
     if query.names.is_empty() || !all_known {
         let taken = candidates.iter().map(|c| c.name().to_owned()).collect();
         candidates.extend(hardware(&taken, absent));
+    }
+    for name in query.names {
+        if let Some((driver, fault)) = planted(name)
+            && let Some(candidate) = candidates.iter().find(|c| c.name() == driver)
+            && let Some(faulty) = candidate.with_read_fault(name, fault)
+        {
+            candidates.push(faulty);
+        }
     }
     for name in query.names {
         if !is_known(&candidates, name) {
@@ -106,6 +121,13 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
         candidates.retain(|c| query.names.iter().any(|name| name == c.name()));
     }
     Ok(candidates)
+}
+
+/// Returns the driver and the fault of a name such as `gl:llvmpipe:read-fault=off-by-one`: the driver as it is, whose
+/// read-back a test spoils inside the backend. Such adapters are not listed.
+fn planted(name: &str) -> Option<(&str, ReadFault)> {
+    let (driver, fault) = name.rsplit_once(":read-fault=")?;
+    Some((driver, ReadFault::named(fault)?))
 }
 
 /// Returns the built-in descriptions and those of the user, which replace built-in ones of equal names.
@@ -177,9 +199,11 @@ pub(crate) fn refuse_absent(named: &[String], absent: &[AbsentAdapter]) -> Resul
         )));
     }
     for absent in absent {
-        eprintln!(
+        say!(
             "unavailable: {}: {}; {}",
-            absent.name, absent.reason, absent.remedy
+            absent.name,
+            absent.reason,
+            absent.remedy
         );
     }
     Ok(())

@@ -1,8 +1,9 @@
 //! The rasterizer in a process that fails, such as `cpu:fault=abort`: to show that a run survives everything that
 //! drivers do to their processes.
 
+use crate::output::say;
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
-use etalon_frame::{Frame, Limits};
+use etalon_frame::{Frame, Limits, TextureFormat};
 use etalon_scene::Scene;
 use rustix::process::{Signal, getpid, kill_process};
 use serde::{Deserialize, Serialize};
@@ -16,8 +17,10 @@ use std::time::Duration;
 
 /// The start of the name, before the fault.
 const PREFIX: &str = "cpu:fault=";
-/// One scene out of this many fails, chosen by a hash of the scene.
+/// One scene out of this many fails, chosen by a hash of the scene; one without passes, a round trip, never does.
 const ONE_OF: u64 = 8;
+/// The format that a fault reads back wrong.
+const MISREAD: TextureFormat = TextureFormat::Rgb10a2Unorm;
 
 /// A fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -51,6 +54,8 @@ pub(crate) enum Fault {
     Validation,
     /// Pictures are wrong in about half of all processes.
     Flaky,
+    /// Every code of [`MISREAD`] is read back one too high, round trips included.
+    Misread,
     /// Pictures of some scenes are wrong after certain others were drawn in the same process.
     After,
     /// The driver ends the process while it opens.
@@ -60,7 +65,7 @@ pub(crate) enum Fault {
 }
 
 impl Fault {
-    const ALL: [Self; 17] = [
+    const ALL: [Self; 18] = [
         Self::Abort,
         Self::Segv,
         Self::Exit,
@@ -75,6 +80,7 @@ impl Fault {
         Self::Chatter,
         Self::Validation,
         Self::Flaky,
+        Self::Misread,
         Self::After,
         Self::Start,
         Self::Mute,
@@ -110,7 +116,7 @@ impl<B: Backend> Faulty<B> {
     pub(crate) fn new(inner: B, name: &str, fault: Fault, pipe: File) -> Self {
         match fault {
             Fault::Start => {
-                eprintln!("the planted driver does not start");
+                say!("the planted driver does not start");
                 std::process::exit(9);
             }
             Fault::Mute => sleep_endlessly(),
@@ -141,7 +147,7 @@ impl<B: Backend> Faulty<B> {
         let planted = || "planted".to_owned();
         match self.fault {
             Fault::Abort => {
-                eprintln!("about to abort, as planted");
+                say!("about to abort, as planted");
                 std::process::abort()
             }
             Fault::Segv => {
@@ -181,7 +187,7 @@ impl<B: Backend> Faulty<B> {
             }),
             Fault::Chatter => {
                 for line in 0..100_000 {
-                    eprintln!("line {line} of a long output");
+                    say!("line {line} of a long output");
                 }
                 std::process::abort()
             }
@@ -194,7 +200,7 @@ impl<B: Backend> Faulty<B> {
                 self.spoilt.set(true);
                 Ok(())
             }
-            Fault::Flaky | Fault::Start | Fault::Mute => Ok(()),
+            Fault::Flaky | Fault::Misread | Fault::Start | Fault::Mute => Ok(()),
         }
     }
 }
@@ -224,7 +230,8 @@ impl<B: Backend> Backend for Faulty<B> {
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
-        let number = hash(scene) % ONE_OF;
+        let spared = scene.passes.is_empty();
+        let number = if spared { ONE_OF } else { hash(scene) % ONE_OF };
         if number == 0 {
             self.fail()?;
         }
@@ -233,9 +240,18 @@ impl<B: Backend> Backend for Faulty<B> {
             Fault::After => number == 1 && self.spoilt.get(),
             _ => false,
         };
+        let misread = match self.fault {
+            Fault::Misread => {
+                let all = scene.attachments.iter();
+                let all = all.filter(|a| a.format == MISREAD);
+                all.map(|a| a.name.clone()).collect()
+            }
+            _ => Vec::new(),
+        };
         Ok(Box::new(FaultyScene {
             inner: self.inner.prepare(scene)?,
             wrong,
+            misread,
         }))
     }
 
@@ -249,6 +265,8 @@ impl<B: Backend> Backend for Faulty<B> {
 struct FaultyScene<'a> {
     inner: Box<dyn Prepared + 'a>,
     wrong: bool,
+    /// The attachments that are read back wrong.
+    misread: Vec<String>,
 }
 
 impl Prepared for FaultyScene<'_> {
@@ -262,6 +280,15 @@ impl Prepared for FaultyScene<'_> {
             // Flips all bits of all codes: wrong wherever anything is asserted.
             for code in frame.images.iter_mut().flat_map(|i| &mut i.codes) {
                 *code ^= 0xff;
+            }
+        }
+        for image in &mut frame.images {
+            if self.misread.contains(&image.attachment) {
+                for (i, code) in image.codes.iter_mut().enumerate() {
+                    let encoding = image.channels[i % image.channels.len()];
+                    let next = encoding.order_of_code(*code) + 1;
+                    *code = encoding.code_of_order(next.min(encoding.max_order()));
+                }
             }
         }
         Ok(frame)

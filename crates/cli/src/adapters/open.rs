@@ -2,6 +2,7 @@
 
 use super::backend_name::BackendName;
 use super::hidden::Hidden;
+use etalon_backend::ReadFault;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -22,4 +23,7 @@ pub(crate) struct Open {
     /// The fault of a hidden adapter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) hidden: Option<Hidden>,
+    /// The fault planted in the read path of a driver: `gl:llvmpipe:read-fault=off-by-one`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) read_fault: Option<ReadFault>,
 }

@@ -28,6 +28,9 @@ pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, Str
             software: false,
             limits: Limits {
                 api,
+                version: etalon_frame::ApiVersion::UNKNOWN,
+                properties: Default::default(),
+                exempt: Default::default(),
                 sub_pixel_bits: 0,
                 max_size: 0,
                 max_color_attachments: 0,

@@ -4,7 +4,7 @@ use crate::adapters::{Query, cache, discover, refuse_absent};
 use crate::cases::chosen;
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, CaseProfile, Format};
-use crate::output::{print, print_json, table_options};
+use crate::output::{say, summarize, summarize_json, table_options};
 use crate::progress::progress;
 use crate::{expectations, provenance, report_files};
 use clap::Args;
@@ -115,7 +115,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             if unexpected {
                 let (verdict, adapter) = (picture.verdict, &picture.adapter);
                 bar.suspend(|| {
-                    eprintln!("{verdict} {adapter} {}: {}", picture.case, picture.message);
+                    say!("{verdict} {adapter} {}: {}", picture.case, picture.message);
                 });
             }
         }
@@ -126,7 +126,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         BenchEvent::Ended { ended, missing } => {
             bar.inc(u64::from(missing));
             let (verdict, adapter) = (ended.verdict, &ended.adapter);
-            bar.suspend(|| eprintln!("{verdict} {adapter} {}: {}", ended.case, ended.message));
+            bar.suspend(|| say!("{verdict} {adapter} {}: {}", ended.case, ended.message));
         }
     });
     bar.finish_and_clear();
@@ -136,7 +136,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     })?;
     let written = etalon_report::write_bench(&arguments.out).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
-        print_json(&json!({
+        summarize_json(&json!({
             "pictures": outcome.pictures,
             "timed": outcome.timed,
             "unexpected": outcome.unexpected,
@@ -149,8 +149,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     } else {
         let bench = Bench::read(&arguments.out).map_err(Failure::incomplete)?;
         let options = table_options();
-        print(&etalon_report::bench_table(&bench, options))?;
-        print(&format!("\nReport: {}\n", written.html.display()))?;
+        summarize(&etalon_report::bench_table(&bench, options));
+        summarize(&format!("\nReport: {}\n", written.html.display()));
     }
     Ok(if outcome.unexpected > 0 {
         UNEXPECTED

@@ -5,11 +5,11 @@ use crate::cases::ids;
 use crate::expectations::{read, replace, today, write};
 use crate::failure::Failure;
 use crate::flags::AdapterFileArguments;
-use crate::output::print;
+use crate::output::{say, summarize};
 use clap::{Args, Subcommand};
-use etalon_record::{About, AdapterRecord, Expectations, Imported, ListKind};
+use etalon_record::{About, AdapterRecord, Entry, Expectations, Imported, ListKind};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Conversions from and to the lists of deqp-runner.
 #[derive(Debug, Subcommand)]
@@ -70,8 +70,8 @@ pub(crate) struct ExportArguments {
     pub(crate) adapter: String,
     #[command(flatten)]
     pub(crate) file: AdapterFileArguments,
-    /// Export the expectations of this file instead of the built-in ones
-    #[arg(long, value_name = "FILE")]
+    /// Export the expectations of this list, finding or folder of findings instead of the built-in ones
+    #[arg(long, value_name = "PATH")]
     pub(crate) expect: Option<PathBuf>,
     /// Folder for the lists
     #[arg(long, value_name = "DIR")]
@@ -121,11 +121,11 @@ fn import(arguments: &ImportArguments) -> Result<u8, Failure> {
         }
     }
     for (list, line) in imported.unmatched.iter().take(PRINTED) {
-        eprintln!("{list}: no case matches: {line}");
+        say!("{list}: no case matches: {line}");
     }
     let more = imported.unmatched.len().saturating_sub(PRINTED);
     if more > 0 {
-        eprintln!("and {more} more lines that match no case");
+        say!("and {more} more lines that match no case");
     }
     if imported.entries.is_empty() {
         return Err(Failure::nothing(
@@ -133,10 +133,7 @@ fn import(arguments: &ImportArguments) -> Result<u8, Failure> {
         ));
     }
     let mut entries = match arguments.out.exists() {
-        true => Expectations::read(&arguments.out)
-            .map_err(Failure::usage)?
-            .entries()
-            .to_vec(),
+        true => list(&arguments.out)?,
         false => Vec::new(),
     };
     let before = entries.len();
@@ -147,11 +144,24 @@ fn import(arguments: &ImportArguments) -> Result<u8, Failure> {
     }
     let added = entries.len() - before;
     write(&arguments.out, &entries)?;
-    print(&format!(
+    summarize(&format!(
         "{added} entries added to {}\n",
         arguments.out.display()
-    ))?;
+    ));
     Ok(0)
+}
+
+/// Returns the entries of a list.
+fn list(path: &Path) -> Result<Vec<Entry>, Failure> {
+    let known = Expectations::read(path).map_err(Failure::usage)?;
+    let entries: Vec<Entry> = known.entries().into_iter().cloned().collect();
+    if path.is_dir() || entries.len() < known.all().len() {
+        return Err(Failure::usage(format!(
+            "{} holds findings; name a list of expectations to add to",
+            path.display()
+        )));
+    }
+    Ok(entries)
 }
 
 fn export(arguments: &ExportArguments) -> Result<u8, Failure> {
@@ -177,11 +187,11 @@ fn export(arguments: &ExportArguments) -> Result<u8, Failure> {
         ("skips.txt", &lists.skips),
     ] {
         replace(&out.join(name), text)?;
-        print(&format!(
+        summarize(&format!(
             "{}: {} lines\n",
             out.join(name).display(),
             text.lines().count()
-        ))?;
+        ));
     }
     Ok(0)
 }

@@ -9,8 +9,10 @@ use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::{Case, Profile};
 use etalon_cpu::CpuBackend;
-use etalon_frame::{Frame, LegalSet, Limits};
-use etalon_reference::{Rules, Sample, explain, judge};
+use etalon_frame::{Band, ChannelMismatch, Frame, ImageInfo, Limits, Story, WrongTexel};
+use etalon_reference::{Rules, Sample};
+use etalon_runner::{judge_texel, story_of_relation, story_of_sample};
+use etalon_scene::Scene;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -24,16 +26,21 @@ pub(crate) struct Arguments {
     /// Column and row of the texel, counted from the top left corner
     #[arg(long, value_name = "X,Y", value_parser = parse_texel)]
     pub(crate) texel: [u32; 2],
+    /// Explain this sample only, counted from 0; without it, all samples of the texel
+    #[arg(long, value_name = "S")]
+    pub(crate) sample: Option<u32>,
     /// Draw the case on this adapter and judge its texel
     #[arg(long, value_name = "NAME")]
     pub(crate) adapter: Option<String>,
+    /// Also hold the texel against the yardstick, the band of good quality inside what is legal
+    #[arg(long)]
+    pub(crate) yardstick: bool,
     /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
 }
 
-/// Explains one texel by the rules and by the yardstick; with an adapter, also judges the value that it
-/// returned.
+/// Explains one texel by the rules; with an adapter, also judges the value that it returned.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let library = library(arguments.cases.as_ref())?;
     let Some(found) = library
@@ -47,152 +54,323 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     let case = found.build().map_err(Failure::usage)?;
     let scene = case.judged_scene();
-    let [x, y] = arguments.texel;
-    let inside = |index: &usize| {
-        let [w, h] = scene.attachments[*index].size;
-        x < w && y < h
+    refuse_outside(scene, arguments)?;
+    let (limits, frames) = match &arguments.adapter {
+        None => (CpuBackend::new("cpu").limits().clone(), Vec::new()),
+        Some(name) => draw(name, arguments.file.adapter_file.as_deref(), &case)?,
     };
-    if !scene.read.iter().any(inside) {
-        return Err(Failure::usage(format!(
-            "texel {x},{y} lies outside every attachment that the case reads back"
-        )));
-    }
-    let (limits, frame) = match &arguments.adapter {
-        None => (CpuBackend::new("cpu").limits().clone(), None),
-        Some(name) => {
-            let (limits, frame) = draw(name, arguments.file.adapter_file.as_deref(), &case)?;
-            (limits, Some(frame))
-        }
+    let asked = Asked {
+        case: &case,
+        texel: arguments.texel,
+        sample: arguments.sample,
+        frames: &frames,
     };
-    let mut text = format!("{}\n{}\n\n", case.id, case.about);
-    let mut legal_everywhere = false;
-    for limits in limits.alternatives(&scene.formats()) {
-        legal_everywhere |= explain_texel(&mut text, &case, &limits, [x, y], frame.as_ref());
-    }
-    print(&text)?;
-    let wrong = frame.is_some() && !legal_everywhere && case.judged_as.is_none();
-    Ok(if wrong { UNEXPECTED } else { 0 })
+    let told = asked.all(&limits, arguments.yardstick)?;
+    print(&told.text(&case))?;
+    let bad = told.worst() > Some(Band::Imprecise);
+    Ok(if bad && case.judged_as.is_none() {
+        UNEXPECTED
+    } else {
+        0
+    })
 }
 
-/// Appends both explanations. Returns true if the texel of the frame is legal.
-fn explain_texel(
-    text: &mut String,
-    case: &Case,
-    limits: &Limits,
-    [x, y]: [u32; 2],
-    frame: Option<&Frame>,
-) -> bool {
-    let scene = case.judged_scene();
-    let mut legal = true;
-    for rules in [Rules::of(limits.api), Rules::yardstick(limits)] {
-        let set = judge(scene, limits, &rules);
-        let yardstick = rules.name == "yardstick";
-        let encodings: Vec<String> = set
-            .images
-            .iter()
-            .map(|i| format!("{} {} {}", i.attachment, i.aspect, i.channels[0]))
-            .collect();
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "By the rules of {} ({}):",
-            rules.name,
-            encodings.join(", ")
-        );
-        for group in &set.groups {
-            if x >= group.size[0] || y >= group.size[1] {
-                continue;
+/// Refuses a texel or a sample that no attachment has that the case reads back.
+fn refuse_outside(scene: &Scene, arguments: &Arguments) -> Result<(), Failure> {
+    let [x, y] = arguments.texel;
+    let read = || scene.read.iter().map(|i| &scene.attachments[*i]);
+    let inside = || read().filter(|a| x < a.size[0] && y < a.size[1]);
+    if inside().next().is_none() {
+        let sizes = read().map(|a| format!("{} is {} by {}", a.name, a.size[0], a.size[1]));
+        return Err(Failure::usage(format!(
+            "texel {x},{y} lies outside every attachment that the case reads back: {}",
+            sizes.collect::<Vec<_>>().join(", ")
+        )));
+    }
+    if let Some(sample) = arguments.sample
+        && !inside().any(|a| sample < a.samples)
+    {
+        let counts = inside().map(|a| match a.samples {
+            1 => format!("{} has 1 sample", a.name),
+            n => format!("{} has {n} samples, 0 to {}", a.name, n - 1),
+        });
+        return Err(Failure::usage(format!(
+            "texel {x},{y} has no sample {sample}: {}",
+            counts.collect::<Vec<_>>().join(", ")
+        )));
+    }
+    Ok(())
+}
+
+/// The texel that is asked for, and the frames of the case's scenes, if it was drawn.
+struct Asked<'a> {
+    case: &'a Case,
+    texel: [u32; 2],
+    sample: Option<u32>,
+    frames: &'a [Frame],
+}
+
+/// The story of one or more samples, which all have the same.
+struct Told {
+    samples: Vec<u32>,
+    story: Story,
+    band: Option<Band>,
+}
+
+/// Stories under a heading.
+struct Section {
+    heading: Option<String>,
+    told: Vec<Told>,
+    /// The lines on counters, and the band that a counter leaves.
+    counters: (Vec<String>, Option<Band>),
+    /// True if it says how good a value is, not if it is legal.
+    yardstick: bool,
+}
+
+/// All that is told.
+struct Explanation {
+    sections: Vec<Section>,
+}
+
+impl Asked<'_> {
+    fn all(&self, limits: &Limits, yardstick: bool) -> Result<Explanation, Failure> {
+        let mut sections = vec![self.scene(0, limits)?];
+        if yardstick {
+            sections.push(self.yardstick(limits));
+        }
+        for index in 1..self.frames.len() {
+            // A variant is told where its own picture is wrong.
+            let own = self.scene(index, limits)?;
+            if own.worst() > Some(Band::Imprecise) {
+                sections.push(own);
             }
-            for sample in 0..group.samples {
+        }
+        if let Some((band, story)) = story_of_relation(self.case, limits, self.frames, self.texel) {
+            sections.push(Section {
+                heading: Some("pictures that must be the same".to_owned()),
+                told: vec![Told {
+                    samples: Vec::new(),
+                    story,
+                    band: Some(band),
+                }],
+                counters: (Vec::new(), None),
+                yardstick: false,
+            });
+        }
+        Ok(Explanation { sections })
+    }
+
+    /// Returns the stories in one of the case's scenes, by the encodings that fit the frame best.
+    fn scene(&self, index: usize, limits: &Limits) -> Result<Section, Failure> {
+        let scene = match index {
+            0 => self.case.judged_scene(),
+            _ => &self.case.variants[index - 1].scene,
+        };
+        let frame = self.frames.get(index);
+        let judged = judge_texel(self.case, index, limits, self.texel, frame);
+        let (judgement, comparison) = judged.map_err(Failure::incomplete)?;
+        let rules = judgement.rules.clone();
+        let band = |at: &Sample| {
+            let wrong = &comparison.as_ref()?.wrong;
+            // Attachments of several sizes have texels of the same place.
+            let of_shape = |m: &ChannelMismatch| {
+                let mut all = scene.attachments.iter();
+                let own = all.find(|a| a.name == m.attachment);
+                own.is_some_and(|a| (a.size, a.samples) == (at.size, at.samples))
+            };
+            let here = |w: &&WrongTexel| {
+                (w.x, w.y, w.sample) == (at.x, at.y, at.sample) && w.channels.iter().all(of_shape)
+            };
+            // What the yardstick alone forbids is told only if it is asked for.
+            let found = wrong.iter().find(here)?;
+            (found.band > Band::Imprecise).then_some(found.band)
+        };
+        let several = limits.alternatives(&scene.formats()).len() > 1;
+        let encodings = |i: &ImageInfo| format!("{} {} {}", i.attachment, i.aspect, i.channels[0]);
+        let heading = several.then(|| {
+            let all: Vec<String> = judgement.legal.images.iter().map(encodings).collect();
+            let why = match self.frames.is_empty() {
+                true => "one of several encodings that the API leaves open",
+                false => "the API leaves the encoding open, and this one fits the texel best",
+            };
+            format!("{} ({why})", all.join(", "))
+        });
+        let counters = comparison.as_ref().map_or_else(Vec::new, |c| {
+            let word = |band: Option<Band>| match band {
+                None => "allowed",
+                Some(Band::Imprecise) => "allowed, outside the yardstick",
+                Some(_) => "NOT ALLOWED",
+            };
+            c.counters
+                .iter()
+                .map(|c| {
+                    let (kind, legal) = (c.kind.name(), c.range());
+                    format!(
+                        "counter {} ({kind}): {} of {legal}: {}",
+                        c.name,
+                        c.actual,
+                        word(c.band)
+                    )
+                })
+                .collect()
+        });
+        let worst = comparison
+            .iter()
+            .flat_map(|c| &c.counters)
+            .filter_map(|c| c.band)
+            .max();
+        Ok(Section {
+            heading,
+            told: self.samples(index, (&judgement.limits, &rules), band),
+            counters: (counters, worst),
+            yardstick: false,
+        })
+    }
+
+    fn yardstick(&self, limits: &Limits) -> Section {
+        let formats = self.case.judged_scene().formats();
+        let first = limits.alternatives(&formats).swap_remove(0);
+        let rules = Rules::yardstick(&first);
+        Section {
+            heading: Some("by the yardstick".to_owned()),
+            told: self.samples(0, (&first, &rules), |_| None),
+            counters: (Vec::new(), None),
+            yardstick: true,
+        }
+    }
+
+    /// Returns the stories of the samples that are asked for; those that differ in their number alone are
+    /// one.
+    fn samples(
+        &self,
+        index: usize,
+        by: (&Limits, &Rules),
+        band: impl Fn(&Sample) -> Option<Band>,
+    ) -> Vec<Told> {
+        let scene = match index {
+            0 => self.case.judged_scene(),
+            _ => &self.case.variants[index - 1].scene,
+        };
+        let [x, y] = self.texel;
+        let mut shapes: Vec<([u32; 2], u32)> = Vec::new();
+        for attachment in scene.read.iter().map(|i| &scene.attachments[*i]) {
+            let shape = (attachment.size, attachment.samples);
+            if x < shape.0[0] && y < shape.0[1] && !shapes.contains(&shape) {
+                shapes.push(shape);
+            }
+        }
+        let mut told: Vec<Told> = Vec::new();
+        for (size, samples) in shapes {
+            let from = told.len();
+            for sample in (0..samples).filter(|s| self.sample.is_none_or(|asked| asked == *s)) {
                 let at = Sample {
-                    size: group.size,
-                    samples: group.samples,
+                    size,
+                    samples,
                     x,
                     y,
                     sample,
                 };
-                let _ = write!(text, "{}", explain(scene, limits, &rules, at));
-            }
-        }
-        if let Some(frame) = frame {
-            let fits = fits(text, &set, frame, [x, y], yardstick);
-            if !yardstick {
-                legal = fits;
-            }
-        }
-        text.push('\n');
-    }
-    legal
-}
-
-/// Appends the values of a texel of the frame. Returns true if the set allows them.
-fn fits(
-    text: &mut String,
-    set: &LegalSet,
-    frame: &Frame,
-    [x, y]: [u32; 2],
-    yardstick: bool,
-) -> bool {
-    let mut all = true;
-    let word = |allowed: bool| match (allowed, yardstick) {
-        (true, _) => "allowed",
-        (false, true) => "outside the yardstick",
-        (false, false) => "NOT ALLOWED",
-    };
-    for (g, group) in set.groups.iter().enumerate() {
-        if x >= group.size[0] || y >= group.size[1] {
-            continue;
-        }
-        for sample in 0..group.samples {
-            let mut orders = Vec::new();
-            let mut parts = Vec::new();
-            for (image, info) in frame.images.iter().zip(&set.images) {
-                if info.group != g || !info.matches(image) {
-                    continue;
+                let band = band(&at);
+                let frame = self.frames.get(index);
+                let story = story_of_sample(self.case, index, by, at, (frame, band));
+                let same = |other: &&mut Told| {
+                    let rest = |s: &Story| s.verdict().map(|v| v.detail.clone());
+                    rest(&other.story) == rest(&story)
+                        && other.story.operations() == story.operations()
+                };
+                match told[from..].iter_mut().find(same) {
+                    Some(other) => other.samples.push(sample),
+                    None => told.push(Told {
+                        samples: vec![sample],
+                        story,
+                        band,
+                    }),
                 }
-                let codes = image.sample(x, y, sample);
-                let own: Vec<i64> = codes
-                    .iter()
-                    .zip(&info.channels)
-                    .map(|(code, e)| e.order_of_code(*code))
-                    .collect();
-                let values: Vec<String> = own
-                    .iter()
-                    .zip(&info.channels)
-                    .map(|(order, e)| {
-                        format!(
-                            "{} ({:?})",
-                            e.code_of_order(*order),
-                            e.value_of_order(*order)
-                        )
-                    })
-                    .collect();
-                parts.push(format!(
-                    "{} {}: {}",
-                    info.attachment,
-                    info.aspect,
-                    values.join(", ")
-                ));
-                orders.extend(own);
             }
-            let allowed =
-                orders.len() == group.channels.len() && group.sample(x, y, sample).allows(&orders);
-            let word = word(allowed);
-            let _ = writeln!(text, "returned: {}: {word}", parts.join("; "));
-            all &= allowed;
+            for one in &mut told[from..] {
+                one.name_samples([x, y]);
+            }
         }
+        told
     }
-    for (counter, actual) in set.counters.iter().zip(&frame.counters) {
-        let allowed = counter.range.contains(*actual);
-        let (legal, word) = (counter.range, word(allowed));
-        let (name, kind) = (&counter.name, counter.kind.name());
-        let _ = writeln!(text, "counter {name} ({kind}): {actual} of {legal}: {word}");
-        all &= allowed;
-    }
-    all
 }
 
-fn draw(name: &str, file: Option<&Path>, case: &Case) -> Result<(Limits, Frame), Failure> {
+impl Told {
+    /// Names all samples in the verdict: `samples 0, 1 and 3 of texel 1,1`.
+    fn name_samples(&mut self, [x, y]: [u32; 2]) {
+        let Some((last, before)) = self.samples.split_last() else {
+            return;
+        };
+        if before.is_empty() {
+            return;
+        }
+        let before: Vec<String> = before.iter().map(u32::to_string).collect();
+        let all = format!("samples {} and {last} of texel {x},{y}", before.join(", "));
+        if let Some(verdict) = self.story.verdict_mut() {
+            let start = verdict.at.find("sample ").unwrap_or(0);
+            verdict.at.replace_range(start.., &all);
+        }
+    }
+}
+
+impl Section {
+    fn worst(&self) -> Option<Band> {
+        let told = self.told.iter().filter_map(|t| t.band).max();
+        told.max(self.counters.1)
+    }
+}
+
+impl Explanation {
+    fn worst(&self) -> Option<Band> {
+        self.sections.iter().filter_map(Section::worst).max()
+    }
+
+    /// Returns the text: the gravest verdict, the case, then all stories.
+    fn text(&self, case: &Case) -> String {
+        let all = || {
+            let sections = self.sections.iter().filter(|s| !s.yardstick);
+            sections.flat_map(|s| &s.told)
+        };
+        let worst = all().filter_map(|t| t.band).max();
+        let first = all().find(|t| t.band == worst);
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        if let Some(line) = first.and_then(|t| t.story.verdict()) {
+            let _ = writeln!(text, "{} {}", line.at, line.detail);
+            if let Some(judged_by) = &line.citation {
+                let _ = writeln!(text, "{judged_by}");
+            }
+        }
+        let _ = writeln!(text, "\n{}\n{}", case.id, case.about);
+        let alone = all().count() == 1 && self.sections.len() == 1;
+        for section in &self.sections {
+            text.push('\n');
+            if let Some(heading) = &section.heading {
+                let _ = writeln!(text, "{heading}");
+            }
+            for (i, one) in section.told.iter().enumerate() {
+                if i > 0 {
+                    text.push('\n');
+                }
+                if alone {
+                    let story = Story {
+                        lines: one.story.operations().to_vec(),
+                    };
+                    let _ = write!(text, "{story}");
+                } else {
+                    let _ = write!(text, "{}", one.story);
+                }
+            }
+            for line in &section.counters.0 {
+                let _ = writeln!(text, "{line}");
+            }
+        }
+        text
+    }
+}
+
+/// Draws the case on an adapter. The frame of the case's own scene comes first, then those of its variants.
+fn draw(name: &str, file: Option<&Path>, case: &Case) -> Result<(Limits, Vec<Frame>), Failure> {
     let adapters = discover(&Query {
         names: &[name.to_owned()],
         file,
@@ -207,10 +385,10 @@ fn draw(name: &str, file: Option<&Path>, case: &Case) -> Result<(Limits, Frame),
         return Err(Failure::usage(format!("{name} does not support {missing}")));
     }
     let frames = worker.draw(case).map_err(Failure::incomplete)?;
-    // The scene of the case itself comes first, then its variants.
-    let frame = frames.into_iter().next();
-    let frame = frame.ok_or_else(|| Failure::incomplete("no frame was returned"))?;
-    Ok((limits, frame))
+    if frames.is_empty() {
+        return Err(Failure::incomplete("no frame was returned"));
+    }
+    Ok((limits, frames))
 }
 
 fn parse_texel(text: &str) -> Result<[u32; 2], String> {

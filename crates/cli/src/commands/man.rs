@@ -1,7 +1,7 @@
 //! `etalon man`.
 
 use crate::failure::Failure;
-use crate::output::print;
+use crate::output::{print, summarize};
 use clap::{Args, Command};
 use clap_mangen::{Man, generate_to};
 use std::fs;
@@ -18,7 +18,9 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments, command: Command) -> Result<u8, Failure> {
     let Some(folder) = &arguments.out else {
         let mut page = Vec::new();
-        Man::new(command).render(&mut page)?;
+        Man::new(command)
+            .render(&mut page)
+            .map_err(Failure::incomplete)?;
         print(&String::from_utf8_lossy(&page))?;
         return Ok(0);
     };
@@ -26,6 +28,6 @@ pub(crate) fn run(arguments: &Arguments, command: Command) -> Result<u8, Failure
         .map_err(|e| Failure::usage(format!("cannot create {}: {e}", folder.display())))?;
     generate_to(command, folder)
         .map_err(|e| Failure::incomplete(format!("cannot write to {}: {e}", folder.display())))?;
-    print(&format!("manual pages written to {}\n", folder.display()))?;
+    summarize(&format!("manual pages written to {}\n", folder.display()));
     Ok(0)
 }

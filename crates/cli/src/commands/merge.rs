@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::Format;
-use crate::output::{print, print_json, table_options};
+use crate::output::{say, summarize, summarize_json, table_options};
 use crate::{provenance, report_files};
 use clap::Args;
 use etalon_record::{FolderKind, FolderLock, MISSING_FILE, Merge, Merged, RecordError, Run};
@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let written = etalon_report::write(out).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
-        print_json(&json!({
+        summarize_json(&json!({
             "records": merged.records,
             "missing": merged.missing.iter().map(pair).collect::<Vec<_>>(),
             "empty": merged.empty,
@@ -65,8 +65,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }))?;
     } else {
         let run = Run::read(out).map_err(Failure::incomplete)?;
-        print(&etalon_report::table(&run, table_options()))?;
-        print(&format!("\nReport: {}\n", written.html.display()))?;
+        summarize(&etalon_report::table(&run, table_options()));
+        summarize(&format!("\nReport: {}\n", written.html.display()));
     }
     print_overlap(&merged);
     if !merged.missing.is_empty() || !merged.empty.is_empty() {
@@ -109,13 +109,13 @@ fn occupied(out: &Path) -> String {
 
 fn print_overlap(merged: &Merged) {
     if merged.twice > 0 {
-        eprintln!(
+        say!(
             "{} records are in more than one part, with the same verdict; one of each was kept",
             merged.twice
         );
     }
     for (adapter, case) in merged.disagreeing.iter().take(NAMED) {
-        eprintln!("flaky: the parts disagree on {case} on {adapter}");
+        say!("flaky: the parts disagree on {case} on {adapter}");
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::cases::{build, is_measuring, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{CaseProfile, Format};
-use crate::output::{print, print_json, table_options};
+use crate::output::{print, print_json, summarize, summarize_json, table_options};
 use crate::progress::progress;
 use crate::provenance;
 use clap::Args;
@@ -65,11 +65,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let hunt = hunt(arguments, &cases, &chosen);
     let written = etalon_report::write_hunt(&arguments.out, &hunt).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
-        print_json(&hunt)?;
+        summarize_json(&hunt)?;
     } else {
         let options = table_options();
-        print(&etalon_report::hunt_table(&hunt, options))?;
-        print(&format!("\nReport: {}\n", written.html.display()))?;
+        summarize(&etalon_report::hunt_table(&hunt, options));
+        summarize(&format!("\nReport: {}\n", written.html.display()));
     }
     Ok(if hunt.complaints().next().is_some() {
         UNEXPECTED

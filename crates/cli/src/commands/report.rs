@@ -1,9 +1,10 @@
 //! `etalon report`.
 
-use crate::failure::Failure;
-use crate::output::{print, table_options};
+use crate::expectations;
+use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
+use crate::output::{say, summarize, table_options};
 use clap::Args;
-use etalon_record::{Bench, FolderKind, Run};
+use etalon_record::{Bench, FolderKind, Record, Run};
 use etalon_report::TableOptions;
 use std::path::{Path, PathBuf};
 
@@ -14,36 +15,74 @@ pub(crate) struct Arguments {
     pub(crate) folders: Vec<PathBuf>,
 }
 
-/// Rebuilds the reports of run and bench folders from the folders alone.
+/// Rebuilds the reports of run and bench folders from the folders alone. Returns what the runs and benches returned, by
+/// their records; of several the gravest.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let options = table_options();
+    let mut codes = Vec::new();
     for folder in &arguments.folders {
-        match FolderKind::of(folder) {
+        codes.push(match FolderKind::of(folder) {
             Some(FolderKind::Bench) => bench(folder, options)?,
             // A folder that is neither is reported as a missing run.
             Some(FolderKind::Run) | None => of_run(folder, options)?,
-        }
+        });
     }
-    Ok(0)
+    let gravest = [INCOMPLETE, UNEXPECTED, IMPROVED];
+    Ok(gravest.into_iter().find(|c| codes.contains(c)).unwrap_or(0))
 }
 
-fn of_run(folder: &Path, options: TableOptions) -> Result<(), Failure> {
+fn of_run(folder: &Path, options: TableOptions) -> Result<u8, Failure> {
     let run = Run::read(folder).map_err(Failure::usage)?;
     let written = etalon_report::write(folder).map_err(Failure::usage)?;
-    print(&etalon_report::table(&run, options))?;
-    print("\n")?;
+    summarize(&etalon_report::table(&run, options));
+    summarize("\n");
     for path in written.all() {
-        print(&format!("{}\n", path.display()))?;
+        summarize(&format!("{}\n", path.display()));
     }
-    Ok(())
+    Ok(if run.missing() > 0 {
+        say!(
+            "etalon: {} is incomplete: {} of {} records are missing",
+            folder.display(),
+            run.missing(),
+            run.header.expected_records()
+        );
+        INCOMPLETE
+    } else if run.records.iter().any(Record::unexpected) {
+        UNEXPECTED
+    } else if run.records.iter().any(Record::improvement) {
+        IMPROVED
+    } else {
+        0
+    })
 }
 
-fn bench(folder: &Path, options: TableOptions) -> Result<(), Failure> {
+fn bench(folder: &Path, options: TableOptions) -> Result<u8, Failure> {
     let bench = Bench::read(folder).map_err(Failure::usage)?;
     let written = etalon_report::write_bench(folder).map_err(Failure::usage)?;
-    print(&etalon_report::bench_table(&bench, options))?;
+    summarize(&etalon_report::bench_table(&bench, options));
     for path in [written.html, written.bencher, written.action] {
-        print(&format!("{}\n", path.display()))?;
+        summarize(&format!("{}\n", path.display()));
     }
-    Ok(())
+    let adapters = bench.header.adapters.len() as u64;
+    let due = bench.header.cases.saturating_mul(adapters);
+    let pictures = bench.records.len() as u64;
+    if pictures < due {
+        say!(
+            "etalon: {} is incomplete: {pictures} of {due} pictures were judged",
+            folder.display()
+        );
+        return Ok(INCOMPLETE);
+    }
+    // A bench knows the built-in findings and no others.
+    let expectations = expectations::read(None)?;
+    let unexpected = bench.records.iter().any(|record| {
+        let picture = &record.picture;
+        let mut judged = Record::new(&picture.case, &picture.adapter, picture.verdict);
+        if let Some(adapter) = bench.header.adapter(&picture.adapter) {
+            judged.expect(&expectations, adapter);
+        }
+        let lost = record.ended.as_ref().is_some_and(|e| e.verdict.is_bad());
+        lost || judged.unexpected()
+    });
+    Ok(if unexpected { UNEXPECTED } else { 0 })
 }

@@ -1,19 +1,21 @@
 //! `etalon run`.
 
-use crate::adapters::{Adapters, Query, cache, discover, refuse_absent, take_unstarted};
+use crate::adapters::{
+    Adapters, Query, cache, described_names, discover, refuse_absent, take_unstarted,
+};
 use crate::blessing::{bless, to_bless};
-use crate::cases::{chosen, is_measuring};
+use crate::cases::{all_ids, chosen, is_measuring, is_measuring_area, round_trips};
 use crate::expectations::{self, today};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, Format};
 use crate::interruption::{how_to_resume, listen};
-use crate::output::{print, print_json, table_options};
+use crate::output::{say, summarize, summarize_json, table_options};
 use crate::progress::progress;
 use crate::{provenance, report_files, shard};
 use clap::{Args, ValueEnum};
 use etalon_case::Case;
 use etalon_record::{
-    AdapterRecord, Expectations, FolderKind, FolderLock, Header, RecordError, Run, Settings,
+    AdapterRecord, Dead, Expectations, FolderKind, FolderLock, Header, RecordError, Run, Settings,
     ShaderCache, Shard, selection_digest, shard_of,
 };
 use etalon_runner::{Event, Options, Plan, RunError, RunSummary};
@@ -52,11 +54,19 @@ pub(crate) struct Arguments {
     /// Replace the run in the folder
     #[arg(long)]
     pub(crate) force: bool,
-    /// Use the expectations of this file instead of the built-in ones
-    #[arg(long, value_name = "FILE")]
+    /// Use these expectations instead of the built-in findings: a list, a finding, or a folder of findings
+    #[arg(long, value_name = "PATH")]
     pub(crate) expect: Option<PathBuf>,
-    /// Update the expectations file from this run: add unexpected verdicts, remove improved ones. Refused
-    /// if the variable CI is set
+    /// Exit with 1 if expectations are dead: a glob matches no case or no adapter, another one covers them, or
+    /// all their cases were drawn and none had the verdict
+    #[arg(long)]
+    pub(crate) strict_expectations: bool,
+    /// Exit with 1 if less than this share of the records asserted something; records of methods and perf,
+    /// which are measured, do not count
+    #[arg(long, value_name = "PERCENT", value_parser = parse_percent)]
+    pub(crate) min_asserted: Option<f64>,
+    /// Update the expectations (default: ci/findings) from this run: add unexpected verdicts, of grade unread,
+    /// and remove improved ones. Refused if the variable CI is set
     #[arg(long)]
     pub(crate) bless: bool,
     /// Draw shard M of N, chosen by a hash of the id; 1/1 is everything. Default: the shard given by the
@@ -98,6 +108,15 @@ fn parse_timeout(text: &str) -> Result<f64, String> {
     }
 }
 
+fn parse_percent(text: &str) -> Result<f64, String> {
+    let percent: f64 = text.trim_end_matches('%').parse().unwrap_or(f64::NAN);
+    if (0.0..=100.0).contains(&percent) {
+        Ok(percent)
+    } else {
+        Err("expected a number of percent from 0 to 100".to_owned())
+    }
+}
+
 /// Draws the selected cases on the selected adapters, judges them, writes records and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut cases = chosen(&arguments.selection)?;
@@ -107,10 +126,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         cases.retain(|case| measuring_alone || !is_measuring(case));
     }
     let selection: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
+    let round_trips = round_trips(arguments.selection.cases.as_ref(), &cases)?;
     let shard = shard::chosen(arguments.shard)?;
     if let Some(shard) = shard {
         cases.retain(|case| shard_of(&case.id, shard.count) == shard.index);
-        eprintln!(
+        say!(
             "shard {shard}: {} of {} cases",
             cases.len(),
             selection.len()
@@ -144,7 +164,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     // A driver that is installed and does not start has a record for each case like any other.
     let dead = take_unstarted(&mut adapters);
     for (adapter, how) in &dead {
-        eprintln!("{} does not start: {how}", adapter.name);
+        say!("{} does not start: {how}", adapter.name);
     }
     refuse_absent(&arguments.adapters, &adapters.absent)?;
     // A new folder is created only once there is something to write.
@@ -154,6 +174,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let plan = Plan {
         reports: report_files::RUN,
         cases: &cases,
+        round_trips: &round_trips,
         selection: Some(&selection),
         adapters: adapters.ready,
         dead,
@@ -177,22 +198,29 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         RunError::Folder(error) => Failure::usage(error),
         RunError::Write(_) => Failure::incomplete(format!("{error}; {}", how_to_resume())),
     })?;
-    let written = etalon_report::write(&arguments.out).map_err(Failure::incomplete)?;
     let run = Run::read(&arguments.out).map_err(Failure::incomplete)?;
+    let dead = match (&arguments.expect, &arguments.selection.cases) {
+        // The built-in findings are about the built-in cases.
+        (None, Some(_)) => Vec::new(),
+        _ => dead_expectations(arguments, &expectations, &run)?,
+    };
+    Dead::write(&arguments.out, &dead).map_err(Failure::incomplete)?;
+    let written = etalon_report::write(&arguments.out).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
-        print_json(&json!({
+        summarize_json(&json!({
             "records": outcome.records,
             "missing": run.missing(),
             "unexpected": outcome.unexpected,
             "improvements": outcome.improvements,
             "interrupted": outcome.interrupted,
+            "dead_expectations": dead,
             "adapters": names,
             "folder": arguments.out,
             "report": written.html,
         }))?;
     } else {
-        print(&etalon_report::table(&run, table_options()))?;
-        print(&format!("\nReport: {}\n", written.html.display()))?;
+        summarize(&etalon_report::table(&run, table_options()));
+        summarize(&format!("\nReport: {}\n", written.html.display()));
     }
     if run.missing() > 0 {
         let interrupted = if outcome.interrupted {
@@ -213,15 +241,61 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         bless(path, &run, &expectations, cases, all_adapters)?;
         return Ok(0);
     }
+    if !dead.is_empty() {
+        say!("{}", etalon_report::dead_lines(&dead));
+        if !arguments.strict_expectations {
+            say!("--strict-expectations exits with 1 for them");
+        }
+    }
+    let asserted = arguments.min_asserted.is_none_or(|percent| {
+        let (enough, line) = asserted(&run, percent);
+        if !enough {
+            say!("{line}");
+        }
+        enough
+    });
     Ok(match outcome {
         RunSummary {
             unexpected: 1.., ..
         } => UNEXPECTED,
+        _ if !asserted || arguments.strict_expectations && !dead.is_empty() => UNEXPECTED,
         RunSummary {
             improvements: 1.., ..
         } => IMPROVED,
         _ => 0,
     })
+}
+
+fn dead_expectations(
+    arguments: &Arguments,
+    expectations: &Expectations,
+    run: &Run,
+) -> Result<Vec<Dead>, Failure> {
+    if expectations.all().is_empty() {
+        return Ok(Vec::new());
+    }
+    let ids = all_ids(arguments.selection.cases.as_ref())?;
+    let described = described_names(arguments.file.adapter_file.as_deref())?;
+    Ok(expectations.dead(run, &ids, &described))
+}
+
+/// Returns true if enough was asserted, and a line that says how much was: the share of the records of cases that
+/// are judged, not measured, whose frame was held against something.
+fn asserted(run: &Run, percent: f64) -> (bool, String) {
+    let counted = run.records.iter().filter(|r| !is_measuring_area(r.area()));
+    let all = counted.clone().count();
+    if all == 0 {
+        let line = "nothing was asserted: no selected case is judged (--min-asserted)";
+        return (false, line.to_owned());
+    }
+    let asserted = counted.filter(|r| r.asserts()).count();
+    let share = 100.0 * asserted as f64 / all as f64;
+    // Rounded down, so that too little never reads as enough.
+    let shown = (share * 10.0).floor() / 10.0;
+    let line = format!(
+        "{asserted} of {all} records asserted something: {shown} % where --min-asserted demands {percent} %"
+    );
+    (share >= percent, line)
 }
 
 /// Fisher and Yates' shuffle.
@@ -312,13 +386,13 @@ fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<RunSummary, RunError> {
         Event::Recorded(record) => {
             if record.unexpected() {
                 bar.suspend(|| {
-                    eprintln!("{} {} {}", record.verdict, record.adapter, record.case);
+                    say!("{} {} {}", record.verdict, record.adapter, record.case);
                 });
             }
             bar.inc(1);
         }
         Event::AdapterFinished { adapter, wall } => bar.suspend(|| {
-            eprintln!("{adapter} done in {:.1} s", wall.as_secs_f64());
+            say!("{adapter} done in {:.1} s", wall.as_secs_f64());
         }),
     })
 }

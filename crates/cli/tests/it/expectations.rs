@@ -299,3 +299,154 @@ fn lists_of_deqp_runner_go_in_and_out() {
         .stderr(contains("broken.txt:2: ").and(contains("Broken")));
     assert!(!work.path("none.json").exists());
 }
+
+#[test]
+fn dead_entries_are_named_and_strictness_makes_them_count() {
+    let work = Work::new();
+    let file = work.path("e.json");
+    let cpu = [
+        "run",
+        "cull/triangle-list/*",
+        "--profile",
+        "full",
+        "--adapter",
+        "cpu",
+    ];
+    let strict = [&cpu[..], &["--strict-expectations"]].concat();
+    fs::write(&file, "").unwrap();
+    work.run(&strict, &file).code(0);
+    fs::write(&file, "[]").unwrap();
+    work.run(&strict, &file).code(0);
+    let mut elsewhere = entry("cull/triangle-list/*", "crash", json!({}));
+    elsewhere["adapter"] = json!("cpu:no-such");
+    let mut flaky = entry("cull/lines/*", "flaky", json!({}));
+    flaky["adapter"] = json!("cpu");
+    let narrow = entry("cull/lines/*", "flaky", json!({ "adapter": "cpu" }));
+    for (alive, dead, word) in [
+        (
+            None,
+            entry("cull/faecs/*", "fail", json!({})),
+            "no case matches",
+        ),
+        (None, elsewhere, "no adapter matches"),
+        (Some(flaky), narrow, "entry 2: "),
+        (
+            None,
+            entry("cull/triangle-list/*", "crash", json!({})),
+            "never matched",
+        ),
+    ] {
+        let entries: Vec<Value> = alive.into_iter().chain([dead]).collect();
+        write(&file, &entries);
+        // Those that never match expect what is not so: an improvement.
+        let code = if word == "never matched" { 2 } else { 0 };
+        work.run(&cpu, &file)
+            .code(code)
+            .stderr(contains("1 dead expectation\n").and(contains(word)))
+            .stderr(contains("--strict-expectations"));
+        let page = fs::read_to_string(work.out().join("index.html")).unwrap();
+        assert!(page.contains("Dead expectations"), "{word}");
+        work.run(&strict, &file).code(1).stderr(contains(word));
+    }
+    // Of what was not selected nothing is known.
+    write(&file, &[entry("cull/*", "crash", json!({}))]);
+    work.run(&strict, &file)
+        .code(2)
+        .stderr(contains("dead").not());
+    // The list goes with its run.
+    write(&file, &[]);
+    work.run(&cpu, &file).code(0);
+    assert!(!work.out().join("dead-expectations.json").exists());
+}
+
+#[test]
+fn a_share_that_was_not_asserted_is_not_green() {
+    let work = Work::new();
+    let file = work.path("e.json");
+    write(&file, &[entry("cull/lines/*", "skipped", json!({}))]);
+    let run = |least: &str| {
+        let arguments = [
+            "run",
+            "cull/triangle-list/*",
+            "cull/lines/*",
+            "--adapter",
+            "cpu",
+            "--min-asserted",
+            least,
+        ];
+        work.run(&arguments, &file)
+    };
+    run("100")
+        .code(1)
+        .stderr(contains("records asserted something"));
+    run("0").code(0);
+    let records = work.records();
+    let asserted = records.iter().filter(|r| r.asserts()).count();
+    let share = 100.0 * asserted as f64 / records.len() as f64;
+    assert!(share > 10.0 && share < 90.0, "{share}");
+    run(&format!("{}", share - 0.1)).code(0);
+    run(&format!("{}", share + 0.1)).code(1);
+    run("101").code(64);
+    // What is measured does not count, and alone it is nothing.
+    etalon(&[
+        "run",
+        "methods/depth-precision/*",
+        "--adapter",
+        "cpu",
+        "--min-asserted",
+        "1",
+        "--out",
+    ])
+    .arg(work.path("methods"))
+    .assert()
+    .code(1)
+    .stderr(contains("no selected case is judged"));
+}
+
+#[test]
+fn a_folder_of_findings_is_read_and_blessed() {
+    let work = Work::new();
+    let folder = work.path("findings");
+    fs::create_dir(&folder).unwrap();
+    work.run(&CRASHING, &folder).code(1);
+    let bless = [&CRASHING[..], &["--bless"]].concat();
+    work.run(&bless, &folder)
+        .code(0)
+        .stderr(contains("findings added"));
+    let read = Expectations::read(&folder).unwrap();
+    assert!(!read.all().is_empty());
+    for known in read.all() {
+        assert_eq!(known.verdict, Verdict::Crash);
+        let text = fs::read_to_string(&known.path).unwrap();
+        assert!(text.contains("\"grade\": \"unread\""), "{text}");
+    }
+    work.run(&CRASHING, &folder).code(0);
+    let expected = work.records();
+    let titles: Vec<&str> = read.all().iter().map(|k| k.reason.as_str()).collect();
+    let named = expected.iter().filter_map(|r| r.expected.as_ref());
+    assert!(named.clone().count() > 0);
+    assert!(named.clone().all(|e| titles.contains(&e.reason.as_str())));
+    // One of them alone excuses its own cases.
+    let one = &read.all()[0].path;
+    work.run(&CRASHING, one)
+        .code(if titles.len() == 1 { 0 } else { 1 });
+    // A finding goes when all its cases are better.
+    let text = fs::read_to_string(one).unwrap();
+    fs::write(one, text.replace("fault=abort", "fault=lost")).unwrap();
+    let cpu = ["run", "cull/triangle-list/*", "--adapter", "cpu"];
+    let fixed = json!({
+        "title": "t", "adapters": ["cpu"], "driver": "*", "cases": ["cull/triangle-list/*"],
+        "grade": "disputed", "clause": "c", "evidence": "e"
+    });
+    fs::write(folder.join("fixed.json"), fixed.to_string()).unwrap();
+    let full = [&cpu[..], &["--profile", "full", "--bless"]].concat();
+    work.run(&full, &folder)
+        .code(0)
+        .stderr(contains("1 removed"));
+    assert!(!folder.join("fixed.json").exists());
+    // What is no finding says where.
+    fs::write(folder.join("z.json"), "{\n\"titel\": 1 }").unwrap();
+    work.run(&CRASHING, &folder)
+        .code(64)
+        .stderr(contains("z.json:2: ").and(contains("titel")));
+}

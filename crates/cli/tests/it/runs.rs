@@ -353,6 +353,8 @@ fn a_full_disk_leaves_an_incomplete_run_that_can_be_read() {
     etalon(&["report"])
         .arg(&out)
         .assert()
+        .code(3)
+        .stderr(contains("is incomplete"))
         .stdout(contains("index.html"));
 }
 
@@ -457,7 +459,7 @@ fn a_run_that_is_killed_can_be_read_and_its_workers_end() {
     etalon(&["report"])
         .arg(out.path())
         .assert()
-        .code(0)
+        .code(3)
         .stdout(contains("gl:softpipe"));
 }
 

@@ -32,6 +32,7 @@ fn devices_are_enumerated_and_open() {
             platform: Platform::Device(software.index),
             library: None,
             debug: false,
+            read_fault: None,
         };
         let backend = open("gl:device", &options).expect("the software device opens");
         run_all(&backend, &drivers::llvmpipe());

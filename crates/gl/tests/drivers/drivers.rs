@@ -12,6 +12,7 @@ pub(crate) fn context(profile: Profile, driver: &str) -> GlBackend {
         platform: Platform::Surfaceless,
         library: None,
         debug: true,
+        read_fault: None,
     };
     let backend = open("gl:test", &options)
         .unwrap_or_else(|e| panic!("{driver} cannot be opened: {e} ({GALLIUM_INSTALL})"));

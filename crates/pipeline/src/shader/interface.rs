@@ -13,6 +13,8 @@ pub struct FragmentInput<'a, R> {
     pub depth: R,
     /// The sample being shaded.
     pub sample: u32,
+    /// The fragment's window coordinates, in texels from the left and from the top.
+    pub position: [R; 2],
     /// The values of textures 0 and 1, fetched at the fragment or sampled; zeros where the shader reads
     /// none.
     pub texels: [[R; 4]; 2],

@@ -18,6 +18,7 @@ mod expensive_discard;
 mod flat_color;
 mod flat_color_depth;
 mod fog;
+mod frag_coord_color;
 mod frag_coord_depth;
 mod front_facing;
 mod interface;
@@ -67,6 +68,7 @@ pub fn fragment<A: Arithmetic>(
         Shader::FlatColor => flat_color::fragment::<A>(input),
         Shader::FlatColorDepth => flat_color_depth::fragment(a, input),
         Shader::Fog => fog::fragment(a, input),
+        Shader::FragCoordColor => frag_coord_color::fragment(a, input),
         Shader::FragCoordDepth => frag_coord_depth::fragment::<A>(input),
         Shader::FrontFacing => front_facing::fragment(a, input),
         Shader::LinearDepth => linear_depth::fragment(a, input),

@@ -34,6 +34,9 @@ fn header() -> Header {
             software: true,
             limits: Limits {
                 api: Api::OpenGlEs,
+                version: etalon_frame::ApiVersion::new(3, 2),
+                properties: Default::default(),
+                exempt: Default::default(),
                 sub_pixel_bits: 8,
                 max_size: 4096,
                 max_color_attachments: 8,
@@ -141,7 +144,8 @@ prop_compose! {
                 kind: LossKind::Died, signal, exit: signal.map(|s| !s), stderr, seconds: 0.25,
             }),
             validation: said.clone(),
-            after: said,
+            after: said.clone(),
+            blocked_by: said,
             repeats: improves.into_iter().collect(),
             case, adapter, verdict, improves, due_fail, message, story, frame,
             expected: expected.map(|reason| Expected { reason }),
@@ -339,11 +343,46 @@ fn folders_without_a_readable_header_are_refused() {
     fs::write(&path, "").unwrap();
     let error = Run::read(folder.path()).unwrap_err().to_string();
     assert!(error.contains("run.jsonl:1: "), "{error}");
-    fs::write(&path, "{\"format\":99,\"new\":true}\n").unwrap();
-    assert!(matches!(
-        Run::read(folder.path()),
-        Err(RecordError::Format { found: 99, .. })
-    ));
+    // A newer format may have other fields; the message says what to do.
+    for newer in [FORMAT + 1, 99] {
+        fs::write(&path, format!("{{\"format\":{newer},\"new\":true}}\n")).unwrap();
+        let error = Run::read(folder.path()).unwrap_err();
+        assert!(matches!(error, RecordError::Format { found, .. } if found == newer));
+        let said = error.to_string();
+        assert!(said.contains(&format!("format {newer}")), "{said}");
+        assert!(
+            said.contains("read it with the version that wrote it"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
+    let samples = [
+        (1, include_str!("../../../report/tests/data/methods.jsonl")),
+        (2, include_str!("../data/format-2.jsonl")),
+    ];
+    assert_eq!(samples.len() as u32, FORMAT - 1, "a sample of each");
+    for (format, text) in samples {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("run.jsonl"), text).unwrap();
+        let run = Run::read(folder.path()).unwrap();
+        assert_eq!(run.header.format, format);
+        assert_eq!(run.records.len(), text.lines().count() - 1);
+        assert!(!run.truncated);
+        for adapter in &run.header.adapters {
+            let unknown = etalon_frame::ApiVersion::default();
+            assert_eq!(adapter.limits.version, unknown, "it is not known");
+        }
+        assert!(run.records.iter().all(|r| r.blocked_by.is_empty()));
+        // Records of this format may not follow a header of another.
+        let mut now = run.header.clone();
+        now.format = FORMAT;
+        let refused = RunWriter::resume(folder.path(), &now).unwrap_err();
+        let said = refused.to_string();
+        assert!(said.contains(&format!("format is {format}")), "{said}");
+    }
 }
 
 #[test]

@@ -10,72 +10,156 @@ mod invariance;
 mod opengl;
 mod opengl_es;
 mod permission;
+pub mod required;
 mod vulkan;
 mod webgpu;
 mod yardstick;
 
 pub use permission::{
-    BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Permission,
-    Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, Snap,
+    AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
+    FactorClamp, FragCoord, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted,
+    SharedEdge, SignedClamp, Snap, SrgbLogic,
 };
 
 use etalon_frame::{Api, Limits};
 
 impl Rules {
-    /// Returns the permissions of an API.
-    pub fn of(api: Api) -> Self {
-        match api {
-            Api::Vulkan => vulkan::rules(),
-            Api::OpenGl => opengl::rules(),
-            Api::OpenGlEs => opengl_es::rules(),
+    /// Returns the permissions of the text that binds an adapter, by all evidence; see
+    /// [`Rules::bound_by`].
+    pub fn of(limits: &Limits) -> Self {
+        match limits.api {
+            Api::Vulkan => vulkan::rules(limits),
+            Api::OpenGl => opengl::rules(limits),
+            Api::OpenGlEs => opengl_es::rules(limits),
             Api::WebGpu => webgpu::rules(),
         }
     }
 
     /// Returns the quality band for an adapter.
     pub fn yardstick(limits: &Limits) -> Self {
-        yardstick::rules(limits.api)
+        yardstick::rules(limits, &Self::of(limits))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::test_limits;
+    use etalon_frame::{ApiVersion, Grade, Property};
 
-    #[test]
-    fn every_permission_has_a_citation() {
-        for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu] {
-            let rules = Rules::of(api);
-            assert_eq!(rules.name, api.name());
-            for citation in [
-                rules.float_error.citation,
-                rules.shader_error.citation,
-                rules.decode_error.citation,
-                rules.snap.citation,
-                rules.shared_edge.citation,
-                rules.store.citation,
-                rules.blend.citation,
-                rules.depth_order.citation,
-                rules.depth_bias_unit.citation,
-                rules.depth_range.citation,
-                rules.factor_clamp.citation,
-                rules.resolve.citation,
-                rules.points_face_front.citation,
-                rules.outlines_face_as_polygons.citation,
-                rules.early_updates.citation,
-                rules.early_counts.citation,
-                rules.samples_counted.citation,
-                rules.same_depth.citation,
-                rules.filter_step.citation,
-                rules.flushes_small_floats.citation,
-                rules.shader_runs,
-                rules.alpha_to_coverage,
-                rules.facing,
-                rules.stencil,
-                rules.write_mask,
-            ] {
-                assert!(citation.contains(':'), "{}: {citation:?}", rules.name);
+    /// The limits of every text that is read.
+    fn all_limits() -> Vec<Limits> {
+        let versions = [
+            (Api::Vulkan, [(1, 0), (1, 3), (1, 4)]),
+            (Api::OpenGl, [(3, 3), (4, 5), (4, 6)]),
+            (Api::OpenGlEs, [(3, 0), (3, 1), (3, 2)]),
+            (Api::WebGpu, [(0, 0), (0, 0), (0, 0)]),
+        ];
+        let mut all = Vec::new();
+        for (api, versions) in versions {
+            for (major, minor) in versions {
+                let mut limits = test_limits::limits(api);
+                limits.version = ApiVersion::new(major, minor);
+                all.push(limits.clone());
+                limits.properties = Property::ALL.into_iter().collect();
+                all.push(limits);
             }
         }
+        all
+    }
+
+    #[test]
+    fn every_permission_has_a_citation_of_its_text() {
+        for limits in all_limits() {
+            let rules = Rules::of(&limits);
+            assert_eq!(rules.name, limits.api.name());
+            for (name, citation, _) in rules.permissions() {
+                assert!(citation.contains(':'), "{name}: {citation:?}");
+                // A text before the feature cites the first that has it; silence names the others.
+                let own = rules.text.split(" (").next().unwrap();
+                let family = own.split(' ').next().unwrap();
+                assert!(
+                    citation.contains(family) || citation.starts_with("WGSL"),
+                    "{own}, {name}: {citation}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_version_cites_its_own_sections() {
+        let cited = |api, major, minor| {
+            let mut limits = test_limits::limits(api);
+            limits.version = ApiVersion::new(major, minor);
+            let rules = Rules::of(&limits);
+            (rules.text, rules.stencil)
+        };
+        assert_eq!(
+            cited(Api::OpenGl, 3, 3),
+            (
+                "OpenGL 3.3 (core profile)",
+                "OpenGL 3.3: 4.1.4 Stencil Test: integer operations"
+            )
+        );
+        assert_eq!(
+            cited(Api::OpenGl, 4, 6),
+            (
+                "OpenGL 4.6 (core profile)",
+                "OpenGL 4.6: 17.3.3 Stencil Test: integer operations"
+            )
+        );
+        assert_eq!(
+            cited(Api::OpenGlEs, 3, 0),
+            (
+                "OpenGL ES 3.0",
+                "OpenGL ES 3.0: 4.1.4 Stencil Test: integer operations"
+            )
+        );
+    }
+
+    #[test]
+    fn weaker_evidence_only_narrows() {
+        for limits in all_limits() {
+            let rules = Rules::of(&limits);
+            assert_eq!(rules.bound_by(Grade::Disputed), rules);
+            let proven = rules.bound_by(Grade::Proven);
+            let narrowed = rules
+                .permissions()
+                .iter()
+                .any(|(_, _, grade)| *grade < Grade::Proven);
+            assert_eq!(proven != rules, narrowed, "{}", rules.text);
+        }
+    }
+
+    #[test]
+    fn the_texts_of_two_versions_differ() {
+        let of = |major, minor| {
+            let mut limits = test_limits::limits(Api::OpenGl);
+            limits.version = ApiVersion::new(major, minor);
+            Rules::of(&limits)
+        };
+        let (old, new) = (of(3, 3), of(4, 5));
+        assert_eq!(old.signed_clamp.value, SignedClamp::Unit);
+        assert_eq!(new.signed_clamp.value, SignedClamp::Signed);
+        assert_eq!(old.srgb_logic.value, SrgbLogic::Applies);
+        assert_eq!(new.srgb_logic.value, SrgbLogic::PassesThrough);
+        // Version 3.3 was corrected, so neither reading proves the other wrong.
+        let proven = old.bound_by(Grade::Proven);
+        assert_eq!(proven.signed_clamp.value, SignedClamp::Either);
+        assert_eq!(proven.srgb_logic.value, SrgbLogic::Either);
+    }
+
+    #[test]
+    fn promises_narrow_vulkan() {
+        let mut limits = test_limits::limits(Api::Vulkan);
+        let open = Rules::of(&limits);
+        assert_eq!(open.early_coverage.value, EarlyUpdates::Either);
+        assert_eq!(open.early_updates.grade, Grade::RequiredByCts);
+        assert!(!open.mask_acts_first.value);
+        limits.properties = Property::ALL.into_iter().collect();
+        let pinned = Rules::of(&limits);
+        assert_eq!(pinned.early_coverage.value, EarlyUpdates::Happen);
+        assert_eq!(pinned.early_updates.grade, Grade::Proven);
+        assert!(pinned.mask_acts_first.value);
     }
 }

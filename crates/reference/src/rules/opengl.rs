@@ -1,106 +1,395 @@
-//! OpenGL's permissions (4.6 core profile).
+//! OpenGL's permissions, by version of the core profile: 3.3, 4.5 and 4.6 are read.
 
 use super::permission::{
-    BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
-    Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
+    AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
+    FactorClamp, FragCoord, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted,
+    SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
+use etalon_frame::{ApiVersion, Grade, Limits};
 
-pub(super) fn rules() -> Rules {
+/// The text that binds a context: the newest one that was read and is not newer than the context. 4.2 to
+/// 4.4 are held against 4.5, whose rules on blending came with 4.2.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Text {
+    V33,
+    V45,
+    V46,
+}
+
+impl Text {
+    fn of(version: ApiVersion) -> Self {
+        match (version.major, version.minor) {
+            (3, _) | (4, 0 | 1) => Self::V33,
+            (4, 2..=5) => Self::V45,
+            _ => Self::V46,
+        }
+    }
+
+    /// Returns one of three citations: of 3.3, of 4.5, of 4.6.
+    fn cite(self, [v33, v45, v46]: [&'static str; 3]) -> &'static str {
+        match self {
+            Self::V33 => v33,
+            Self::V45 => v45,
+            Self::V46 => v46,
+        }
+    }
+}
+
+/// Returns a rule on the runs of shaders: 4.6 contradicts itself where 4.5 does not. Older contexts have
+/// storage by an extension, whose text is that of 4.5.
+fn run_rule(text: Text, v45: &'static str, v46: &'static str) -> Permission<bool> {
+    match text {
+        Text::V46 => narrowed(true, false, Grade::Disputed, v46),
+        Text::V33 | Text::V45 => permit(true, v45),
+    }
+}
+
+pub(super) fn rules(limits: &Limits) -> Rules {
+    let text = Text::of(limits.version);
+    let old = text == Text::V33;
     Rules {
         name: "opengl",
+        text: text.cite([
+            "OpenGL 3.3 (core profile)",
+            "OpenGL 4.5 (core profile)",
+            "OpenGL 4.6 (core profile)",
+        ]),
         float_error: permit(
             1e-5,
-            "OpenGL 4.6: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+            text.cite([
+                "OpenGL 3.3: 2.1.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+                "OpenGL 4.5: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+                "OpenGL 4.6: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+            ]),
         ),
         shader_error: permit(
             1e-5,
-            "OpenGL 4.6: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+            text.cite([
+                "OpenGL 3.3: 2.1.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+                "OpenGL 4.5: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+                "OpenGL 4.6: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+            ]),
         ),
         decode_error: permit(
             1e-5,
-            "OpenGL 4.6: 2.3.5.1 Conversion from Normalized Fixed-Point to Floating-Point, at the \
-             accuracy of 2.3.4.1",
+            text.cite([
+                "OpenGL 3.3: 2.1.5 Conversion from Normalized Fixed-Point to Floating-Point, at the accuracy of 2.1.1",
+                "OpenGL 4.5: 2.3.5.1 Conversion from Normalized Fixed-Point to Floating-Point, at the accuracy of 2.3.4.1",
+                "OpenGL 4.6: 2.3.5.1 Conversion from Normalized Fixed-Point to Floating-Point, at the accuracy of 2.3.4.1",
+            ]),
         ),
         snap: permit(
             Snap::EitherSide,
-            "OpenGL 4.6: Implementation Dependent Values, SUBPIXEL_BITS: the rounding to the grid is not stated",
+            text.cite([
+                "OpenGL 3.3: table 6.38, SUBPIXEL_BITS: the rounding to the grid is not stated",
+                "OpenGL 4.5: Implementation Dependent Values, SUBPIXEL_BITS: the rounding to the grid is not stated",
+                "OpenGL 4.6: Implementation Dependent Values, SUBPIXEL_BITS: the rounding to the grid is not stated",
+            ]),
         ),
         shared_edge: permit(
             SharedEdge::ExactlyOne,
-            "OpenGL 4.6: 14.6.1 Basic Polygon Rasterization: a common edge with identical end \
-             points gives exactly one fragment",
+            text.cite([
+                "OpenGL 3.3: 3.6.1 Basic Polygon Rasterization: a common edge with identical end points gives exactly one fragment",
+                "OpenGL 4.5: 14.6.1 Basic Polygon Rasterization: a common edge with identical end points gives exactly one fragment",
+                "OpenGL 4.6: 14.6.1 Basic Polygon Rasterization: a common edge with identical end points gives exactly one fragment",
+            ]),
         ),
+        covers_at_positions: match old {
+            true => permit(
+                true,
+                "OpenGL 3.3: 3.3.1 Multisampling: the location that is queried is the sample's",
+            ),
+            false => narrowed(
+                true,
+                false,
+                Grade::Disputed,
+                "OpenGL 4.5, 4.6: 14.3.1 Multisampling: the locations that are queried are those of shading; those of coverage need not be the same",
+            ),
+        },
         store: permit(
             Rounding::EitherNeighbour,
-            "OpenGL 4.6: 2.3.5.2 Conversion from Floating-Point to Normalized Fixed-Point: one of \
-             the two closest values, an integer exactly",
+            text.cite([
+                "OpenGL 3.3: 2.1.5 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
+                "OpenGL 4.5: 2.3.5.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
+                "OpenGL 4.6: 2.3.5.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
+            ]),
         ),
         blend: permit(
             BlendPrecision::DestinationCodes,
-            "OpenGL 4.6: 17.3.6.1 Blend Equation: precision and dynamic range no lower than that \
-             used to represent destination components",
+            text.cite([
+                "OpenGL 3.3: 4.1.7 Blending: as if in floating-point; later versions let the precision of the destination do",
+                "OpenGL 4.5: 17.3.6.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
+                "OpenGL 4.6: 17.3.6.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
+            ]),
         ),
+        signed_clamp: match old {
+            true => narrowed(
+                SignedClamp::Unit,
+                SignedClamp::Either,
+                Grade::Disputed,
+                "OpenGL 3.3: 4.1.7 Blending: clamped to [0,1] for every fixed-point buffer; later versions clamp to [-1,1] for signed ones",
+            ),
+            false => permit(
+                SignedClamp::Signed,
+                text.cite([
+                    "OpenGL 3.3: 17.3.6 Blending: clamped to [0,1] or [-1,1], as the buffer is unsigned or signed",
+                    "OpenGL 4.5: 17.3.6 Blending: clamped to [0,1] or [-1,1], as the buffer is unsigned or signed",
+                    "OpenGL 4.6: 17.3.6 Blending: clamped to [0,1] or [-1,1], as the buffer is unsigned or signed",
+                ]),
+            ),
+        },
+        signed_result: match old {
+            true => narrowed(
+                SignedClamp::Unit,
+                SignedClamp::Either,
+                Grade::Disputed,
+                "OpenGL 3.3: 4.1.8 sRGB Conversion: clamped to [0,1] for every fixed-point buffer; 2.1.5 has signed ones",
+            ),
+            false => narrowed(
+                SignedClamp::Signed,
+                SignedClamp::Either,
+                Grade::Disputed,
+                "OpenGL 4.5, 4.6: 17.3.6 Blending, 2.3.5.2: signed buffers hold [-1,1]; 17.3.7 sRGB Conversion clamps every fixed-point result to [0,1]",
+            ),
+        },
+        clamps_constant: match old {
+            true => permit(true, "OpenGL 3.3: 4.1.7 Blend Color: the constant is a clampf"),
+            false => permit(false, "OpenGL: 17.3.6.5 Blend Color: the constant is stored as it is"),
+        },
+        masks_reference: permit(true, "OpenGL: 17.3.3 Stencil Test (3.3: 4.1.4): the mask is applied to both the reference and the stored value"),
+        copies: permit(
+            Copies::Exact,
+            "OpenGL: 18.2.8 Final Conversion (3.3: 4.3.1 Reading Pixels): a stored code is read back as its value, which has one code",
+        ),
+        srgb_logic: match old {
+            true => narrowed(
+                SrgbLogic::Applies,
+                SrgbLogic::Either,
+                Grade::Disputed,
+                "OpenGL 3.3: 4.1.10 Logical Operation: no effect on floating-point buffers alone; later versions exempt sRGB too",
+            ),
+            false => permit(
+                SrgbLogic::PassesThrough,
+                text.cite([
+                    "OpenGL 3.3: 17.3.9 Logical Operation: no effect on floating-point and sRGB buffers",
+                    "OpenGL 4.5: 17.3.9 Logical Operation: no effect on floating-point and sRGB buffers",
+                    "OpenGL 4.6: 17.3.9 Logical Operation: no effect on floating-point and sRGB buffers",
+                ]),
+            ),
+        },
         depth_order: permit(
             DepthOrder::Either,
-            "OpenGL 4.6: 17.3.4 Depth Buffer Test: whether the incoming depth is converted first is \
-             not stated",
+            text.cite([
+                "OpenGL 3.3: 4.1.5 Depth Buffer Test: whether the incoming depth is converted first is not stated",
+                "OpenGL 4.5: 17.3.4 Depth Buffer Test: whether the incoming depth is converted first is not stated",
+                "OpenGL 4.6: 17.3.4 Depth Buffer Test: whether the incoming depth is converted first is not stated",
+            ]),
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1e9),
-                unorm: (0.999, 1e9),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 1e9)],
+                unorm: &[(0.999, 1e9)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
-            "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
+            text.cite([
+                "OpenGL 3.3: 3.6.4 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL 4.5: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+            ]),
         ),
         depth_range: permit(
             DepthRange::Unit,
-            "OpenGL 4.6: 15.2.3 Shader Outputs, 14.6.5 Depth Offset: a written or offset depth is held to 0 and 1",
+            text.cite([
+                "OpenGL 3.3: 3.9.2 Shader Execution, 3.6.4 Depth Offset: a written or offset depth is held to 0 and 1",
+                "OpenGL 4.5: 15.2.3 Shader Outputs, 14.6.5 Depth Offset: a written or offset depth is held to 0 and 1",
+                "OpenGL 4.6: 15.2.3 Shader Outputs, 14.6.5 Depth Offset: a written or offset depth is held to 0 and 1",
+            ]),
         ),
         factor_clamp: permit(
             FactorClamp::Clamped,
-            "OpenGL 4.6: 17.3.6.1 Blend Equation: factors are clamped for normalized attachments",
+            text.cite([
+                "OpenGL 3.3: 4.1.7 Blending: factors are clamped for normalized attachments",
+                "OpenGL 4.5: 17.3.6.1 Blend Equation: factors are clamped for normalized attachments",
+                "OpenGL 4.6: 17.3.6.1 Blend Equation: factors are clamped for normalized attachments",
+            ]),
         ),
         resolve: permit(
             Resolve::Between,
-            "OpenGL 4.6: 18.3.1 Blitting Pixel Rectangles: the resolve is implementation-dependent",
+            text.cite([
+                "OpenGL 3.3: 4.3.2 Copying Pixels: the resolve is implementation-dependent",
+                "OpenGL 4.5: 18.3.1 Blitting Pixel Rectangles: the resolve is implementation-dependent",
+                "OpenGL 4.6: 18.3.1 Blitting Pixel Rectangles: the resolve is implementation-dependent",
+            ]),
         ),
         points_face_front: permit(
             true,
-            "OpenGL 4.6: 17.3.3 Stencil Test, 15.2.2 Shader Inputs: points and lines are front-facing",
+            text.cite([
+                "OpenGL 3.3: 4.1.4 Stencil Test, 3.9.2 Shader Execution: points and lines are front-facing",
+                "OpenGL 4.5: 17.3.3 Stencil Test, 15.2.2 Shader Inputs: points and lines are front-facing",
+                "OpenGL 4.6: 17.3.3 Stencil Test, 15.2.2 Shader Inputs: points and lines are front-facing",
+            ]),
         ),
         outlines_face_as_polygons: permit(
             true,
-            "OpenGL 4.6: 17.3.3 Stencil Test: a primitive is still considered a polygon even if it is rasterized as points or lines due to the polygon mode",
+            text.cite([
+                "OpenGL 3.3: 3.9.2 Shader Execution, 4.1.4 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
+                "OpenGL 4.5: 15.2.2 Shader Inputs, 17.3.3 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
+                "OpenGL 4.6: 15.2.2 Shader Inputs, 17.3.3 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
+            ]),
         ),
         early_updates: permit(
             EarlyUpdates::Either,
-            "OpenGL 4.6: 14.9.4 Early Fragment Tests: depth and stencil may be updated even for fragments discarded afterwards",
+            text.cite([
+                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+                "OpenGL 4.5: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+            ]),
+        ),
+        early_coverage: permit(
+            EarlyUpdates::Either,
+            text.cite([
+                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+                "OpenGL 4.5: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+            ]),
+        ),
+        mask_acts_first: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: 4.1.3 Multisample Fragment Operations: the sample mask is applied before the early tests",
+                "OpenGL 4.5: 14.9.3 Multisample Fragment Operations: the sample mask is applied before the early tests",
+                "OpenGL 4.6: 14.9.3 Multisample Fragment Operations: the sample mask is applied before the early tests",
+            ]),
         ),
         early_counts: permit(
             EarlyUpdates::Either,
-            "OpenGL 4.6: 14.9.4 Early Fragment Tests: occlusion counts may be updated even for fragments discarded afterwards",
+            text.cite([
+                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: occlusion counts may be updated even for fragments discarded afterwards",
+                "OpenGL 4.5: 14.9.4 The Early Fragment Test Qualifier: occlusion counts may be updated even for fragments discarded afterwards",
+                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: occlusion counts may be updated even for fragments discarded afterwards",
+            ]),
         ),
         samples_counted: permit(
             SamplesCounted::PassingOrAll,
-            "OpenGL 4.6: 17.3.5 Occlusion Queries: the samples whose coverage bit is set, or at the implementation's discretion SAMPLES if any is",
+            text.cite([
+                "OpenGL 3.3: 4.1.6 Occlusion Queries: the samples whose coverage bit is set, or at the implementation's discretion SAMPLES if any is",
+                "OpenGL 4.5: 17.3.5 Occlusion Queries: the samples whose coverage bit is set, or at the implementation's discretion SAMPLES if any is",
+                "OpenGL 4.6: 17.3.5 Occlusion Queries: the samples whose coverage bit is set, or at the implementation's discretion SAMPLES if any is",
+            ]),
         ),
         same_depth: permit(
             SameDepth::Written,
-            "OpenGL 4.6: Appendix A, Invariance: shaders that assign gl_FragCoord.z to gl_FragDepth are depth-invariant with respect to each other",
+            text.cite([
+                "OpenGL 3.3: Appendix A, Invariance: shaders that assign gl_FragCoord.z to gl_FragDepth are depth-invariant with respect to each other",
+                "OpenGL 4.5: Appendix A, Invariance: shaders that assign gl_FragCoord.z to gl_FragDepth are depth-invariant with respect to each other",
+                "OpenGL 4.6: Appendix A, Invariance: shaders that assign gl_FragCoord.z to gl_FragDepth are depth-invariant with respect to each other",
+            ]),
         ),
         filter_step: permit(
             1.0 / 16.0,
-            "OpenGL 4.6: silent on the precision of filter weights; Vulkan: at least 4 bits",
+            text.cite([
+                "OpenGL 3.3: silent on the precision of filter weights; Vulkan: at least 4 bits",
+                "OpenGL 4.5: silent on the precision of filter weights; Vulkan: at least 4 bits",
+                "OpenGL 4.6: silent on the precision of filter weights; Vulkan: at least 4 bits",
+            ]),
+        ),
+        half_overflows: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL: 2.3.4.2 16-Bit Floating-Point Numbers (3.3: 2.1.2): infinity stands for magnitudes that are too large; no sentence gives the result of a conversion",
         ),
         flushes_small_floats: permit(
             true,
-            "OpenGL 4.6: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
+            text.cite([
+                "OpenGL 3.3: 2.1.2 16-Bit Floating-Point Numbers: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
+                "OpenGL 4.5: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
+                "OpenGL 4.6: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
+            ]),
         ),
-        shader_runs: "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: the fragment shader is invoked for every fragment; tests come after it unless early tests are forced",
-        alpha_to_coverage: "OpenGL 4.6: 17.3.1 Alpha To Coverage: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
-        facing: "OpenGL 4.6: 14.6.1 Basic Polygon Rasterization: front by the sign of the area",
-        stencil: "OpenGL 4.6: 17.3.3 Stencil Test: integer operations",
-        write_mask: "OpenGL 4.6: 17.4.2 Fine Control of Buffer Updates",
+        runs_for_discarded: run_rule(
+            text,
+            "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader",
+            "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader; 15.2 Shader Execution lets runs be skipped if rendering is otherwise the same",
+        ),
+        runs_for_overwritten: run_rule(
+            text,
+            "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader",
+            "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: a run for every fragment that reaches the shader; 15.2 Shader Execution lets runs be skipped if rendering is otherwise the same",
+        ),
+        skips_rejected: run_rule(
+            text,
+            "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: no run for a fragment that early tests discard",
+            "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: no run for a fragment that early tests discard; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
+        ),
+        runs_once: run_rule(
+            text,
+            "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample",
+            "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
+        ),
+        alpha_to_coverage: match old {
+            true => permit(
+                AlphaToCoverage::Any,
+                "OpenGL 3.3: 4.1.3 Multisample Fragment Operations: no particular algorithm; that the ends give none and all is intended",
+            ),
+            false => narrowed(
+                AlphaToCoverage::Ends,
+                AlphaToCoverage::Any,
+                Grade::RequiredByCts,
+                text.cite([
+                    "OpenGL 3.3: 17.3.1 Alpha To Coverage: intended; dEQP-GL45-ES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
+                    "OpenGL 4.5: 17.3.1 Alpha To Coverage: intended; dEQP-GL45-ES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
+                    "OpenGL 4.6: 17.3.1 Alpha To Coverage: intended; dEQP-GL45-ES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
+                ]),
+            ),
+        },
+        sample_coverage: match old {
+            true => permit(
+                AlphaToCoverage::Any,
+                "OpenGL 3.3: 4.1.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; that the ends give none and all is intended",
+            ),
+            false => narrowed(
+                AlphaToCoverage::Ends,
+                AlphaToCoverage::Any,
+                Grade::RequiredByCts,
+                text.cite([
+                    "OpenGL 3.3: 4.1.3 Multisample Fragment Operations",
+                    "OpenGL 4.5: 14.9.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GL45-ES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                    "OpenGL 4.6: 14.9.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GL45-ES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                ]),
+            ),
+        },
+        frag_coord: permit(
+            FragCoord::Inputs,
+            text.cite([
+                "OpenGL 3.3: 3.3.1 Multisampling: associated data anywhere within the pixel",
+                "OpenGL 4.5: 14.3.1 Multisampling: associated data anywhere within the pixel",
+                "OpenGL 4.6: 14.3.1 Multisampling: associated data anywhere within the pixel",
+            ]),
+        ),
+        inputs_at_samples: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: ARB_sample_shading, 3.3.1: with a share of 1, each sample's data is evaluated at its location",
+                "OpenGL 4.5: 14.3.1.1 Sample Shading: with a share of 1, each sample's data is evaluated at its location",
+                "OpenGL 4.6: 14.3.1.1 Sample Shading: with a share of 1, each sample's data is evaluated at its location",
+            ]),
+        ),
+        facing: text.cite([
+            "OpenGL 3.3: 3.6.1 Basic Polygon Rasterization: front by the sign of the area",
+            "OpenGL 4.5: 14.6.1 Basic Polygon Rasterization: front by the sign of the area",
+            "OpenGL 4.6: 14.6.1 Basic Polygon Rasterization: front by the sign of the area",
+        ]),
+        stencil: text.cite([
+            "OpenGL 3.3: 4.1.4 Stencil Test: integer operations",
+            "OpenGL 4.5: 17.3.3 Stencil Test: integer operations",
+            "OpenGL 4.6: 17.3.3 Stencil Test: integer operations",
+        ]),
+        write_mask: text.cite([
+            "OpenGL 3.3: 4.2.2 Fine Control of Buffer Updates",
+            "OpenGL 4.5: 17.4.2 Fine Control of Buffer Updates",
+            "OpenGL 4.6: 17.4.2 Fine Control of Buffer Updates",
+        ]),
     }
 }

@@ -1,103 +1,336 @@
-//! OpenGL ES's permissions (3.2; the sections read the same in 3.1).
+//! OpenGL ES's permissions, by version: 3.0, 3.1 and 3.2.
 
 use super::permission::{
-    BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
-    Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
+    AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
+    FactorClamp, FragCoord, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
+use etalon_frame::{ApiVersion, Grade, Limits};
 
-pub(super) fn rules() -> Rules {
+/// The text that binds a context.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Text {
+    V30,
+    V31,
+    V32,
+}
+
+impl Text {
+    fn of(version: ApiVersion) -> Self {
+        match (version.major, version.minor) {
+            (3, 0) => Self::V30,
+            (3, 1) => Self::V31,
+            _ => Self::V32,
+        }
+    }
+
+    /// Returns one of three citations: of 3.0, of 3.1, of 3.2.
+    fn cite(self, [v30, v31, v32]: [&'static str; 3]) -> &'static str {
+        match self {
+            Self::V30 => v30,
+            Self::V31 => v31,
+            Self::V32 => v32,
+        }
+    }
+}
+
+pub(super) fn rules(limits: &Limits) -> Rules {
+    let text = Text::of(limits.version);
     Rules {
         name: "opengl-es",
+        text: text.cite(["OpenGL ES 3.0", "OpenGL ES 3.1", "OpenGL ES 3.2"]),
         float_error: permit(
             1e-5,
-            "OpenGL ES 3.2: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+            text.cite([
+                "OpenGL ES 3.0: 2.1.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+                "OpenGL ES 3.1: 2.3.3.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+                "OpenGL ES 3.2: 2.3.4.1 Floating-Point Computation: accurate to about 1 part in 10^5",
+            ]),
         ),
         shader_error: permit(
             3.0 * f64::from(f32::EPSILON),
-            "OpenGL ES Shading Language 3.20: 4.7.1 Range and Precision: sums and products correctly rounded, quotients within 2.5 ULP",
+            text.cite([
+                "OpenGL ES Shading Language 3.00: 4.5.1 Range and Precision: sums and products correctly rounded, quotients within 2.5 ULP",
+                "OpenGL ES Shading Language 3.10: 4.7.1 Range and Precision: sums and products correctly rounded, quotients within 2.5 ULP",
+                "OpenGL ES Shading Language 3.20: 4.7.1 Range and Precision: sums and products correctly rounded, quotients within 2.5 ULP",
+            ]),
         ),
         decode_error: permit(
             1e-5,
-            "OpenGL ES 3.2: 2.3.5.1 Conversion from Normalized Fixed-Point to Floating-Point, at \
-             the accuracy of 2.3.4",
+            text.cite([
+                "OpenGL ES 3.0: 2.1.6.1 Conversion from Normalized Fixed-Point to Floating-Point, at the accuracy of 2.1.1",
+                "OpenGL ES 3.1: 2.3.4.1 Conversion from Normalized Fixed-Point to Floating-Point, at the accuracy of 2.3.3",
+                "OpenGL ES 3.2: 2.3.5.1 Conversion from Normalized Fixed-Point to Floating-Point, at the accuracy of 2.3.4",
+            ]),
         ),
         snap: permit(
             Snap::EitherSide,
-            "OpenGL ES 3.2: table 21.40 SUBPIXEL_BITS: the rounding to the grid is not stated",
+            text.cite([
+                "OpenGL ES 3.0: tables of chapter 6, SUBPIXEL_BITS: the rounding to the grid is not stated",
+                "OpenGL ES 3.1: table 20.40 SUBPIXEL_BITS: the rounding to the grid is not stated",
+                "OpenGL ES 3.2: table 21.40 SUBPIXEL_BITS: the rounding to the grid is not stated",
+            ]),
         ),
         shared_edge: permit(
             SharedEdge::ExactlyOne,
-            "OpenGL ES 3.2: 13.7.1 Basic Polygon Rasterization: a common edge with identical end \
-             points gives exactly one fragment",
+            text.cite([
+                "OpenGL ES 3.0: 3.6.1 Basic Polygon Rasterization: a common edge with identical end points gives exactly one fragment",
+                "OpenGL ES 3.1: 13.5.1 Basic Polygon Rasterization: a common edge with identical end points gives exactly one fragment",
+                "OpenGL ES 3.2: 13.7.1 Basic Polygon Rasterization: a common edge with identical end points gives exactly one fragment",
+            ]),
+        ),
+        covers_at_positions: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL ES: 13.4 Multisampling (3.1: 13.2.1): the locations that are queried are those of shading; those of coverage need not be the same",
         ),
         store: permit(
             Rounding::EitherNeighbour,
-            "OpenGL ES 3.2: 2.3.5.2 Conversion from Floating-Point to Normalized Fixed-Point: one \
-             of the two closest values, an integer exactly",
+            text.cite([
+                "OpenGL ES 3.0: 2.1.6.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
+                "OpenGL ES 3.1: 2.3.4.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
+                "OpenGL ES 3.2: 2.3.5.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
+            ]),
         ),
         blend: permit(
             BlendPrecision::DestinationCodes,
-            "OpenGL ES 3.2: 15.1.5.1 Blend Equation: precision and dynamic range no lower than that \
-             used to represent destination components",
+            text.cite([
+                "OpenGL ES 3.0: 4.1.7.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
+                "OpenGL ES 3.1: 15.1.5.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
+                "OpenGL ES 3.2: 15.1.5.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
+            ]),
+        ),
+        signed_clamp: permit(
+            SignedClamp::Signed,
+            "OpenGL ES: EXT_render_snorm, which makes signed formats renderable, 15.1.5 Blending: clamped to [-1,1] for signed buffers",
+        ),
+        signed_result: permit(
+            SignedClamp::Signed,
+            "OpenGL ES: EXT_render_snorm: clamped to [-1,1] for signed buffers",
+        ),
+        clamps_constant: permit(false, "OpenGL ES: 15.1.5.4 Blend Color (3.0: 4.1.7.3, 3.1: 15.1.5.3): the constant is stored as it is"),
+        masks_reference: permit(true, "OpenGL ES: 15.1.2 Stencil Test (3.0: 4.1.4): the mask is applied to both the reference and the stored value"),
+        copies: permit(
+            Copies::Exact,
+            "OpenGL ES: 16.1.5 Final Conversion (3.0: 4.3.2 Reading Pixels): a stored code is read back as its value, which has one code",
+        ),
+        srgb_logic: permit(
+            SrgbLogic::PassesThrough,
+            "OpenGL ES: has no logic operations",
         ),
         depth_order: permit(
             DepthOrder::Either,
-            "OpenGL ES 3.2: 15.1.3 Depth Buffer Test: whether the incoming depth is converted first \
-             is not stated",
+            text.cite([
+                "OpenGL ES 3.0: 4.1.5 Depth Buffer Test: whether the incoming depth is converted first is not stated",
+                "OpenGL ES 3.1: 15.1.3 Depth Buffer Test: whether the incoming depth is converted first is not stated",
+                "OpenGL ES 3.2: 15.1.3 Depth Buffer Test: whether the incoming depth is converted first is not stated",
+            ]),
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1e9),
-                unorm: (0.999, 1e9),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 1e9)],
+                unorm: &[(0.999, 1e9)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
-            "OpenGL ES 3.2: 13.7.2 Depth Offset: for fixed point the least r that is sure to be resolved, how much more is open; 2^(e-n) for floats",
+            text.cite([
+                "OpenGL ES 3.0: 3.6.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL ES 3.1: 13.5.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL ES 3.2: 13.7.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+            ]),
         ),
         depth_range: permit(
             DepthRange::Unit,
-            "OpenGL ES 3.2: 14.2.3 Shader Outputs, 13.7.2 Depth Offset: a written or offset depth is held to 0 and 1",
+            text.cite([
+                "OpenGL ES 3.0: 3.9.2.3 Shader Outputs, 3.6.2 Depth Offset: a written or offset depth is held to 0 and 1",
+                "OpenGL ES 3.1: 14.2.3 Shader Outputs, 13.5.2 Depth Offset: a written or offset depth is held to 0 and 1",
+                "OpenGL ES 3.2: 14.2.3 Shader Outputs, 13.7.2 Depth Offset: a written or offset depth is held to 0 and 1",
+            ]),
         ),
         factor_clamp: permit(
             FactorClamp::Clamped,
-            "OpenGL ES 3.2: 15.1.5.1 Blend Equation: factors are clamped for normalized attachments",
+            text.cite([
+                "OpenGL ES 3.0: 4.1.7 Blending: factors are clamped for normalized attachments",
+                "OpenGL ES 3.1: 15.1.5.1 Blend Equation: factors are clamped for normalized attachments",
+                "OpenGL ES 3.2: 15.1.5.1 Blend Equation: factors are clamped for normalized attachments",
+            ]),
         ),
         resolve: permit(
             Resolve::Between,
-            "OpenGL ES 3.2: 16.2.1 Blitting Pixel Rectangles: the resolve is implementation-dependent",
+            text.cite([
+                "OpenGL ES 3.0: 4.3.3 Copying Pixels: the resolve is implementation-dependent",
+                "OpenGL ES 3.1: 16.2.1 Blitting Pixel Rectangles: the resolve is implementation-dependent",
+                "OpenGL ES 3.2: 16.2.1 Blitting Pixel Rectangles: the resolve is implementation-dependent",
+            ]),
         ),
         points_face_front: permit(
             true,
-            "OpenGL ES 3.2: 15.1.2: points and lines use front state",
+            text.cite([
+                "OpenGL ES 3.0: 4.1.4: points and lines use front state",
+                "OpenGL ES 3.1: 15.1.2: points and lines use front state",
+                "OpenGL ES 3.2: 15.1.2: points and lines use front state",
+            ]),
         ),
-        outlines_face_as_polygons: permit(false, "OpenGL ES 3.2: has no polygon modes"),
+        outlines_face_as_polygons: permit(false, text.cite([
+            "OpenGL ES 3.0: has no polygon modes",
+            "OpenGL ES 3.1: has no polygon modes",
+            "OpenGL ES 3.2: has no polygon modes",
+        ])),
         early_updates: permit(
             EarlyUpdates::Either,
-            "OpenGL ES 3.2: 13.8.4 Early Fragment Tests: depth and stencil may be updated even for fragments discarded afterwards",
+            text.cite([
+                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+                "OpenGL ES 3.2: 13.8.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+            ]),
+        ),
+        early_coverage: permit(
+            EarlyUpdates::Either,
+            text.cite([
+                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+                "OpenGL ES 3.2: 13.8.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+            ]),
+        ),
+        mask_acts_first: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: 4.1.3 Multisample Fragment Operations: the sample mask is applied before the early tests",
+                "OpenGL ES 3.1: 13.6.3 Multisample Fragment Operations: the sample mask is applied before the early tests",
+                "OpenGL ES 3.2: 13.8.3 Multisample Fragment Operations: the sample mask is applied before the early tests",
+            ]),
         ),
         early_counts: permit(
             EarlyUpdates::Either,
-            "OpenGL ES 3.2: 13.8.4 Early Fragment Tests: occlusion counts may be updated even for fragments discarded afterwards",
+            text.cite([
+                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: occlusion counts may be updated even for fragments discarded afterwards",
+                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: occlusion counts may be updated even for fragments discarded afterwards",
+                "OpenGL ES 3.2: 13.8.4 The Early Fragment Test Qualifier: occlusion counts may be updated even for fragments discarded afterwards",
+            ]),
         ),
         samples_counted: permit(
             SamplesCounted::PassingOrAll,
-            "OpenGL ES 3.2: 15.1.4 Occlusion Queries: the samples whose coverage bit is set, or at the implementation's discretion SAMPLES if any is",
+            text.cite([
+                "OpenGL ES 3.0: 4.1.6 Occlusion Queries: boolean queries only; OpenGL: the samples that pass, or SAMPLES if any does",
+                "OpenGL ES 3.1: 15.1.4 Occlusion Queries: boolean queries only; OpenGL: the samples that pass, or SAMPLES if any does",
+                "OpenGL ES 3.2: 15.1.4 Occlusion Queries: boolean queries only; OpenGL: the samples that pass, or SAMPLES if any does",
+            ]),
         ),
         same_depth: permit(
             SameDepth::Written,
-            "OpenGL ES 3.2: Appendix A, Invariance: shaders that assign gl_FragCoord.z to gl_FragDepth are depth-invariant with respect to each other",
+            text.cite([
+                "OpenGL ES 3.0: Appendix A, Invariance: shaders that assign gl_FragCoord.z to gl_FragDepth are depth-invariant with respect to each other",
+                "OpenGL ES 3.1: Appendix A, Invariance: shaders that assign gl_FragCoord.z to gl_FragDepth are depth-invariant with respect to each other",
+                "OpenGL ES 3.2: Appendix A, Invariance: shaders that assign gl_FragCoord.z to gl_FragDepth are depth-invariant with respect to each other",
+            ]),
         ),
         filter_step: permit(
             1.0 / 16.0,
-            "OpenGL ES 3.2: silent on the precision of filter weights; Vulkan: at least 4 bits",
+            text.cite([
+                "OpenGL ES 3.0: silent on the precision of filter weights; Vulkan: at least 4 bits",
+                "OpenGL ES 3.1: silent on the precision of filter weights; Vulkan: at least 4 bits",
+                "OpenGL ES 3.2: silent on the precision of filter weights; Vulkan: at least 4 bits",
+            ]),
+        ),
+        half_overflows: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL ES: 2.3.4.2 16-Bit Floating-Point Numbers (3.0: 2.1.2, 3.1: 2.3.3.2): infinity stands for magnitudes that are too large; no sentence gives the result of a conversion",
         ),
         flushes_small_floats: permit(
             true,
-            "OpenGL ES 3.2: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
+            text.cite([
+                "OpenGL ES 3.0: 2.1.2 16-Bit Floating-Point Numbers: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
+                "OpenGL ES 3.1: 2.3.3 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
+                "OpenGL ES 3.2: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero; silent on 11 and 10 bits",
+            ]),
         ),
-        shader_runs: "OpenGL ES 3.2: 7.11.1 Shader Memory Access Ordering: the fragment shader is invoked for every fragment; dEQP-GLES31.functional.image_load_store.early_fragment_tests.no_early_fragment_tests_* demands it",
-        alpha_to_coverage: "OpenGL ES 3.2: 15.1.1 Alpha To Coverage: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
-        facing: "OpenGL ES 3.2: 13.7.1 Basic Polygon Rasterization: front by the sign of the area",
-        stencil: "OpenGL ES 3.2: 15.1.2 Stencil Test: integer operations",
-        write_mask: "OpenGL ES 3.2: 15.2.2 Fine Control of Buffer Updates",
+        runs_for_discarded: narrowed(
+            true,
+            false,
+            Grade::RequiredByCts,
+            text.cite([
+                "OpenGL ES 3.1: 7.11.1 Shader Memory Access Ordering: a fragment that never contributes to the framebuffer may go without a run; dEQP-GLES31.functional.image_load_store.early_fragment_tests.no_early_fragment_tests_* demands one",
+                "OpenGL ES 3.1: 7.11.1 Shader Memory Access Ordering: a fragment that never contributes to the framebuffer may go without a run; dEQP-GLES31.functional.image_load_store.early_fragment_tests.no_early_fragment_tests_* demands one",
+                "OpenGL ES 3.2: 7.11.1 Shader Memory Access Ordering: a fragment that never contributes to the framebuffer may go without a run; dEQP-GLES31.functional.image_load_store.early_fragment_tests.no_early_fragment_tests_* demands one",
+            ]),
+        ),
+        runs_for_overwritten: permit(
+            false,
+            text.cite([
+                "OpenGL ES 3.1: 7.11.1 Shader Memory Access Ordering: a fragment that a later one replaces may go without a run",
+                "OpenGL ES 3.1: 7.11.1 Shader Memory Access Ordering: a fragment that a later one replaces may go without a run",
+                "OpenGL ES 3.2: 7.11.1 Shader Memory Access Ordering: a fragment that a later one replaces may go without a run",
+            ]),
+        ),
+        skips_rejected: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.1: 7.11.1 Shader Memory Access Ordering: no run for a fragment that early tests discard",
+                "OpenGL ES 3.1: 7.11.1 Shader Memory Access Ordering: no run for a fragment that early tests discard",
+                "OpenGL ES 3.2: 7.11.1 Shader Memory Access Ordering: no run for a fragment that early tests discard",
+            ]),
+        ),
+        runs_once: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.1: 7.11.1 Shader Memory Access Ordering: one run per fragment without several samples, else at most one per covered sample",
+                "OpenGL ES 3.1: 7.11.1 Shader Memory Access Ordering: one run per fragment without several samples, else at most one per covered sample",
+                "OpenGL ES 3.2: 7.11.1 Shader Memory Access Ordering: one run per fragment without several samples, else at most one per covered sample",
+            ]),
+        ),
+        alpha_to_coverage: narrowed(
+            AlphaToCoverage::Ends,
+            AlphaToCoverage::Any,
+            Grade::RequiredByCts,
+            text.cite([
+                "OpenGL ES 3.0: 4.1.3 Multisample Fragment Operations: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
+                "OpenGL ES 3.1: 15.1.1 Alpha To Coverage: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
+                "OpenGL ES 3.2: 15.1.1 Alpha To Coverage: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
+            ]),
+        ),
+        sample_coverage: narrowed(
+            AlphaToCoverage::Ends,
+            AlphaToCoverage::Any,
+            Grade::RequiredByCts,
+            text.cite([
+                "OpenGL ES 3.0: 4.1.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GLES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                "OpenGL ES 3.1: 13.6.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GLES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+                "OpenGL ES 3.2: 13.8.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; dEQP-GLES3.functional.multisample.*.proportionality_sample_coverage demands the ends",
+            ]),
+        ),
+        frag_coord: permit(
+            FragCoord::Inputs,
+            text.cite([
+                "OpenGL ES 3.0: 3.3 Multisampling: associated data anywhere within the pixel",
+                "OpenGL ES 3.1: 13.2.1 Multisampling: associated data anywhere within the pixel",
+                "OpenGL ES 3.2: 13.4 Multisampling: associated data anywhere within the pixel",
+            ]),
+        ),
+        inputs_at_samples: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: OES_sample_shading, 3.3.1: with a share of 1, each sample's inputs are evaluated at its location",
+                "OpenGL ES 3.1: OES_sample_shading, 3.3.1: with a share of 1, each sample's inputs are evaluated at its location",
+                "OpenGL ES 3.2: 13.4.1 Sample Shading: with a share of 1, each sample's inputs are evaluated at its location",
+            ]),
+        ),
+        facing: text.cite([
+            "OpenGL ES 3.0: 3.6.1 Basic Polygon Rasterization: front by the sign of the area",
+            "OpenGL ES 3.1: 13.5.1 Basic Polygon Rasterization: front by the sign of the area",
+            "OpenGL ES 3.2: 13.7.1 Basic Polygon Rasterization: front by the sign of the area",
+        ]),
+        stencil: text.cite([
+            "OpenGL ES 3.0: 4.1.4 Stencil Test: integer operations",
+            "OpenGL ES 3.1: 15.1.2 Stencil Test: integer operations",
+            "OpenGL ES 3.2: 15.1.2 Stencil Test: integer operations",
+        ]),
+        write_mask: text.cite([
+            "OpenGL ES 3.0: 4.2.2 Fine Control of Buffer Updates",
+            "OpenGL ES 3.1: 15.2.2 Fine Control of Buffer Updates",
+            "OpenGL ES 3.2: 15.2.2 Fine Control of Buffer Updates",
+        ]),
     }
 }

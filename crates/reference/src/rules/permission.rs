@@ -1,17 +1,57 @@
 //! Permissions as data: the set of choices that a text leaves open, each with its citation.
 
-/// A permission with its citation.
+use etalon_frame::{ChannelEncoding, Grade};
+
+/// A permission with its citation, and the evidence for what it forbids.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Permission<T> {
-    /// The permission.
+    /// The permission, by all evidence.
     pub value: T,
     /// The section that grants it.
     pub citation: &'static str,
+    /// The evidence for what the permission forbids beyond [`Permission::wide`].
+    pub grade: Grade,
+    /// The permission by the stronger evidence alone; the same as `value` where it is proven.
+    pub wide: T,
 }
 
-/// Returns a permission.
-pub(super) const fn permit<T>(value: T, citation: &'static str) -> Permission<T> {
-    Permission { value, citation }
+impl<T: Copy> Permission<T> {
+    /// Returns the permission as evidence of this grade or a stronger one leaves it.
+    pub fn bound_by(self, least: Grade) -> Self {
+        Self {
+            value: if self.grade < least {
+                self.wide
+            } else {
+                self.value
+            },
+            ..self
+        }
+    }
+}
+
+/// Returns a permission that a must of the text bounds.
+pub(super) const fn permit<T: Copy>(value: T, citation: &'static str) -> Permission<T> {
+    Permission {
+        value,
+        citation,
+        grade: Grade::Proven,
+        wide: value,
+    }
+}
+
+/// Returns a permission that weaker evidence narrows from `wide` to `value`.
+pub(super) const fn narrowed<T: Copy>(
+    value: T,
+    wide: T,
+    grade: Grade,
+    citation: &'static str,
+) -> Permission<T> {
+    Permission {
+        value,
+        citation,
+        grade,
+        wide,
+    }
 }
 
 /// Snapping of vertices to the sub-pixel grid.
@@ -62,16 +102,37 @@ pub enum DepthOrder {
     ConvertedFirst,
 }
 
-/// The least step of depth that a bias counts in, in multiples of `2^-bits` for normalized depth
-/// and of `2^(exponent - 23)` for float depth: at least, at most.
+/// The least step of depth that a bias counts in, in multiples of `2^-bits` for normalized depth and of
+/// `2^(exponent - 23)` for float depth: at least, at most, once per reading of the text. Of these the
+/// implementation chooses one reading and, for normalized depth, one step for all of an attachment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BiasUnit {
     /// For normalized depth of 16 bits.
-    pub unorm16: (f64, f64),
+    pub unorm16: &'static [(f64, f64)],
     /// For normalized depth of other bits.
-    pub unorm: (f64, f64),
+    pub unorm: &'static [(f64, f64)],
     /// For float depth, by the exponent of the primitive's greatest depth.
-    pub float: (f64, f64),
+    pub float: &'static [(f64, f64)],
+    /// The part of these that is assumed; none: all of them.
+    pub assumed: Option<(f64, f64)>,
+}
+
+impl BiasUnit {
+    /// Returns the readings for an encoding.
+    pub(crate) fn readings(&self, encoding: ChannelEncoding) -> &'static [(f64, f64)] {
+        match encoding {
+            ChannelEncoding::Unorm(16) => self.unorm16,
+            ChannelEncoding::Unorm(_) => self.unorm,
+            _ => self.float,
+        }
+    }
+
+    /// Returns the least and the greatest step for an encoding.
+    pub(crate) fn range(&self, encoding: ChannelEncoding) -> (f64, f64) {
+        let all = self.readings(encoding).iter().copied();
+        let hull = all.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        self.assumed.or(hull).unwrap_or((1.0, 1.0))
+    }
 }
 
 /// Clamping of blend factors to the range of a normalized format.
@@ -81,6 +142,46 @@ pub enum FactorClamp {
     Clamped,
     /// Clamped or not.
     Either,
+}
+
+/// The range that blending clamps source, destination and constant of a signed normalized format to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SignedClamp {
+    /// -1 to 1.
+    Signed,
+    /// 0 to 1.
+    Unit,
+    /// Either of both.
+    Either,
+}
+
+/// The codes that come back where a stored value is copied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Copies {
+    /// Those that are stored.
+    Exact,
+    /// Others of the same value, and any for infinities, NaN and subnormal values.
+    SameNumbers,
+}
+
+/// Logic operations on sRGB attachments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SrgbLogic {
+    /// The source is stored as it is.
+    PassesThrough,
+    /// The operation works on the encoded codes.
+    Applies,
+    /// Either of both.
+    Either,
+}
+
+/// Alpha to coverage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AlphaToCoverage {
+    /// Alpha 0 gives no sample, alpha 1 all, anything between any.
+    Ends,
+    /// Any alpha gives any samples.
+    Any,
 }
 
 /// The result for a depth outside of the viewport's range that a shader or a bias produced, if the draw
@@ -100,9 +201,12 @@ pub enum DepthRange {
 /// The result of resolving a texel's samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resolve {
-    /// Anything between the least and the greatest of them.
+    /// Anything between the least and the greatest of them; of integers one of them.
     Between,
-    /// Their average.
+    /// Their average, computed by halvings that may each be rounded to a neighbouring code, of sRGB the
+    /// codes' or the linear values'; of integers the first of them.
+    CoarseAverage,
+    /// Their average; of integers one of them.
     Average,
 }
 
@@ -134,60 +238,146 @@ pub enum SameDepth {
     All,
 }
 
+/// Declares the permissions of [`Rules`], so that none is forgotten where all are narrowed or listed.
+macro_rules! rules {
+    ($($(#[$doc:meta])* $field:ident: $kind:ty,)+) => {
+        /// The coordinates that a shader reads of a fragment of several samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FragCoord {
+    /// The centre of the texel, or with sample shading the position of one of the samples of the run.
+    Sample,
+    /// The point at which other inputs are interpolated.
+    Inputs,
+}
+
 /// One specification's permissions, or the yardstick.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Rules {
-    /// The name: `vulkan`, `opengl`, `opengl-es`, `webgpu`, `yardstick`.
-    pub name: &'static str,
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct Rules {
+            /// The name: `vulkan`, `opengl`, `opengl-es`, `webgpu`, `yardstick`.
+            pub name: &'static str,
+            /// The text and its version: `OpenGL 3.3 (core profile)`.
+            pub text: &'static str,
+            $($(#[$doc])* pub $field: Permission<$kind>,)+
+            /// The clause on zero-area and reversed triangles.
+            pub facing: &'static str,
+            /// The clause that makes stencil values exact.
+            pub stencil: &'static str,
+            /// The clause that makes unwritten channels exact.
+            pub write_mask: &'static str,
+        }
+
+        impl Rules {
+            /// Returns the rules as evidence of this grade or a stronger one leaves them.
+            pub fn bound_by(&self, least: Grade) -> Self {
+                Self {
+                    $($field: self.$field.bound_by(least),)+
+                    ..*self
+                }
+            }
+
+            /// Returns the values of all permissions as text. Rules of one API with the same values give
+            /// the same legal sets, whatever they cite.
+            pub fn values(&self) -> String {
+                let mut text = String::new();
+                $(text.push_str(&format!("{:?};", self.$field.value));)+
+                text
+            }
+
+            /// Returns every permission's name, citation and grade.
+            pub fn permissions(&self) -> Vec<(&'static str, &'static str, Grade)> {
+                vec![
+                    $((stringify!($field), self.$field.citation, self.$field.grade),)+
+                    ("facing", self.facing, Grade::Proven),
+                    ("stencil", self.stencil, Grade::Proven),
+                    ("write_mask", self.write_mask, Grade::Proven),
+                ]
+            }
+        }
+    };
+}
+
+rules! {
     /// Relative error of fixed-function floating-point: viewport, interpolation, blending.
-    pub float_error: Permission<f64>,
+    float_error: f64,
     /// Relative error of each result that a shader computes.
-    pub shader_error: Permission<f64>,
+    shader_error: f64,
     /// Relative error of a normalized code read as a float; 0 and 1 are exact.
-    pub decode_error: Permission<f64>,
+    decode_error: f64,
     /// Vertex snapping.
-    pub snap: Permission<Snap>,
+    snap: Snap,
     /// Samples on edges.
-    pub shared_edge: Permission<SharedEdge>,
+    shared_edge: SharedEdge,
+    /// True if a sample is covered at the position that the adapter tells for it; otherwise anywhere in its
+    /// texel.
+    covers_at_positions: bool,
     /// Conversion at the store and of clear values.
-    pub store: Permission<Rounding>,
+    store: Rounding,
     /// Blending.
-    pub blend: Permission<BlendPrecision>,
+    blend: BlendPrecision,
+    /// Clamping of what is blended into signed normalized formats.
+    signed_clamp: SignedClamp,
+    /// Clamping of what a shader or a blend stores into signed normalized formats.
+    signed_result: SignedClamp,
+    /// True if a blend constant may be clamped to [0,1] whatever the format.
+    clamps_constant: bool,
+    /// True if the stencil read mask also masks the reference; otherwise it may.
+    masks_reference: bool,
+    /// Codes of colours read back by a copy.
+    copies: Copies,
+    /// Logic operations on sRGB attachments.
+    srgb_logic: SrgbLogic,
     /// The values that a depth test compares.
-    pub depth_order: Permission<DepthOrder>,
+    depth_order: DepthOrder,
     /// The unit of a constant depth bias.
-    pub depth_bias_unit: Permission<BiasUnit>,
+    depth_bias_unit: BiasUnit,
     /// Depths outside of the viewport's range.
-    pub depth_range: Permission<DepthRange>,
+    depth_range: DepthRange,
     /// Blend factors beyond a normalized format's range.
-    pub factor_clamp: Permission<FactorClamp>,
+    factor_clamp: FactorClamp,
     /// Averaging samples.
-    pub resolve: Permission<Resolve>,
+    resolve: Resolve,
     /// True if points and lines face front; otherwise either is legal.
-    pub points_face_front: Permission<bool>,
+    points_face_front: bool,
     /// True if the edges of a polygon drawn as lines face as the polygon; otherwise either is legal.
     /// Culling always follows the polygon.
-    pub outlines_face_as_polygons: Permission<bool>,
-    /// Updates of depth and stencil by fragments discarded after forced early tests.
-    pub early_updates: Permission<EarlyUpdates>,
+    outlines_face_as_polygons: bool,
+    /// Updates of depth and stencil by fragments that the shader discards after forced early tests.
+    early_updates: EarlyUpdates,
+    /// Updates of depth and stencil by samples that alpha to coverage removes after forced early tests.
+    early_coverage: EarlyUpdates,
+    /// True if the sample mask excludes samples before forced early tests; otherwise before or after.
+    mask_acts_first: bool,
     /// Counting of fragments discarded after forced early tests.
-    pub early_counts: Permission<EarlyUpdates>,
+    early_counts: EarlyUpdates,
     /// Precise occlusion queries over several samples.
-    pub samples_counted: Permission<SamplesCounted>,
+    samples_counted: SamplesCounted,
     /// The redraws with the same depths.
-    pub same_depth: Permission<SameDepth>,
+    same_depth: SameDepth,
     /// The coarsest step, in texels, to which coordinates may be rounded in filtering.
-    pub filter_step: Permission<f64>,
+    filter_step: f64,
+    /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise as
+    /// anything.
+    half_overflows: bool,
     /// True if subnormal floats may be stored as zero.
-    pub flushes_small_floats: Permission<bool>,
-    /// The clause that requires a shader to run for a fragment.
-    pub shader_runs: &'static str,
-    /// Alpha to coverage: alpha 0 gives no sample, alpha 1 all, anything between any.
-    pub alpha_to_coverage: &'static str,
-    /// The clause on zero-area and reversed triangles.
-    pub facing: &'static str,
-    /// The clause that makes stencil values exact.
-    pub stencil: &'static str,
-    /// The clause that makes unwritten channels exact.
-    pub write_mask: &'static str,
+    flushes_small_floats: bool,
+    /// True if a shader that counts in storage runs for a fragment that never contributes to the
+    /// attachments; otherwise it may.
+    runs_for_discarded: bool,
+    /// True if it runs for a fragment that a later one overwrites; otherwise it may.
+    runs_for_overwritten: bool,
+    /// True if it does not run for a fragment that forced early tests reject; otherwise it may.
+    skips_rejected: bool,
+    /// True if it runs at most once per fragment, or per covered sample of several; otherwise as often as
+    /// the implementation likes.
+    runs_once: bool,
+    /// Alpha to coverage.
+    alpha_to_coverage: AlphaToCoverage,
+    /// Sample coverage, as alpha to coverage. The same value covers the same samples again, and its
+    /// inverse the others.
+    sample_coverage: AlphaToCoverage,
+    /// The fragment's coordinates that a shader of several samples reads.
+    frag_coord: FragCoord,
+    /// True if with sample shading of a share of 1 each sample's inputs are those at its position;
+    /// otherwise at any point of the texel.
+    inputs_at_samples: bool,
 }

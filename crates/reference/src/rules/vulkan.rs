@@ -1,13 +1,40 @@
-//! Vulkan's permissions.
+//! Vulkan's permissions, by version and by the properties that change them.
 
 use super::permission::{
-    BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
-    Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
+    AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
+    FactorClamp, FragCoord, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
+use etalon_frame::{Grade, Limits, Property};
 
-pub(super) fn rules() -> Rules {
+/// Returns the text that binds a version.
+fn text(limits: &Limits) -> &'static str {
+    match (limits.version.major, limits.version.minor) {
+        (1, 0) => "Vulkan 1.0",
+        (1, 1) => "Vulkan 1.1",
+        (1, 2) => "Vulkan 1.2",
+        (1, 3) => "Vulkan 1.3",
+        _ => "Vulkan 1.4",
+    }
+}
+
+pub(super) fn rules(limits: &Limits) -> Rules {
+    // Promises of maintenance5 and Vulkan 1.4.
+    let coverage_last = limits.properties.contains(&Property::CoverageAfterCounting);
+    let mask_first = limits.properties.contains(&Property::MaskBeforeCounting);
+    let happens = |cited: &'static str| {
+        if coverage_last {
+            permit(
+                EarlyUpdates::Happen,
+                "Vulkan: Fragment Operations, earlyFragmentMultisampleCoverageAfterSampleCounting is true: with EarlyFragmentTests shading and multisample coverage follow sample counting",
+            )
+        } else {
+            permit(EarlyUpdates::Either, cited)
+        }
+    };
     Rules {
         name: "vulkan",
+        text: text(limits),
         float_error: permit(
             1e-5,
             "Vulkan: Fundamentals, Floating-Point Computation: accurate to about 1 part in 10^5",
@@ -30,6 +57,10 @@ pub(super) fn rules() -> Rules {
             "Vulkan: Basic Polygon Rasterization: a common edge with identical end points gives \
              exactly one fragment per sample",
         ),
+        covers_at_positions: permit(
+            true,
+            "Vulkan: Multisampling: with standardSampleLocations samples lie at the standard locations",
+        ),
         store: permit(
             Rounding::EitherNeighbour,
             "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized Fixed-Point: one of \
@@ -40,17 +71,42 @@ pub(super) fn rules() -> Rules {
             "Vulkan: Blending: precision and dynamic range no lower than that used to represent \
              destination components",
         ),
+        signed_clamp: permit(
+            SignedClamp::Signed,
+            "Vulkan: Blending: clamped to [0,1] or [-1,1], as the attachment is unsigned or signed",
+        ),
+        signed_result: permit(
+            SignedClamp::Signed,
+            "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized Fixed-Point: clamped to [-1,1] for signed formats",
+        ),
+        clamps_constant: permit(
+            false,
+            "Vulkan: Blend Factors: the constant is clamped for normalized attachments alone",
+        ),
+        masks_reference: permit(
+            true,
+            "Vulkan: Stencil Test: reference and stored value are both masked",
+        ),
+        copies: permit(
+            Copies::Exact,
+            "Vulkan: Copy Commands: texels are copied as they are stored",
+        ),
+        srgb_logic: permit(
+            SrgbLogic::PassesThrough,
+            "Vulkan: Logical Operations: not applied to sRGB and floating-point attachments",
+        ),
         depth_order: permit(
             DepthOrder::Either,
             "Vulkan: Depth Comparison: whether the incoming depth is converted first is not stated",
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 2.001),
-                unorm: (0.999, 2.001),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 2.001)],
+                unorm: &[(0.999, 2.001)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
-            "Vulkan: Depth Bias Computation: r at most 2 * 2^-n for fixed point, 2^(e-n) for floats, whose n may count the hidden bit",
+            "Vulkan: Depth Bias Computation: for fixed point one r for the whole attachment, at most 2 * 2^-n; for floats 2^(e-n), n the bits of the mantissa, 23 (where fixed-point steps stand in for floats, the text takes one bit more than the mantissa's)",
         ),
         depth_range: permit(
             DepthRange::Undefined,
@@ -61,23 +117,42 @@ pub(super) fn rules() -> Rules {
             "Vulkan: Blending: factors are clamped for fixed-point attachments",
         ),
         resolve: permit(
-            Resolve::Between,
-            "Vulkan: vkCmdResolveImage: resolved in an implementation-dependent manner; VkResolveModeFlagBits: the average's precision is implementation-defined",
+            // Render passes resolve by a mode. Only `vkCmdResolveImage`, which the backend does not call, may
+            // choose another.
+            Resolve::CoarseAverage,
+            "Vulkan: VkResolveModeFlagBits: VK_RESOLVE_MODE_AVERAGE_BIT gives the average of the samples, its precision implementation-defined (read as: no coarser than the format's codes in any halving), sRGB samples made linear first if the implementation does as it should; VK_RESOLVE_MODE_SAMPLE_ZERO_BIT, of integers, gives sample 0",
         ),
         points_face_front: permit(
             true,
-            "Vulkan: Stencil Test, FrontFacing: fragments of other primitives than polygons are front-facing",
+            "Vulkan: Fragment Shading, FrontFacing: fragments of other primitives than polygons are front-facing",
         ),
         outlines_face_as_polygons: permit(
             true,
-            "Vulkan 1.0: Polygon Mode: fragments rasterized from polygons inherit their facingness from the polygon, even if it is rasterized as points or lines",
+            "Vulkan: FrontFacing, Stencil Test: a fragment that a polygon generates faces as the polygon, whatever the polygon mode",
         ),
-        early_updates: permit(
-            EarlyUpdates::Happen,
-            "Vulkan 1.0: Early Fragment Test Mode: depth and stencil tests and writes are performed even for fragments discarded afterwards; dEQP-VK.fragment_operations.early_fragment.discard_early_fragment_tests_depth demands it",
+        early_updates: match coverage_last {
+            true => happens(""),
+            false => narrowed(
+                EarlyUpdates::Happen,
+                EarlyUpdates::Either,
+                Grade::RequiredByCts,
+                "Vulkan: Fragment Operations: with EarlyFragmentTests shading should follow sample counting, but may precede it; dEQP-VK.fragment_operations.early_fragment.discard_early_fragment_tests_depth demands the updates",
+            ),
+        },
+        early_coverage: happens(
+            "Vulkan: Fragment Operations: with EarlyFragmentTests multisample coverage should follow sample counting, but may precede it",
         ),
-        early_counts: permit(
-            EarlyUpdates::Either,
+        mask_acts_first: match mask_first {
+            true => permit(
+                true,
+                "Vulkan: Fragment Operations, earlyFragmentSampleMaskTestBeforeSampleCounting is true: the sample mask test keeps its place before all tests",
+            ),
+            false => permit(
+                false,
+                "Vulkan: Fragment Operations: with EarlyFragmentTests the sample mask test may follow sample counting",
+            ),
+        },
+        early_counts: happens(
             "Vulkan: Fragment Operations: with EarlyFragmentTests shading and multisample coverage should follow sample counting, but may precede it",
         ),
         samples_counted: permit(
@@ -92,12 +167,56 @@ pub(super) fn rules() -> Rules {
             1.0 / 16.0,
             "Vulkan: Limits, subTexelPrecisionBits is at least 4; the rounding to its divisions is not stated",
         ),
+        half_overflows: permit(
+            true,
+            "Vulkan: Fundamentals, Floating-Point Format Conversions: the largest finite value or infinity",
+        ),
         flushes_small_floats: permit(
             false,
             "Vulkan: Fundamentals, Floating-Point Format Conversions: representable finite values are kept",
         ),
-        shader_runs: "Vulkan: Fragment Shader Execution: at least one run for every fragment that no operation before shading discards, where the shader writes storage",
-        alpha_to_coverage: "Vulkan: Multisample Coverage: intended that alpha 0 gives no sample and alpha 1 all; dEQP-VK.pipeline.*.multisample.alpha_to_coverage.* demands the ends",
+        runs_for_discarded: permit(
+            true,
+            "Vulkan: Fragment Shading: at least one run for every fragment that no operation before shading discards, where the shader writes storage",
+        ),
+        runs_for_overwritten: permit(
+            true,
+            "Vulkan: Fragment Shading: a fragment may go without a run if a later one overwrites all its results, storage too; an atomic addition is not overwritten",
+        ),
+        skips_rejected: match coverage_last {
+            true => permit(
+                true,
+                "Vulkan: Fragment Shading: no run for a fragment that an operation before shading discards; earlyFragmentMultisampleCoverageAfterSampleCounting puts the tests first",
+            ),
+            false => narrowed(
+                true,
+                false,
+                Grade::RequiredByCts,
+                "Vulkan: Fragment Operations: with EarlyFragmentTests shading should follow sample counting, but may precede it; dEQP-VK.fragment_operations.early_fragment.early_fragment_tests_depth demands that no run precedes it",
+            ),
+        },
+        runs_once: permit(
+            false,
+            "Vulkan: Fragment Shading: more runs than one for implementation-dependent reasons",
+        ),
+        alpha_to_coverage: narrowed(
+            AlphaToCoverage::Ends,
+            AlphaToCoverage::Any,
+            Grade::RequiredByCts,
+            "Vulkan: Multisample Coverage: intended that alpha 0 gives no sample and alpha 1 all; dEQP-VK.pipeline.*.multisample.alpha_to_coverage.* demands the ends",
+        ),
+        sample_coverage: permit(
+            AlphaToCoverage::Ends,
+            "Vulkan: has no sample coverage; as OpenGL 4.6: 14.9.3",
+        ),
+        frag_coord: permit(
+            FragCoord::Sample,
+            "Vulkan: FragCoord: the centre of the fragment, or with sample shading the location of one of the samples of the run",
+        ),
+        inputs_at_samples: permit(
+            false,
+            "Vulkan: Interpolation Decorations: an implementation-defined position within the fragment, unless decorated",
+        ),
         facing: "Vulkan: Basic Polygon Rasterization: front by the sign of the area; zero area is \
                  not front",
         stencil: "Vulkan: Stencil Test: integer operations",

@@ -1,13 +1,16 @@
-//! WebGPU's permissions. Where the text is silent, what the APIs under it permit.
+//! WebGPU's permissions, by the text of 2026-11. Where it is silent, what the APIs under it permit.
 
 use super::permission::{
-    BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
-    Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
+    AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
+    FactorClamp, FragCoord, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
+use etalon_frame::Grade;
 
 pub(super) fn rules() -> Rules {
     Rules {
         name: "webgpu",
+        text: "WebGPU (editor's draft of 2026-11)",
         float_error: permit(
             1e-5,
             "WebGPU: silent on fixed-function accuracy; Vulkan and OpenGL: about 1 part in 10^5",
@@ -30,6 +33,10 @@ pub(super) fn rules() -> Rules {
             "WebGPU: 23.2.5.4 Polygon Rasterization: whether a sample on an edge is inside is not \
              defined",
         ),
+        covers_at_positions: permit(
+            true,
+            "WebGPU: 23.2.5 Rasterization: samples lie at the standard patterns",
+        ),
         store: permit(
             Rounding::EitherNeighbour,
             "WebGPU: silent on the rounding of stores; Vulkan and OpenGL: one of the two closest \
@@ -39,17 +46,51 @@ pub(super) fn rules() -> Rules {
             BlendPrecision::DestinationCodes,
             "WebGPU: silent on blend precision; Vulkan and OpenGL: no lower than the destination's",
         ),
+        signed_clamp: permit(
+            SignedClamp::Signed,
+            "WebGPU: silent on clamping before a blend; Vulkan and OpenGL clamp to [-1,1] for signed formats",
+        ),
+        signed_result: permit(
+            SignedClamp::Signed,
+            "WebGPU: silent on stores to signed formats; Vulkan clamps to [-1,1]",
+        ),
+        clamps_constant: permit(
+            false,
+            "WebGPU: 23.2.7 Output Merging: the constant is the one that was set",
+        ),
+        masks_reference: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "WebGPU: 10.3.6 Depth/Stencil State: stencilReadMask masks what is read; that the reference is masked too, as in Vulkan and OpenGL, no sentence says",
+        ),
+        copies: permit(
+            Copies::SameNumbers,
+            "WebGPU: 11 Copies, Texel Copies: -1 may be either of its codes; only finite, normal values survive",
+        ),
+        srgb_logic: permit(SrgbLogic::PassesThrough, "WebGPU: has no logic operations"),
         depth_order: permit(
             DepthOrder::Either,
             "WebGPU: 23.2.6 Fragment Processing is silent on the order of conversion and comparison",
         ),
-        depth_bias_unit: permit(
+        depth_bias_unit: narrowed(
             BiasUnit {
-                unorm16: (0.999, 1.001),
-                unorm: (0.999, 2.001),
-                float: (0.499, 1.001),
+                unorm16: &[(0.999, 1.001)],
+                unorm: &[(0.999, 2.001)],
+                // As Vulkan, Direct3D and Metal have it, or by the letter: 2^(exponent - r) with r the
+                // least positive float, which is 2^exponent.
+                float: &[(0.999, 1.001), (0.999 * 8_388_608.0, 1.001 * 8_388_608.0)],
+                assumed: None,
             },
-            "WebGPU: GPUDepthStencilState, biased fragment depth: r is the least positive value of a unorm format; which one depth24plus is, and the float unit, are not told, so as Vulkan has them",
+            // By musts alone depth24plus may be a float, and the step of a float any that is told.
+            BiasUnit {
+                unorm16: &[(0.999, 1.001)],
+                unorm: &[(0.499, 16_777_216.0)],
+                float: &[(0.499, 1.001 * 8_388_608.0)],
+                assumed: None,
+            },
+            Grade::Disputed,
+            "WebGPU: GPUDepthStencilState, biased fragment depth: r is the least positive value of a unorm format; which one depth24plus is, is not told, so as Vulkan has it; of floats 2^(e-23), or 2^e as the text says by its letter (gpuweb#6350)",
         ),
         depth_range: permit(
             DepthRange::ViewportIfWritten,
@@ -72,6 +113,14 @@ pub(super) fn rules() -> Rules {
             EarlyUpdates::Either,
             "WebGPU: has no forced early tests; OpenGL: depth and stencil may be updated",
         ),
+        early_coverage: permit(
+            EarlyUpdates::Either,
+            "WebGPU: has no forced early tests; OpenGL: depth and stencil may be updated",
+        ),
+        mask_acts_first: permit(
+            false,
+            "WebGPU: has no forced early tests; Vulkan: the sample mask may act after them",
+        ),
         early_counts: permit(
             EarlyUpdates::Either,
             "WebGPU: has no forced early tests; Vulkan and OpenGL: counts may be updated",
@@ -88,12 +137,46 @@ pub(super) fn rules() -> Rules {
             1.0 / 16.0,
             "WebGPU: silent on the precision of filter weights; Vulkan: at least 4 bits",
         ),
+        half_overflows: permit(
+            true,
+            "WebGPU: silent on overflow; Vulkan: the largest finite value or infinity",
+        ),
         flushes_small_floats: permit(
             true,
             "WebGPU: silent on small floats; OpenGL: 16-bit ones may be encoded as zero",
         ),
-        shader_runs: "WebGPU: 23.2.6 Fragment Processing: skipped only where the shader writes to no storage binding",
-        alpha_to_coverage: "WebGPU: 23.2.9 Alpha to Coverage: alpha 0 gives no sample and alpha 1 all",
+        runs_for_discarded: permit(
+            true,
+            "WebGPU: 23.2.6 Fragment Processing: skipped only where the shader writes to no storage binding",
+        ),
+        runs_for_overwritten: permit(
+            false,
+            "WebGPU: 23.2.6 Fragment Processing: silent on fragments that later ones overwrite; OpenGL ES: they may go without a run",
+        ),
+        skips_rejected: permit(
+            false,
+            "WebGPU: has no forced early tests; Vulkan: shading may precede them",
+        ),
+        runs_once: permit(
+            false,
+            "WebGPU: silent on additional runs; Vulkan permits them",
+        ),
+        alpha_to_coverage: permit(
+            AlphaToCoverage::Ends,
+            "WebGPU: 23.2.9 Alpha to Coverage: alpha 0 gives no sample and alpha 1 all",
+        ),
+        sample_coverage: permit(
+            AlphaToCoverage::Ends,
+            "WebGPU: has no sample coverage; as OpenGL 4.6: 14.9.3",
+        ),
+        frag_coord: permit(
+            FragCoord::Inputs,
+            "WebGPU: silent on the point of several samples; OpenGL 4.6, 14.3.1 leaves it open",
+        ),
+        inputs_at_samples: permit(
+            false,
+            "WebGPU: silent on sample shading by a share; Vulkan leaves the point open",
+        ),
         facing: "WebGPU: 23.2.5.4 Polygon Rasterization: front by the sign of the area; zero area \
                  is back",
         stencil: "WebGPU: 23.2.7 Output Merging: integer operations",

@@ -1,12 +1,15 @@
 //! The quality band, in the spirit of the Direct3D 11.3 functional specification.
 
 use super::permission::{
-    BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp, Resolve, Rounding,
-    Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
+    AlphaToCoverage, BiasUnit, BlendPrecision, DepthOrder, DepthRange, EarlyUpdates, FactorClamp,
+    Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
 };
-use etalon_frame::Api;
+use etalon_frame::{Api, Limits};
 
-pub(super) fn rules(api: Api) -> Rules {
+/// Returns the band for an adapter; `text` are the permissions of its API, which the band does not forbid
+/// where Direct3D asks for something else.
+pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
+    let api = limits.api;
     // WebGPU does not tell the sub-pixel grid, so nothing tighter than the API's rule can be asked.
     let snap = match api {
         Api::WebGpu => Snap::EitherSide,
@@ -14,6 +17,7 @@ pub(super) fn rules(api: Api) -> Rules {
     };
     Rules {
         name: "yardstick",
+        text: "the yardstick",
         // Two units in the last place of a 32-bit float: one rounding each of operand and result.
         float_error: permit(
             f64::from(f32::EPSILON),
@@ -29,6 +33,7 @@ pub(super) fn rules(api: Api) -> Rules {
         ),
         snap: permit(snap, "Direct3D 11.3: 3.4.1 Coordinate Snapping: nearest"),
         shared_edge: permit(SharedEdge::TopLeft, "Direct3D 11.3: 3.4.2.1 Top-Left Rule"),
+        covers_at_positions: permit(true, "Yardstick: at the positions that are told"),
         store: permit(
             Rounding::Within(0.6),
             "Direct3D 11.3: 3.2.3.6 FLOAT to UNORM: 0.6 ULP",
@@ -37,15 +42,28 @@ pub(super) fn rules(api: Api) -> Rules {
             BlendPrecision::Float32,
             "Direct3D 11.3: 17.5 Blending Precision, held to 32-bit float",
         ),
+        signed_clamp: permit(text.signed_clamp.value, "Yardstick: as the API's text says"),
+        signed_result: permit(
+            text.signed_result.value,
+            "Yardstick: as the API's text says",
+        ),
+        clamps_constant: permit(
+            text.clamps_constant.value,
+            "Yardstick: as the API's text says",
+        ),
+        masks_reference: permit(true, "Yardstick: as Direct3D 11.3 has it (17.12)"),
+        copies: permit(text.copies.value, "Yardstick: as the API's text says"),
+        srgb_logic: permit(text.srgb_logic.value, "Yardstick: as the API's text says"),
         depth_order: permit(
             DepthOrder::ConvertedFirst,
             "Direct3D 11.3: 17.11 Depth Comparison: convert, then compare",
         ),
         depth_bias_unit: permit(
             BiasUnit {
-                unorm16: (0.999, 1.001),
-                unorm: (0.999, 1.001),
-                float: (0.999, 1.001),
+                unorm16: &[(0.999, 1.001)],
+                unorm: &[(0.999, 1.001)],
+                float: &[(0.999, 1.001)],
+                assumed: None,
             },
             "Direct3D 11.3: 15.10 Depth Bias: 1/2^n, for floats 2^(e-23)",
         ),
@@ -70,6 +88,11 @@ pub(super) fn rules(api: Api) -> Rules {
             EarlyUpdates::Happen,
             "Yardstick: forced early tests come first, as Direct3D 11.3 has them (17.3)",
         ),
+        early_coverage: permit(
+            EarlyUpdates::Happen,
+            "Yardstick: forced early tests come first, as Direct3D 11.3 has them (17.3)",
+        ),
+        mask_acts_first: permit(true, "Yardstick: the sample mask comes before all tests"),
         early_counts: permit(
             EarlyUpdates::Happen,
             "Yardstick: forced early tests come first, and counting with them",
@@ -86,9 +109,22 @@ pub(super) fn rules(api: Api) -> Rules {
             1.0 / 256.0,
             "Yardstick: 8 bits of fraction (Direct3D 11.3, 7.18.7 and 7.18.8)",
         ),
+        half_overflows: permit(true, "Yardstick: the largest finite value or infinity"),
         flushes_small_floats: permit(false, "Yardstick: representable values are kept"),
-        shader_runs: "Yardstick: one run for every fragment",
-        alpha_to_coverage: "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",
+        runs_for_discarded: permit(true, "Yardstick: one run for every fragment"),
+        runs_for_overwritten: permit(true, "Yardstick: one run for every fragment"),
+        skips_rejected: permit(true, "Yardstick: one run for every fragment"),
+        runs_once: permit(text.runs_once.value, "Yardstick: as the API's text says"),
+        alpha_to_coverage: permit(
+            AlphaToCoverage::Ends,
+            "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",
+        ),
+        sample_coverage: permit(AlphaToCoverage::Ends, "Yardstick: as alpha to coverage"),
+        frag_coord: permit(text.frag_coord.value, "Yardstick: as the API's text says"),
+        inputs_at_samples: permit(
+            text.inputs_at_samples.value,
+            "Yardstick: as the API's text says",
+        ),
         facing: "Direct3D 11.3: 15.10 Facing: after snapping, zero area is back",
         stencil: "Direct3D 11.3: 17.12 Stencil: integer operations",
         write_mask: "Direct3D 11.3: 17.8 Write Masks",

@@ -20,7 +20,10 @@ pub(crate) fn limits(api: Api) -> Limits {
 
 /// Every API's rules, and the yardstick.
 pub(crate) fn all_rules() -> Vec<Rules> {
-    let mut rules: Vec<Rules> = APIS.into_iter().map(Rules::of).collect();
+    let mut rules: Vec<Rules> = APIS
+        .into_iter()
+        .map(|api| Rules::of(&limits(api)))
+        .collect();
     rules.push(Rules::yardstick(&limits(Api::Vulkan)));
     rules
 }

@@ -32,13 +32,14 @@ fn floats_become_the_codes_of_the_conversion_rules() {
         (u16_, 0.5, 32767, 32768),
         (u24, 0.0, 0, 0),
         (u24, 1.0, 0xff_ffff, 0xff_ffff),
-        (u24, 0.5, 0x7f_ffff, 0x80_0000),
+        // 8388607.5, computed within 1 part in 10^5.
+        (u24, 0.5, 8_388_523, 8_388_692),
     ];
     for (encoding, value, low, high) in rows {
         for api in APIS {
             let due = CodeInterval::new(low, high);
             assert_eq!(
-                stored(&Rules::of(api), encoding, value),
+                stored(&Rules::of(&limits(api)), encoding, value),
                 due,
                 "{api} {encoding} {value}"
             );

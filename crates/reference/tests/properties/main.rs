@@ -3,10 +3,13 @@
 
 mod arithmetic;
 mod common;
+mod evidence;
 mod families;
 mod frames;
 mod golden;
+mod resolves;
 mod scenes;
+mod steps;
 mod textures;
 mod wide;
 mod worlds;

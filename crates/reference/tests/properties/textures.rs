@@ -38,6 +38,7 @@ fn judged((value, [below, above]): Known) -> Range {
 struct Inputs {
     color: [Known; 4],
     depth: Known,
+    position: [Known; 2],
     uv: [Known; 2],
     texels: [[Known; 4]; 2],
     params: Params,
@@ -56,23 +57,26 @@ fn inputs() -> impl Strategy<Value = Inputs> {
         [known(), known()],
         [four(), four()],
         [four(), four()],
-        (0_u32..8, any::<bool>()),
+        (0_u32..8, any::<bool>(), [known(), known()]),
     )
-        .prop_map(|(color, depth, uv, texels, params, (sample, front))| {
-            let [color_of_params, back_color] = params.map(|p| p.map(|(v, _)| v));
-            Inputs {
-                color,
-                depth,
-                uv,
-                texels,
-                params: Params {
-                    color: color_of_params,
-                    back_color,
-                },
-                sample,
-                front,
-            }
-        })
+        .prop_map(
+            |(color, depth, uv, texels, params, (sample, front, position))| {
+                let [color_of_params, back_color] = params.map(|p| p.map(|(v, _)| v));
+                Inputs {
+                    color,
+                    depth,
+                    position,
+                    uv,
+                    texels,
+                    params: Params {
+                        color: color_of_params,
+                        back_color,
+                    },
+                    sample,
+                    front,
+                }
+            },
+        )
 }
 
 fn plain(shader: Shader, inputs: &Inputs) -> FragmentOutput<[f32; 1]> {
@@ -81,6 +85,7 @@ fn plain(shader: Shader, inputs: &Inputs) -> FragmentOutput<[f32; 1]> {
         front: inputs.front,
         depth: [inputs.depth.0],
         sample: inputs.sample,
+        position: inputs.position.map(|(v, _)| [v]),
         texels: inputs.texels.map(|texel| texel.map(|(v, _)| [v])),
         uv: inputs.uv.map(|(v, _)| [v]),
         params: &inputs.params,
@@ -133,6 +138,7 @@ proptest! {
                     front: inputs.front,
                     depth: judged(inputs.depth),
                     sample: inputs.sample,
+                    position: inputs.position.map(judged),
                     texels: inputs.texels.map(|texel| texel.map(judged)),
                     uv: inputs.uv.map(judged),
                     params: &inputs.params,
@@ -412,5 +418,47 @@ fn a_sampled_judgement_is_the_full_one_where_it_looks() {
             let case = case.build().expect("built-in cases build");
             check_sampled(&case.id, case.judged_scene(), 40);
         }
+    }
+}
+
+#[test]
+fn the_nearest_texel_of_a_drawn_texture_is_followed() {
+    let scene = scene(
+        r#"{"attachments":{
+            "texture":{"format":"rgba8unorm","size":[4,4],"clear":[0,0,0,1]},
+            "color":{"format":"rgba8unorm","size":[8,8],"clear":[0,0,0,0]}},
+            "passes":[
+            {"color":["texture"],"draws":[{"mesh":{"kind":"columns","values":[[1,0,0,1],[0,1,0,1],[0,0,1,1],[1,1,1,0]]},
+              "shader":"flat_color"}]},
+            {"color":["color"],"draws":[{"mesh":{"kind":"cover","uv":[0,0,2,1]},"shader":"sampled_color",
+              "textures":["texture"],"sampler":{"filter":"nearest","address":["repeat","clamp-to-edge"]}}]}],
+            "read":["color"]}"#,
+    );
+    legal(&scene);
+    for api in APIS {
+        for judgement in judgements(&scene, &limits(api)) {
+            assert!(is_exact(&judgement.legal), "{api:?}");
+            assert!(is_exact(&judgement.yardstick), "{api:?}");
+        }
+    }
+}
+
+#[test]
+fn a_texel_between_two_of_a_drawn_texture_is_either() {
+    // The coordinate of the middle columns is the border of two texels.
+    let scene = scene(
+        r#"{"attachments":{
+            "texture":{"format":"rgba8unorm","size":[2,2],"clear":[0,0,0,1]},
+            "color":{"format":"rgba8unorm","size":[1,1],"clear":[0,0,0,0]}},
+            "passes":[
+            {"color":["texture"],"draws":[{"mesh":{"kind":"columns","values":[[1,0,0,1],[0,1,0,1]]},"shader":"flat_color"}]},
+            {"color":["color"],"draws":[{"mesh":{"kind":"cover"},"shader":"sampled_color",
+              "textures":["texture"],"sampler":{"filter":"nearest","address":["repeat","repeat"]}}]}],
+            "read":["color"]}"#,
+    );
+    for judgement in judgements(&scene, &limits(etalon_frame::Api::Vulkan)) {
+        let set = judgement.legal.groups[0].sample(0, 0, 0);
+        assert!(set.allows(&[255, 0, 0, 255]) && set.allows(&[0, 255, 0, 255]));
+        assert!(!set.allows(&[0, 0, 255, 255]));
     }
 }

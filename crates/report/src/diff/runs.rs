@@ -7,12 +7,15 @@
 //! - a right verdict (Pass, Imprecise, Measured; for a selftest that is due to fail: Fail) that became a
 //!   wrong one (all bad verdicts, Open among them), and a wrong one that became one of a greater
 //!   [`Verdict::severity`](etalon_record::Verdict::severity), expected or not;
+//! - a case that was drawn, right or wrong, and is Blocked;
 //! - a case that was right and is not supported any more;
-//! - a case that the second run was to draw, being of the same selection, and holds no record of.
+//! - a case that both runs select, by their lists of cases, and the second one holds no record of;
+//! - an adapter of the first run that the second one lacks, unless the pair to compare was named.
 //!
 //! *Better* is the way back: wrong to right or to a smaller severity, not supported to right. All else is
-//! neither: Pass to Imprecise, which is legal; wrong to not supported; right to skipped, which is
-//! intended; a case of another selection; and other pixels, counters or distances under the same verdict.
+//! neither: Pass to Imprecise, which is legal; Blocked to wrong, which may have been so before; wrong to
+//! not supported; right to skipped, which is intended; a case that one run does not select; and other
+//! pixels, counters or distances under the same verdict.
 //! Times decide nothing, since a run's are taken once and beside other work.
 
 mod compare;
@@ -35,9 +38,10 @@ pub use table::table;
 use crate::error::ReportError;
 use crate::export::status::incomplete;
 use crate::numbers::count;
-use etalon_record::{Record, Run};
+use etalon_record::{Record, Run, Shard, read_cases, shard_of};
 use pairs::{Folder, Matched};
 use std::cmp::Reverse;
+use std::collections::HashSet;
 use std::path::Path;
 
 /// Compares the run in the second folder with the one in the first. With `adapters`, compares the records of
@@ -57,11 +61,13 @@ pub fn diff(
     let [first, second] = &folders;
     let chosen = pairs::choose(first, second, adapters)?;
     let same_selection = facts::same_selection(&runs[0].header, &runs[1].header);
+    let selections = Selections::new([before, after], &runs, same_selection)?;
     let mut found = RunDiff {
         kind: "runs",
         warnings: warnings(&runs, same_selection),
         facts: facts::of_headers(&runs[0].header, &runs[1].header),
-        unpaired: pairs::unpaired(first, second, &chosen),
+        untold: untold(&runs),
+        unpaired: pairs::unpaired(first, second, &chosen, adapters.is_some()),
         pairs: Vec::new(),
         changes: Vec::new(),
         only: Vec::new(),
@@ -69,14 +75,26 @@ pub fn diff(
         methods: Vec::new(),
     };
     for adapter in chosen {
-        of_pair(&mut found, &folders, adapter, same_selection);
+        of_pair(&mut found, &folders, adapter, &selections);
+    }
+    if selections.unknown {
+        let alone = found.only.iter().filter(|o| o.side == Side::Before);
+        match alone.count() as u64 {
+            0 => {}
+            n => found.untold.push(format!(
+                "{} of the first run alone, as the selections of cases are not known",
+                count(n, "record")
+            )),
+        }
     }
     let unreadable = found.changes.iter().filter_map(|c| c.frame_error.as_ref());
     if let Some(first) = unreadable.clone().next() {
-        found.warnings.push(format!(
+        let told = format!(
             "{} of frames of changed cases could not be compared: {first}",
             count(unreadable.count() as u64, "pair")
-        ));
+        );
+        found.warnings.push(told.clone());
+        found.untold.push(told);
     }
     found.changes.sort_by(|a, b| order(a).cmp(&order(b)));
     Ok(found)
@@ -101,7 +119,7 @@ fn of_pair(
     found: &mut RunDiff,
     folders: &[Folder<'_>; 2],
     adapter: [&str; 2],
-    same_selection: bool,
+    selections: &Selections,
 ) {
     let matched = Matched::new(folders, adapter);
     let mut pair = Pair::new(adapter, facts::of_adapters(folders, adapter));
@@ -126,8 +144,7 @@ fn of_pair(
                 adapter: record.adapter.clone(),
                 side,
                 verdict: record.verdict,
-                // The first run held it, and the second was to draw it.
-                worse: side == Side::Before && same_selection,
+                worse: side == Side::Before && selections.due_after(&record.case),
             });
         }
     }
@@ -135,6 +152,58 @@ fn of_pair(
     found.times.extend(times::areas(adapter, &both));
     found.methods.extend(times::methods(&both));
     found.pairs.push(pair);
+}
+
+/// The cases that the second run was to draw.
+struct Selections {
+    /// True if the runs are of one selection.
+    same: bool,
+    /// The list of the second run and its shard.
+    after: Option<(HashSet<String>, Option<Shard>)>,
+    /// True if the selections differ, and a run does not list its own.
+    unknown: bool,
+}
+
+impl Selections {
+    fn new(folders: [&Path; 2], runs: &[Run; 2], same: bool) -> Result<Self, ReportError> {
+        if same {
+            return Ok(Self {
+                same,
+                after: None,
+                unknown: false,
+            });
+        }
+        let [_, after] = runs;
+        let list = match after.header.settings.selection.is_empty() {
+            true => None,
+            false => read_cases(folders[1], &after.header)?,
+        };
+        Ok(Self {
+            same,
+            unknown: list.is_none(),
+            after: list.map(|ids| (ids.into_iter().collect(), after.header.settings.shard)),
+        })
+    }
+
+    /// True if the second run was to hold a record of a case.
+    fn due_after(&self, case: &str) -> bool {
+        let listed = self.after.as_ref().is_some_and(|(ids, shard)| {
+            let drawn = |shard: &Shard| shard_of(case, shard.count) == shard.index;
+            ids.contains(case) && shard.as_ref().is_none_or(drawn)
+        });
+        self.same || listed
+    }
+}
+
+/// Parts of the runs that hold no word about their cases.
+fn untold(runs: &[Run; 2]) -> Vec<String> {
+    let mut untold = Vec::new();
+    for (run, which) in runs.iter().zip(["first", "second"]) {
+        if let Some(why) = incomplete(run) {
+            untold.push(format!("the {which} run is incomplete: {why}"));
+        }
+    }
+    untold
 }
 
 /// Reasons for which the comparison may mislead.
@@ -147,7 +216,8 @@ fn warnings(runs: &[Run; 2], same_selection: bool) -> Vec<String> {
     }
     if !same_selection {
         warnings.push(
-            "The runs are of different selections of cases: cases in one run only are no finding."
+            "The runs are of different selections of cases: a case that one of them does not select is \
+             no finding."
                 .to_owned(),
         );
     }

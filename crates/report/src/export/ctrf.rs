@@ -259,6 +259,9 @@ fn extra(record: &Record) -> Map<String, Value> {
     if !record.after.is_empty() {
         put("after", json!(record.after));
     }
+    if !record.blocked_by.is_empty() {
+        put("blockedBy", json!(record.blocked_by));
+    }
     if let Some(end) = &record.process {
         put(
             "process",

@@ -11,7 +11,7 @@
 //! |---|---|
 //! | `Pass` | Pass |
 //! | `Warn` | Imprecise: legal, not precise, as dEQP's quality warnings |
-//! | `Fail` | Fail, Open, ResourceError, InternalError, and a selftest that was due to fail and did not; dEQP's resource and internal errors are `Fail` too |
+//! | `Fail` | Fail, RequiredByCts, Disputed, Blocked, Open, ResourceError, InternalError, and a selftest that was due to fail and did not; dEQP's resource and internal errors are `Fail` too |
 //! | `Crash` | Crash, DeviceLost |
 //! | `Timeout` | Timeout |
 //! | `Flake` | Flaky. deqp-runner lets flakes pass; here an unexpected one fails the run |
@@ -102,7 +102,13 @@ fn status(record: &Record) -> String {
     let plain = match record.verdict {
         Verdict::Pass => "Pass",
         Verdict::Imprecise => "Warn",
-        Verdict::Fail | Verdict::Open | Verdict::ResourceError | Verdict::InternalError => "Fail",
+        Verdict::Fail
+        | Verdict::RequiredByCts
+        | Verdict::Disputed
+        | Verdict::Blocked
+        | Verdict::Open
+        | Verdict::ResourceError
+        | Verdict::InternalError => "Fail",
         Verdict::Crash | Verdict::DeviceLost => "Crash",
         Verdict::Timeout => "Timeout",
         Verdict::Flaky => "Flake",

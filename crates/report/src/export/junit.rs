@@ -1,8 +1,8 @@
 //! `junit.xml`, for continuous integration.
 //!
-//! One suite per adapter, one test case per case. Unexpected records are failures (Fail,
-//! Open, Flaky and a selftest that did not fail) or errors (Crash and the like); NotSupported and
-//! Skipped are skipped. A bad verdict that was expected or due is a success with a note, since a viewer
+//! One suite per adapter, one test case per case. Unexpected records are failures (Fail, RequiredByCts,
+//! Disputed, Open, Flaky and a selftest that did not fail) or errors (Blocked, Crash and the like, which
+//! have no frame); NotSupported and Skipped are skipped. A bad verdict that was expected or due is a success with a note, since a viewer
 //! shows skipped cases as not run, and these did run. The loss of a process, the verdicts of repetitions,
 //! the cases that must be drawn before and validation messages are part of the failure, or of
 //! `system-out` without one; the standard error of a lost process is `system-err`. A last suite, `etalon`,

@@ -28,7 +28,8 @@ impl Conclusion {
         let verdict = record.verdict;
         if record.unexpected() {
             return match verdict {
-                Verdict::Crash
+                Verdict::Blocked
+                | Verdict::Crash
                 | Verdict::Timeout
                 | Verdict::DeviceLost
                 | Verdict::ResourceError

@@ -106,6 +106,9 @@ pub(crate) fn run(made: &[Made]) -> Run {
         software: !name.starts_with("hw"),
         limits: Limits {
             api: Api::Vulkan,
+            version: etalon_frame::ApiVersion::new(1, 3),
+            properties: Default::default(),
+            exempt: Default::default(),
             sub_pixel_bits: 8,
             max_size: 1024,
             max_color_attachments: 4,

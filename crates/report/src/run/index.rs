@@ -15,6 +15,7 @@ mod findings;
 mod link;
 mod mark;
 mod matrix;
+mod undrawn;
 
 use crate::chart;
 use crate::methods::{self, Methods};
@@ -22,8 +23,9 @@ use crate::numbers::count;
 use crate::page::origin::Origin;
 use crate::page::{self, Page};
 use crate::run::grid::{Grid, Tally};
+use crate::run::undrawn::{Undrawn, undrawn};
 use crate::words::{self, Tone};
-use etalon_record::{Run, Verdict};
+use etalon_record::{Dead, Run, Verdict};
 use mark::{class, mark};
 use maud::{Markup, html};
 use std::path::Path;
@@ -41,7 +43,12 @@ const SCRIPT: &str = concat!(
     "})();\n"
 );
 /// The page. Frame files are read from the folder as they are needed.
-pub(crate) fn page(folder: &Path, run: &Run, methods: Option<&Methods<'_>>) -> String {
+pub(crate) fn page(
+    folder: &Path,
+    run: &Run,
+    dead: &[Dead],
+    methods: Option<&Methods<'_>>,
+) -> String {
     let grid = Grid::new(run);
     let plan = findings::Plan::new(&grid);
     let drivers = methods::driver_section(&grid);
@@ -52,12 +59,14 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: Option<&Methods<'_>>) -> S
     let main = html! {
         (cases::view())
         div id="report" {
-            (head(run, methods.is_some(), drivers.is_some()))
+            (head(run, dead, methods.is_some(), drivers.is_some()))
             @if run.records.is_empty() {
                 p { "No case was run." }
             } @else {
                 (totals(run))
                 (matrix::section(&grid))
+                (undrawn::section(run))
+                (undrawn::dead(dead))
                 @if let Some(methods) = methods { (methods::section(methods)) }
                 @if let Some(drivers) = drivers { (drivers) }
                 (cases::section(&grid))
@@ -90,7 +99,7 @@ fn title(run: &Run) -> String {
     }
 }
 
-fn head(run: &Run, methods: bool, drivers: bool) -> Markup {
+fn head(run: &Run, dead: &[Dead], methods: bool, drivers: bool) -> Markup {
     let h = &run.header;
     let origin = Origin {
         started: &h.started,
@@ -103,7 +112,7 @@ fn head(run: &Run, methods: bool, drivers: bool) -> Markup {
         header {
             h1 { "etalon" }
             p.lead { "Conformance of graphics drivers' per-fragment operations." }
-            (state(run))
+            (state(run, dead))
             dl.facts {
                 (origin.facts())
                 dt { "Scope" } dd {
@@ -129,9 +138,10 @@ fn head(run: &Run, methods: bool, drivers: bool) -> Markup {
 }
 
 /// The state of the run: incomplete, unexpected records, improvements.
-fn state(run: &Run) -> Markup {
+fn state(run: &Run, dead: &[Dead]) -> Markup {
     let tally = Tally::of(&run.records);
     let improvements = run.records.iter().filter(|r| r.improvement()).count() as u64;
+    let undrawn: u64 = undrawn(run).iter().map(Undrawn::records).sum();
     let missing = run.missing();
     html! {
         @if run.truncated || missing > 0 {
@@ -150,6 +160,15 @@ fn state(run: &Run) -> Markup {
             }
         } @else if !run.records.is_empty() {
             p.state.good { b { (words::symbol(Verdict::Pass)) " Nothing unexpected." } }
+        }
+        @if undrawn > 0 {
+            p.soft {
+                a href="#undrawn" { (count(undrawn, "record")) } " of " (run.records.len())
+                " are of cases that were not drawn."
+            }
+        }
+        @if !dead.is_empty() {
+            p.soft { a href="#dead" { (count(dead.len() as u64, "dead expectation")) } "." }
         }
         @if improvements > 0 {
             p.state.good {

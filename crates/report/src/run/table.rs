@@ -3,6 +3,7 @@
 use crate::methods;
 use crate::numbers::count;
 use crate::run::grid::{Grid, Tally};
+use crate::run::undrawn::{Undrawn, undrawn};
 use crate::run::unexpected::unexpected_records;
 use crate::terminal::{self, TableOptions, dotted, wrapped};
 use crate::words::{Tone, headline, name, plain, symbol};
@@ -14,8 +15,12 @@ use tabled::settings::object::Cell;
 /// The most unexpected records that are listed.
 const LISTED: usize = 20;
 
+/// The most reasons for cases that were not drawn.
+const REASONS: usize = 10;
+
 /// Verdicts of cases without a frame to judge; one column together.
-const BROKEN: [Verdict; 6] = [
+const BROKEN: [Verdict; 7] = [
+    Verdict::Blocked,
     Verdict::Flaky,
     Verdict::Crash,
     Verdict::Timeout,
@@ -24,7 +29,7 @@ const BROKEN: [Verdict; 6] = [
     Verdict::InternalError,
 ];
 
-/// A table with a row per adapter, then a line per unexpected record (20 at most), then what is
+/// A table with a row per adapter, then the reasons for which cases were not drawn, then a line per unexpected record (20 at most), then what is
 /// missing. A bad verdict that was expected or due is counted under `expected` only, so that a
 /// row's counts add up to its records; the rate counts records per second of drawing and judging.
 /// Always ends in a newline.
@@ -40,6 +45,7 @@ pub fn table(run: &Run, options: TableOptions) -> String {
         .collect();
     let mut text = adapters(&rows, options);
     text.push('\n');
+    text.push_str(&not_drawn(run, options));
     if let Some(found) = methods::Methods::of(run) {
         text.push_str(&methods::lines(&found, options.width));
     }
@@ -79,6 +85,22 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
         let column = ("skipped", &[Verdict::Skipped][..], Color::FG_BRIGHT_BLACK);
         columns.insert(columns.len() - 1, column);
     }
+    // Weaker grades of evidence have columns of their own, where a run has any.
+    for (name, verdict) in [
+        ("disputed", Verdict::Disputed),
+        ("required by CTS", Verdict::RequiredByCts),
+    ] {
+        let any = rows
+            .iter()
+            .any(|(_, r)| r.iter().any(|r| r.verdict == verdict));
+        if any {
+            let verdicts: &[Verdict] = match verdict {
+                Verdict::Disputed => &[Verdict::Disputed],
+                _ => &[Verdict::RequiredByCts],
+            };
+            columns.insert(3, (name, verdicts, Color::FG_RED));
+        }
+    }
     if measured {
         columns.insert(1, ("measured", &[Verdict::Measured], Color::FG_BLUE));
     }
@@ -112,6 +134,36 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
         }
     }
     wrapped(table, options)
+}
+
+/// The number of records of cases that were not drawn, and the reasons, with counts per adapter.
+fn not_drawn(run: &Run, options: TableOptions) -> String {
+    let reasons = undrawn(run);
+    if reasons.is_empty() {
+        return String::new();
+    }
+    let all: u64 = reasons.iter().map(Undrawn::records).sum();
+    let mut text = format!(
+        "\nNot drawn: {all} of {}\n",
+        count(run.records.len() as u64, "record")
+    );
+    let width = all.to_string().len();
+    for reason in reasons.iter().take(REASONS) {
+        let adapters = reason.adapters.iter();
+        let each: Vec<String> = adapters.map(|(name, n)| format!("{name} {n}")).collect();
+        let line = format!("{}: {}", plain(&reason.text(), 80), each.join(", "));
+        let line = plain(&line, options.room(width + 4));
+        text.push_str(&format!("  {:>width$}  {line}\n", reason.records()));
+    }
+    if reasons.len() > REASONS {
+        let rest = &reasons[REASONS..];
+        let n: u64 = rest.iter().map(Undrawn::records).sum();
+        text.push_str(&format!(
+            "  {n:>width$}  for {}\n",
+            count(rest.len() as u64, "other reason")
+        ));
+    }
+    text
 }
 
 fn rate(records: &[&Record]) -> String {

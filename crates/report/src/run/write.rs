@@ -6,7 +6,7 @@ use crate::error::ReportError;
 use crate::export::{ctrf, deqp, junit, markdown};
 use crate::files::replace;
 use crate::methods::{self, Methods};
-use etalon_record::Run;
+use etalon_record::{Dead, Run};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -61,7 +61,7 @@ impl Written {
 pub fn write(folder: &Path) -> Result<Written, ReportError> {
     let run = Run::read(folder)?;
     let found = Methods::of(&run);
-    let page = index::page(folder, &run, found.as_ref());
+    let page = index::page(folder, &run, &Dead::read(folder)?, found.as_ref());
     let html = replace(folder, HTML, page.as_bytes())?;
     let methods = match &found {
         Some(found) => {

@@ -4,6 +4,7 @@ use super::plain::plain;
 use super::texel::{multisampled, texel_line};
 use super::verdict::{Tone, meaning, name};
 use crate::numbers::duration;
+use etalon_frame::Story;
 use etalon_record::{LossKind, ProcessEnd, Record};
 
 /// The loss of a process in one sentence.
@@ -52,15 +53,18 @@ fn signal_name(signal: i32) -> Option<&'static str> {
     })
 }
 
-/// The one line that says most about a record: its first wrong texel, or the last line of its
-/// message, which usually names the cause of a crash.
+/// The one line that says most about a record: the verdict of its story, its first wrong texel, or the last
+/// line of its message, which usually names the cause of a crash.
 pub(crate) fn headline(record: &Record) -> String {
     let last = record.message.lines().rev().find(|l| !l.trim().is_empty());
     let text = match (record.wrong.first(), last) {
         _ if Tone::of(record) == Tone::Missed => {
             format!("{}, but the selftest is due to fail", name(record.verdict))
         }
-        (Some(texel), _) if record.verdict.is_judged() => texel_line(texel, multisampled(record)),
+        (Some(texel), _) if record.verdict.is_judged() => {
+            let told = record.story.as_ref().and_then(Story::sentence);
+            told.unwrap_or_else(|| texel_line(texel, multisampled(record)))
+        }
         (_, Some(line)) => line.trim().to_owned(),
         (Some(texel), None) => texel_line(texel, multisampled(record)),
         (None, None) => meaning(record.verdict).to_owned(),

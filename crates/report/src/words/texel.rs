@@ -94,6 +94,8 @@ pub(super) fn texel_line(texel: &WrongTexel, multisampled: bool) -> String {
     let (bound, legal) = match texel.band {
         Band::Imprecise => ("yardstick", " (legal)"),
         Band::Fail => ("allowed", ""),
+        Band::RequiredByCts => ("allowed by the CTS", ""),
+        Band::Disputed => ("allowed as read", ""),
     };
     let channel = |m: &ChannelMismatch| {
         format!(

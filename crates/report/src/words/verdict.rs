@@ -41,6 +41,9 @@ pub(crate) fn symbol(verdict: Verdict) -> &'static str {
         Verdict::Pass => "✓",
         Verdict::Imprecise => "≈",
         Verdict::Fail => "✗",
+        Verdict::RequiredByCts => "⊠",
+        Verdict::Disputed => "?",
+        Verdict::Blocked => "⊗",
         Verdict::Open => "○",
         Verdict::Measured => "◇",
         Verdict::NotSupported => "–",
@@ -57,6 +60,7 @@ pub(crate) fn symbol(verdict: Verdict) -> &'static str {
 /// The verdict's name with spaces.
 pub(crate) fn name(verdict: Verdict) -> &'static str {
     match verdict {
+        Verdict::RequiredByCts => "required by CTS",
         Verdict::NotSupported => "not supported",
         Verdict::DeviceLost => "device lost",
         Verdict::ResourceError => "resource error",
@@ -71,6 +75,9 @@ pub(crate) fn meaning(verdict: Verdict) -> &'static str {
         Verdict::Pass => "Every texel lies inside the yardstick, and something was asserted.",
         Verdict::Imprecise => "Every texel is legal; some lie outside the yardstick.",
         Verdict::Fail => "A texel lies outside what the API's text allows.",
+        Verdict::RequiredByCts => "The text is open, but a Khronos mustpass case forbids a texel.",
+        Verdict::Disputed => "Only a contested reading of the text forbids a texel.",
+        Verdict::Blocked => "Not drawn: a round trip that the case leans on failed.",
         Verdict::Open => "Nothing could be asserted.",
         Verdict::Measured => "Measured, not judged.",
         Verdict::NotSupported => "The adapter lacks something that the scene needs.",

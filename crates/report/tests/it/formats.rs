@@ -288,9 +288,13 @@ fn deqp_runner_understands_every_status() {
         let plain = match record.verdict {
             Verdict::Pass => "Pass",
             Verdict::Imprecise => "Warn",
-            Verdict::Fail | Verdict::Open | Verdict::ResourceError | Verdict::InternalError => {
-                "Fail"
-            }
+            Verdict::Fail
+            | Verdict::RequiredByCts
+            | Verdict::Disputed
+            | Verdict::Blocked
+            | Verdict::Open
+            | Verdict::ResourceError
+            | Verdict::InternalError => "Fail",
             Verdict::Measured | Verdict::NotSupported | Verdict::Skipped => "Skip",
             Verdict::Flaky => "Flake",
             Verdict::Crash | Verdict::DeviceLost => "Crash",

@@ -4,7 +4,8 @@ use crate::runs_made::{Two, one_adapter, record_all, rich};
 use crate::synthetic::{self, adapter, header};
 use etalon_frame::{Api, CounterKind, CounterOutcome, Story, StoryLine};
 use etalon_record::{
-    Expected, LossKind, ProcessEnd, Record, Run, RunWriter, Verdict, selection_digest,
+    Expected, LossKind, ProcessEnd, Record, Run, RunWriter, Shard, Verdict, selection_digest,
+    shard_of,
 };
 use etalon_report::runs::{Change, Direction, Side, diff, table, write_page};
 use etalon_report::{ReportError, TableOptions};
@@ -92,6 +93,26 @@ fn each_planted_change_is_found_as_what_it_is() {
         });
     });
     assert_eq!(kinds(lost), (Direction::Other, vec!["process"]));
+}
+
+#[test]
+fn of_a_blocked_case_nothing_is_known() {
+    let direction = |[before, after]: [Verdict; 2]| {
+        let two = Two::new();
+        let record = |verdict| [Record::new("blend/f/case=2", "gl:a", verdict)];
+        record_all(&two.before(), &one_adapter(1), &record(before));
+        record_all(&two.after(), &one_adapter(1), &record(after));
+        two.diff().changes[0].direction
+    };
+    let blocked = Verdict::Blocked;
+    for drawn in [Verdict::Pass, Verdict::Open, Verdict::Crash, Verdict::Fail] {
+        assert_eq!(direction([drawn, blocked]), Direction::Worse, "{drawn}");
+        let back = match drawn {
+            Verdict::Pass => Direction::Better,
+            _ => Direction::Other,
+        };
+        assert_eq!(direction([blocked, drawn]), back, "{drawn}");
+    }
 }
 
 #[test]
@@ -254,6 +275,92 @@ fn cases_in_one_run_only_are_worse_when_the_second_was_to_have_them() {
     assert!(!found.worse());
     assert_eq!(found.only.len(), 2);
     assert!(found.warnings[0].contains("different selections"));
+}
+
+/// A run of this selection and shard with a passing record of each of these cases.
+fn selected(folder: &Path, selection: &[&str], shard: Option<Shard>, recorded: &[&str]) {
+    let mut header = one_adapter(selection.len() as u64);
+    header.settings.selection = selection_digest(selection.iter().copied());
+    header.settings.shard = shard;
+    let mut writer = RunWriter::create(folder, &header).unwrap();
+    writer.write_cases(selection.iter().copied()).unwrap();
+    for case in recorded {
+        let record = Record::new(*case, "gl:a", Verdict::Pass);
+        writer.append(&record).unwrap();
+    }
+}
+
+#[test]
+fn a_case_that_both_select_and_the_second_lacks_is_worse() {
+    let two = Two::new();
+    selected(&two.before(), &["a", "b", "c"], None, &["a", "b", "c"]);
+    // The second run selects other cases, too, and lacks one that both select.
+    selected(&two.after(), &["a", "b", "d"], None, &["a", "d"]);
+    let found = two.diff();
+    let worse: Vec<(&str, bool)> = found
+        .only
+        .iter()
+        .map(|o| (o.case.as_str(), o.worse))
+        .collect();
+    assert_eq!(worse, [("b", true), ("c", false), ("d", false)]);
+    assert!(found.worse());
+    // The shard that the case does not belong to is not to draw it.
+    let index = 3 - shard_of("b", 2);
+    let shard = Some(Shard { index, count: 2 });
+    selected(&two.after(), &["a", "b", "d"], shard, &[]);
+    let of_b = two.diff().only.into_iter().find(|o| o.case == "b").unwrap();
+    assert!(!of_b.worse);
+}
+
+#[test]
+fn what_could_not_be_told_is_not_green() {
+    let two = Two::new();
+    selected(&two.before(), &["a", "b"], None, &["a", "b"]);
+    record_all(
+        &two.after(),
+        &one_adapter(1),
+        &[Record::new("a", "gl:a", Verdict::Pass)],
+    );
+    let found = two.diff();
+    assert!(
+        !found.worse() && found.untold.len() == 1,
+        "{:?}",
+        found.untold
+    );
+    let page = two.page(&found);
+    assert!(!page.contains("state good"), "{page}");
+    assert!(page.contains("Nothing is shown to be worse"));
+    let text = table(&found, TableOptions::default());
+    assert!(
+        text.contains("cannot tell: 1 record of the first run alone"),
+        "{text}"
+    );
+    selected(&two.after(), &["a", "b"], None, &["a", "b"]);
+    assert!(two.page(&two.diff()).contains("state good"));
+}
+
+#[test]
+fn an_adapter_that_vanished_is_worse_and_one_that_came_is_not() {
+    let two = Two::new();
+    let run = |folder: &Path, names: &[&str]| {
+        let adapters = names.iter().map(|name| adapter(name, Api::OpenGl));
+        let header = header(1, adapters.collect());
+        let records = names
+            .iter()
+            .map(|name| Record::new("a/b", *name, Verdict::Pass));
+        record_all(folder, &header, &records.collect::<Vec<_>>());
+    };
+    run(&two.before(), &["gl:x", "gl:y"]);
+    run(&two.after(), &["gl:x"]);
+    let found = two.diff();
+    assert!(found.worse() && !found.only_better());
+    assert!(two.page(&found).contains("vanished: gl:y"));
+    assert!(!two.page(&found).contains("state good"));
+    assert!(table(&found, TableOptions::default()).contains("vanished: gl:y"));
+    let named = diff(&two.before(), &two.after(), Some(["gl:x", "gl:x"])).unwrap();
+    assert!(!named.worse(), "the other was left out on purpose");
+    let back = diff(&two.after(), &two.before(), None).unwrap();
+    assert!(!back.worse());
 }
 
 #[test]
@@ -437,7 +544,9 @@ fn the_json_has_stable_names() {
     ] {
         assert!(!pair[key].is_null(), "{key}");
     }
-    for key in ["warnings", "facts", "unpaired", "only", "times", "methods"] {
+    for key in [
+        "warnings", "untold", "facts", "unpaired", "only", "times", "methods",
+    ] {
         assert!(json[key].is_array(), "{key}");
     }
 }

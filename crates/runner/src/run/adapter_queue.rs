@@ -1,14 +1,15 @@
 //! The queue of one adapter's cases, and the state that its workers share.
 
+use super::round_trips::RoundTrips;
 use crate::launch::Launch;
 use crate::supervisor::FailedStarts;
 use crate::sync::lock;
 use crate::worker::Worker;
 use etalon_record::{AdapterRecord, Verdict};
-use std::collections::{HashMap, VecDeque};
+use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Mutex, MutexGuard};
+use std::sync::{Mutex, MutexGuard, OnceLock};
 use std::time::{Duration, Instant};
 
 /// The most cases that a thread takes at a time. Neighbours share states that drivers cache, so they
@@ -28,8 +29,11 @@ pub(super) struct AdapterQueue {
     /// Why the driver does not start; nothing is drawn then.
     pub(super) start_error: Option<String>,
     pub(super) failed_starts: FailedStarts,
-    /// Numbers of the cases that have no record, in drawing order.
+    /// Numbers of the cases that have no record, in drawing order, without those of `first`.
     numbers: Vec<usize>,
+    first: First,
+    /// The outcome of the round trips, once all are drawn.
+    round_trips: OnceLock<RoundTrips>,
     taken: Mutex<usize>,
     /// Threads that take from it.
     threads: AtomicUsize,
@@ -37,6 +41,17 @@ pub(super) struct AdapterQueue {
     running: Mutex<Option<Worker>>,
     state: Mutex<State>,
     written: AtomicU64,
+}
+
+/// The round trips that are drawn before all other cases.
+#[derive(Clone, Debug, Default)]
+pub(super) struct First {
+    /// Their numbers, in drawing order.
+    pub(super) numbers: Vec<usize>,
+    /// Those of them that get no record: they are not selected, or have one.
+    pub(super) silent: BTreeSet<usize>,
+    /// What those that were drawn before the run was resumed showed.
+    pub(super) known: RoundTrips,
 }
 
 /// The state that the workers of an adapter share.
@@ -51,10 +66,20 @@ pub(super) struct State {
 }
 
 impl AdapterQueue {
-    pub(super) fn new(numbers: Vec<usize>, launch: Launch, worker: Worker) -> Self {
+    pub(super) fn new(
+        mut numbers: Vec<usize>,
+        mut first: First,
+        launch: Launch,
+        worker: Worker,
+    ) -> Self {
+        if numbers.is_empty() {
+            first.numbers.clear();
+        }
+        numbers.retain(|number| !first.numbers.contains(number));
         let adapter = AdapterRecord::from(&worker);
         Self {
             running: Mutex::new(Some(worker)),
+            first,
             ..Self::with(numbers, adapter, launch)
         }
     }
@@ -80,6 +105,8 @@ impl AdapterQueue {
             start_error: None,
             failed_starts: FailedStarts::default(),
             numbers,
+            first: First::default(),
+            round_trips: OnceLock::new(),
             taken: Mutex::default(),
             threads: AtomicUsize::new(0),
             running: Mutex::default(),
@@ -100,9 +127,36 @@ impl AdapterQueue {
         numbers.collect()
     }
 
-    /// The number of cases in the queue at its beginning.
+    /// The number of cases in the queue at its beginning that get a record.
     pub(super) fn cases(&self) -> u64 {
-        self.numbers.len() as u64
+        let first = self.first.numbers.iter();
+        (self.numbers.len() + first.filter(|n| self.records(**n)).count()) as u64
+    }
+
+    /// True if a case gets a record.
+    pub(super) fn records(&self, number: usize) -> bool {
+        !self.first.silent.contains(&number)
+    }
+
+    /// The round trips to draw, and what is known of others.
+    pub(super) fn first(&self) -> &First {
+        &self.first
+    }
+
+    /// The outcome of the round trips. The first thread draws them; all others wait for it.
+    pub(super) fn round_trips_or(&self, draw: impl FnOnce() -> RoundTrips) -> &RoundTrips {
+        self.round_trips.get_or_init(draw)
+    }
+
+    /// The outcome of the round trips, once all are drawn.
+    pub(super) fn round_trips(&self) -> Option<&RoundTrips> {
+        self.round_trips.get()
+    }
+
+    /// True if a free thread finds something to draw.
+    fn has_more(&self) -> bool {
+        let before = !self.first.numbers.is_empty() && self.round_trips.get().is_none();
+        before || *lock(&self.taken) < self.numbers.len()
     }
 
     /// Takes the worker that discovery left running.
@@ -162,7 +216,7 @@ impl AdapterQueue {
 /// The queue that a free thread takes from: one that has cases left, and the fewest threads.
 pub(super) fn next(queues: &[AdapterQueue]) -> Option<&AdapterQueue> {
     // Two threads may choose the same queue at the same time; then both take from it.
-    let open = queues.iter().filter(|q| *lock(&q.taken) < q.numbers.len());
+    let open = queues.iter().filter(|q| q.has_more());
     let queue = open.min_by_key(|q| q.threads.load(Ordering::Relaxed))?;
     queue.threads.fetch_add(1, Ordering::Relaxed);
     Some(queue)

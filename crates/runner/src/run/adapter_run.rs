@@ -12,8 +12,9 @@ use crate::process::Wait;
 use crate::supervisor::FailureReport;
 use crate::sync::lock;
 use etalon_case::Case;
-use etalon_frame::Frame;
+use etalon_frame::{ApiVersion, Frame, Limits};
 use etalon_record::{Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Seconds, Verdict};
+use etalon_reference::rules::required::denied;
 use etalon_truth::TruthPicture;
 use std::time::{Duration, Instant};
 
@@ -41,7 +42,7 @@ pub(super) struct AdapterRun<'s, 'a> {
 
 impl<'s> AdapterRun<'s, '_> {
     pub(super) fn case(&self, number: usize) -> &'s Case {
-        &self.shared.cases[number]
+        self.shared.cases[number]
     }
 
     /// The limits of waiting for a case.
@@ -77,13 +78,13 @@ impl<'s> AdapterRun<'s, '_> {
                 record.due_fail = case.judged_as.is_some();
                 record.message = report.message;
                 record.process = report.process;
-                self.record(record);
+                self.record(self.settled(record));
             }
         }
     }
 
-    /// Records a case that is not drawn on this adapter; false if it is to be drawn.
-    pub(super) fn record_undrawn(&self, number: usize) -> bool {
+    /// The record of a case that is not drawn on this adapter; `None` if it is to be drawn.
+    pub(super) fn undrawn(&self, number: usize) -> Option<Record> {
         let case = self.case(number);
         let adapter = &self.queue.adapter;
         let mut record = if let Some(entry) = self.shared.expectations.skips(adapter, &case.id) {
@@ -96,13 +97,32 @@ impl<'s> AdapterRun<'s, '_> {
         } else if let Some(missing) = adapter.limits.missing(&case.requirements()) {
             let mut record = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
             record.message = missing.to_string();
+            if case.is_requirement() {
+                note_requirement(&mut record, case, &adapter.limits);
+            }
             record
         } else {
-            return false;
+            let round_trips = self.queue.round_trips()?;
+            let blocked = round_trips.blocks(case)?;
+            let mut record = Record::new(&case.id, &adapter.name, Verdict::Blocked);
+            record.message = blocked.message;
+            record.blocked_by = blocked.by;
+            record.expected = blocked.expected.map(|reason| Expected { reason });
+            record
         };
         record.due_fail = case.judged_as.is_some();
-        self.record(record);
-        true
+        Some(record)
+    }
+
+    /// A record with what the expectations say of it. A case that is not drawn for a reason that is expected is
+    /// expected itself.
+    pub(super) fn settled(&self, mut record: Record) -> Record {
+        if record.verdict != Verdict::Skipped {
+            let inherited = record.expected.take();
+            record.expect(self.shared.expectations, &self.queue.adapter);
+            record.expected = record.expected.take().or(inherited);
+        }
+        record
     }
 
     /// Judges a drawing. `report` makes the report on a failed one.
@@ -160,7 +180,20 @@ impl<'s> AdapterRun<'s, '_> {
         number: usize,
         observed: &mut Observation,
     ) -> Result<(), RecordError> {
+        if !self.queue.records(number) {
+            return Ok(());
+        }
         let record = &mut observed.record;
+        if let Some(note) = self
+            .queue
+            .round_trips()
+            .and_then(|r| r.note(self.case(number)))
+        {
+            record.message = match record.message.as_str() {
+                "" => note,
+                message => format!("{message}; {note}"),
+            };
+        }
         let kept = observed.frame.take().filter(|_| self.keeps_frame(record));
         if record.due_fail && record.verdict == Verdict::Fail {
             // The frame file shows the rest of a failure that is due.
@@ -214,7 +247,7 @@ impl<'s> AdapterRun<'s, '_> {
     }
 
     fn keeps_frame(&self, record: &Record) -> bool {
-        if matches!(record.verdict, Verdict::Fail | Verdict::Flaky) {
+        if record.verdict.is_violation() || record.verdict == Verdict::Flaky {
             return true;
         }
         let mut state = self.queue.state();
@@ -227,10 +260,7 @@ impl<'s> AdapterRun<'s, '_> {
     }
 
     /// Writes a record. An error ends the run.
-    pub(super) fn record(&self, mut record: Record) {
-        if record.verdict != Verdict::Skipped {
-            record.expect(self.shared.expectations, &self.queue.adapter);
-        }
+    pub(super) fn record(&self, record: Record) {
         let appended = lock(&self.shared.writer).append(&record);
         if let Err(error) = appended {
             return self.shared.fail(error);
@@ -243,6 +273,24 @@ impl<'s> AdapterRun<'s, '_> {
                 wall,
             });
         }
+    }
+}
+
+/// Fails an adapter that denies what its API's version requires of every implementation.
+fn note_requirement(record: &mut Record, case: &Case, limits: &Limits) {
+    let version = match limits.version {
+        ApiVersion::UNKNOWN => limits.api.to_string(),
+        version => format!("{} {version}", limits.api),
+    };
+    match denied(limits, &case.requirements()) {
+        Some((needed, required)) => {
+            record.verdict = Verdict::Fail;
+            record.message = format!(
+                "the adapter denies {needed}, which {version} requires ({})",
+                required.citation
+            );
+        }
+        None => record.message = format!("{}; no requirement of {version}", record.message),
     }
 }
 
@@ -270,4 +318,57 @@ fn note_validation(record: &mut Record, messages: Vec<String>) {
         .take(MAX_VALIDATION)
         .map(short)
         .collect();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_backend::Backend;
+    use etalon_case::{Library, Profile};
+    use etalon_cpu::CpuBackend;
+    use etalon_frame::{Api, Requirement, TextureFormat};
+
+    /// The record of a required format on an adapter of this version without it.
+    fn lacking(format: TextureFormat, exempt: bool, major: u8, minor: u8) -> Record {
+        let id = format!("capabilities/required/color-formats/format={format}");
+        let library = Library::built_in().expect("built-in files parse");
+        let found = library.cases(Profile::Full).find(|case| case.id() == id);
+        let case = found.and_then(|case| case.build().ok()).expect("it builds");
+        assert!(case.is_requirement());
+        let mut limits = CpuBackend::new("cpu").limits().clone();
+        (limits.api, limits.version) = (Api::OpenGl, ApiVersion::new(major, minor));
+        limits.formats.remove(&format);
+        if exempt {
+            limits
+                .exempt
+                .extend([Requirement::Format(format), Requirement::Drawing(format)]);
+        }
+        let mut record = Record::new(&case.id, "gl:test", Verdict::NotSupported);
+        record.message = format!("format {format}");
+        note_requirement(&mut record, &case, &limits);
+        record
+    }
+
+    #[test]
+    fn what_a_version_requires_must_not_be_denied() {
+        let record = lacking(TextureFormat::Rgba16Float, false, 3, 3);
+        assert_eq!(record.verdict, Verdict::Fail);
+        assert!(
+            record
+                .message
+                .contains("opengl 3.3 requires (OpenGL 3.3: 3.8.1")
+        );
+    }
+
+    #[test]
+    fn what_it_does_not_require_is_not_supported() {
+        for record in [
+            lacking(TextureFormat::B5g6r5Unorm, false, 3, 3),
+            lacking(TextureFormat::Rgba16Float, true, 4, 6),
+        ] {
+            assert_eq!(record.verdict, Verdict::NotSupported);
+            let message = &record.message;
+            assert!(message.contains("; no requirement of opengl"), "{message}");
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Execution of a plan: the folder, the shared state and the threads.
 
-use super::adapter_queue::{self, AdapterQueue};
+use super::adapter_queue::{self, AdapterQueue, First};
 use super::pictures::pictured;
 use super::plan::{Plan, RunError, RunSummary};
 use super::shared::Shared;
@@ -10,8 +10,8 @@ use crate::judge::Judge;
 use crate::measure::Truths;
 use crate::sync::lock;
 use etalon_case::Case;
-use etalon_record::{RunWriter, selection_digest};
-use std::collections::HashSet;
+use etalon_record::{LossKind, Record, RunWriter, selection_digest};
+use std::collections::{HashMap, HashSet};
 use std::sync::{Mutex, RwLock};
 use std::thread;
 
@@ -22,12 +22,28 @@ use std::thread;
 pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary, RunError> {
     let mut summary = RunSummary::default();
     let mut done: HashSet<(String, String)> = HashSet::new();
+    let selected: HashMap<&str, usize> = (0..).zip(plan.cases).map(|(n, c)| (&*c.id, n)).collect();
+    let mut cases: Vec<&Case> = plan.cases.iter().collect();
+    let mut first = Vec::new();
+    for case in plan.round_trips {
+        first.push(selected.get(&*case.id).copied().unwrap_or(cases.len()));
+        if !selected.contains_key(&*case.id) {
+            cases.push(case);
+        }
+    }
+    // By adapter: the round trips that a run which is resumed has records of.
+    let mut drawn: HashMap<String, Vec<(usize, Record)>> = HashMap::new();
     let writer = if plan.resume {
         let (writer, run) =
             RunWriter::resume(plan.folder, &plan.header).map_err(RunError::Folder)?;
         for record in run.records {
             summary.count(&record);
-            done.insert((record.adapter, record.case));
+            done.insert((record.adapter.clone(), record.case.clone()));
+            let number = selected.get(&*record.case).copied();
+            if let Some(number) = number.filter(|n| first.contains(n)) {
+                let records = drawn.entry(record.adapter.clone()).or_default();
+                records.push((number, record));
+            }
         }
         writer
     } else {
@@ -39,7 +55,7 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
         writer.write_cases(ids()).map_err(RunError::Folder)?;
     }
     let shared = Shared {
-        cases: plan.cases,
+        cases,
         options: plan.options,
         expectations: plan.expectations,
         judge: Judge::default(),
@@ -63,8 +79,11 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
             .collect()
     };
     let running = plan.adapters.into_iter().map(|(launch, worker)| {
-        let numbers = missing(&worker.hello.info.name);
-        AdapterQueue::new(numbers, launch, worker)
+        let name = &worker.hello.info.name;
+        let numbers = missing(name);
+        let drawn = drawn.get(name).map_or(&[][..], Vec::as_slice);
+        let first = to_draw_first(&first, &shared.cases, plan.cases.len(), drawn);
+        AdapterQueue::new(numbers, first, launch, worker)
     });
     let dead = plan.dead.into_iter();
     let dead = dead
@@ -91,4 +110,31 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
     let mut summary = *lock(&shared.summary);
     summary.interrupted = shared.stopped() && queues.iter().any(AdapterQueue::is_unfinished);
     Ok(summary)
+}
+
+/// The round trips that an adapter draws first. One that has a record is as that says, so that a run which was
+/// resumed has the same records as one that was not; but a record of a driver that did not start says nothing.
+fn to_draw_first(
+    first: &[usize],
+    cases: &[&Case],
+    selected: usize,
+    drawn: &[(usize, Record)],
+) -> First {
+    let mut result = First::default();
+    for number in first {
+        let recorded = drawn.iter().find(|(n, _)| n == number).map(|(_, r)| r);
+        let started = |r: &&Record| {
+            let end = r.process.as_ref().map(|end| end.kind);
+            end != Some(LossKind::NotStarted)
+        };
+        if let Some(record) = recorded.filter(started) {
+            result.known.take(cases[*number], record);
+            continue;
+        }
+        result.numbers.push(*number);
+        if *number >= selected || recorded.is_some() {
+            result.silent.insert(*number);
+        }
+    }
+    result
 }

@@ -14,6 +14,9 @@ use thiserror::Error;
 pub struct Plan<'a> {
     /// The cases, each once, in drawing order.
     pub cases: &'a [Case],
+    /// The round trips that are drawn first on every adapter, recorded if they are among the cases:
+    /// [`round_trips`](crate::round_trips) of what was selected before sharding.
+    pub round_trips: &'a [Case],
     /// All ids selected before sharding, if they are to be written to the folder.
     pub selection: Option<&'a [String]>,
     /// Each adapter's launch command, and the worker that is already running.

@@ -4,6 +4,7 @@ use super::adapter_run::{AdapterRun, Observation};
 use crate::drawing::Drawing;
 use crate::loss::{Failure, Loss};
 use crate::process::WorkerProcess;
+use crate::story::tell_chain;
 use crate::supervisor::{FailureReport, start};
 use crate::sync::lock;
 use etalon_record::{LossKind, Verdict};
@@ -51,6 +52,7 @@ pub(super) fn confirm(
             Cause::Cases(cases) => {
                 let named = cases.iter().take(MAX_NAMED);
                 first.record.after = named.map(|n| run.case(*n).id.clone()).collect();
+                tell_chain(&mut first.record);
                 first.record.message = format!(
                     "only after {} in the same process: {}",
                     match cases.len() {

@@ -13,7 +13,8 @@ use std::sync::{Mutex, RwLock};
 
 /// The state that all threads of a run share.
 pub(super) struct Shared<'a> {
-    pub(super) cases: &'a [Case],
+    /// The cases of the run, and behind them the round trips that are not among them.
+    pub(super) cases: Vec<&'a Case>,
     pub(super) options: Options,
     pub(super) expectations: &'a Expectations,
     pub(super) judge: Judge,

@@ -1,9 +1,10 @@
-//! The loop of one thread: it has a worker draw cases of an adapter, judges and records them.
+//! The loop of one thread: it has a worker draw cases of an adapter, round trips first, judges and records them.
 //!
 //! Requests are pipelined: while the worker draws the next cases, the thread judges the last one.
 
 use super::adapter_queue::AdapterQueue;
 use super::adapter_run::{AdapterRun, Observation};
+use super::round_trips::RoundTrips;
 use super::second_look::confirm;
 use super::shared::Shared;
 use crate::drawing::Drawing;
@@ -63,6 +64,36 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         if let Some(error) = &queue.start_error {
             return run.record_not_started(error);
         }
+        let round_trips = queue.round_trips_or(|| self.draw_round_trips());
+        if let Some(error) = round_trips.not_started() {
+            return run.record_not_started(error);
+        }
+        self.draw(&mut || queue.take(), &mut |_, record| run.record(record));
+    }
+
+    /// Draws the adapter's round trips. Those that are selected are recorded.
+    fn draw_round_trips(&mut self) -> RoundTrips {
+        let run = self.run;
+        let first = run.queue.first();
+        let mut found = first.known.clone();
+        let mut left: VecDeque<usize> = first.numbers.iter().copied().collect();
+        self.draw(&mut || std::mem::take(&mut left), &mut |number, record| {
+            found.take(run.case(number), &record);
+            if run.queue.records(number) {
+                run.record(record);
+            }
+        });
+        found
+    }
+
+    /// Draws the cases that `take` gives until it gives none or the run is stopped. `done` gets each record.
+    fn draw(
+        &mut self,
+        take: &mut dyn FnMut() -> VecDeque<usize>,
+        done: &mut dyn FnMut(usize, Record),
+    ) {
+        let run = self.run;
+        let shared = run.shared;
         let mut taken: VecDeque<usize> = VecDeque::new();
         let mut requested: VecDeque<Requested> = VecDeque::new();
         while !shared.stopped() {
@@ -70,7 +101,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
             let busy = shared.quiet.read().unwrap_or_else(PoisonError::into_inner);
             loop {
                 if taken.is_empty() {
-                    taken = queue.take();
+                    taken = take();
                 }
                 let Some(number) = taken.front().copied() else {
                     break;
@@ -82,13 +113,15 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
                     break;
                 }
                 taken.pop_front();
-                if !run.record_undrawn(number) {
-                    self.request(number);
-                    requested.push_back(Requested {
-                        number,
-                        at: Instant::now(),
-                    });
+                if let Some(record) = run.undrawn(number) {
+                    done(number, run.settled(record));
+                    continue;
                 }
+                self.request(number);
+                requested.push_back(Requested {
+                    number,
+                    at: Instant::now(),
+                });
             }
             let Some(Requested { number, at }) = requested.pop_front() else {
                 break;
@@ -112,7 +145,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
                 drop(busy);
                 self.time(number, &mut observed.record);
             }
-            run.record(observed.record);
+            done(number, run.settled(observed.record));
         }
     }
 

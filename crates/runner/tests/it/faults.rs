@@ -4,6 +4,7 @@
 use crate::cases::cases;
 use crate::worker::{FAULT, fail_starts, protocol, serve, starts};
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared, Unavailable};
+use etalon_case::Library;
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Feature, Frame, Limits, Requirement};
 use etalon_record::{Expectations, FORMAT, Header, Machine, Record, ReportFiles, Run, Verdict};
@@ -16,6 +17,8 @@ use std::time::Duration;
 
 /// The height of the scene that goes wrong.
 const MARKED: u32 = 3;
+/// The start of faults of scenes without passes, which round trips are, in place of the marked one.
+const TRIP: &str = "trip:";
 const CASES: u32 = 9;
 
 struct Faulty {
@@ -51,6 +54,8 @@ fn stumble(fault: Option<&str>, step: &str) -> Result<(), BackendError> {
             protocol().write_all(&[16, 0, 0, 0, 1, 0]).unwrap();
             std::process::exit(0)
         }
+        // The picture is changed behind it.
+        "wrong" => Ok(()),
         "lost" => Err(BackendError::DeviceLost(word())),
         "resource" => Err(BackendError::Resource {
             what: "a buffer".to_owned(),
@@ -78,8 +83,11 @@ impl Backend for Faulty {
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
-        let marked = scene.attachments[0].size[1] == MARKED;
-        let fault = marked.then_some(self.fault.as_str());
+        let (marked, fault) = match self.fault.strip_prefix(TRIP) {
+            Some(fault) => (scene.passes.is_empty(), fault),
+            None => (scene.attachments[0].size[1] == MARKED, &*self.fault),
+        };
+        let fault = marked.then_some(fault);
         stumble(fault, "prepare")?;
         let inner = self.inner.prepare(scene)?;
         Ok(Box::new(FaultyScene { inner, fault }))
@@ -94,7 +102,12 @@ impl Prepared for FaultyScene<'_> {
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         stumble(self.fault, "read")?;
-        self.inner.read_back()
+        let mut frame = self.inner.read_back()?;
+        if self.fault == Some("wrong@read") {
+            let codes = frame.images.iter_mut().flat_map(|i| &mut i.codes);
+            codes.for_each(|code| *code ^= 1);
+        }
+        Ok(frame)
     }
 }
 
@@ -191,12 +204,24 @@ fn an_adapter_that_is_not_there_says_why() {
 
 /// Runs all cases on one worker. Returns the records, in order.
 fn run(launch: Launch) -> (Vec<Record>, RunSummary) {
+    run_with(launch, 1, &[])
+}
+
+/// Runs all cases on so many workers, round trips first. Returns the records, in the order of the cases.
+fn run_with(launch: Launch, jobs: usize, libraries: &[&Library]) -> (Vec<Record>, RunSummary) {
     let folder = tempfile::tempdir().unwrap();
     let cases = cases(&folder.path().join("cases"), CASES);
+    let round_trips = etalon_runner::round_trips(libraries, &cases).unwrap();
+    assert_eq!(
+        round_trips.len(),
+        libraries.len(),
+        "all cases draw to one format"
+    );
     let worker = Worker::start(&launch).unwrap_or_else(|e| panic!("{e}"));
     let out = folder.path().join("out");
     let plan = Plan {
         cases: &cases,
+        round_trips: &round_trips,
         header: Header {
             format: FORMAT,
             etalon: String::new(),
@@ -215,6 +240,7 @@ fn run(launch: Launch) -> (Vec<Record>, RunSummary) {
             // A second look starts workers of its own, which these tests count.
             look_again: false,
             timeout: Duration::from_secs(10),
+            jobs,
             ..Options::default()
         },
         expectations: &Expectations::default(),
@@ -230,9 +256,15 @@ fn run(launch: Launch) -> (Vec<Record>, RunSummary) {
             told.lock().unwrap().push(*record);
         }
     });
-    let run = Run::read(&out).unwrap();
+    let mut run = Run::read(&out).unwrap();
     assert_eq!(run.missing(), 0);
-    assert_eq!(told.into_inner().unwrap(), run.records);
+    let mut told = told.into_inner().unwrap();
+    if jobs > 1 {
+        let place = |r: &Record| cases.iter().position(|c| c.id == r.case);
+        run.records.sort_by_key(place);
+        told.sort_by_key(place);
+    }
+    assert_eq!(told, run.records);
     let ids: Vec<&str> = run.records.iter().map(|r| r.case.as_str()).collect();
     let due: Vec<&str> = cases.iter().map(|c| c.id.as_str()).collect();
     assert_eq!(ids, due, "one record per case");
@@ -341,4 +373,62 @@ fn a_worker_that_never_comes_back_leaves_a_record_for_every_case() {
     }
     assert_eq!(summary.unexpected, u64::from(CASES + 1 - MARKED));
     assert_eq!(starts(&file), 4, "three failed starts are enough");
+}
+
+#[test]
+fn cases_whose_round_trip_fails_are_not_drawn_however_it_fails() {
+    let library = Library::built_in().unwrap();
+    for (fault, due) in [
+        (
+            "wrong@read",
+            "is fail: texel 0,0 of color: channel 0 holds 1, and 0 was due",
+        ),
+        ("abort@submit", "is crash: "),
+        ("exit@read", "is crash: "),
+        ("garbage@prepare", "is crash: "),
+        ("panic@submit", "is internal-error: "),
+        ("lost@submit", "is device-lost: "),
+        ("resource@prepare", "is resource-error: "),
+    ] {
+        for jobs in [1, 4] {
+            let (records, summary) = run_with(launch(&format!("{TRIP}{fault}")), jobs, &[&library]);
+            for record in &records {
+                assert_eq!(record.verdict, Verdict::Blocked, "{fault}: {record:?}");
+                let trip = "capabilities/round-trip/format=rgba8unorm";
+                assert_eq!(record.blocked_by, [trip]);
+                let told = format!("not drawn: {trip} {due}");
+                assert!(record.message.starts_with(&told), "{record:?}");
+            }
+            assert_eq!(summary.records, u64::from(CASES), "the round trip has none");
+            assert_eq!(summary.unexpected, u64::from(CASES), "{fault}");
+            assert!(!summary.interrupted);
+        }
+    }
+}
+
+#[test]
+fn a_round_trip_that_succeeds_or_is_not_supported_blocks_nothing() {
+    let library = Library::built_in().unwrap();
+    for fault in ["none", "not-supported@prepare"] {
+        for jobs in [1, 4] {
+            let (records, summary) = run_with(launch(&format!("{TRIP}{fault}")), jobs, &[&library]);
+            let drawn = |r: &Record| r.verdict == Verdict::Pass;
+            assert!(records.iter().all(drawn), "{fault}: {records:?}");
+            assert_eq!(summary.unexpected, 0);
+        }
+    }
+}
+
+#[test]
+fn a_driver_that_dies_in_its_round_trip_and_never_comes_back_leaves_every_record() {
+    let library = Library::built_in().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("starts");
+    let mut launch = launch(&format!("{TRIP}abort@submit"));
+    fail_starts(&mut launch, &file, "2 3 4 5 6 7 8 9");
+    let (records, summary) = run_with(launch, 4, &[&library]);
+    let blocked = |r: &Record| r.verdict == Verdict::Blocked;
+    assert!(records.iter().all(blocked), "{records:?}");
+    assert_eq!(summary.unexpected, u64::from(CASES));
+    assert_eq!(starts(&file), 1, "what is blocked starts no worker");
 }

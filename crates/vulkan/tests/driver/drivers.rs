@@ -25,7 +25,12 @@ pub(crate) fn backend(validate: bool) -> VulkanBackend {
              mesa-vulkan-drivers, or name another in ETALON_VULKAN_ADAPTER"
         );
     };
-    open(&name, &Options { device, validate }).unwrap_or_else(|e| panic!("{name}: {e}"))
+    let options = Options {
+        device,
+        validate,
+        read_fault: None,
+    };
+    open(&name, &options).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
 pub(crate) fn lavapipe() -> Driver<'static> {

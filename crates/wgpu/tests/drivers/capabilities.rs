@@ -13,7 +13,10 @@ pub(crate) fn offers(backend: &dyn Backend) {
         assert!(matches!(support.samples[..], [] | [1, ..]), "{format}");
     }
     assert_eq!(limits.formats[&TextureFormat::Rgba8Uint].samples, [1]);
-    assert_eq!(limits.sample_positions.contains_key(&4), vulkan);
+    // Over OpenGL wgpu 30 says that it has four samples, also where the driver has one.
+    let color = &limits.formats[&TextureFormat::Rgba8Unorm];
+    assert_eq!(color.samples, [1, 4]);
+    assert!(limits.sample_positions.contains_key(&4));
     denies(backend);
     if backend.adapter().name == "wgpu:gl:softpipe" {
         loses_the_clear_of_integers(backend);

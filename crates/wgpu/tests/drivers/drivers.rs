@@ -41,6 +41,7 @@ fn opened(name: &str, via: Via, validate: bool) -> WgpuBackend {
         via,
         device,
         validate,
+        read_fault: None,
     };
     let backend = open(name, &options).unwrap_or_else(|e| panic!("{name} does not open: {e}"));
     assert_eq!(backend.adapter().name, name);

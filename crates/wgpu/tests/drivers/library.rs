@@ -4,13 +4,22 @@
 use crate::drivers;
 use etalon_backend::Backend;
 use etalon_case::Profile;
-use etalon_conformance::{Driver, Share, Subject, draw_library, in_child, run_all};
+use etalon_conformance::{Driver, Share, draw_library, in_child, run_all};
 
 /// Softpipe draws the large scenes slowly.
 pub(crate) fn sample(backend: &dyn Backend) {
     let softpipe = backend.adapter().name == "wgpu:gl:softpipe";
     let share = Share::sample(if softpipe { 2 } else { 4 });
-    draw_library(&Subject::new(backend, &[]), Profile::Quick, share);
+    let driver = match backend.adapter().name.as_str() {
+        "wgpu:gl:softpipe" => drivers::softpipe(),
+        "wgpu:gl:llvmpipe" => drivers::llvmpipe(),
+        _ => drivers::lavapipe(),
+    };
+    let driver = Driver {
+        tolerated: &[],
+        ..driver
+    };
+    draw_library(&driver.subject(backend), Profile::Quick, share);
 }
 
 /// One pass with validation: every check, then cases of every file.
@@ -19,7 +28,7 @@ fn validated(driver: &str, described: &Driver<'_>) {
     in_child(&test, &described.environment, || {
         let backend = (described.open)(true);
         run_all(&*backend, described);
-        let subject = Subject::new(&*backend, described.tolerated);
+        let subject = described.subject(&*backend);
         draw_library(&subject, Profile::Quick, Share::sample(2));
     });
 }

@@ -2,6 +2,7 @@
 
 use crate::bench::figures;
 use crate::bench::kind::software;
+use crate::numbers::count;
 use crate::words::machine;
 use etalon_record::{Bench, BenchHeader, BenchRecord, Time};
 use etalon_stats::{
@@ -94,8 +95,11 @@ pub struct Untimed {
     pub from_after: bool,
     /// The reason.
     pub why: String,
-    /// True if this is worse than before: a right picture with a time is now wrong or broken.
+    /// True if this is worse than before: a right picture with a time is now wrong or broken, or its adapter
+    /// vanished.
     pub worse: bool,
+    /// True if the adapter took part in the first bench and not in the second.
+    pub vanished: bool,
 }
 
 impl BenchDiff {
@@ -104,9 +108,54 @@ impl BenchDiff {
         self.changes.iter().filter(|c| c.outcome == outcome).count()
     }
 
-    /// True if anything is worse: slower, or no longer right.
+    /// True if anything is worse: slower, no longer right, or on an adapter that vanished.
     pub fn worse(&self) -> bool {
         self.count(Conclusion::Slower.name()) > 0 || self.gone.iter().any(|g| g.worse)
+    }
+
+    /// The number of comparisons that decide nothing, and of cases that only one bench has times of.
+    pub fn untold(&self) -> [usize; 2] {
+        let untold = self.changes.iter().filter(|c| c.why.is_some());
+        [
+            untold.count(),
+            self.gone.iter().filter(|g| !g.worse).count(),
+        ]
+    }
+
+    /// The conclusion in one line.
+    pub(super) fn conclusion(&self) -> String {
+        let mut parts = Vec::new();
+        if self.worse() {
+            parts.push(format!("{} slower", self.count(Conclusion::Slower.name())));
+            let wrong = self.gone.iter().filter(|g| g.worse && !g.vanished).count();
+            parts.push(format!("{wrong} no longer right"));
+        } else {
+            parts.push("Nothing is shown to be worse".to_owned());
+        }
+        let mut vanished: Vec<&str> = self
+            .gone
+            .iter()
+            .filter(|g| g.vanished)
+            .map(|g| g.adapter.as_str())
+            .collect();
+        vanished.dedup();
+        vanished.sort_unstable();
+        vanished.dedup();
+        if !vanished.is_empty() {
+            parts.push(format!("vanished: {}", vanished.join(", ")));
+        }
+        let [undecided, alone] = self.untold();
+        if undecided > 0 {
+            let all = self.changes.len();
+            parts.push(format!("{undecided} of {all} comparisons cannot tell"));
+        }
+        if alone > 0 {
+            parts.push(format!(
+                "{} timed in one bench only",
+                count(alone as u64, "case")
+            ));
+        }
+        parts.join("; ")
     }
 }
 
@@ -142,7 +191,12 @@ pub fn diff(before: &Bench, after: &Bench, time: Time) -> BenchDiff {
                 software: kind,
                 ..changed(&b, &a)
             }),
-            (Some(_), None) => found.gone.push(gone(old, new, true, time)),
+            (Some(_), None) => {
+                let mut gone = gone(old, new, true, time);
+                gone.vanished = after.header.adapter(adapter).is_none();
+                gone.worse |= gone.vanished;
+                found.gone.push(gone);
+            }
             (None, Some(_)) => {
                 let new = new.unwrap_or(old);
                 found.gone.push(gone(new, Some(old), false, time));
@@ -218,6 +272,7 @@ fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time
         from_after,
         why,
         worse: from_after && bad,
+        vanished: false,
     }
 }
 

@@ -26,12 +26,11 @@ fn page(diff: &BenchDiff) -> String {
             h1 { "etalon diff" }
             p.lead { "Changes of " (diff.time) " times between two benches." }
             @if diff.worse() {
-                p.state.bad { b {
-                    "✗ " (diff.count("slower")) " slower, "
-                    (diff.gone.iter().filter(|g| g.worse).count()) " no longer right."
-                } }
+                p.state.bad { b { "✗ " (diff.conclusion()) "." } }
+            } @else if diff.untold() != [0, 0] {
+                p.state.o { b { "? " (diff.conclusion()) "." } }
             } @else {
-                p.state.good { b { "✓ Nothing is shown to be worse." } }
+                p.state.good { b { "✓ " (diff.conclusion()) "." } }
             }
             dl.facts { (side("Before", &diff.before)) (side("After", &diff.after)) }
             @for note in &diff.notes { p.state.bad { "! " (note) } }

@@ -46,6 +46,14 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
         }
         text.push('\n');
     }
+    let (sign, color) = match (diff.worse(), diff.untold()) {
+        (true, _) => ("✗", "31"),
+        (false, [0, 0]) => ("✓", "32"),
+        (false, _) => ("?", "33"),
+    };
+    let line = format!("{sign} {}.", diff.conclusion());
+    text.push_str(&options.paint(&plain(&line, 400), color));
+    text.push('\n');
     let n = diff.changes.len();
     text.push_str(&format!(
         "{} slower, {} faster, {} undecided. Of {n} comparisons of unchanged things, at most {:.3} \

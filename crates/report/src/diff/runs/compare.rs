@@ -43,6 +43,9 @@ fn direction(before: &Record, after: &Record) -> Direction {
     match (Standing::of(before), Standing::of(after)) {
         (Right, Wrong(_) | NotSupported) => Direction::Worse,
         (Wrong(_) | NotSupported, Right) => Direction::Better,
+        // Of a case that was not drawn nothing is known: to lose it is worse, and a failure that shows now may be old.
+        (Wrong(_), Wrong(_)) if before.verdict == Verdict::Blocked => Direction::Other,
+        (Wrong(_), Wrong(_)) if after.verdict == Verdict::Blocked => Direction::Worse,
         (Wrong(old), Wrong(new)) if new > old => Direction::Worse,
         (Wrong(old), Wrong(new)) if new < old => Direction::Better,
         _ => Direction::Other,

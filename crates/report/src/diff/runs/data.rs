@@ -13,6 +13,9 @@ pub struct RunDiff {
     pub kind: &'static str,
     /// Reasons for which the comparison may mislead: incomplete runs, other selections, other machines.
     pub warnings: Vec<String>,
+    /// What the comparison could not tell: records that are missing, selections that are unknown, frames that cannot
+    /// be read.
+    pub untold: Vec<String>,
     /// The headers side by side.
     pub facts: Vec<Fact>,
     /// Adapters that are compared with none.
@@ -32,7 +35,12 @@ pub struct RunDiff {
 impl RunDiff {
     /// True if anything is worse.
     pub fn worse(&self) -> bool {
-        self.count(Direction::Worse) > 0 || self.lost() > 0
+        self.count(Direction::Worse) > 0 || self.lost() > 0 || self.vanished().next().is_some()
+    }
+
+    /// Adapters of the first run that the second one lacks.
+    pub fn vanished(&self) -> impl Iterator<Item = &Unpaired> {
+        self.unpaired.iter().filter(|u| u.worse)
     }
 
     /// True if something is better and nothing worse.
@@ -120,6 +128,8 @@ pub struct Unpaired {
     pub adapter: String,
     /// The number of its records.
     pub records: u64,
+    /// True if it has records in the first run and vanished from the second.
+    pub worse: bool,
 }
 
 /// Two adapters that are compared.

@@ -61,11 +61,10 @@ fn page(diff: &RunDiff, folders: &[&Path; 2]) -> String {
 
 fn headline(diff: &RunDiff) -> String {
     let [worse, better, other] = Direction::ALL.map(|d| diff.count(d));
-    let lost = match diff.lost() {
-        0 => String::new(),
-        n => format!(", {} lost", count(n, "record")),
-    };
-    format!("{worse} worse, {better} better, {other} other{lost}")
+    format!(
+        "{worse} worse, {better} better, {other} other{}",
+        phrases::beside(diff)
+    )
 }
 
 fn head(diff: &RunDiff) -> Markup {
@@ -77,12 +76,16 @@ fn head(diff: &RunDiff) -> Markup {
             @for warning in &diff.warnings { p.state.bad { b { "! " } (warning) } }
             @if diff.pairs.is_empty() {
                 p.state.bad { b { "! Nothing was compared." } }
-            } @else if diff.worse() {
-                p.state.bad { b { "✗ " (headline(diff)) } ", " (same) " the same." }
+            }
+            @if diff.worse() {
+                p.state.bad { b { "✗ " (headline(diff)) } "; " (same) " the same." }
+            } @else if diff.pairs.is_empty() {
+            } @else if !diff.untold.is_empty() {
+                p.state.o { b { "? Nothing is shown to be worse: " (headline(diff)) } "; " (same) " the same." }
             } @else if diff.changes.is_empty() {
                 p.state.good { b { "✓ Nothing changed" } " in " (count(same, "record")) "." }
             } @else {
-                p.state.good { b { "✓ Nothing is worse: " (headline(diff)) } ", " (same) " the same." }
+                p.state.good { b { "✓ Nothing is worse: " (headline(diff)) } "; " (same) " the same." }
             }
             (facts(&diff.facts))
             nav {
@@ -151,6 +154,7 @@ fn pairs(diff: &RunDiff) -> Markup {
             }
             @for unpaired in &diff.unpaired {
                 p.soft {
+                    @if unpaired.worse { b { "✗ " } }
                     code { (unpaired.adapter) } " " (phrases::side(unpaired.side)) ": "
                     (count(unpaired.records, "record")) ", not compared."
                 }
@@ -379,8 +383,8 @@ fn reading() -> Markup {
             h2 { "Worse and better" }
             p {
                 b { "Worse" } " is a record that is unexpected and whose partner in the first run is not; a right verdict (pass, imprecise, measured) that became a wrong one; a wrong "
-                "one that became a graver one; a case that was right and is not supported any more; and a case "
-                "of the same selection that the second run holds no record of. " b { "Better" } " is the way "
+                "one that became a graver one; a case that was right and is not supported any more; a case that "
+                "both runs select and the second one holds no record of; and an adapter that vanished. " b { "Better" } " is the way "
                 "back. Other pixels, counters and distances under the same verdict are " b { "other" }
                 " changes, and so is pass to imprecise, which is legal."
             }

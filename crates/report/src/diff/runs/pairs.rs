@@ -118,11 +118,12 @@ pub(super) fn choose<'a>(
     Ok(pairs)
 }
 
-/// The adapters that are in no pair.
+/// The adapters that are in no pair. If the pair was `named`, all others were left out on purpose.
 pub(super) fn unpaired(
     before: &Folder<'_>,
     after: &Folder<'_>,
     pairs: &[[&str; 2]],
+    named: bool,
 ) -> Vec<Unpaired> {
     let mut found = Vec::new();
     for (side, folder) in [(Side::Before, before), (Side::After, after)] {
@@ -132,6 +133,7 @@ pub(super) fn unpaired(
             side,
             adapter: (*name).to_owned(),
             records: folder.count(name),
+            worse: !named && side == Side::Before && folder.count(name) > 0,
         }));
     }
     found

@@ -1,8 +1,8 @@
 //! Differences of runs in words, shared by terminal and page.
 
-use super::data::{Change, Detail, Direction, FrameChange, Only, Side};
+use super::data::{Change, Detail, Direction, FrameChange, Only, RunDiff, Side};
 use crate::numbers::{change, count, trimmed};
-use crate::words::name;
+use crate::words::{name, plain};
 use etalon_record::Verdict;
 use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
@@ -171,6 +171,23 @@ pub(super) fn side(side: Side) -> &'static str {
         Side::Before => "before only",
         Side::After => "after only",
     }
+}
+
+/// What is worse and no change, and what could not be told: records lost, adapters that vanished, the rest. Empty, or
+/// begins with what separates it from counts before it.
+pub(super) fn beside(diff: &RunDiff) -> String {
+    let mut text = String::new();
+    if diff.lost() > 0 {
+        text.push_str(&format!(", {} lost", count(diff.lost(), "record")));
+    }
+    let vanished: Vec<String> = diff.vanished().map(|u| plain(&u.adapter, 60)).collect();
+    if !vanished.is_empty() {
+        text.push_str(&format!("; vanished: {}", vanished.join(", ")));
+    }
+    if !diff.untold.is_empty() {
+        text.push_str(&format!("; cannot tell: {}", diff.untold.join("; ")));
+    }
+    text
 }
 
 /// After over before, as a signed change.

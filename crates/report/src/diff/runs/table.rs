@@ -38,8 +38,9 @@ pub fn table(diff: &RunDiff, options: TableOptions) -> String {
         }
     }
     for unpaired in &diff.unpaired {
+        let sign = if unpaired.worse { "✗ " } else { "" };
         let line = format!(
-            "{} {}: {}, not compared",
+            "{sign}{} {}: {}, not compared",
             unpaired.adapter,
             phrases::side(unpaired.side),
             count(unpaired.records, "record")
@@ -51,6 +52,9 @@ pub fn table(diff: &RunDiff, options: TableOptions) -> String {
     }
     if diff.pairs.is_empty() {
         text.push_str("Nothing was compared.\n");
+        if diff.worse() {
+            text.push_str(&sum(diff, options));
+        }
         return text;
     }
     text.push_str(&pairs(&diff.pairs, options));
@@ -61,7 +65,7 @@ pub fn table(diff: &RunDiff, options: TableOptions) -> String {
     }
     only(&mut text, diff);
     times(&mut text, diff, options);
-    text.push_str(&sum(diff));
+    text.push_str(&sum(diff, options));
     text
 }
 
@@ -277,16 +281,19 @@ fn methods(times: &[MethodTime], options: TableOptions) -> String {
     }
 }
 
-/// The last line.
-fn sum(diff: &RunDiff) -> String {
+/// The last line, in the colour of its conclusion: green only if everything could be told.
+fn sum(diff: &RunDiff, options: TableOptions) -> String {
     let [worse, better, other] = Direction::ALL.map(|d| diff.count(d));
     let same: u64 = diff.pairs.iter().map(|p| p.same).sum();
-    let lost = match diff.lost() {
-        0 => String::new(),
-        n => format!(", {} lost", count(n, "record")),
+    let color = match (diff.worse(), diff.untold.is_empty()) {
+        (true, _) => "31",
+        (false, true) => "32",
+        (false, false) => "33",
     };
-    format!(
-        "Of {}: {worse} worse, {better} better, {other} other, {same} the same{lost}.\n",
-        count(diff.compared(), "record")
-    )
+    let line = format!(
+        "Of {}: {worse} worse, {better} better, {other} other, {same} the same{}.",
+        count(diff.compared(), "record"),
+        phrases::beside(diff)
+    );
+    format!("{}\n", options.paint(&plain(&line, 600), color))
 }

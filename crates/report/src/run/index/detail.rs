@@ -81,6 +81,10 @@ fn circumstances(record: &Record) -> Markup {
             p { b { "Only when drawn after: " } }
             ul { @for case in &record.after { li { a href=(link::case(case)) { code { (case) } } } } }
         }
+        @if !record.blocked_by.is_empty() {
+            p { b { "Blocked by: " } }
+            ul { @for case in &record.blocked_by { li { a href=(link::case(case)) { code { (case) } } } } }
+        }
     }
 }
 
@@ -102,6 +106,8 @@ fn counters(record: &Record) -> Markup {
                         td {
                             @match counter.band {
                                 Some(Band::Fail) => "✗ illegal",
+                                Some(Band::RequiredByCts) => "⊠ forbidden by the Khronos CTS",
+                                Some(Band::Disputed) => "? forbidden by a disputed reading",
                                 Some(Band::Imprecise) => "• outside the yardstick",
                                 None if counter.is_asserted() => "legal",
                                 None => "nothing is asserted",
@@ -178,7 +184,12 @@ fn texel_row(place: &str, texel: &WrongTexel, i: usize, m: &ChannelMismatch) -> 
             @if i == 0 {
                 th rowspan=(texel.channels.len()) { (place) }
                 td rowspan=(texel.channels.len()) {
-                    (match texel.band { Band::Fail => "✗ fail", Band::Imprecise => "≈ imprecise" })
+                    (match texel.band {
+                        Band::Fail => "✗ fail",
+                        Band::RequiredByCts => "⊠ required by CTS",
+                        Band::Disputed => "? disputed",
+                        Band::Imprecise => "≈ imprecise",
+                    })
                 }
             }
             td { (channel_of(m)) }
@@ -194,12 +205,20 @@ fn texel_row(place: &str, texel: &WrongTexel, i: usize, m: &ChannelMismatch) -> 
     }
 }
 
+/// The verdict as a heading, the text that it follows from, and the operations.
 fn operations(story: &Story, record: &Record) -> Markup {
     let mut at = "";
     html! {
-        h5 { "Expected operations" @if let Some(texel) = record.wrong.first() { " at " (place(texel, multisampled(record))) } }
+        @match (story.sentence(), record.wrong.first()) {
+            (Some(sentence), _) => h5 { (sentence) },
+            (None, Some(texel)) => h5 { "Expected operations at " (place(texel, multisampled(record))) },
+            (None, None) => h5 { "Expected operations" },
+        }
+        @if let Some(judged_by) = story.verdict().and_then(|v| v.citation.as_ref()) {
+            p.note { (judged_by) }
+        }
         ol.story {
-            @for line in &story.lines {
+            @for line in story.operations() {
                 @if line.at != at { li.at { ({ at = &line.at; at }) } }
                 li {
                     b { (line.operation) } ": " (line.detail)

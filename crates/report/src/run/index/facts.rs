@@ -21,6 +21,7 @@ pub(crate) enum Label {
     Validation,
     Repeats,
     After,
+    BlockedBy,
     Texels,
     Asserted,
     Counter,
@@ -31,8 +32,8 @@ pub(crate) enum Label {
 
 /// Words, form and true if an entry under Findings has the same. Forms: `text`, `pre` for what came
 /// from a driver, `case` for an id that can be followed, `code`.
-pub(crate) const LABELS: [(&str, &str, bool); 16] = [
-    ("In short", "text", true),
+pub(crate) const LABELS: [(&str, &str, bool); 17] = [
+    ("In short", "text", false),
     ("Message", "pre", true),
     ("Expected", "text", true),
     ("Improvement", "text", false),
@@ -42,6 +43,7 @@ pub(crate) const LABELS: [(&str, &str, bool); 16] = [
     ("Validation", "pre", true),
     ("Repeated", "text", true),
     ("Drawn after", "case", true),
+    ("Blocked by", "case", true),
     ("Samples", "text", true),
     ("Asserted", "text", false),
     ("Counter", "text", true),
@@ -92,6 +94,9 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
     }
     for case in &record.after {
         add(Label::After, case.clone());
+    }
+    for case in &record.blocked_by {
+        add(Label::BlockedBy, case.clone());
     }
     if record.texels.wrong + record.texels.imprecise + record.texels.open > 0 {
         add(Label::Texels, counts(record));

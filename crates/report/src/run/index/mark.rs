@@ -14,14 +14,49 @@ pub(super) fn class(verdict: Verdict, tone: Tone) -> &'static str {
     match (verdict, tone) {
         (_, Tone::Missed) => "f",
         (Verdict::Fail, Tone::Excused) => "f x",
+        (Verdict::RequiredByCts, Tone::Excused) => "r x",
+        (Verdict::Disputed, Tone::Excused) => "q x",
+        (Verdict::Blocked, Tone::Excused) => "k x",
         (Verdict::Open, Tone::Excused) => "o x",
         (_, Tone::Excused) => "b x",
         (Verdict::Pass, Tone::Plain) => "p",
         (Verdict::Imprecise, Tone::Plain) => "i",
         (Verdict::Fail, Tone::Plain) => "f",
+        (Verdict::RequiredByCts, Tone::Plain) => "r",
+        (Verdict::Disputed, Tone::Plain) => "q",
+        (Verdict::Blocked, Tone::Plain) => "k",
         (Verdict::Open, Tone::Plain) => "o",
         (Verdict::Measured, Tone::Plain) => "n",
         (Verdict::NotSupported | Verdict::Skipped, Tone::Plain) => "u",
         (_, Tone::Plain) => "b",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn grades_of_evidence_and_what_was_not_drawn_differ_in_colour() {
+        let style = include_str!("../../page/style.css");
+        let mut seen = BTreeMap::new();
+        for verdict in [
+            Verdict::Pass,
+            Verdict::Fail,
+            Verdict::RequiredByCts,
+            Verdict::Disputed,
+            Verdict::Blocked,
+            Verdict::Open,
+            Verdict::Crash,
+            Verdict::NotSupported,
+        ] {
+            let letter = class(verdict, Tone::Plain);
+            assert!(style.contains(&format!(".{letter} {{ --c: var(--{letter}); }}")));
+            assert_eq!(seen.insert(letter, verdict), None, "{verdict}");
+            if verdict.is_bad() {
+                assert!(class(verdict, Tone::Excused).ends_with(" x"));
+            }
+        }
     }
 }

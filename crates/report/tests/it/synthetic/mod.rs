@@ -64,6 +64,9 @@ pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
         software: true,
         limits: Limits {
             api,
+            version: etalon_frame::ApiVersion::UNKNOWN,
+            properties: Default::default(),
+            exempt: Default::default(),
             sub_pixel_bits: 8,
             max_size: 16384,
             max_color_attachments: 8,
@@ -247,14 +250,16 @@ pub(crate) fn record(
     }
     let band = match verdict {
         Verdict::Fail => Band::Fail,
+        Verdict::RequiredByCts => Band::RequiredByCts,
+        Verdict::Disputed => Band::Disputed,
         Verdict::Imprecise => Band::Imprecise,
         _ => return r,
     };
     let frame = frame(id, adapter, band, seed);
     r.wrong = wrong_texels(&frame, band);
     match band {
-        Band::Fail => r.texels.wrong = r.wrong.len() as u64,
         Band::Imprecise => r.texels.imprecise = r.wrong.len() as u64,
+        _ => r.texels.wrong = r.wrong.len() as u64,
     }
     r.story = Some(story());
     r.frame = Some(writer.write_frame(&frame).unwrap());
@@ -309,8 +314,8 @@ fn frame(id: &str, adapter: &str, band: Band, seed: u32) -> FrameFile {
             let off = x > 9 && y < 5 && hash(i) > 90;
             image.wrong.push(match (off, band) {
                 (false, _) => FrameImage::FINE,
-                (true, Band::Fail) => FrameImage::FAIL,
                 (true, Band::Imprecise) => FrameImage::IMPRECISE,
+                (true, _) => FrameImage::FAIL,
             });
             for c in 0..n {
                 let encoding = image.channels[c as usize];
@@ -321,7 +326,7 @@ fn frame(id: &str, adapter: &str, band: Band, seed: u32) -> FrameFile {
                 image.low.push(low);
                 image.high.push(high);
                 image.actual.push(match (off, band) {
-                    (true, Band::Fail) => hash(i + c) * (most / 255),
+                    (true, band) if band != Band::Imprecise => hash(i + c) * (most / 255),
                     _ => high,
                 });
             }
@@ -388,8 +393,8 @@ fn wrong_texels(frame: &FrameFile, band: Band) -> Vec<WrongTexel> {
                     low: image.low[i * n + c],
                     // An imprecise texel's bounds are the yardstick's.
                     high: match band {
-                        Band::Fail => image.high[i * n + c],
                         Band::Imprecise => image.low[i * n + c],
+                        _ => image.high[i * n + c],
                     },
                     actual: image.actual[i * n + c],
                 })

@@ -1,0 +1,131 @@
+//! Faults of reading back that a test plants.
+//!
+//! A backend applies one to every image that its read path returns, so that nothing inside the backend
+//! reads past it. It stands for a driver whose read-back is broken, and shows that a run over such a
+//! driver is red.
+
+use etalon_frame::ChannelEncoding;
+use serde::{Deserialize, Serialize};
+
+/// A planted fault of reading back. For tests of the suite only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ReadFault {
+    /// Every code differs by one: its lowest bit is flipped.
+    OffByOne,
+    /// The texels of one block of 2×2 have all their bits flipped.
+    WrongBlock,
+    /// The first channel of every texel is 0.
+    ZeroChannel,
+    /// The first two samples of every texel are exchanged.
+    SwappedSamples,
+}
+
+/// The first row and column of the block.
+const BLOCK: u32 = 1;
+
+impl ReadFault {
+    /// Every fault with its name.
+    pub const ALL: [(Self, &'static str); 4] = [
+        (Self::OffByOne, "off-by-one"),
+        (Self::WrongBlock, "wrong-block"),
+        (Self::ZeroChannel, "zero-channel"),
+        (Self::SwappedSamples, "swapped-samples"),
+    ];
+
+    /// Returns the fault of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        let found = Self::ALL.into_iter().find(|(_, own)| *own == name);
+        found.map(|(fault, _)| fault)
+    }
+
+    /// Changes the codes of an image of this size: texel by texel, sample by sample, channel by channel.
+    pub fn apply(
+        self,
+        codes: &mut [u32],
+        size: [u32; 2],
+        samples: u32,
+        channels: &[ChannelEncoding],
+    ) {
+        let sample = channels.len().max(1);
+        let texel = sample * samples as usize;
+        let width = size[0] as usize;
+        match self {
+            Self::OffByOne => codes.iter_mut().for_each(|code| *code ^= 1),
+            Self::ZeroChannel => codes.iter_mut().step_by(sample).for_each(|code| *code = 0),
+            Self::SwappedSamples if samples > 1 => {
+                for texel in codes.chunks_exact_mut(texel) {
+                    let (first, rest) = texel.split_at_mut(sample);
+                    first.swap_with_slice(&mut rest[..sample]);
+                }
+            }
+            Self::SwappedSamples => {}
+            Self::WrongBlock => {
+                for (at, texel) in codes.chunks_exact_mut(texel).enumerate() {
+                    let (x, y) = (at % width.max(1), at / width.max(1));
+                    let inside = |v: usize| (v as u32).wrapping_sub(BLOCK) < 2;
+                    if inside(x) && inside(y) {
+                        for (code, encoding) in texel.iter_mut().zip(channels.iter().cycle()) {
+                            *code ^= mask(*encoding);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Returns all bits of a code.
+fn mask(encoding: ChannelEncoding) -> u32 {
+    let bits = match encoding {
+        ChannelEncoding::Unorm(bits)
+        | ChannelEncoding::Snorm(bits)
+        | ChannelEncoding::Uint(bits) => u32::from(bits),
+        ChannelEncoding::Srgb8 => 8,
+        ChannelEncoding::Float16 => 16,
+        ChannelEncoding::Float32 => 32,
+        ChannelEncoding::Ufloat(mantissa) => u32::from(mantissa) + 5,
+    };
+    u32::MAX >> (32 - bits.clamp(1, 32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three texels by three of two samples with two channels of 8 bits, each code another.
+    fn changed(fault: ReadFault) -> (Vec<u32>, Vec<u32>) {
+        let before: Vec<u32> = (2..38).collect();
+        let mut after = before.clone();
+        fault.apply(&mut after, [3, 3], 2, &[ChannelEncoding::Unorm(8); 2]);
+        (before, after)
+    }
+
+    #[test]
+    fn each_fault_changes_what_it_names() {
+        let (before, after) = changed(ReadFault::OffByOne);
+        assert!(before.iter().zip(&after).all(|(b, a)| b.abs_diff(*a) == 1));
+        let (before, after) = changed(ReadFault::ZeroChannel);
+        for (at, (b, a)) in before.iter().zip(&after).enumerate() {
+            assert_eq!(*a, if at % 2 == 0 { 0 } else { *b });
+        }
+        let (before, after) = changed(ReadFault::SwappedSamples);
+        for (b, a) in before.chunks(4).zip(after.chunks(4)) {
+            assert_eq!(a, [b[2], b[3], b[0], b[1]]);
+        }
+        let (before, after) = changed(ReadFault::WrongBlock);
+        for (at, (b, a)) in before.chunks(4).zip(after.chunks(4)).enumerate() {
+            let wrong = at % 3 > 0 && at / 3 > 0;
+            let flipped: Vec<u32> = b.iter().map(|code| code ^ 0xff).collect();
+            assert_eq!(a, if wrong { &flipped } else { b }, "texel {at}");
+        }
+    }
+
+    #[test]
+    fn one_sample_cannot_be_exchanged() {
+        let mut codes = [1, 2, 3, 4];
+        let channels = [ChannelEncoding::Float32; 2];
+        ReadFault::SwappedSamples.apply(&mut codes, [2, 1], 1, &channels);
+        assert_eq!(codes, [1, 2, 3, 4]);
+    }
+}

@@ -1,0 +1,126 @@
+//! The findings of `ci/findings`: each is read, each is alive, and README lists them.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use crate::etalon::etalon;
+use etalon_record::{Expectations, Finding, Grade, Source};
+use predicates::prelude::*;
+use predicates::str::contains;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Set to anything, the list in README is written anew instead of compared.
+const WRITE: &str = "ETALON_WRITE_README";
+const BEGIN: &str = "<!-- findings: ETALON_WRITE_README=1 cargo nextest run -p etalon readme_lists_the_findings -->\n";
+const END: &str = "<!-- end of findings -->\n";
+/// The most characters of a line in README.
+const WIDTH: usize = 138;
+
+fn root() -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    root.canonicalize().unwrap()
+}
+
+/// The findings by the names of their files.
+fn findings() -> Vec<(String, Finding)> {
+    let all = Expectations::read(&root().join("ci/findings")).unwrap();
+    let each = all.all().iter().map(|known| {
+        let Source::Finding(finding) = &known.source else {
+            panic!("{}: no finding", known.place());
+        };
+        let name = known.path.file_stem().unwrap().to_str().unwrap();
+        (name.to_owned(), finding.clone())
+    });
+    each.collect()
+}
+
+/// A numbered file holds the same bug on adapters that show it in other cases.
+fn is_numbered(name: &str) -> bool {
+    let last = name.rsplit('-').next().unwrap();
+    last.len() == 1 && last.chars().all(|c| c.is_ascii_digit())
+}
+
+#[test]
+fn every_finding_was_read_and_has_a_clause() {
+    let all = findings();
+    assert!(all.len() > 20);
+    for (name, finding) in &all {
+        assert_ne!(
+            finding.grade,
+            Grade::Unread,
+            "ci/findings/{name}.json: read the clause that the driver breaks, and state the grade"
+        );
+        assert!(finding.clause.len() > 10, "{name}: {}", finding.clause);
+        let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+        assert!(name.chars().all(plain), "{name}");
+        assert!(finding.expected().is_bad(), "{name}");
+        if is_numbered(name) {
+            let (first, _) = name.rsplit_once('-').unwrap();
+            assert!(all.iter().any(|(other, _)| other == first), "{name}");
+        }
+    }
+}
+
+#[test]
+fn no_finding_is_dead() {
+    let out = tempfile::tempdir().unwrap();
+    etalon(&[
+        "run",
+        "depth/clear*",
+        "--adapter",
+        "cpu",
+        "--strict-expectations",
+    ])
+    .arg("--out")
+    .arg(out.path().join("run"))
+    .assert()
+    .code(0)
+    .stderr(contains("dead").not());
+}
+
+/// The list in README: a line per driver, by the first word of the files' names.
+fn listed() -> String {
+    let mut drivers: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (name, finding) in findings().iter().filter(|(name, _)| !is_numbered(name)) {
+        let driver = name.split('-').next().unwrap().to_owned();
+        let grade = match finding.grade {
+            Grade::Proven => String::new(),
+            grade => format!(" ({})", grade.name().replace('-', " ")),
+        };
+        let of = drivers.entry(driver).or_default();
+        of.push(format!("{}{grade}", finding.title));
+    }
+    let mut text = String::new();
+    for (driver, titles) in drivers {
+        let line = format!("- **{driver}**: {}.", titles.join("; "));
+        let mut column = 0;
+        for word in line.split(' ') {
+            let width = word.chars().count();
+            if column > 0 && column + 1 + width > WIDTH {
+                text.push_str("\n  ");
+                column = 2;
+            } else if column > 0 {
+                text.push(' ');
+                column += 1;
+            }
+            text.push_str(word);
+            column += width;
+        }
+        text.push('\n');
+    }
+    text
+}
+
+#[test]
+fn readme_lists_the_findings() {
+    let path = root().join("README.md");
+    let text = fs::read_to_string(&path).unwrap();
+    let (before, rest) = text.split_once(BEGIN).unwrap();
+    let (list, after) = rest.split_once(END).unwrap();
+    let due = listed();
+    if std::env::var_os(WRITE).is_some() {
+        fs::write(&path, format!("{before}{BEGIN}{due}{END}{after}")).unwrap();
+        return;
+    }
+    assert_eq!(list, due, "set {WRITE} to write the list anew");
+}

@@ -1,0 +1,425 @@
+//! Dead expectations: those that can excuse nothing, or had their chance and excused nothing.
+//!
+//! Only what is certain is called dead. An expectation whose cases or adapters a run left out may be alive.
+
+use crate::error::RecordError;
+use crate::expectations::{Expectations, Known, compiled};
+use crate::folder::DEAD_FILE;
+use crate::run::Run;
+use crate::verdict::Verdict;
+use etalon_frame::state_enum;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read};
+use std::path::Path;
+
+state_enum! {
+    /// The reason for which an expectation is dead.
+    DeadKind: array {
+        /// A glob over ids, or an alternative in one, matches no case.
+        NoCase = "no-case",
+        /// A glob over names, or an alternative in one, matches no adapter that is described or was used.
+        NoAdapter = "no-adapter",
+        /// Another expectation excuses all that it does.
+        Covered = "covered",
+        /// All its cases were drawn on all its adapters, and none had its verdict.
+        NeverMatched = "never-matched",
+    }
+}
+
+/// A dead expectation, or a dead part of one.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Dead {
+    /// The reason.
+    pub kind: DeadKind,
+    /// The file, and the number in a list.
+    pub place: String,
+    /// The dead glob, the place of the expectation that covers it, or its own reason.
+    pub about: String,
+}
+
+/// The most bytes of a list of dead expectations.
+const MAX_BYTES: u64 = 16 << 20;
+
+impl Dead {
+    /// Writes the dead expectations of a run into its folder; without any, removes the list of an earlier run.
+    ///
+    /// # Errors
+    /// When the file cannot be written or removed.
+    pub fn write(folder: &Path, dead: &[Self]) -> Result<(), RecordError> {
+        let path = folder.join(DEAD_FILE);
+        if dead.is_empty() {
+            return match fs::remove_file(&path) {
+                Err(e) if e.kind() != ErrorKind::NotFound => {
+                    Err(RecordError::io("remove", &path)(e))
+                }
+                _ => Ok(()),
+            };
+        }
+        let mut text = serde_json::to_string_pretty(dead)
+            .map_err(RecordError::serialize("dead expectations"))?;
+        text.push('\n');
+        fs::write(&path, text).map_err(RecordError::io("write", &path))
+    }
+
+    /// Reads the dead expectations in a run folder; none where there is no list.
+    ///
+    /// # Errors
+    /// When the list cannot be read or does not parse.
+    pub fn read(folder: &Path) -> Result<Vec<Self>, RecordError> {
+        let path = folder.join(DEAD_FILE);
+        let mut text = String::new();
+        match File::open(&path).and_then(|f| f.take(MAX_BYTES).read_to_string(&mut text)) {
+            Ok(_) => {}
+            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+            Err(e) => return Err(RecordError::io("read", &path)(e)),
+        }
+        serde_json::from_str(&text).map_err(|e| RecordError::Parse {
+            line: e.line(),
+            message: crate::json::without_position(&e),
+            remedy: "remove the file, or record the run again",
+            path,
+        })
+    }
+}
+
+impl Expectations {
+    /// The dead expectations, by kind and in the order of their files. `ids` are all existing cases, `described`
+    /// the names of adapters that there may be besides those of the run.
+    pub fn dead(&self, run: &Run, ids: &[String], described: &[String]) -> Vec<Dead> {
+        let used = run.header.adapters.iter().map(|a| &a.name);
+        let names: BTreeSet<&String> = used.chain(described).collect();
+        let names: Vec<String> = names.into_iter().cloned().collect();
+        let ids: BTreeSet<&String> = ids.iter().collect();
+        let ids: Vec<String> = ids.into_iter().cloned().collect();
+        let mut dead = Vec::new();
+        let mut reaches = Vec::new();
+        for known in self.all() {
+            let mut part = |kind, glob: String| {
+                dead.push(Dead {
+                    kind,
+                    place: known.place(),
+                    about: glob,
+                });
+            };
+            for glob in &known.cases {
+                parts_without(glob, &ids)
+                    .into_iter()
+                    .for_each(|glob| part(DeadKind::NoCase, glob));
+            }
+            for glob in &known.adapters {
+                parts_without(glob, &names)
+                    .into_iter()
+                    .for_each(|glob| part(DeadKind::NoAdapter, glob));
+            }
+            reaches.push(Reach {
+                cases: reach(&known.cases, &ids),
+                adapters: reach(&known.adapters, &names),
+            });
+        }
+        for (number, known) in self.all().iter().enumerate() {
+            let one = &reaches[number];
+            if one.cases.is_empty() || one.adapters.is_empty() {
+                continue;
+            }
+            let cover = self.all().iter().enumerate().find(|(other, by)| {
+                let back = || covers(known, by) && reaches[*other].is_within(one);
+                *other != number
+                    && covers(by, known)
+                    && one.is_within(&reaches[*other])
+                    // Of two that are the same, the second is dead.
+                    && (*other < number || !back())
+            });
+            if let Some((_, by)) = cover {
+                dead.push(Dead {
+                    kind: DeadKind::Covered,
+                    place: known.place(),
+                    about: by.place(),
+                });
+            } else if self.never_matched(number, one, run, &names) {
+                dead.push(Dead {
+                    kind: DeadKind::NeverMatched,
+                    place: known.place(),
+                    about: known.reason.clone(),
+                });
+            }
+        }
+        dead.sort_by_key(|d| d.kind);
+        dead
+    }
+
+    /// True if a run drew all cases of an expectation on all its adapters, and none had a verdict that it excuses.
+    fn never_matched(&self, number: usize, reach: &Reach, run: &Run, names: &[String]) -> bool {
+        let Some(known) = self.all().get(number) else {
+            return false;
+        };
+        // What is flaky may pass each time, and what is skipped has no verdict.
+        if self.expired(known) || matches!(known.verdict, Verdict::Flaky | Verdict::Skipped) {
+            return false;
+        }
+        let mut recorded: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+        for adapter in run.header.adapters.iter() {
+            if self.is_about(number, adapter) {
+                recorded.insert(&adapter.name, BTreeSet::new());
+            }
+        }
+        let due = reach.adapters.iter().map(|index| &names[*index]);
+        if recorded.is_empty() || !due.clone().all(|name| recorded.contains_key(name.as_str())) {
+            return false;
+        }
+        let mut drawn = false;
+        for record in &run.records {
+            let Some(cases) = recorded.get_mut(record.adapter.as_str()) else {
+                continue;
+            };
+            if !self.names(number, &record.case) {
+                continue;
+            }
+            if self.excuses(number, record.verdict) {
+                return false;
+            }
+            drawn |= !matches!(
+                record.verdict,
+                Verdict::NotSupported | Verdict::Skipped | Verdict::Blocked
+            );
+            cases.insert(&record.case);
+        }
+        drawn
+            && recorded
+                .values()
+                .all(|cases| cases.len() == reach.cases.len())
+    }
+}
+
+/// The indices of the cases and adapters that an expectation names.
+struct Reach {
+    cases: BTreeSet<usize>,
+    adapters: BTreeSet<usize>,
+}
+
+impl Reach {
+    fn is_within(&self, other: &Self) -> bool {
+        self.cases.is_subset(&other.cases) && self.adapters.is_subset(&other.adapters)
+    }
+}
+
+/// True if an expectation excuses the verdict of another, for each driver and on each day that the other does.
+fn covers(by: &Known, known: &Known) -> bool {
+    let verdict = by.excuses(known.verdict)
+        && (known.verdict == Verdict::Skipped) == (by.verdict == Verdict::Skipped);
+    let driver = by.driver == "*"
+        || by.driver == known.driver
+        || !is_pattern(&known.driver)
+            && compiled(&by.driver).is_ok_and(|glob| glob.is_match(&known.driver));
+    let version = by.version.is_none() || by.version == known.version;
+    let day = match (&by.expires, &known.expires) {
+        (None, _) => true,
+        (Some(_), None) => false,
+        (Some(by), Some(known)) => by >= known,
+    };
+    verdict && driver && version && day
+}
+
+fn is_pattern(glob: &str) -> bool {
+    glob.contains(['*', '?', '[', '{', '\\'])
+}
+
+/// The indices of the names, which are sorted, that one of the globs matches.
+fn reach(globs: &[String], names: &[String]) -> BTreeSet<usize> {
+    globs.iter().flat_map(|glob| matches(glob, names)).collect()
+}
+
+fn matches(glob: &str, names: &[String]) -> Vec<usize> {
+    if !is_pattern(glob) {
+        let found = names.binary_search_by(|name| name.as_str().cmp(glob));
+        return found.into_iter().collect();
+    }
+    let Ok(compiled) = compiled(glob) else {
+        return Vec::new();
+    };
+    let end = glob.find(['*', '?', '[', '{', '\\']).unwrap_or(glob.len());
+    let prefix = &glob[..end];
+    let start = names.partition_point(|name| name.as_str() < prefix);
+    let near = names.iter().enumerate().skip(start);
+    near.take_while(|(_, name)| name.starts_with(prefix))
+        .filter(|(_, name)| compiled.is_match(name))
+        .map(|(index, _)| index)
+        .collect()
+}
+
+/// The glob if it matches no name; else each form of it with one alternative alone that matches none.
+fn parts_without(glob: &str, names: &[String]) -> Vec<String> {
+    if matches(glob, names).is_empty() {
+        return vec![glob.to_owned()];
+    }
+    let parts = alternatives(glob).into_iter();
+    parts
+        .filter(|part| matches(part, names).is_empty())
+        .collect()
+}
+
+/// The glob with one alternative in place of one of its groups `{…}`, for each alternative of each group; none
+/// where it has no group, or groups within groups.
+fn alternatives(glob: &str) -> Vec<String> {
+    let mut all = Vec::new();
+    let mut rest = 0;
+    while let Some(open) = glob[rest..].find('{').map(|at| at + rest) {
+        let Some(close) = glob[open..].find('}').map(|at| at + open) else {
+            return Vec::new();
+        };
+        let inside = &glob[open + 1..close];
+        if inside.contains(['{', '[', '\\']) || glob[..open].ends_with(['\\', '[']) {
+            return Vec::new();
+        }
+        let each = inside.split(',');
+        all.extend(each.map(|one| format!("{}{one}{}", &glob[..open], &glob[close + 1..])));
+        rest = close + 1;
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::adapter::AdapterRecord;
+    use crate::header::{FORMAT, Header, Settings};
+    use crate::machine::Machine;
+    use crate::record::Record;
+
+    const IDS: [&str; 4] = ["a/x=1/y=1", "a/x=1/y=2", "a/x=2/y=1", "b"];
+
+    fn adapter(name: &str) -> AdapterRecord {
+        serde_json::from_value(serde_json::json!({
+            "name": name, "backend": "gl", "device": "d", "driver": "Mesa",
+            "driver_version": "Mesa 25.0.7", "api_version": "1", "software": true,
+            "limits": { "api": "open-gl", "sub_pixel_bits": 8, "max_size": 1,
+                "max_color_attachments": 8, "formats": {}, "features": [], "sample_positions": {} },
+        }))
+        .unwrap()
+    }
+
+    /// A run of these cases on `gl:a`, in which those that begin with `a` fail.
+    fn run(ids: &[&str]) -> Run {
+        let verdict = |id: &str| match id.starts_with('a') {
+            true => Verdict::Fail,
+            false => Verdict::Pass,
+        };
+        let records = ids.iter().map(|id| Record::new(*id, "gl:a", verdict(id)));
+        Run {
+            records: records.collect(),
+            truncated: false,
+            header: Header {
+                format: FORMAT,
+                etalon: String::new(),
+                commit: None,
+                machine: Machine::default(),
+                started: String::new(),
+                command: Vec::new(),
+                cases: ids.len() as u64,
+                settings: Settings::default(),
+                adapters: vec![adapter("gl:a")],
+                absent: Vec::new(),
+            },
+        }
+    }
+
+    fn entry(adapter: &str, case: &str, verdict: &str) -> String {
+        format!(
+            r#"{{ "adapter": "{adapter}", "driver": "*", "case": "{case}", "verdict": "{verdict}",
+                "reason": "r", "evidence": "e" }}"#
+        )
+    }
+
+    fn dead(entries: &[String], drawn: &[&str]) -> Vec<(DeadKind, String, String)> {
+        let text = format!("[{}]", entries.join(","));
+        let read = Expectations::parse(&text, Path::new("e")).unwrap();
+        let ids = IDS.map(str::to_owned);
+        let all = read.dead(&run(drawn), &ids, &["gl:b".to_owned()]);
+        all.into_iter()
+            .map(|d| (d.kind, d.place, d.about))
+            .collect()
+    }
+
+    fn one(kind: DeadKind, number: u32, about: &str) -> Vec<(DeadKind, String, String)> {
+        vec![(kind, format!("e: entry {number}"), about.to_owned())]
+    }
+
+    #[test]
+    fn what_matches_is_alive() {
+        for case in ["a/*", "a/x=1/y=1", "a/x={1,2}/y={1,2}", "*y=2", "a/x=1/y=?"] {
+            assert_eq!(dead(&[entry("gl:a", case, "fail")], &IDS), [], "{case}");
+            assert_eq!(dead(&[entry("*", case, "fail")], &IDS), [], "{case}");
+        }
+    }
+
+    #[test]
+    fn a_glob_that_matches_nothing_is_dead() {
+        let of = |adapter: &str, case: &str| dead(&[entry(adapter, case, "fail")], &IDS);
+        use DeadKind::{NoAdapter, NoCase};
+        assert_eq!(of("gl:a", "a/z=*"), one(NoCase, 1, "a/z=*"));
+        assert_eq!(of("gl:a", "a/x=1/y=3"), one(NoCase, 1, "a/x=1/y=3"));
+        let alternative = of("gl:a", "a/x={1,3}/y=1");
+        assert_eq!(alternative, one(NoCase, 1, "a/x=3/y=1"));
+        assert_eq!(of("gl:c", "a/*"), one(NoAdapter, 1, "gl:c"));
+        assert_eq!(of("gl:{a,c}", "a/*"), one(NoAdapter, 1, "gl:c"));
+        assert_eq!(of("gl:b", "a/*"), [], "described, and not used here");
+    }
+
+    #[test]
+    fn a_covered_entry_is_dead_and_of_twins_the_second() {
+        let (wide, narrow) = (entry("*", "a/*", "fail"), entry("gl:a", "a/x=1/*", "fail"));
+        let covered = |entries: &[&String]| {
+            let entries: Vec<String> = entries.iter().map(|e| (*e).clone()).collect();
+            dead(&entries, &IDS)
+        };
+        let kind = DeadKind::Covered;
+        assert_eq!(covered(&[&wide, &narrow]), one(kind, 2, "e: entry 1"));
+        assert_eq!(covered(&[&narrow, &wide]), one(kind, 1, "e: entry 2"));
+        assert_eq!(covered(&[&wide, &wide]), one(kind, 2, "e: entry 1"));
+        let crash = entry("gl:b", "a/x=1/*", "crash");
+        assert_eq!(covered(&[&wide, &crash]), []);
+        let flaky = entry("*", "a/*", "flaky");
+        assert_eq!(covered(&[&flaky, &crash]), one(kind, 2, "e: entry 1"));
+        let late = wide.replace("\"evidence\"", "\"expires\": \"2030-01-01\", \"evidence\"");
+        assert_eq!(covered(&[&late, &narrow]), []);
+        let ranged = wide.replace("\"evidence\"", "\"version\": \">=9\", \"evidence\"");
+        assert_eq!(covered(&[&ranged, &narrow]), []);
+    }
+
+    #[test]
+    fn an_entry_dies_only_when_all_its_cases_were_drawn_on_all_its_adapters() {
+        let never = |adapter: &str, case: &str, verdict: &str, drawn: &[&str]| {
+            dead(&[entry(adapter, case, verdict)], drawn)
+        };
+        let kind = DeadKind::NeverMatched;
+        assert_eq!(never("gl:a", "b", "fail", &IDS), one(kind, 1, "r"));
+        assert_eq!(never("gl:a", "a/*", "crash", &IDS), one(kind, 1, "r"));
+        assert_eq!(never("gl:a", "b", "fail", &IDS[..3]), [], "b was not drawn");
+        assert_eq!(
+            never("gl:a", "a/*", "crash", &IDS[1..]),
+            [],
+            "one was not drawn"
+        );
+        assert_eq!(never("gl:*", "b", "fail", &IDS), [], "gl:b was not used");
+        assert_eq!(never("gl:a", "b", "flaky", &IDS), [], "flakes may pass");
+        assert_eq!(never("gl:a", "b", "skipped", &IDS), []);
+    }
+
+    #[test]
+    fn the_list_lies_in_the_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        assert_eq!(Dead::read(folder.path()).unwrap(), []);
+        let one = Dead {
+            kind: DeadKind::NoCase,
+            place: "e".to_owned(),
+            about: "a/*".to_owned(),
+        };
+        Dead::write(folder.path(), std::slice::from_ref(&one)).unwrap();
+        assert_eq!(Dead::read(folder.path()).unwrap(), [one]);
+        Dead::write(folder.path(), &[]).unwrap();
+        assert!(!folder.path().join(DEAD_FILE).exists());
+    }
+}

@@ -1,0 +1,228 @@
+//! Findings: one bug of one driver in a file of its own.
+//!
+//! A finding says more than an expectation: the clause that the driver breaks, values that it was seen to write, and how
+//! the accusation is known. It excuses what it explains: its verdict, and, since one bug shows on weaker evidence in
+//! some cases, every violation of a weaker grade.
+
+use crate::error::RecordError;
+use crate::grade::Grade;
+use crate::json::without_position;
+use crate::verdict::Verdict;
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+use std::path::Path;
+
+/// One bug of one driver.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Finding {
+    /// The bug in one sentence.
+    pub title: String,
+    /// Globs over adapter names.
+    pub adapters: Vec<String>,
+    /// A glob over driver and version; `*` for any.
+    pub driver: String,
+    /// The driver versions that have the bug, such as `>=22.3, <25.1`; all where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub versions: Option<String>,
+    /// Globs over the ids of the cases that show the bug; `*` also matches `/`.
+    pub cases: Vec<String>,
+    /// The expected verdict, where it is not the grade's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
+    /// The grade of the accusation.
+    pub grade: Grade,
+    /// The document, version and section that the driver breaks; empty only while the finding is unread.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub clause: String,
+    /// What was seen.
+    pub evidence: Evidence,
+    /// The bug report's address.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub link: Option<String>,
+    /// The last day on which the finding excuses anything, as `2027-01-31`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expires: Option<String>,
+}
+
+/// The evidence of a finding: an array of values that were seen, or a text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Evidence {
+    /// Values.
+    Values(Vec<Seen>),
+    /// A text.
+    Text(String),
+}
+
+/// A value that a driver wrote, and what it may write.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Seen {
+    /// The case's id.
+    pub case: String,
+    /// Column and row.
+    pub texel: [u32; 2],
+    /// The sample; 0 where there is one.
+    #[serde(default)]
+    pub sample: u32,
+    /// The value that came back.
+    pub value: String,
+    /// The legal set.
+    pub set: String,
+}
+
+impl Serialize for Evidence {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Values(values) => values.serialize(serializer),
+            Self::Text(text) => text.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Evidence {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Either;
+        impl<'de> Visitor<'de> for Either {
+            type Value = Evidence;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a text, or an array of objects with case, texel, value and set")
+            }
+
+            fn visit_str<E>(self, text: &str) -> Result<Evidence, E> {
+                Ok(Evidence::Text(text.to_owned()))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Evidence, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(seq)).map(Evidence::Values)
+            }
+        }
+        deserializer.deserialize_any(Either)
+    }
+}
+
+impl Evidence {
+    fn is_empty(&self) -> bool {
+        match self {
+            Self::Values(values) => values.is_empty(),
+            Self::Text(text) => text.trim().is_empty(),
+        }
+    }
+}
+
+/// The remedy for a finding that does not parse.
+pub(crate) const REMEDY: &str =
+    "a finding needs title, adapters, driver, cases, grade, clause and evidence; see ci/README.md";
+
+impl Finding {
+    /// The expected verdict.
+    pub fn expected(&self) -> Verdict {
+        self.verdict.unwrap_or_else(|| self.grade.verdict())
+    }
+
+    /// Parses the text of a file; `path` serves messages only.
+    ///
+    /// # Errors
+    /// When the text does not parse, or a part of the finding says nothing.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, RecordError> {
+        let fail = |line, message| RecordError::Parse {
+            path: path.to_owned(),
+            line,
+            message,
+            remedy: REMEDY,
+        };
+        let finding: Self =
+            serde_json::from_str(text).map_err(|e| fail(e.line(), without_position(&e)))?;
+        let unread = finding.grade == Grade::Unread;
+        let parts = [
+            ("title", finding.title.trim().is_empty()),
+            ("adapters", finding.adapters.is_empty()),
+            ("cases", finding.cases.is_empty()),
+            ("clause", finding.clause.trim().is_empty() && !unread),
+            ("evidence", finding.evidence.is_empty()),
+        ];
+        for (key, empty) in parts {
+            if empty {
+                let at = text.find(&format!("\"{key}\"")).unwrap_or(0);
+                let line = text[..at].matches('\n').count() + 1;
+                return Err(fail(line, format!("\"{key}\" must say something")));
+            }
+        }
+        Ok(finding)
+    }
+
+    /// The text of a file with this finding.
+    ///
+    /// # Errors
+    /// When it has no JSON form.
+    pub fn to_text(&self) -> Result<String, RecordError> {
+        let mut text =
+            serde_json::to_string_pretty(self).map_err(RecordError::serialize("a finding"))?;
+        text.push('\n');
+        Ok(text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = r#"{
+  "title": "The blend constant stays.",
+  "adapters": ["gl:zink"],
+  "driver": "*",
+  "cases": ["blend/*"],
+  "grade": "disputed",
+  "clause": "OpenGL 4.6: 17.3.6.5",
+  "evidence": [
+    { "case": "blend/a", "texel": [1, 2], "value": "255", "set": "0" }
+  ]
+}"#;
+
+    #[test]
+    fn a_finding_reads_back_as_it_was_written() {
+        let finding = Finding::parse(TEXT, Path::new("f.json")).unwrap();
+        assert_eq!(finding.expected(), Verdict::Disputed);
+        let Evidence::Values(seen) = &finding.evidence else {
+            panic!("{finding:?}");
+        };
+        assert_eq!((seen[0].texel, seen[0].sample), ([1, 2], 0));
+        let again = Finding::parse(&finding.to_text().unwrap(), Path::new("f.json")).unwrap();
+        assert_eq!(again, finding);
+        let text = TEXT.replace("[\n    {", "\"").replace("}\n  ]", "\"");
+        let text = text.replace(
+            r#"" "case": "blend/a", "texel": [1, 2], "value": "255", "set": "0" ""#,
+            r#""seen""#,
+        );
+        let told = Finding::parse(&text, Path::new("f.json")).unwrap();
+        assert_eq!(told.evidence, Evidence::Text("seen".to_owned()));
+        let again = Finding::parse(&told.to_text().unwrap(), Path::new("f.json")).unwrap();
+        assert_eq!(again, told);
+    }
+
+    #[test]
+    fn errors_name_file_line_and_remedy() {
+        let error = |from: &str, to: &str| {
+            assert!(TEXT.contains(from), "{from}");
+            let text = TEXT.replacen(from, to, 1);
+            let error = Finding::parse(&text, Path::new("ci/findings/f.json"));
+            error.unwrap_err().to_string()
+        };
+        for (from, to, line, word) in [
+            ("\"driver\"", "\"drivers\"", 4, "drivers"),
+            ("disputed", "sure", 6, "sure"),
+            ("[\"blend/*\"]", "[]", 5, "\"cases\""),
+            ("OpenGL 4.6: 17.3.6.5", " ", 7, "\"clause\""),
+            ("\"texel\": [1, 2]", "\"texels\": [1, 2]", 9, "texels"),
+            ("The blend constant stays.", "", 2, "\"title\""),
+        ] {
+            let told = error(from, to);
+            let start = format!("ci/findings/f.json:{line}: ");
+            assert!(told.starts_with(&start) && told.contains(word), "{told}");
+            assert!(told.contains(REMEDY), "{told}");
+        }
+    }
+}

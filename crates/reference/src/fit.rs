@@ -1,0 +1,141 @@
+//! The step of a depth bias as a frame shows it. A text leaves the step open, but it is one step for all
+//! of an attachment, so a frame is legal if there is a step under which all of its samples are. The
+//! range of steps is searched by halving: the legal set of a part of the range holds every frame of
+//! every step in it, so a part whose set refuses the frame is refused whole, and a frame is refused
+//! only if all parts are.
+
+use crate::judge::{Judgement, judge_some};
+use crate::rules::Rules;
+use crate::texels::Texels;
+use crate::walk::depth_encoding;
+use etalon_frame::{ChannelEncoding, Frame, FrameError, LegalSet, Limits, compare};
+use etalon_scene::Scene;
+use std::borrow::Cow;
+
+/// The relative width of a part that is not halved again: what single results may be off by anyway.
+const NARROW: f64 = 2e-5;
+
+/// The most legal sets of one search. A search that ends early refuses nothing.
+const MOST_SETS: u32 = 160;
+
+/// Rules with the step of depth bias that a frame shows, and the legal set under it.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// The rules.
+    pub rules: Rules,
+    /// The values that they allow.
+    pub legal: LegalSet,
+}
+
+impl Judgement {
+    /// Returns the judgement under the step of depth bias that a frame of the scene shows; this one if
+    /// its scene leaves no step open.
+    ///
+    /// # Errors
+    /// If the frame is not one of the scene.
+    pub fn fitted(&self, scene: &Scene, frame: &Frame) -> Result<Cow<'_, Self>, FrameError> {
+        let (limits, texels) = (&self.limits, self.texels);
+        let found = fit(scene, limits, &self.rules, texels, &self.legal, frame)?;
+        Ok(match found {
+            None => Cow::Borrowed(self),
+            Some(Fitted { rules, legal }) => Cow::Owned(Self {
+                rules,
+                legal,
+                yardstick: self.yardstick.clone(),
+                limits: limits.clone(),
+                ..*self
+            }),
+        })
+    }
+}
+
+/// Returns the rules and the legal set under the step of depth bias that a frame of a scene shows; `None`
+/// if the scene leaves no step open, or the set that leaves it open refuses the frame.
+///
+/// # Errors
+/// If the frame is not one of the scene.
+pub fn fit(
+    scene: &Scene,
+    limits: &Limits,
+    rules: &Rules,
+    texels: Texels,
+    legal: &LegalSet,
+    frame: &Frame,
+) -> Result<Option<Fitted>, FrameError> {
+    let Some(encoding) = biased_encoding(scene, limits) else {
+        return Ok(None);
+    };
+    let is_fixed = matches!(encoding, ChannelEncoding::Unorm(_));
+    // The last is tried first.
+    let mut parts: Vec<_> = rules.depth_bias_unit.value.readings(encoding).to_vec();
+    parts.reverse();
+    if (!is_fixed && parts.len() < 2) || wrong(legal, frame)? > 0 {
+        return Ok(None);
+    }
+    if is_fixed {
+        // Before the whole range the usual steps, 2^-n and twice that.
+        let usual = [2.0, 1.0].map(|v: f64| (v * (1.0 - NARROW / 2.0), v * (1.0 + NARROW / 2.0)));
+        let whole = parts.clone();
+        let is_legal = |u: &(f64, f64)| whole.iter().any(|p| p.0 <= u.0 && u.1 <= p.1);
+        parts.extend(usual.into_iter().filter(is_legal));
+    }
+    let mut best: Option<(u64, Fitted)> = None;
+    let mut sets = 0;
+    while let Some(part) = parts.pop() {
+        if sets == MOST_SETS {
+            return Ok(None);
+        }
+        sets += 1;
+        let mut rules = rules.clone();
+        rules.depth_bias_unit.value.assumed = Some(part);
+        let legal = judge_some(scene, limits, &rules, texels);
+        let refused = wrong(&legal, frame)?;
+        let fitted = Fitted { rules, legal };
+        let is_narrow = !is_fixed || part.1 <= part.0 * (1.0 + 2.0 * NARROW);
+        match (refused, is_narrow) {
+            (0, true) => return Ok(Some(fitted)),
+            (0, false) => {
+                let middle = middle(part);
+                parts.extend([(middle, part.1), (part.0, middle)]);
+            }
+            _ => {
+                if best.as_ref().is_none_or(|(least, _)| refused < *least) {
+                    best = Some((refused, fitted));
+                }
+            }
+        }
+    }
+    Ok(best.map(|(_, fitted)| fitted))
+}
+
+/// Returns the encoding of the depth attachment that constant biases act on; `None` if there is none,
+/// or several, whose steps need not be the same.
+fn biased_encoding(scene: &Scene, limits: &Limits) -> Option<ChannelEncoding> {
+    let biased = scene.passes.iter().filter(|pass| {
+        let mut draws = pass.draws.iter();
+        draws.any(|draw| draw.depth_bias.constant != 0 && draw.depth.is_some())
+    });
+    let mut attachments: Vec<usize> = biased.filter_map(|pass| pass.depth_stencil).collect();
+    attachments.sort_unstable();
+    attachments.dedup();
+    match attachments[..] {
+        [one] if scene.attachments[one].format.has_depth() => {
+            Some(depth_encoding(scene, limits, one))
+        }
+        _ => None,
+    }
+}
+
+/// Returns the number of samples of a frame that a set refuses.
+fn wrong(legal: &LegalSet, frame: &Frame) -> Result<u64, FrameError> {
+    compare(frame, legal, legal, 0).map(|found| found.texels.wrong)
+}
+
+/// Returns the middle of a range of steps; of a wide one that of its logarithms.
+fn middle((low, high): (f64, f64)) -> f64 {
+    if high > low * 4.0 {
+        (low * high).sqrt()
+    } else {
+        (low + high) / 2.0
+    }
+}

@@ -1,0 +1,262 @@
+//! Sets by version of the text, by promise of the adapter and by evidence: what each leaves legal.
+
+use crate::common::{limits, scene};
+use etalon_frame::{Api, ApiVersion, Grade, Limits, Property};
+use etalon_reference::{Rules, judge};
+use etalon_scene::Scene;
+
+fn version(api: Api, major: u8, minor: u8) -> Limits {
+    let mut limits = limits(api);
+    limits.version = ApiVersion::new(major, minor);
+    limits.properties.clear();
+    limits
+}
+
+/// Returns whether each kind of evidence, from all to musts alone, allows the orders of a sample.
+fn allowed(scene: &Scene, limits: &Limits, sample: u32, orders: &[i64]) -> [bool; 3] {
+    let rules = Rules::of(limits);
+    Grade::ALL.map(|grade| {
+        let set = judge(scene, limits, &rules.bound_by(grade));
+        set.groups[0].sample(1, 1, sample).allows(orders)
+    })
+}
+
+const NEVER: [bool; 3] = [false; 3];
+const ALWAYS: [bool; 3] = [true; 3];
+/// A disputed reading forbids it.
+const DISPUTED: [bool; 3] = [false, true, true];
+/// A case of the CTS forbids it.
+const BY_CTS: [bool; 3] = [false, false, true];
+
+#[test]
+fn signed_blending_is_clamped_as_the_version_says() {
+    // -1 × 1 + 0: -127 by the range of the format, 0 where everything is clamped to [0,1].
+    let scene = scene(
+        r#"{"attachments":{"c":{"format":"rgba8snorm","size":[4,4],"clear":[0,0,0,0]}},
+            "passes":[{"color":["c"],"draws":[{"mesh":{"kind":"full"},"shader":"uniform_color","params":{"color":[-1,-1,-1,-1]},
+              "blend":{"color":{"operation":"add","src_factor":"one","dst_factor":"one"},
+                       "alpha":{"operation":"add","src_factor":"one","dst_factor":"one"}}}]}],
+            "read":["c"]}"#,
+    );
+    let at = |limits: &Limits, order: i64| allowed(&scene, limits, 0, &[order; 4]);
+    let old = version(Api::OpenGl, 3, 3);
+    assert_eq!(at(&old, 0), ALWAYS);
+    assert_eq!(at(&old, -127), DISPUTED);
+    for new in [version(Api::OpenGl, 4, 5), version(Api::OpenGl, 4, 6)] {
+        assert_eq!(at(&new, -127), ALWAYS);
+        assert_eq!(at(&new, 0), DISPUTED, "17.3.7 clamps to [0,1]");
+        assert_eq!(at(&new, -128), NEVER);
+    }
+    let vulkan = version(Api::Vulkan, 1, 3);
+    assert_eq!(at(&vulkan, -127), ALWAYS);
+    assert_eq!(at(&vulkan, 0), NEVER);
+    // A copy may give either code of -1.
+    let webgpu = limits(Api::WebGpu);
+    assert_eq!(at(&webgpu, -127), ALWAYS);
+    assert_eq!(at(&webgpu, -128), ALWAYS);
+    assert_eq!(at(&webgpu, 0), NEVER);
+}
+
+#[test]
+fn logic_operations_apply_to_srgb_by_3_3_alone() {
+    let scene = scene(
+        r#"{"attachments":{"c":{"format":"rgba8unorm-srgb","size":[4,4],"clear":[1,1,1,1]}},
+            "passes":[{"color":["c"],"draws":[{"mesh":{"kind":"full"},"shader":"uniform_color","params":{"color":[1,1,1,1]},
+              "logic":"xor"}]}],"read":["c"]}"#,
+    );
+    let at = |limits: &Limits, order: i64| allowed(&scene, limits, 0, &[order; 4]);
+    let old = version(Api::OpenGl, 3, 3);
+    assert_eq!(at(&old, 0), ALWAYS);
+    assert_eq!(at(&old, 255), DISPUTED);
+    let new = version(Api::OpenGl, 4, 6);
+    assert_eq!(at(&new, 255), ALWAYS);
+    assert_eq!(at(&new, 0), NEVER);
+}
+
+/// A draw with forced early tests on a stencil of 5, whose sample 1 of 4 the sample mask excludes, or whose
+/// alpha is 0 under alpha to coverage.
+fn early(multisample: &str, alpha: u8) -> Scene {
+    scene(&format!(
+        r#"{{"attachments":{{"c":{{"format":"rgba8unorm","size":[4,4],"samples":4,"clear":[0,0,0,0]}},
+             "s":{{"format":"stencil8","samples":4,"clear":5}}}},
+            "passes":[{{"color":["c"],"depth_stencil":"s","draws":[{{"mesh":{{"kind":"full"}},"shader":"uniform_color",
+              "params":{{"color":[1,1,1,{alpha}]}},"early_tests":"forced",
+              "multisample":{{{multisample}}},
+              "stencil":{{"front":{{"compare":"always","pass_op":"increment-clamp"}}}}}}]}}],
+            "read":["s"]}}"#
+    ))
+}
+
+#[test]
+fn the_sample_mask_may_act_after_forced_early_tests_without_a_promise() {
+    let scene = early(r#""mask":13"#, 1);
+    let mut vulkan = version(Api::Vulkan, 1, 3);
+    assert_eq!(allowed(&scene, &vulkan, 0, &[6]), ALWAYS);
+    assert_eq!(allowed(&scene, &vulkan, 0, &[5]), NEVER);
+    assert_eq!(allowed(&scene, &vulkan, 1, &[5]), ALWAYS);
+    assert_eq!(allowed(&scene, &vulkan, 1, &[6]), ALWAYS);
+    vulkan.properties.insert(Property::MaskBeforeCounting);
+    assert_eq!(allowed(&scene, &vulkan, 1, &[6]), NEVER);
+    let gl = version(Api::OpenGl, 4, 6);
+    assert_eq!(allowed(&scene, &gl, 1, &[6]), NEVER);
+}
+
+#[test]
+fn alpha_to_coverage_may_precede_forced_early_tests_without_a_promise() {
+    let scene = early(r#""alpha_to_coverage":true"#, 0);
+    let mut vulkan = version(Api::Vulkan, 1, 3);
+    for order in [5, 6] {
+        assert_eq!(allowed(&scene, &vulkan, 0, &[order]), ALWAYS, "{order}");
+    }
+    vulkan.properties.insert(Property::CoverageAfterCounting);
+    assert_eq!(allowed(&scene, &vulkan, 0, &[6]), ALWAYS);
+    assert_eq!(allowed(&scene, &vulkan, 0, &[5]), NEVER);
+}
+
+#[test]
+fn the_cts_wants_early_updates_of_fragments_that_are_discarded() {
+    let scene = scene(
+        r#"{"attachments":{"c":{"format":"rgba8unorm","size":[4,4]},"s":{"format":"stencil8","clear":5},
+             "t":{"format":"rgba8unorm","texels":{"kind":"rows","values":[[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,0]]}}},
+            "passes":[{"color":["c"],"depth_stencil":"s","draws":[{"mesh":{"kind":"full"},"shader":"texel_discard",
+              "params":{"color":[0,0,0,0.5]},"textures":["t"],"early_tests":"forced",
+              "stencil":{"front":{"compare":"always","pass_op":"increment-clamp"}}}]}],"read":["s"]}"#,
+    );
+    let mut vulkan = version(Api::Vulkan, 1, 3);
+    assert_eq!(allowed(&scene, &vulkan, 0, &[6]), ALWAYS);
+    assert_eq!(allowed(&scene, &vulkan, 0, &[5]), BY_CTS);
+    vulkan.properties.insert(Property::CoverageAfterCounting);
+    assert_eq!(allowed(&scene, &vulkan, 0, &[5]), NEVER);
+    for order in [5, 6] {
+        assert_eq!(
+            allowed(&scene, &version(Api::OpenGl, 4, 6), 0, &[order]),
+            ALWAYS
+        );
+    }
+}
+
+#[test]
+fn webgpu_does_not_say_that_the_stencil_reference_is_masked() {
+    let scene = scene(
+        r#"{"attachments":{"c":{"format":"rgba8unorm","size":[4,4],"clear":[0,0,0,0]},
+             "s":{"format":"stencil8","clear":0}},
+            "passes":[{"color":["c"],"depth_stencil":"s","draws":[{"mesh":{"kind":"full"},"shader":"uniform_color",
+              "params":{"color":[1,1,1,1]},
+              "stencil":{"front":{"compare":"greater","reference":170,"read_mask":0}}}]}],"read":["c"]}"#,
+    );
+    let (drawn, kept) = ([255; 4], [0; 4]);
+    let webgpu = limits(Api::WebGpu);
+    assert_eq!(allowed(&scene, &webgpu, 0, &kept), ALWAYS);
+    assert_eq!(allowed(&scene, &webgpu, 0, &drawn), DISPUTED);
+    for other in [version(Api::Vulkan, 1, 3), version(Api::OpenGl, 3, 3)] {
+        assert_eq!(allowed(&scene, &other, 0, &drawn), NEVER);
+    }
+}
+
+/// The legal range of a counter of shader runs, by all evidence and by musts alone.
+fn runs(scene: &Scene, limits: &Limits) -> [(u64, Option<u64>); 2] {
+    let rules = Rules::of(limits);
+    [Grade::Disputed, Grade::Proven].map(|grade| {
+        let range = judge(scene, limits, &rules.bound_by(grade)).counters[0].range;
+        (range.low, range.high)
+    })
+}
+
+fn counted(early: &str, draws: &str) -> Scene {
+    let draw = format!(
+        r#"{{"mesh":{{"kind":"full"}},"shader":"counted_color","params":{{"color":[1,1,1,1]}},"early_tests":"{early}",
+             "depth":{{"compare":"never","write":true}},"counters":["n"]}}"#
+    );
+    let draws = draws.replace("COUNTED", &draw);
+    scene(&format!(
+        r#"{{"attachments":{{"c":{{"format":"rgba8unorm","size":[4,4]}},"d":{{"format":"depth32float","clear":1}}}},
+            "counters":{{"n":"shader-runs"}},
+            "passes":[{{"color":["c"],"depth_stencil":"d","draws":[{draws}]}}],"read":["c"]}}"#
+    ))
+}
+
+#[test]
+fn a_fragment_that_fails_its_late_tests_has_a_run_as_each_text_says() {
+    let scene = counted("implicit", "COUNTED");
+    let one = (16, Some(16));
+    assert_eq!(runs(&scene, &version(Api::Vulkan, 1, 3)), [(16, None); 2]);
+    assert_eq!(
+        runs(&scene, &version(Api::OpenGlEs, 3, 1)),
+        [one, (0, Some(16))]
+    );
+    assert_eq!(runs(&scene, &version(Api::OpenGl, 4, 5)), [one; 2]);
+    assert_eq!(runs(&scene, &version(Api::OpenGl, 4, 6)), [one, (0, None)]);
+}
+
+#[test]
+fn forced_early_tests_prevent_runs_as_each_text_says() {
+    let scene = counted("forced", "COUNTED");
+    let none = (0, Some(0));
+    assert_eq!(runs(&scene, &version(Api::Vulkan, 1, 3)), [none, (0, None)]);
+    assert_eq!(runs(&scene, &version(Api::OpenGlEs, 3, 1)), [none; 2]);
+    assert_eq!(runs(&scene, &version(Api::OpenGl, 4, 5)), [none; 2]);
+    assert_eq!(runs(&scene, &version(Api::OpenGl, 4, 6)), [none, (0, None)]);
+}
+
+#[test]
+fn a_fragment_that_is_overwritten_may_go_without_a_run_in_es() {
+    let visible = r#"{"mesh":{"kind":"full"},"shader":"counted_color","params":{"color":[1,1,1,1]},"counters":["n"]}"#;
+    let scene = counted("implicit", &format!("{visible},{visible}"));
+    assert_eq!(runs(&scene, &version(Api::Vulkan, 1, 3)), [(32, None); 2]);
+    // Of two fragments of a texel the last one at least.
+    assert_eq!(
+        runs(&scene, &version(Api::OpenGlEs, 3, 2)),
+        [(16, Some(32)); 2]
+    );
+    assert_eq!(
+        runs(&scene, &version(Api::OpenGl, 4, 5)),
+        [(32, Some(32)); 2]
+    );
+}
+
+#[test]
+fn samples_at_edges_are_covered_where_the_text_says_so() {
+    // A triangle whose right edge goes through the middle of column 1.
+    let scene = scene(
+        r#"{"attachments":{"c":{"format":"rgba8unorm","size":[4,4],"samples":4,"clear":[0,0,0,0]}},
+            "passes":[{"color":["c"],"draws":[{"shader":"uniform_color","params":{"color":[1,1,1,1]},
+              "mesh":{"kind":"vertices","positions":[[-9,-40,0],[-0.25,-40,0],[-0.25,40,0]]}}]}],"read":["c"]}"#,
+    );
+    let (covered, kept) = ([255; 4], [0; 4]);
+    for exact in [version(Api::Vulkan, 1, 3), version(Api::OpenGl, 3, 3)] {
+        // The standard positions: 3/8 and 7/8 from the left.
+        assert_eq!(allowed(&scene, &exact, 0, &covered), ALWAYS);
+        assert_eq!(allowed(&scene, &exact, 0, &kept), NEVER);
+        assert_eq!(allowed(&scene, &exact, 1, &covered), NEVER);
+    }
+    for open in [version(Api::OpenGl, 4, 6), version(Api::OpenGlEs, 3, 2)] {
+        assert_eq!(allowed(&scene, &open, 0, &covered), ALWAYS);
+        assert_eq!(allowed(&scene, &open, 0, &kept), DISPUTED);
+        assert_eq!(allowed(&scene, &open, 1, &covered), DISPUTED);
+    }
+}
+
+#[test]
+fn a_half_float_that_overflows_is_no_nan_by_musts_in_vulkan_alone() {
+    let scene = scene(
+        r#"{"attachments":{"c":{"format":"rgba16float","size":[4,4],"clear":[0,0,0,0]}},
+            "passes":[{"color":["c"],"draws":[{"mesh":{"kind":"full"},"shader":"uniform_color",
+              "params":{"color":[100000,100000,100000,100000]}}]}],"read":["c"]}"#,
+    );
+    let (largest, infinity, nan) = ([0x7bff; 4], [0x7c00; 4], [0x7e00; 4]);
+    let vulkan = version(Api::Vulkan, 1, 3);
+    for legal in [largest, infinity] {
+        assert_eq!(allowed(&scene, &vulkan, 0, &legal), ALWAYS);
+        assert_eq!(
+            allowed(&scene, &version(Api::OpenGlEs, 3, 1), 0, &legal),
+            ALWAYS
+        );
+    }
+    assert_eq!(allowed(&scene, &vulkan, 0, &nan), NEVER);
+    assert_eq!(
+        allowed(&scene, &version(Api::OpenGlEs, 3, 1), 0, &nan),
+        DISPUTED
+    );
+    // What is copied in WebGPU may change where it is no number.
+    assert_eq!(allowed(&scene, &limits(Api::WebGpu), 0, &nan), ALWAYS);
+}

@@ -1,0 +1,112 @@
+//! Grades of violations: the strongest evidence that a frame breaks.
+//!
+//! Legal sets come from all evidence together. Only a frame outside of them is judged again, by the
+//! stronger evidence alone, so that a frame inside costs nothing more.
+
+use etalon_frame::{Band, CounterOutcome, Frame, Grade, Limits, compare};
+use etalon_record::MAX_WRONG_TEXELS;
+use etalon_reference::{Rules, Texels, fit, judge_some};
+use etalon_scene::Scene;
+use std::collections::HashSet;
+
+/// The samples and counters of a frame that some evidence forbids.
+struct Forbidden {
+    samples: HashSet<(u32, u32, u32)>,
+    /// The number of all of them, of which [`Forbidden::samples`] holds the first.
+    count: u64,
+    counters: Vec<bool>,
+}
+
+impl Forbidden {
+    fn any(&self) -> bool {
+        self.count > 0 || self.counters.contains(&true)
+    }
+}
+
+/// A frame's violations by the evidence that forbids them.
+pub(crate) struct Grades {
+    /// By musts of the text.
+    proven: Forbidden,
+    /// By those and the CTS.
+    required: Forbidden,
+}
+
+impl Grades {
+    /// Grades a frame that all evidence together forbids. `None` if all of it is proven.
+    pub(crate) fn of(
+        scene: &Scene,
+        limits: &Limits,
+        texels: Texels,
+        frame: &Frame,
+    ) -> Option<Self> {
+        let rules = Rules::of(limits);
+        let at = |grade| forbidden(scene, limits, texels, frame, &rules.bound_by(grade));
+        if rules.bound_by(Grade::Proven) == rules {
+            return None;
+        }
+        Some(Self {
+            proven: at(Grade::Proven),
+            required: at(Grade::RequiredByCts),
+        })
+    }
+
+    /// Returns the band of the whole frame.
+    pub(crate) fn frame(&self) -> Band {
+        self.band(Forbidden::any)
+    }
+
+    /// Returns the band of a sample that all evidence together forbids.
+    pub(crate) fn sample(&self, at: (u32, u32, u32)) -> Band {
+        self.band(|forbidden| forbidden.samples.contains(&at))
+    }
+
+    /// Returns the band of a counter that all evidence together forbids, by its position.
+    pub(crate) fn counter(&self, index: usize) -> Band {
+        self.band(|forbidden| forbidden.counters.get(index) == Some(&true))
+    }
+
+    fn band(&self, forbids: impl Fn(&Forbidden) -> bool) -> Band {
+        let grade = if forbids(&self.proven) {
+            Grade::Proven
+        } else if forbids(&self.required) {
+            Grade::RequiredByCts
+        } else {
+            Grade::Disputed
+        };
+        grade.band()
+    }
+}
+
+/// Returns what rules forbid of a frame, under the depth encodings that forbid the least.
+fn forbidden(
+    scene: &Scene,
+    limits: &Limits,
+    texels: Texels,
+    frame: &Frame,
+    rules: &Rules,
+) -> Forbidden {
+    let all = limits.alternatives(&scene.formats());
+    let each = all.iter().filter_map(|limits| {
+        let open = judge_some(scene, limits, rules, texels);
+        // One step of depth bias for the whole frame, as in the set by all evidence.
+        let set = match fit(scene, limits, rules, texels, &open, frame) {
+            Ok(Some(fitted)) => fitted.legal,
+            _ => open,
+        };
+        // The first wrong samples come in the same order under any rules, and fewer are wrong under
+        // wider ones: those that are kept reach as far as a record's.
+        let found = compare(frame, &set, &set, MAX_WRONG_TEXELS).ok()?;
+        let illegal = |counter: &CounterOutcome| counter.band == Some(Band::Fail);
+        Some(Forbidden {
+            samples: found.wrong.iter().map(|w| (w.x, w.y, w.sample)).collect(),
+            count: found.texels.wrong,
+            counters: found.counters.iter().map(illegal).collect(),
+        })
+    });
+    each.min_by_key(|f| (f.count, f.counters.iter().filter(|c| **c).count()))
+        .unwrap_or(Forbidden {
+            samples: HashSet::new(),
+            count: 0,
+            counters: Vec::new(),
+        })
+}

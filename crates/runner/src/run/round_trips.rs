@@ -1,0 +1,331 @@
+//! Round trips: a format is uploaded and read back. Whatever is judged came through them, so a run draws those
+//! that its cases lean on before everything else, and draws no case whose round trip failed.
+//!
+//! Clears and draws block nothing: one that goes wrong is a Fail of its own, and other cases of the format still
+//! say something about the driver.
+
+use etalon_case::{Case, CaseError, Library, Profile};
+use etalon_frame::{ChannelMismatch, TextureFormat};
+use etalon_record::{LossKind, Record, Verdict};
+use etalon_scene::Contents;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The start of the ids of round trips, before the format.
+const FAMILY: &str = "capabilities/round-trip/format=";
+
+/// Returns the round trips that the cases lean on, of each format the first that a library holds. A sharded run
+/// passes all selected cases, so that every shard draws the same round trips.
+///
+/// # Errors
+/// When the case file of the round trips is broken.
+pub fn round_trips(libraries: &[&Library], cases: &[Case]) -> Result<Vec<Case>, CaseError> {
+    let mut wanted: BTreeSet<TextureFormat> = cases.iter().flat_map(leans_on).collect();
+    let mut found = Vec::new();
+    for library in libraries {
+        let all = library.cases(Profile::Full);
+        for case in all.filter(|case| case.id().starts_with(FAMILY)) {
+            let case = case.build()?;
+            if format_of(&case).is_some_and(|format| wanted.remove(&format)) {
+                found.push(case);
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// The format whose round trip a case is; `None` for all other cases.
+fn format_of(case: &Case) -> Option<TextureFormat> {
+    if !case.id.starts_with(FAMILY) {
+        return None;
+    }
+    case.scene.attachments.first().map(|a| a.format)
+}
+
+/// The colour formats that a case uploads or reads back. A round trip leans on nothing. Depth and stencil are
+/// never uploaded, so they have no round trip.
+fn leans_on(case: &Case) -> BTreeSet<TextureFormat> {
+    if format_of(case).is_some() {
+        return BTreeSet::new();
+    }
+    let mut formats = BTreeSet::new();
+    for scene in case.scenes() {
+        for (index, attachment) in scene.attachments.iter().enumerate() {
+            let uploaded = matches!(attachment.contents, Contents::Texels(_));
+            if attachment.format.is_color() && (uploaded || scene.read.contains(&index)) {
+                formats.insert(attachment.format);
+            }
+        }
+    }
+    formats
+}
+
+/// The outcome of an adapter's round trips.
+#[derive(Clone, Debug, Default)]
+pub(super) struct RoundTrips {
+    failed: BTreeMap<TextureFormat, Failed>,
+    /// Formats whose round trip the expectations skip, with their reason.
+    unchecked: BTreeMap<TextureFormat, String>,
+    /// Why the driver does not start any more.
+    not_started: Option<String>,
+}
+
+/// A round trip that failed.
+#[derive(Clone, Debug)]
+struct Failed {
+    case: String,
+    /// The verdict, and the first wrong texel or the message.
+    account: String,
+    /// The reason why the failure is expected.
+    expected: Option<String>,
+}
+
+/// Why a case is not drawn.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Blocked {
+    /// The ids of the round trips that failed.
+    pub(super) by: Vec<String>,
+    /// For people.
+    pub(super) message: String,
+    /// The reason why it is expected, if all these failures are.
+    pub(super) expected: Option<String>,
+}
+
+impl RoundTrips {
+    /// Takes the record of a round trip.
+    pub(super) fn take(&mut self, case: &Case, record: &Record) {
+        let Some(format) = format_of(case) else {
+            return;
+        };
+        let end = record.process.as_ref().map(|end| end.kind);
+        if end == Some(LossKind::NotStarted) {
+            // Nothing is known about the format, and no other case can be drawn either.
+            self.not_started = Some(record.message.clone());
+        } else if record.verdict == Verdict::Skipped {
+            let reason = record.expected.as_ref();
+            let reason = reason.map_or_else(String::new, |e| e.reason.clone());
+            self.unchecked.insert(format, reason);
+        } else if fails(record) {
+            let failed = Failed {
+                case: case.id.clone(),
+                account: account(record),
+                expected: record.expected.as_ref().map(|e| e.reason.clone()),
+            };
+            self.failed.insert(format, failed);
+        }
+    }
+
+    /// Why the driver does not start any more; every other case is recorded so.
+    pub(super) fn not_started(&self) -> Option<&str> {
+        self.not_started.as_deref()
+    }
+
+    /// Why a case is not drawn; `None` if it may be.
+    pub(super) fn blocks(&self, case: &Case) -> Option<Blocked> {
+        if self.failed.is_empty() {
+            return None;
+        }
+        let formats = leans_on(case);
+        let failed = formats.iter().filter_map(|format| self.failed.get(format));
+        let failed: Vec<&Failed> = failed.collect();
+        if failed.is_empty() {
+            return None;
+        }
+        let told = failed.iter().map(|f| format!("{} {}", f.case, f.account));
+        let reasons: Option<Vec<String>> = failed
+            .iter()
+            .map(|f| f.expected.as_ref().map(|why| format!("{}: {why}", f.case)))
+            .collect();
+        Some(Blocked {
+            by: failed.iter().map(|f| f.case.clone()).collect(),
+            message: format!("not drawn: {}", told.collect::<Vec<_>>().join("; ")),
+            expected: reasons.map(|all| all.join("; ")),
+        })
+    }
+
+    /// The note on a case that is drawn though a round trip that it leans on was skipped.
+    pub(super) fn note(&self, case: &Case) -> Option<String> {
+        if self.unchecked.is_empty() {
+            return None;
+        }
+        let formats = leans_on(case);
+        let skipped = self.unchecked.iter().filter(|(f, _)| formats.contains(f));
+        let told = skipped.map(|(format, why)| {
+            format!("the round trip of {format} was skipped and not checked ({why})")
+        });
+        let told: Vec<String> = told.collect();
+        (!told.is_empty()).then(|| told.join("; "))
+    }
+}
+
+/// True if a round trip did not show that the format comes back as it was uploaded. What the adapter does not
+/// support it does not offer, so that blocks nothing.
+fn fails(record: &Record) -> bool {
+    // A validation message is an error of its own; here the picture decides.
+    let judged = record.texels.total > 0 && record.texels.open < record.texels.total;
+    let right = record.verdict == Verdict::InternalError
+        && !record.validation.is_empty()
+        && judged
+        && record.texels.wrong == 0;
+    record.verdict.is_bad() && !right
+}
+
+/// A failed round trip in a few words: `is fail: texel 3,0 of color: channel 0 holds 4, and 3 was due`.
+fn account(record: &Record) -> String {
+    let cause = match record.wrong.first() {
+        Some(wrong) => wrong.channels.first().map(|channel| {
+            let ChannelMismatch {
+                attachment,
+                channel,
+                low,
+                high,
+                actual,
+                ..
+            } = channel;
+            let due = match low == high {
+                true => low.to_string(),
+                false => format!("{low} to {high}"),
+            };
+            let (x, y) = (wrong.x, wrong.y);
+            format!(
+                "texel {x},{y} of {attachment}: channel {channel} holds {actual}, and {due} was due"
+            )
+        }),
+        None => {
+            let mut lines = record.message.lines().rev();
+            lines.find(|l| !l.trim().is_empty()).map(str::to_owned)
+        }
+    };
+    match cause {
+        Some(cause) => format!("is {}: {cause}", record.verdict),
+        None => format!("is {}", record.verdict),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_record::{Expected, ProcessEnd};
+
+    fn built(glob: &str) -> Vec<Case> {
+        let library = Library::built_in().expect("built-in files parse");
+        let globs = [glob.to_owned()];
+        let selection = crate::select(&library, Profile::Full, &globs).expect("a glob");
+        let cases = selection.cases.iter();
+        cases.map(|c| c.build().expect("a case")).collect()
+    }
+
+    fn trip(format: &str) -> Case {
+        let mut all = built(&format!("{FAMILY}{format}"));
+        all.pop().expect("a round trip")
+    }
+
+    #[test]
+    fn every_colour_format_has_its_round_trip_and_no_other_format_has() {
+        let found: BTreeSet<TextureFormat> = built(&format!("{FAMILY}*"))
+            .iter()
+            .filter_map(format_of)
+            .collect();
+        let due: BTreeSet<TextureFormat> = TextureFormat::ALL
+            .into_iter()
+            .filter(|f| f.is_color())
+            .collect();
+        assert_eq!(found, due);
+    }
+
+    #[test]
+    fn a_case_leans_on_what_it_uploads_and_reads_and_on_nothing_else() {
+        use TextureFormat::{Rgba8Unorm, Rgba32Float};
+        let leaned = |glob: &str| {
+            let all = built(glob);
+            assert!(!all.is_empty(), "{glob}");
+            all.iter().flat_map(leans_on).collect::<BTreeSet<_>>()
+        };
+        let depth = leaned("depth/clear");
+        assert_eq!(depth, BTreeSet::from([Rgba8Unorm]), "no depth format");
+        assert_eq!(
+            leaned("blend/factors"),
+            BTreeSet::from([Rgba8Unorm, Rgba32Float])
+        );
+        assert_eq!(leaned("capabilities/round-trip"), BTreeSet::new());
+        let library = Library::built_in().expect("built-in files parse");
+        let trips = round_trips(&[&library, &library], &built("blend/factors")).expect("trips");
+        let ids: BTreeSet<&str> = trips.iter().map(|c| c.id.as_str()).collect();
+        assert_eq!(trips.len(), 2, "each once: {ids:?}");
+    }
+
+    #[test]
+    fn bad_round_trips_block_their_format_and_good_ones_nothing() {
+        let trip = trip("rgba32float");
+        let [inside, outside] = ["blend/factors", "cull/triangle-list"].map(|glob| {
+            let mut all = built(glob);
+            all.pop().expect("a case")
+        });
+        for verdict in Verdict::ALL {
+            let mut found = RoundTrips::default();
+            found.take(&trip, &Record::new(&trip.id, "x", verdict));
+            assert_eq!(
+                found.blocks(&inside).is_some(),
+                verdict.is_bad(),
+                "{verdict}"
+            );
+            assert_eq!(found.blocks(&outside), None, "{verdict}");
+            assert_eq!(found.blocks(&trip), None, "a round trip leans on nothing");
+            let skipped = verdict == Verdict::Skipped;
+            assert_eq!(found.note(&inside).is_some(), skipped, "{verdict}");
+        }
+    }
+
+    #[test]
+    fn a_driver_that_does_not_start_tells_nothing_about_a_format() {
+        let trip = trip("rgba32float");
+        let mut record = Record::new(&trip.id, "x", Verdict::Crash);
+        record.message = "gone".to_owned();
+        record.process = Some(ProcessEnd {
+            kind: LossKind::NotStarted,
+            signal: None,
+            exit: None,
+            stderr: String::new(),
+            seconds: 0.0,
+        });
+        let mut found = RoundTrips::default();
+        found.take(&trip, &record);
+        assert_eq!(found.not_started(), Some("gone"));
+        assert!(found.failed.is_empty());
+    }
+
+    #[test]
+    fn a_validation_message_blocks_only_with_a_wrong_picture() {
+        let trip = trip("rgba32float");
+        let mut record = Record::new(&trip.id, "x", Verdict::InternalError);
+        assert!(fails(&record), "no picture at all");
+        record.validation = vec!["VUID".to_owned()];
+        assert!(fails(&record), "no picture at all");
+        record.texels.total = 9;
+        assert!(!fails(&record));
+        record.texels.open = 9;
+        assert!(fails(&record), "nothing was asserted");
+        record.texels.open = 0;
+        record.texels.wrong = 1;
+        assert!(fails(&record));
+    }
+
+    #[test]
+    fn a_case_is_expected_to_be_blocked_if_all_its_failures_are_expected() {
+        let (one, other) = (trip("rgba32float"), trip("rgba8unorm"));
+        let case = built("blend/factors").pop().expect("a case");
+        let mut known = Record::new(&one.id, "x", Verdict::Fail);
+        known.expected = Some(Expected {
+            reason: "bug 12".to_owned(),
+        });
+        let mut found = RoundTrips::default();
+        found.take(&one, &known);
+        let blocked = found.blocks(&case).expect("it is blocked");
+        let reason = format!("{}: bug 12", one.id);
+        assert_eq!(blocked.expected, Some(reason));
+        assert_eq!(blocked.by, [one.id.clone()]);
+        assert!(blocked.message.contains(&format!("{} is fail", one.id)));
+        found.take(&other, &Record::new(&other.id, "x", Verdict::Crash));
+        let blocked = found.blocks(&case).expect("it is blocked");
+        assert_eq!((blocked.expected, blocked.by.len()), (None, 2));
+    }
+}
