@@ -170,6 +170,7 @@ const WGPU_SOFTPIPE: Lacks = Lacks {
         "depth-bias-clamp fragment-invocations independent-blend sample-shading",
     ],
     drawing: &["rgba8snorm"],
+    blending: &["rgba32float"],
     ..WGPU_GL
 };
 

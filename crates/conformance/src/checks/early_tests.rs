@@ -3,7 +3,7 @@
 use super::Checked;
 use super::counters::{check_painted, counted};
 use crate::frames::{BLUE, Expect, RED};
-use crate::scenes::{blue, red, test, uploaded};
+use crate::scenes::{blue, red, test, uploaded, with};
 use crate::subject::Subject;
 use serde_json::{Value, json};
 
@@ -40,7 +40,7 @@ pub(crate) fn discarded_fragments_leave_early_stencils_alone(s: &Subject) -> Che
     for (tests, early) in [("implicit", false), ("forced", true)] {
         let frame = s.show(json!({
             "attachments": {
-                "color": blue(), "source": uploaded("columns", texels),
+                "color": with(blue(), json!({ "size": [4, 4] })), "source": uploaded("columns", texels),
                 "ds": { "format": "depth32float-stencil8", "clear": { "depth": 1, "stencil": 3 } } },
             "draws": [{
                 "mesh": { "kind": "full", "z": 0.5 }, "shader": "texel_discard", "textures": ["source"],

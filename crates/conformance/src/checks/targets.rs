@@ -19,7 +19,7 @@ const ROWS: [[u32; 4]; 4] = [
 
 pub(crate) fn images_of_all_targets_agree(s: &Subject) -> Checked {
     assert!(s.limits().max_color_attachments >= 4);
-    let target = json!({ "format": "rgba8unorm" });
+    let target = json!({ "format": "rgba8unorm", "size": [4, 4] });
     let frame = s.show(json!({
         "attachments": { "a": target, "b": target, "c": target, "d": target, "t": uploaded("rows", ROWS) },
         "draws": [{ "mesh": full(), "shader": "texel_color_all", "textures": ["t"] }],
@@ -35,8 +35,9 @@ pub(crate) fn images_of_all_targets_agree(s: &Subject) -> Checked {
 pub(crate) fn targets_blend_and_mask_on_their_own(s: &Subject) -> Checked {
     let add = component("add", "one", "one");
     let subtract = component("reverse-subtract", "one", "one");
+    let target = with(blue(), json!({ "size": [4, 4] }));
     let frame = s.show(json!({
-        "attachments": { "a": blue(), "b": blue(), "c": blue(), "t": uploaded("rows", ROWS) },
+        "attachments": { "a": target, "b": target, "c": target, "t": uploaded("rows", ROWS) },
         "draws": [
             { "mesh": full(), "shader": "texel_color_all", "textures": ["t"], "targets": [
                 { "blend": { "color": add, "alpha": subtract } },

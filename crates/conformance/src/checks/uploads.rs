@@ -2,7 +2,7 @@
 
 use super::Checked;
 use crate::frames::{BLUE, Expect, RED, check};
-use crate::scenes::{blue, full, rect, red, uploaded};
+use crate::scenes::{blue, full, rect, red, uploaded, with};
 use crate::subject::Subject;
 use serde_json::json;
 
@@ -100,7 +100,8 @@ pub(crate) fn fragments_are_discarded_below_a_threshold(s: &Subject) -> Checked 
         [13, 23, 33, 255],
     ];
     let frame = s.show(json!({
-        "attachments": { "color": blue(), "source": uploaded("columns", texels) },
+        "attachments": { "color": with(blue(), json!({ "size": [4, 4] })),
+                         "source": uploaded("columns", texels) },
         "draws": [
             { "mesh": rect([0, 0, 4, 2]), "shader": "texel_discard", "textures": ["source"],
               "params": { "color": [0, 0, 0, 0.5] } },
