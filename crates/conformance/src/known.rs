@@ -123,7 +123,10 @@ const GL: Lacks = Lacks {
     ..NOTHING
 };
 const GL_SOFTPIPE: Lacks = Lacks {
-    features: &["depth-bias-clamp mirrored-viewport sample-shading storage-counters"],
+    features: &[
+        "depth-bias-clamp min-sample-shading mirrored-viewport sample-shading \
+        storage-counters",
+    ],
     samples: &[EVERY_FORMAT],
     ..GL
 };
@@ -133,13 +136,13 @@ const ES_FEATURES: &str = "alpha-to-one conservative-depth depth-bounds fragment
 /// OpenGL ES of llvmpipe and zink.
 const ES: Lacks = Lacks {
     features: &[ES_FEATURES],
-    formats: &["bgra8unorm rgba8snorm"],
+    formats: &["bgra8unorm"],
     ..NOTHING
 };
 const ES_SOFTPIPE: Lacks = Lacks {
     features: &[
         ES_FEATURES,
-        "depth-bias-clamp independent-blend sample-shading",
+        "depth-bias-clamp independent-blend min-sample-shading sample-shading",
     ],
     samples: &[EVERY_FORMAT],
     ..ES
