@@ -160,11 +160,13 @@ const WGPU_VULKAN: Lacks = Lacks {
     samples: &["rgba8snorm rgba8uint depth16unorm"],
     ..NOTHING
 };
-/// wgpu 30 over OpenGL asks for extensions that core contexts have no need of.
+/// wgpu 30 over OpenGL asks for extensions that core contexts have no need of. It has no views of other
+/// formats, and all depths are read by a shader.
 const WGPU_GL: Lacks = Lacks {
     features: &[WGPU_FEATURES, "depth-bias-clamp fragment-invocations"],
     drawing: &["rgba8snorm rg11b10ufloat rgba32float"],
     blending: &[],
+    samples: &["rgba8snorm rgba8unorm-srgb rgba8uint"],
     ..WGPU_VULKAN
 };
 const WGPU_SOFTPIPE: Lacks = Lacks {
