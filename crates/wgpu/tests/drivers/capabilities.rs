@@ -7,7 +7,6 @@ use etalon_frame::{Api, Feature, Requirement, TextureFormat};
 /// What the drivers' descriptions do not hold.
 pub(crate) fn offers(backend: &dyn Backend) {
     let limits = backend.limits();
-    let vulkan = backend.adapter().name == "wgpu:vulkan:lavapipe";
     assert_eq!(limits.api, Api::WebGpu);
     for (format, support) in &limits.formats {
         assert!(matches!(support.samples[..], [] | [1, ..]), "{format}");
