@@ -195,7 +195,8 @@ fn a_case_that_fails_only_after_another_names_it() {
         let out = folder();
         etalon(&[
             "run",
-            "cull/*",
+            "cull/triangle-*",
+            "cull/two-sided-stencil/*",
             "--adapter",
             "cpu:fault=after",
             "--jobs",
