@@ -1,11 +1,12 @@
-//! Drivers: how tests reach them, what they lack and what they are known to do wrong.
+//! Drivers: how tests reach them, and how the checks are run on them.
 
 use crate::checks::{CHECKS, Check};
 use crate::child::in_child;
+use crate::known::{Known, WHOLE};
+use crate::prediction::{Prediction, predict};
 use crate::subject::{Outcome, Subject};
 use etalon_backend::Backend;
-use etalon_frame::{Feature, Requirement};
-use std::collections::BTreeSet;
+use etalon_frame::Requirement;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The environment of Mesa's llvmpipe.
@@ -18,24 +19,6 @@ pub const SOFTPIPE: &[(&str, &str)] = &[
     ("LIBGL_ALWAYS_SOFTWARE", "1"),
     ("GALLIUM_DRIVER", "softpipe"),
 ];
-/// Checks that softpipe fails through OpenGL, OpenGL ES and wgpu, each with its defect.
-pub const SOFTPIPE_DEFECTS: &[(&str, &str)] = &[
-    (
-        "depth::a_slope_bias_counts_the_slope",
-        "a bias that is not the slope times its factor",
-    ),
-    (
-        "sampling::neighbours_in_the_mirror_are_averaged",
-        "the wrong neighbour in the mirror",
-    ),
-    (
-        "formats::uploads_are_fetched",
-        "the lowest code of rgba8snorm, fetched as less than -1",
-    ),
-    ("counters::rejected_fragments_run", EARLY),
-    ("counters::forced_tests_come_before_the_shader", EARLY),
-];
-const EARLY: &str = "fragments that are rejected before a shader that counts";
 /// The environment of Mesa's zink over its software Vulkan.
 pub const ZINK: &[(&str, &str)] = &[
     ("LIBGL_ALWAYS_SOFTWARE", "1"),
@@ -47,14 +30,12 @@ pub const GALLIUM_INSTALL: &str = "apt-get install libegl1 libgl1-mesa-dri mesa-
 
 /// One way to a driver, and what the tests know of it.
 pub struct Driver<'a> {
+    /// What it lacks and does wrong.
+    pub known: Known,
     /// Variables of the process that opens it; none where it is opened in this process.
     pub environment: Vec<(&'a str, String)>,
     /// Opens it, with validation where asked for. Panics where that fails: nothing would be tested.
     pub open: fn(bool) -> Box<dyn Backend>,
-    /// Beginnings of the requirements that it may lack.
-    pub lacks: &'a [&'a str],
-    /// Names of checks that it fails, each with its defect. They are not run.
-    pub defects: Vec<(&'a str, &'a str)>,
     /// Parts of messages of validation that are not the backend's fault.
     pub tolerated: &'a [&'a str],
 }
@@ -65,55 +46,38 @@ pub fn variables<'a>(environment: &[(&'a str, &str)]) -> Vec<(&'a str, String)> 
     environment.iter().map(owned).collect()
 }
 
-/// The name of a defect of four samples: all scenes that need them are left out.
-pub const FOUR_SAMPLES: &str = "four samples";
-/// The name of a defect of shaders that count: all scenes that need them are left out.
-pub const COUNTING_SHADERS: &str = "counting shaders";
-
 impl<'a> Driver<'a> {
     /// Returns an open backend of this driver as the subject of checks.
     pub fn subject(&self, backend: &'a dyn Backend) -> Subject<'a> {
-        let mut subject = Subject::new(backend, self.tolerated);
-        for (name, defect) in &self.defects {
-            subject = match *name {
-                FOUR_SAMPLES => subject.without_four_samples(),
-                COUNTING_SHADERS => subject.without_feature(Feature::StorageCounters),
-                _ => continue,
-            };
-            println!("{name}: left out, for {defect}");
+        for (name, defect) in self.known.defects.iter().copied().flatten() {
+            if WHOLE.contains(name) {
+                println!("{name}: left out, for {defect}");
+            }
         }
-        subject
+        self.known.subject(backend, self.tolerated)
     }
 }
 
 impl Driver<'_> {
-    /// Runs checks, and returns the names of those that were skipped.
-    fn run_each(
-        &self,
-        backend: &dyn Backend,
-        chosen: impl Fn(&Check) -> bool,
-    ) -> BTreeSet<&'static str> {
+    fn run_each(&self, backend: &dyn Backend, chosen: impl Fn(&Check) -> bool) {
+        if let Some(lacks) = &self.known.lacks {
+            lacks.check(backend.limits());
+        }
         let subject = self.subject(backend);
         subject.check_silence("opening");
-        let (mut failed, mut skipped) = (Vec::new(), BTreeSet::new());
-        for check in CHECKS.iter().filter(|check| chosen(check)) {
-            match catch_unwind(AssertUnwindSafe(|| self.run(check, &subject))) {
-                Ok(true) => {}
-                Ok(false) => {
-                    skipped.insert(check.name);
-                }
-                Err(_) => failed.push(check.name),
-            }
-        }
+        let chosen = CHECKS.iter().filter(|check| chosen(check));
+        let fails =
+            |check: &&Check| catch_unwind(AssertUnwindSafe(|| self.run(check, &subject))).is_err();
+        let failed: Vec<_> = chosen.filter(fails).map(|check| check.name).collect();
         assert!(failed.is_empty(), "these checks fail: {failed:#?}");
-        skipped
     }
 
-    /// Runs a check. Returns false where nothing was drawn.
-    fn run(&self, check: &Check, subject: &Subject<'_>) -> bool {
-        if let Some((_, defect)) = self.defects.iter().find(|d| d.0 == check.name) {
+    /// Runs a check, and holds that it draws where the driver's description says so.
+    fn run(&self, check: &Check, subject: &Subject<'_>) {
+        let mut defects = self.known.defects.iter().copied().flatten();
+        if let Some((_, defect)) = defects.find(|d| d.0 == check.name) {
             println!("{}: skipped, for {defect}", check.name);
-            return false;
+            return;
         }
         let (ran, missing) = match check.run(subject) {
             Outcome::Passed(missing) => (true, missing),
@@ -125,11 +89,23 @@ impl Driver<'_> {
             (true, false) => println!("{}: ok, but for {}", check.name, names.join(", ")),
             (false, _) => println!("{}: skipped, for lack of {}", check.name, names.join(", ")),
         }
-        let known = |name: &String| self.lacks.iter().any(|l| name.starts_with(l));
-        let unknown: Vec<_> = names.iter().filter(|name| !known(name)).collect();
-        let adapter = &subject.adapter().name;
-        assert!(unknown.is_empty(), "{adapter} must not lack {unknown:?}");
-        ran
+        if let Some(lacks) = &self.known.lacks {
+            let due = lacks.limits(subject.limits().api);
+            // The driver offers what the tests leave out.
+            let denied = |r: &&Requirement| subject.backend.limits().missing(&[**r]).is_some();
+            let unknown = missing.iter().filter(denied);
+            let unknown = unknown.filter(|r| due.missing(&[**r]).is_none());
+            let unknown: Vec<_> = unknown.map(Requirement::to_string).collect();
+            assert!(
+                unknown.is_empty(),
+                "{} must not lack {unknown:?}",
+                self.known.name
+            );
+        }
+        if let Some(due) = predict(check, &self.known) {
+            let skips = due == Prediction::Skips;
+            assert_eq!(ran, !skips, "{} on {}", check.name, self.known.name);
+        }
     }
 }
 
@@ -143,15 +119,12 @@ pub fn run(test: &str, subject: &str, driver: &Driver<'_>) {
     });
 }
 
-/// Runs every check on one open backend, and holds where told that exactly these were skipped.
+/// Runs every check on one open backend.
 ///
 /// # Panics
 /// When checks fail; after all have run, with their names.
-pub fn run_all(backend: &dyn Backend, driver: &Driver<'_>, skipped: Option<&[&str]>) {
-    let left_out = driver.run_each(backend, |_| true);
-    if let Some(skipped) = skipped {
-        assert_eq!(left_out, skipped.iter().copied().collect(), "skipped");
-    }
+pub fn run_all(backend: &dyn Backend, driver: &Driver<'_>) {
+    driver.run_each(backend, |_| true);
 }
 
 /// Opens the driver in a process with its environment, as the test of this path.

@@ -55,15 +55,40 @@ pub(crate) fn check_samples<C: AsRef<[u32]>>(image: &Image, due: impl Fn(u32, u3
     }
 }
 
-/// Holds every sample of `color` to be red where told and blue elsewhere.
-#[track_caller]
-pub(crate) fn check_red(frame: &Frame, red: impl Fn(u32, u32) -> bool) {
-    check(
-        color(frame, "color"),
-        |x, y| {
-            if red(x, y) { RED } else { BLUE }
-        },
-    );
+/// Holds images of a frame against what is due at each column and row, in all samples.
+pub(crate) trait Expect {
+    /// Holds `color` to be red where told and blue elsewhere.
+    #[track_caller]
+    fn is_red(&self, red: impl Fn(u32, u32) -> bool) {
+        self.color_is("color", |x, y| if red(x, y) { RED } else { BLUE });
+    }
+
+    /// Holds an attachment against the codes due.
+    fn color_is<C: AsRef<[u32]>>(&self, attachment: &str, due: impl Fn(u32, u32) -> C);
+
+    /// Holds an attachment against the codes of depths.
+    fn depth_is(&self, attachment: &str, due: impl Fn(u32, u32) -> f64);
+
+    /// Holds an attachment against stencil values.
+    fn stencil_is(&self, attachment: &str, due: impl Fn(u32, u32) -> u32);
+}
+
+impl Expect for Frame {
+    #[track_caller]
+    fn color_is<C: AsRef<[u32]>>(&self, attachment: &str, due: impl Fn(u32, u32) -> C) {
+        check(color(self, attachment), due);
+    }
+
+    #[track_caller]
+    fn depth_is(&self, attachment: &str, due: impl Fn(u32, u32) -> f64) {
+        let image = depth(self, attachment);
+        check(image, |x, y| [image.channels[0].nearest_code(due(x, y))]);
+    }
+
+    #[track_caller]
+    fn stencil_is(&self, attachment: &str, due: impl Fn(u32, u32) -> u32) {
+        check(stencil(self, attachment), |x, y| [due(x, y)]);
+    }
 }
 
 /// Holds numbers to be near others.

@@ -1,66 +1,130 @@
-//! Scenes from the text of case files.
+//! Scenes as JSON, in the words of case files.
 
 use etalon_case::{CaseFile, Profile};
+use etalon_frame::TextureFormat;
 use etalon_scene::Scene;
+use serde_json::{Value, json};
 
-/// Draws red.
-pub(crate) const PAINT: &str = r#""shader": "uniform_color", "params": { "color": [1, 0, 0, 1] }"#;
-/// Draws front faces red, back faces green.
-pub(crate) const FACING: &str =
-    r#""shader": "front_facing", "params": { "color": [1, 0, 0, 1], "back_color": [0, 1, 0, 1] }"#;
-/// A quadrilateral over exactly the viewport.
-pub(crate) const WHOLE: &str = r#""topology": "triangle-strip", "mesh": { "kind": "vertices",
-    "positions": [[-1, 1, 0], [-1, -1, 0], [1, 1, 0], [1, -1, 0]] }"#;
-/// A triangle over every sample; rectangles are certain of the texels' centres only.
-pub(crate) const EVERYWHERE: &str = r#""mesh": { "kind": "vertices", "values": [[1, 0, 0, 1]],
-    "positions": [[-1, -1, 0], [3, -1, 0], [-1, 3, 0]] }"#;
-
-/// The scene of a case file with this text as its `scene`.
-pub fn scene(json: &str) -> Scene {
-    let text = format!(r#"{{ "about": "A check.", "spec": [], "scene": {json} }}"#);
-    let file = CaseFile::parse("check.json", &text).unwrap_or_else(|e| panic!("{e}: {json}"));
+/// The scene of a case file with this as its `scene`. Two keys may be left out: without `passes`,
+/// there is one pass of `draws` to all attachments that are not its textures; without `read`, all
+/// attachments are read back.
+pub fn scene(mut body: Value) -> Scene {
+    if let Some(draws) = body.as_object_mut().unwrap().remove("draws") {
+        body["passes"] = json!([pass(&body["attachments"], &draws)]);
+    }
+    if body.get("read").is_none() {
+        let attachments = body["attachments"].as_object().unwrap();
+        body["read"] = attachments.keys().cloned().collect();
+    }
+    let text = json!({ "about": "A check.", "spec": [], "scene": body }).to_string();
+    let file = CaseFile::parse("check.json", &text).unwrap_or_else(|e| panic!("{e}: {text}"));
     let case = file.cases(Profile::Full).next().unwrap();
-    case.build().unwrap_or_else(|e| panic!("{e}: {json}")).scene
+    case.build().unwrap_or_else(|e| panic!("{e}: {text}")).scene
 }
 
-/// A scene from the insides of its attachments and passes, and what is read back.
-pub(crate) fn scene_of(attachments: &str, passes: &str, read: &[&str]) -> Scene {
-    scene(&format!(
-        r#"{{ "attachments": {{ {attachments} }}, "passes": [ {passes} ], "read": {read:?} }}"#
-    ))
+/// A pass to all attachments that no draw names as a texture.
+fn pass(attachments: &Value, draws: &Value) -> Value {
+    let textures = draws.as_array().unwrap().iter();
+    let textures = textures.filter_map(|draw| draw["textures"].as_array());
+    let textures: Vec<_> = textures.flatten().collect();
+    let mut pass = json!({ "color": [], "draws": draws });
+    for (name, attachment) in attachments.as_object().unwrap() {
+        let format: TextureFormat = serde_json::from_value(attachment["format"].clone()).unwrap();
+        if textures.contains(&&json!(name)) {
+            continue;
+        }
+        match format.is_color() {
+            true => pass["color"].as_array_mut().unwrap().push(json!(name)),
+            false => pass["depth_stencil"] = json!(name),
+        }
+    }
+    pass
 }
 
-/// A scene of draws into an `rgba8unorm` attachment `color` of 16 by 16 texels, cleared to blue.
-pub(crate) fn over_blue(draws: &[String]) -> Scene {
-    scene_of(
-        r#""color": { "format": "rgba8unorm", "clear": [0, 0, 1, 1] }"#,
-        &format!(r#"{{ "color": ["color"], "draws": [ {} ] }}"#, list(draws)),
-        &["color"],
-    )
+/// An object with the keys of two.
+pub fn with(mut object: Value, more: Value) -> Value {
+    let Value::Object(more) = more else {
+        panic!("{more} is no object");
+    };
+    object.as_object_mut().unwrap().extend(more);
+    object
 }
 
-/// A scene of one draw, as the insides of its JSON, over blue.
-pub(crate) fn one_draw(draw: &str) -> Scene {
-    over_blue(&[format!("{{ {draw} }}")])
+/// A scene of one draw to an attachment `color` of 16 by 16 texels, cleared to blue.
+pub(crate) fn over_blue(draw: Value) -> Value {
+    json!({ "attachments": { "color": blue() }, "draws": [draw] })
 }
 
-/// The elements of a JSON list.
-pub(crate) fn list(elements: &[String]) -> String {
-    elements.join(", ")
+/// An `rgba8unorm` attachment cleared to blue.
+pub(crate) fn blue() -> Value {
+    json!({ "format": "rgba8unorm", "clear": [0, 0, 1, 1] })
+}
+
+/// An `rgba8unorm` attachment with these rows, columns or grid of texels.
+pub(crate) fn uploaded(kind: &str, texels: impl Into<Value>) -> Value {
+    let texels: Value = texels.into();
+    json!({ "format": "rgba8unorm", "texels": { "kind": kind, "values": texels } })
 }
 
 /// An `rgba8unorm` attachment of 16 by 16 texels that all hold the same.
-pub(crate) fn uploaded(name: &str, texel: [u32; 4]) -> String {
-    format!(
-        r#""{name}": {{ "format": "rgba8unorm", "texels": {{ "kind": "rows", "values": {:?} }} }}"#,
-        [texel; 16]
-    )
+pub(crate) fn filled(texel: [u32; 4]) -> Value {
+    uploaded("rows", [texel; 16])
 }
 
-/// A `blend` key with the same operation and factors for colour and alpha.
-pub(crate) fn blend(operation: &str, src: &str, dst: &str) -> String {
-    let both = format!(
-        r#"{{ "operation": "{operation}", "src_factor": "{src}", "dst_factor": "{dst}" }}"#
-    );
-    format!(r#""blend": {{ "color": {both}, "alpha": {both} }}"#)
+/// The parameters of a shader that draws red.
+pub(crate) fn red() -> Value {
+    json!({ "color": [1, 0, 0, 1] })
+}
+
+/// The parameters of a shader that draws green.
+pub(crate) fn green() -> Value {
+    json!({ "color": [0, 1, 0, 1] })
+}
+
+/// The parameters of a shader that tells red from green.
+pub(crate) fn red_or_green() -> Value {
+    json!({ "color": [1, 0, 0, 1], "back_color": [0, 1, 0, 1] })
+}
+
+/// The parts of a draw in red, but for its mesh.
+pub(crate) fn painted() -> Value {
+    json!({ "shader": "uniform_color", "params": red() })
+}
+
+/// A mesh over all texels.
+pub(crate) fn full() -> Value {
+    json!({ "kind": "full" })
+}
+
+/// A mesh of the texels from one corner to before another.
+pub(crate) fn rect(texels: [u32; 4]) -> Value {
+    json!({ "kind": "rect", "texels": texels })
+}
+
+/// The corners of [`rect`] as a triangle strip, which covers all samples of its texels.
+pub(crate) fn corners([left, top, right, bottom]: [u32; 4]) -> Value {
+    json!({ "kind": "vertices", "units": "texels", "positions":
+        [[left, top, 0], [left, bottom, 0], [right, top, 0], [right, bottom, 0]] })
+}
+
+/// A triangle over every sample; rectangles are certain of the texels' centres only.
+pub(crate) fn everywhere(value: Value) -> Value {
+    json!({ "kind": "vertices", "values": [value],
+            "positions": [[-1, -1, 0], [3, -1, 0], [-1, 3, 0]] })
+}
+
+/// A depth test.
+pub(crate) fn test(compare: &str, write: bool) -> Value {
+    json!({ "compare": compare, "write": write })
+}
+
+/// The operation and the factors of a blended component.
+pub(crate) fn component(operation: &str, src: &str, dst: &str) -> Value {
+    json!({ "operation": operation, "src_factor": src, "dst_factor": dst })
+}
+
+/// Blending with the same operation and factors for colour and alpha.
+pub(crate) fn blend(operation: &str, src: &str, dst: &str) -> Value {
+    let both = component(operation, src, dst);
+    json!({ "color": both, "alpha": both })
 }

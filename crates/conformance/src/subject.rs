@@ -1,8 +1,10 @@
 //! One open backend under test: draws scenes and keeps account of those that its limits deny.
 
+use crate::scenes::scene;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
 use etalon_frame::{Feature, Frame, Limits, Requirement};
 use etalon_scene::Scene;
+use serde_json::Value;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -125,6 +127,11 @@ impl<'a> Subject<'a> {
         check_shape(scene, &first);
         self.check_silence("a scene");
         Ok(first)
+    }
+
+    /// Draws a scene of JSON as [`Self::draw`] does.
+    pub(crate) fn show(&self, body: Value) -> Result<Frame, Missing> {
+        self.draw(&scene(body))
     }
 
     /// Holds that validation and debug output said nothing that the backend answers for.

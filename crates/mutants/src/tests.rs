@@ -13,6 +13,7 @@ fn every_mutant_is_named_explained_and_sourced() {
         "early-z",
         "texture",
         "order",
+        "capabilities",
     ];
     let mut names = HashSet::new();
     assert!(mutants().len() >= 1000, "{}", mutants().len());

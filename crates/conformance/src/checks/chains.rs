@@ -1,10 +1,11 @@
 //! Passes that read what earlier passes left: drawn, resolved to, cleared or uploaded.
 
 use super::Checked;
-use crate::frames::{BLUE, GREEN, NONE, RED, check, check_near, color, values};
-use crate::scenes::{scene, scene_of};
+use crate::frames::{BLUE, Expect, GREEN, NONE, RED, check_near, color, texels, values};
+use crate::scenes::{blend, corners, green, rect, red};
 use crate::subject::Subject;
 use etalon_frame::{ChannelEncoding, TextureFormat};
+use serde_json::{Value, json};
 
 /// The draws of a chain, by turns: all of 5 by 4 texels, or a part.
 const PARTS: [[u32; 4]; 6] = [
@@ -16,46 +17,39 @@ const PARTS: [[u32; 4]; 6] = [
     [2, 0, 5, 4],
 ];
 
-fn fetch(texels: [u32; 4], texture: &str, more: &str) -> String {
-    format!(
-        r#"{{ "mesh": {{ "kind": "rect", "texels": {texels:?} }}, "shader": "texel_color",
-            "textures": ["{texture}"] {more} }}"#
-    )
+/// A draw of texels of a texture.
+fn fetch(texels: [u32; 4], texture: &str) -> Value {
+    json!({ "mesh": rect(texels), "shader": "texel_color", "textures": [texture] })
 }
 
 /// By turns each of two attachments is added to the other: the first pass reads an upload and draws
 /// to a clear, all others read what was drawn.
 pub(crate) fn two_attachments_take_turns(s: &Subject) -> Checked {
-    let both = r#"{ "operation": "add", "src_factor": "one", "dst_factor": "one" }"#;
-    let blend = format!(r#", "blend": {{ "color": {both}, "alpha": {both} }}"#);
     let start = |x: u32, y: u32| [x + 5 * y, 1, 0, 2];
+    let grid = [0, 1, 2, 3].map(|y| [0, 1, 2, 3, 4].map(|x| start(x, y)));
     for (format, passes) in [
         (TextureFormat::Rgba8Unorm, 6),
         (TextureFormat::R8Unorm, 6),
         (TextureFormat::Rgba16Float, 6),
         (TextureFormat::Rgba32Float, 24),
     ] {
-        let row = |y| [0, 1, 2, 3, 4].map(|x| start(x, y));
         let part = |pass: usize| PARTS[pass % PARTS.len()];
         let pass = |pass: usize| {
             let (to, from) = [("b", "a"), ("a", "b")][pass % 2];
-            let draw = fetch(part(pass), from, &blend);
-            format!(r#"{{ "color": ["{to}"], "draws": [ {draw} ] }}"#)
+            let mut draw = fetch(part(pass), from);
+            draw["blend"] = blend("add", "one", "one");
+            json!({ "color": [to], "draws": [draw] })
         };
-        let scene = scene_of(
-            &format!(
-                r#""a": {{ "format": "{format}", "size": [5, 4], "texels": {{ "kind": "grid", "values": {:?} }} }},
-                   "b": {{ "format": "{format}", "size": [5, 4], "clear": [0, 0, 0, 0] }}"#,
-                [0, 1, 2, 3].map(row)
-            ),
-            &(0..passes).map(pass).collect::<Vec<_>>().join(","),
-            &["a", "b"],
-        );
-        let Ok(frame) = s.draw(&scene) else {
+        let Ok(frame) = s.show(json!({
+            "attachments": {
+                "a": { "format": format, "size": [5, 4], "texels": { "kind": "grid", "values": grid } },
+                "b": { "format": format } },
+            "passes": (0..passes).map(pass).collect::<Vec<_>>(),
+        })) else {
             continue;
         };
         for (name, which) in [("a", 0), ("b", 1)] {
-            check(color(&frame, name), |x, y| {
+            frame.color_is(name, |x, y| {
                 let mut sums = [start(x, y), [0; 4]];
                 // A channel that a format lacks reads as 0, alpha as 1, and is not written.
                 for pass in 0..passes {
@@ -80,66 +74,40 @@ pub(crate) fn two_attachments_take_turns(s: &Subject) -> Checked {
 
 /// An attachment that is read before it is drawn to holds its clear value.
 pub(crate) fn a_clear_is_read_before_the_first_draw(s: &Subject) -> Checked {
-    let scene = scene_of(
-        r#""a": { "format": "rgba8unorm", "size": [5, 4] },
-           "b": { "format": "rgba8unorm", "size": [5, 4], "clear": [1, 0, 0, 1] },
-           "never": { "format": "rgba32float", "size": [5, 4], "clear": [0, 0, 1, 1] }"#,
-        &format!(
-            r#"{{ "color": ["a"], "draws": [ {}, {} ] }},
-               {{ "color": ["b"], "draws": [ {{ "mesh": {{ "kind": "rect", "texels": [0, 0, 2, 1] }},
-                  "shader": "uniform_color", "params": {{ "color": [0, 1, 0, 1] }} }} ] }}"#,
-            fetch([0, 0, 5, 4], "b", ""),
-            fetch([3, 0, 5, 3], "never", ""),
-        ),
-        &["a", "b"],
-    );
-    let frame = s.draw(&scene)?;
-    check(
-        color(&frame, "a"),
-        |x, y| {
-            if x >= 3 && y < 3 { BLUE } else { RED }
-        },
-    );
-    check(
-        color(&frame, "b"),
-        |x, y| {
-            if x < 2 && y < 1 { GREEN } else { RED }
-        },
-    );
+    let frame = s.show(json!({
+        "attachments": {
+            "a": { "format": "rgba8unorm", "size": [5, 4] },
+            "b": { "format": "rgba8unorm", "clear": [1, 0, 0, 1] },
+            "never": { "format": "rgba32float", "clear": [0, 0, 1, 1] } },
+        "passes": [
+            { "color": ["a"], "draws": [fetch([0, 0, 5, 4], "b"), fetch([3, 0, 5, 3], "never")] },
+            { "color": ["b"], "draws": [
+                { "mesh": rect([0, 0, 2, 1]), "shader": "uniform_color", "params": green() }] }],
+        "read": ["a", "b"],
+    }))?;
+    frame.color_is("a", |x, y| if x >= 3 && y < 3 { BLUE } else { RED });
+    frame.color_is("b", |x, y| if x < 2 && y < 1 { GREEN } else { RED });
     Ok(())
 }
 
 /// Resolved, read, and both again with more drawn.
 pub(crate) fn what_was_resolved_is_read(s: &Subject) -> Checked {
-    // Edges between texels, which have all samples of a texel on the same side.
-    let many = |[left, top, right, bottom]: [u32; 4], color: &str| {
-        let corners = [[left, top], [left, bottom], [right, top], [right, bottom]];
-        let positions = corners.map(|[x, y]| [x, y, 0]);
-        format!(
-            r#"{{ "color": ["many"], "resolve": ["one"], "draws": [ {{ "shader": "uniform_color",
-                "mesh": {{ "kind": "vertices", "units": "texels", "positions": {positions:?} }},
-                "topology": "triangle-strip", "params": {{ "color": {color} }} }} ] }}"#
-        )
+    let many = |texels: [u32; 4], params: Value| {
+        json!({ "color": ["many"], "resolve": ["one"], "draws": [
+            { "mesh": corners(texels), "topology": "triangle-strip", "shader": "uniform_color",
+              "params": params }] })
     };
-    let read = |texels| {
-        let draw = fetch(texels, "one", "");
-        format!(r#"{{ "color": ["shown"], "draws": [ {draw} ] }}"#)
-    };
-    let scene = scene_of(
-        r#""many": { "format": "rgba8unorm", "size": [8, 8], "samples": 4 },
-           "one": { "format": "rgba8unorm", "size": [8, 8], "clear": [1, 1, 1, 1] },
-           "shown": { "format": "rgba8unorm", "size": [8, 8] }"#,
-        &[
-            many([0, 0, 5, 3], "[1, 0, 0, 1]"),
-            read([0, 0, 8, 3]),
-            many([2, 1, 8, 8], "[0, 1, 0, 1]"),
-            read([0, 3, 8, 8]),
-        ]
-        .join(","),
-        &["shown"],
-    );
-    let frame = s.draw(&scene)?;
-    check(color(&frame, "shown"), |x, y| match y {
+    let read = |texels| json!({ "color": ["shown"], "draws": [fetch(texels, "one")] });
+    let frame = s.show(json!({
+        "attachments": {
+            "many": { "format": "rgba8unorm", "size": [8, 8], "samples": 4 },
+            "one": { "format": "rgba8unorm", "clear": [1, 1, 1, 1] },
+            "shown": { "format": "rgba8unorm" } },
+        "passes": [many([0, 0, 5, 3], red()), read([0, 0, 8, 3]),
+                   many([2, 1, 8, 8], green()), read([0, 3, 8, 8])],
+        "read": ["shown"],
+    }))?;
+    frame.color_is("shown", |x, y| match y {
         0..3 if x < 5 => RED,
         3.. if x >= 2 => GREEN,
         _ => NONE,
@@ -149,30 +117,26 @@ pub(crate) fn what_was_resolved_is_read(s: &Subject) -> Checked {
 
 /// Each texel samples the corner that four texels of a larger attachment share.
 pub(crate) fn a_larger_attachment_is_averaged(s: &Subject) -> Checked {
-    let value = |x: u32, y: u32| [28 * x, 60 * y, 7, 255];
+    let columns = [0, 1, 2, 3, 4, 5, 6, 7];
+    let grid = [0, 1, 2, 3].map(|y| columns.map(|x| [28 * x, 60 * y, 7, 255]));
     for format in ["rgba8unorm", "rgba16float"] {
-        let row = |y| [0, 1, 2, 3, 4, 5, 6, 7].map(|x| value(x, y));
-        let scene = scene_of(
-            &format!(
-                r#""large": {{ "format": "{format}", "size": [8, 4] }},
-                   "small": {{ "format": "rgba8unorm", "size": [4, 2] }},
-                   "source": {{ "format": "rgba8unorm", "size": [8, 4],
-                                "texels": {{ "kind": "grid", "values": {:?} }} }}"#,
-                [0, 1, 2, 3].map(row)
-            ),
-            &format!(
-                r#"{{ "color": ["large"], "draws": [ {} ] }},
-                   {{ "color": ["small"], "draws": [ {{ "mesh": {{ "kind": "cover", "uv": [0, 0, 1, 1] }},
-                      "shader": "sampled_color", "textures": ["large"],
-                      "sampler": {{ "filter": "linear", "address": ["clamp-to-edge", "clamp-to-edge"] }} }} ] }}"#,
-                fetch([0, 0, 8, 4], "source", "")
-            ),
-            &["small"],
-        );
-        let Ok(frame) = s.draw(&scene) else {
+        let Ok(frame) = s.show(json!({
+            "attachments": {
+                "large": { "format": format, "size": [8, 4] },
+                "small": { "format": "rgba8unorm", "size": [4, 2] },
+                "source": { "format": "rgba8unorm", "size": [8, 4],
+                            "texels": { "kind": "grid", "values": grid } } },
+            "passes": [
+                { "color": ["large"], "draws": [fetch([0, 0, 8, 4], "source")] },
+                { "color": ["small"], "draws": [{
+                    "mesh": { "kind": "cover", "uv": [0, 0, 1, 1] }, "shader": "sampled_color",
+                    "textures": ["large"],
+                    "sampler": { "filter": "linear", "address": ["clamp-to-edge", "clamp-to-edge"] } }] }],
+            "read": ["small"],
+        })) else {
             continue;
         };
-        for (x, y) in (0..2).flat_map(|y| (0..4).map(move |x| (x, y))) {
+        for (x, y) in texels([4, 2]) {
             let due = [56 * x + 14, 120 * y + 30, 7, 255].map(|v| f64::from(v) / 255.0);
             check_near(&values(color(&frame, "small"), x, y), &due, 1.01 / 255.0);
         }
@@ -181,56 +145,51 @@ pub(crate) fn a_larger_attachment_is_averaged(s: &Subject) -> Checked {
 }
 
 pub(crate) fn sampled_fragments_are_discarded(s: &Subject) -> Checked {
-    let scene = scene_of(
-        r#""color": { "format": "rgba8unorm", "size": [4, 4], "clear": [0, 0, 1, 1] },
-           "source": { "format": "rgba8unorm", "size": [2, 2] }"#,
-        r#"{ "color": ["source"], "draws": [
-             { "mesh": { "kind": "rows", "values": [[1, 0, 0, 1], [0, 1, 0, 0.25]] }, "shader": "flat_color" } ] },
-           { "color": ["color"], "draws": [ { "mesh": { "kind": "cover", "uv": [0, 0, 1, 1] },
-             "shader": "sampled_discard", "textures": ["source"], "params": { "color": [0, 0, 0, 0.5] },
-             "sampler": { "filter": "nearest", "address": ["repeat", "repeat"] } } ] }"#,
-        &["color"],
-    );
-    let frame = s.draw(&scene)?;
-    check(
-        color(&frame, "color"),
-        |_, y| {
-            if y < 2 { RED } else { BLUE }
-        },
-    );
+    let rows = json!({ "kind": "rows", "values": [[1, 0, 0, 1], [0, 1, 0, 0.25]] });
+    let frame = s.show(json!({
+        "attachments": {
+            "color": { "format": "rgba8unorm", "size": [4, 4], "clear": [0, 0, 1, 1] },
+            "source": { "format": "rgba8unorm", "size": [2, 2] } },
+        "passes": [
+            { "color": ["source"], "draws": [{ "mesh": rows, "shader": "flat_color" }] },
+            { "color": ["color"], "draws": [{
+                "mesh": { "kind": "cover", "uv": [0, 0, 1, 1] }, "shader": "sampled_discard",
+                "textures": ["source"], "params": { "color": [0, 0, 0, 0.5] },
+                "sampler": { "filter": "nearest", "address": ["repeat", "repeat"] } }] }],
+        "read": ["color"],
+    }))?;
+    frame.color_is("color", |_, y| if y < 2 { RED } else { BLUE });
     Ok(())
 }
 
 /// Statistics of all passes add up, and asking for them changes no picture.
 pub(crate) fn invocations_of_all_passes_add_up(s: &Subject) -> Checked {
-    let text = |counters: &str, both: &str, second: &str| {
-        format!(
-            r#"{{ "attachments": {{ "a": {{ "format": "rgba8unorm", "size": [16, 16] }},
-                    "b": {{ "format": "rgba8unorm", "size": [16, 16], "clear": [1, 0, 0, 1] }} }},
-                "passes": [ {{ "color": ["a"], "draws": [ {} ] }}, {{ "color": ["b"], "draws": [ {} ] }},
-                            {{ "color": ["a"], "draws": [ {} ] }} ],
-                "read": ["a", "b"] {counters} }}"#,
-            fetch([0, 0, 16, 16], "b", both),
-            fetch([0, 0, 16, 8], "a", second),
-            fetch([0, 0, 8, 8], "b", both),
-        )
+    let drawn = |counters: Value, both: &[&str], second: &[&str]| {
+        let pass = |to: &str, texels, from: &str, names: &[&str]| {
+            let mut draw = fetch(texels, from);
+            draw["counters"] = json!(names);
+            json!({ "color": [to], "draws": [draw] })
+        };
+        s.show(json!({
+            "attachments": {
+                "a": { "format": "rgba8unorm", "size": [16, 16] },
+                "b": { "format": "rgba8unorm", "clear": [1, 0, 0, 1] } },
+            "passes": [pass("a", [0, 0, 16, 16], "b", both), pass("b", [0, 0, 16, 8], "a", second),
+                       pass("a", [0, 0, 8, 8], "b", both)],
+            "counters": counters,
+        }))
     };
-    let counted = text(
-        r#", "counters": { "both": "fragment-invocations", "second": "fragment-invocations" }"#,
-        r#", "counters": ["both"]"#,
-        r#", "counters": ["second"]"#,
-    );
-    let (counted, plain) = (
-        s.draw(&scene(&counted))?,
-        s.draw(&scene(&text("", "", "")))?,
-    );
-    assert_eq!(counted.images, plain.images);
+    let kind = "fragment-invocations";
+    let counted = drawn(
+        json!({ "both": kind, "second": kind }),
+        &["both"],
+        &["second"],
+    )?;
+    assert_eq!(counted.images, drawn(json!({}), &[], &[])?.images);
     let [both, second] = counted.counters[..] else {
         panic!("{:?}", counted.counters);
     };
-    assert!(
-        (320..640).contains(&both) && (128..256).contains(&second),
-        "{both} {second}"
-    );
+    assert!((320..640).contains(&both), "{both}");
+    assert!((128..256).contains(&second), "{second}");
     Ok(())
 }

@@ -1,40 +1,34 @@
 //! The texels that a draw covers, and the channels that it writes.
 
 use super::Checked;
-use crate::frames::{
-    BLUE, GREEN, NONE, RED, check, check_red, check_within_one, color, depth, stencil,
+use crate::frames::{BLUE, Expect, GREEN, NONE, RED, check_within_one, color};
+use crate::scenes::{
+    blend, blue, component, full, green, over_blue, painted, rect, red, red_or_green, test,
+    uploaded, with,
 };
-use crate::scenes::{FACING, PAINT, blend, one_draw, scene_of};
-use crate::subject::Subject;
+use crate::subject::{Missing, Subject};
 use etalon_frame::ReadPath;
+use serde_json::{Value, json};
 
 pub(crate) fn a_rectangle_stays_in_its_corner(s: &Subject) -> Checked {
-    let frame = s.draw(&scene_of(
-        r#""color": { "format": "rgba8unorm", "size": [16, 8], "clear": [0, 0, 1, 1] }"#,
-        &format!(
-            r#"{{ "color": ["color"], "draws": [
-                {{ "mesh": {{ "kind": "rect", "texels": [0, 0, 5, 3] }}, {PAINT} }} ] }}"#
-        ),
-        &["color"],
-    ))?;
+    let frame = s.show(json!({
+        "attachments": { "color": with(blue(), json!({ "size": [16, 8] })) },
+        "draws": [{ "mesh": rect([0, 0, 5, 3]), "shader": "uniform_color", "params": red() }],
+    }))?;
     assert_eq!(color(&frame, "color").read, ReadPath::Copy);
-    check_red(&frame, |x, y| x < 5 && y < 3);
+    frame.is_red(|x, y| x < 5 && y < 3);
     Ok(())
 }
 
 pub(crate) fn columns_run_to_the_right_and_rows_down(s: &Subject) -> Checked {
+    let parts = [RED, GREEN, [51, 102, 153, 204], NONE, [255, 0, 255, 0]];
+    let values = parts.map(|codes| codes.map(|code| f64::from(code) / 255.0));
     for (kind, across) in [("columns", true), ("rows", false)] {
-        let frame = s.draw(&scene_of(
-            r#""color": { "format": "rgba8unorm", "size": [20, 10], "clear": [1, 1, 1, 1] }"#,
-            &format!(
-                r#"{{ "color": ["color"], "draws": [ {{ "mesh": {{ "kind": "{kind}", "values": [
-                    [1, 0, 0, 1], [0, 1, 0, 1], [0.2, 0.4, 0.6, 0.8], [0, 0, 0, 0], [1, 0, 1, 0]] }},
-                    "shader": "flat_color" }} ] }}"#
-            ),
-            &["color"],
-        ))?;
-        let parts = [RED, GREEN, [51, 102, 153, 204], NONE, [255, 0, 255, 0]];
-        check(color(&frame, "color"), |x, y| {
+        let frame = s.show(json!({
+            "attachments": { "color": { "format": "rgba8unorm", "size": [20, 10], "clear": [1, 1, 1, 1] } },
+            "draws": [{ "mesh": { "kind": kind, "values": values }, "shader": "flat_color" }],
+        }))?;
+        frame.color_is("color", |x, y| {
             parts[if across { x / 4 } else { y / 2 } as usize]
         });
     }
@@ -42,46 +36,39 @@ pub(crate) fn columns_run_to_the_right_and_rows_down(s: &Subject) -> Checked {
 }
 
 pub(crate) fn a_pass_without_draws_leaves_the_clear_values(s: &Subject) -> Checked {
-    let frame = s.draw(&scene_of(
-        r#""color": { "format": "rgba8unorm", "clear": [0, 1, 0, 1] },
-           "ds": { "format": "depth24plus-stencil8", "clear": { "depth": 1, "stencil": 171 } },
-           "idle": { "format": "rgba8unorm", "clear": [1, 0, 0, 1] },
-           "stencil": { "format": "stencil8", "clear": 7 }"#,
-        r#"{ "color": ["color"], "depth_stencil": "ds", "draws": [] }"#,
-        &["idle", "ds", "color", "stencil"],
-    ))?;
-    check(color(&frame, "color"), |_, _| GREEN);
-    check(color(&frame, "idle"), |_, _| RED);
-    let one = depth(&frame, "ds").channels[0].nearest_code(1.0);
-    check(depth(&frame, "ds"), |_, _| [one]);
-    check(stencil(&frame, "ds"), |_, _| [171]);
-    check(stencil(&frame, "stencil"), |_, _| [7]);
+    let frame = s.show(json!({
+        "attachments": {
+            "color": { "format": "rgba8unorm", "clear": [0, 1, 0, 1] },
+            "ds": { "format": "depth24plus-stencil8", "clear": { "depth": 1, "stencil": 171 } },
+            "idle": { "format": "rgba8unorm", "clear": [1, 0, 0, 1] },
+            "stencil": { "format": "stencil8", "clear": 7 } },
+        "passes": [{ "color": ["color"], "depth_stencil": "ds", "draws": [] }],
+        "read": ["idle", "ds", "color", "stencil"],
+    }))?;
+    frame.color_is("color", |_, _| GREEN);
+    frame.color_is("idle", |_, _| RED);
+    frame.depth_is("ds", |_, _| 1.0);
+    frame.stencil_is("ds", |_, _| 171);
+    frame.stencil_is("stencil", |_, _| 7);
     Ok(())
 }
 
 /// Rows of bytes that are no multiple of anything.
 pub(crate) fn sizes_need_not_be_even(s: &Subject) -> Checked {
     for size in [[1, 1], [7, 3], [65, 2], [200, 130]] {
-        let frame = s.draw(&scene_of(
-            &format!(
-                r#""color": {{ "format": "rgba8unorm", "size": {size:?}, "clear": [0, 0, 1, 1] }},
-                   "ds": {{ "format": "depth24plus-stencil8", "clear": {{ "depth": 1, "stencil": 3 }} }}"#
-            ),
-            r#"{ "color": ["color"], "depth_stencil": "ds", "draws": [
-                 { "mesh": { "kind": "rect", "texels": [0, 0, 1, 1] }, "shader": "flat_color_depth",
-                   "params": { "color": [1, 0, 0, 1] }, "depth": { "compare": "less", "write": true },
-                   "stencil": { "front": { "compare": "always", "pass_op": "invert" } } } ] }"#,
-            &["color", "ds"],
-        ))?;
+        let frame = s.show(json!({
+            "attachments": {
+                "color": with(blue(), json!({ "size": size })),
+                "ds": { "format": "depth24plus-stencil8", "clear": { "depth": 1, "stencil": 3 } } },
+            "draws": [{
+                "mesh": rect([0, 0, 1, 1]), "shader": "flat_color_depth", "params": red(),
+                "depth": test("less", true),
+                "stencil": { "front": { "compare": "always", "pass_op": "invert" } } }],
+        }))?;
         let first = |x, y| x == 0 && y == 0;
-        check_red(&frame, first);
-        check(stencil(&frame, "ds"), |x, y| {
-            [if first(x, y) { 252 } else { 3 }]
-        });
-        let one = depth(&frame, "ds").channels[0].nearest_code(1.0);
-        check(depth(&frame, "ds"), |x, y| {
-            [if first(x, y) { 0 } else { one }]
-        });
+        frame.is_red(first);
+        frame.stencil_is("ds", |x, y| if first(x, y) { 252 } else { 3 });
+        frame.depth_is("ds", |x, y| if first(x, y) { 0.0 } else { 1.0 });
     }
     Ok(())
 }
@@ -90,16 +77,15 @@ pub(crate) fn sizes_need_not_be_even(s: &Subject) -> Checked {
 pub(crate) fn faces_are_told_apart_and_culled(s: &Subject) -> Checked {
     for cull in ["none", "front", "back", "front-and-back"] {
         for front_face in ["ccw", "cw"] {
-            let scene = one_draw(&format!(
-                r#""mesh": {{ "kind": "columns", "values": [0, 0], "windings": ["ccw", "cw"] }},
-                   {FACING}, "cull": "{cull}", "front_face": "{front_face}""#
-            ));
-            let Ok(frame) = s.draw(&scene) else {
+            let Ok(frame) = s.show(over_blue(json!({
+                "mesh": { "kind": "columns", "values": [0, 0], "windings": ["ccw", "cw"] },
+                "shader": "front_facing", "params": red_or_green(),
+                "cull": cull, "front_face": front_face })))
+            else {
                 continue;
             };
-            check(color(&frame, "color"), |x, _| {
-                let front = (x < 8) == (front_face == "ccw");
-                match (cull, front) {
+            frame.color_is("color", |x, _| {
+                match (cull, (x < 8) == (front_face == "ccw")) {
                     ("none" | "back", true) => RED,
                     ("none" | "front", false) => GREEN,
                     _ => BLUE,
@@ -113,36 +99,32 @@ pub(crate) fn faces_are_told_apart_and_culled(s: &Subject) -> Checked {
 /// Every second triangle of a strip is turned over.
 pub(crate) fn strips_keep_their_winding(s: &Subject) -> Checked {
     for (positions, due) in [
-        ("[[-1, -1, 0], [1, -1, 0], [-1, 1, 0], [1, 1, 0]]", RED),
-        ("[[-1, 1, 0], [-1, -1, 0], [1, 1, 0], [1, -1, 0]]", RED),
-        ("[[-1, -1, 0], [-1, 1, 0], [1, -1, 0], [1, 1, 0]]", GREEN),
+        ([[-1, -1, 0], [1, -1, 0], [-1, 1, 0], [1, 1, 0]], RED),
+        ([[-1, 1, 0], [-1, -1, 0], [1, 1, 0], [1, -1, 0]], RED),
+        ([[-1, -1, 0], [-1, 1, 0], [1, -1, 0], [1, 1, 0]], GREEN),
     ] {
-        let frame = s.draw(&one_draw(&format!(
-            r#""mesh": {{ "kind": "vertices", "positions": {positions} }},
-               "topology": "triangle-strip", {FACING}"#
-        )))?;
-        check(color(&frame, "color"), |_, _| due);
+        let frame = s.show(over_blue(json!({
+            "mesh": { "kind": "vertices", "positions": positions }, "topology": "triangle-strip",
+            "shader": "front_facing", "params": red_or_green() })))?;
+        frame.color_is("color", |_, _| due);
     }
     Ok(())
 }
 
-/// Draws a colour over another in a single texel's worth of state, and returns the one result.
+/// Draws a colour over another, and returns the one result.
 fn drawn_over(
     s: &Subject,
     clear: [f64; 4],
     source: [f64; 4],
-    state: &str,
-) -> Result<[u32; 4], crate::Missing> {
-    let frame = s.draw(&scene_of(
-        &format!(r#""color": {{ "format": "rgba8unorm", "size": [4, 4], "clear": {clear:?} }}"#),
-        &format!(
-            r#"{{ "color": ["color"], "draws": [ {{ "mesh": {{ "kind": "full" }},
-                "shader": "uniform_color", "params": {{ "color": {source:?} }}, {state} }} ] }}"#
-        ),
-        &["color"],
-    ))?;
+    state: Value,
+) -> Result<[u32; 4], Missing> {
+    let draw = json!({ "mesh": full(), "shader": "uniform_color", "params": { "color": source } });
+    let frame = s.show(json!({
+        "attachments": { "color": { "format": "rgba8unorm", "size": [4, 4], "clear": clear } },
+        "draws": [with(draw, state)],
+    }))?;
     let texel: [u32; 4] = color(&frame, "color").sample(3, 3, 0).try_into().unwrap();
-    check(color(&frame, "color"), |_, _| texel);
+    frame.color_is("color", |_, _| texel);
     Ok(texel)
 }
 
@@ -164,27 +146,18 @@ const BLENDS: [Blend; 8] = [
 
 pub(crate) fn blending_weighs_source_and_destination(s: &Subject) -> Checked {
     let state = |rgb: [&str; 3], alpha: [&str; 3], constant: [f64; 4]| {
-        let [rgb, alpha] = [rgb, alpha].map(|[operation, src, dst]| {
-            format!(
-                r#"{{ "operation": "{operation}", "src_factor": "{src}", "dst_factor": "{dst}" }}"#
-            )
-        });
-        format!(
-            r#""blend": {{ "color": {rgb}, "alpha": {alpha} }}, "blend_constant": {constant:?}"#
-        )
+        let [rgb, alpha] = [rgb, alpha].map(|[op, src, dst]| component(op, src, dst));
+        json!({ "blend": { "color": rgb, "alpha": alpha }, "blend_constant": constant })
     };
     for (rgb, alpha, constant, due) in BLENDS {
         let state = state(rgb, alpha, constant);
-        if let Ok(texel) = drawn_over(s, [1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.6], &state) {
+        if let Ok(texel) = drawn_over(s, [1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.6], state) {
             check_within_one(&texel, due);
         }
     }
-    let (rgb, alpha) = (
-        ["add", "constant", "zero"],
-        ["add", "constant-alpha", "one-minus-constant-alpha"],
-    );
-    let state = state(rgb, alpha, [0.2, 0.4, 0.6, 0.8]);
-    let texel = drawn_over(s, [1.0; 4], [1.0, 1.0, 1.0, 0.0], &state)?;
+    let alpha = ["add", "constant-alpha", "one-minus-constant-alpha"];
+    let state = state(["add", "constant", "zero"], alpha, [0.2, 0.4, 0.6, 0.8]);
+    let texel = drawn_over(s, [1.0; 4], [1.0, 1.0, 1.0, 0.0], state)?;
     check_within_one(&texel, [51, 102, 153, 51]);
     Ok(())
 }
@@ -192,13 +165,15 @@ pub(crate) fn blending_weighs_source_and_destination(s: &Subject) -> Checked {
 pub(crate) fn write_masks_keep_the_other_channels(s: &Subject) -> Checked {
     for bits in 0..16_usize {
         let on = |i: usize| bits >> i & 1 == 1;
-        let names = ["r", "g", "b", "a"];
-        let mask: String = (0..4).filter(|i| on(*i)).map(|i| names[i]).collect();
+        let mask: String = (0..4)
+            .filter(|i| on(*i))
+            .map(|i| ["r", "g", "b", "a"][i])
+            .collect();
         for (clear, source) in [
             ([0.0; 4], [1.0; 4]),
             ([1.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 1.0]),
         ] {
-            let texel = drawn_over(s, clear, source, &format!(r#""write_mask": "{mask}""#))?;
+            let texel = drawn_over(s, clear, source, json!({ "write_mask": mask }))?;
             let due = [0, 1, 2, 3].map(|i| if on(i) { source[i] } else { clear[i] } as u32 * 255);
             assert_eq!(texel, due, "{mask}");
         }
@@ -208,73 +183,65 @@ pub(crate) fn write_masks_keep_the_other_channels(s: &Subject) -> Checked {
 
 /// The first pass writes depths of which the second, which may not write any, takes note.
 pub(crate) fn a_pass_tests_what_an_earlier_one_wrote(s: &Subject) -> Checked {
-    let frame = s.draw(&scene_of(
-        r#""color": { "format": "rgba8unorm", "clear": [0, 0, 1, 1] },
-           "d": { "format": "depth16unorm", "clear": 1 }"#,
-        r#"{ "depth_stencil": "d", "draws": [
-             { "mesh": { "kind": "rect", "texels": [0, 0, 16, 4] }, "shader": "flat_color_depth",
-               "depth": { "compare": "always", "write": true } } ] },
-           { "color": ["color"], "depth_stencil": "d", "depth_stencil_read_only": true, "draws": [
-             { "mesh": { "kind": "full", "value": 0.5 }, "shader": "flat_color_depth",
-               "params": { "color": [1, 0, 0, 1] }, "depth": { "compare": "less", "write": false } } ] }"#,
-        &["color", "d"],
-    ))?;
-    check_red(&frame, |_, y| y >= 4);
-    let one = depth(&frame, "d").channels[0].nearest_code(1.0);
-    check(depth(&frame, "d"), |_, y| [if y < 4 { 0 } else { one }]);
+    let frame = s.show(json!({
+        "attachments": { "color": blue(), "d": { "format": "depth16unorm", "clear": 1 } },
+        "passes": [
+            { "depth_stencil": "d", "draws": [
+                { "mesh": rect([0, 0, 16, 4]), "shader": "flat_color_depth", "depth": test("always", true) }] },
+            { "color": ["color"], "depth_stencil": "d", "depth_stencil_read_only": true, "draws": [
+                { "mesh": { "kind": "full", "value": 0.5 }, "shader": "flat_color_depth",
+                  "params": red(), "depth": test("less", false) }] }],
+    }))?;
+    frame.is_red(|_, y| y >= 4);
+    frame.depth_is("d", |_, y| if y < 4 { 0.0 } else { 1.0 });
     Ok(())
 }
 
 /// Two attachments by turns, the first with depth and stencil.
 pub(crate) fn passes_keep_contents(s: &Subject) -> Checked {
-    let frame = s.draw(&scene_of(
-        r#""color": { "format": "rgba8unorm", "size": [6, 4], "clear": [0, 0, 1, 1] },
-           "ds": { "format": "depth24plus-stencil8", "clear": { "depth": 1, "stencil": 5 } },
-           "drawn": { "format": "rgba8unorm", "texels": { "kind": "columns", "values":
-             [[1, 2, 3, 4], [2, 2, 3, 4], [3, 2, 3, 4], [4, 2, 3, 4], [5, 2, 3, 4], [6, 2, 3, 4]] } }"#,
-        r#"{ "color": ["color"], "depth_stencil": "ds", "draws": [
-             { "mesh": { "kind": "rect", "texels": [0, 0, 3, 4] }, "shader": "flat_color_depth",
-               "params": { "color": [1, 0, 0, 1] }, "depth": { "compare": "less", "write": true },
-               "stencil": { "reference": 9, "front": { "compare": "always", "pass_op": "replace" } } } ] },
-           { "color": ["drawn"], "draws": [
-             { "mesh": { "kind": "rect", "texels": [1, 0, 2, 4] }, "shader": "uniform_color",
-               "params": { "color": [0, 1, 0, 1] } } ] },
-           { "color": ["color"], "depth_stencil": "ds", "draws": [
-             { "mesh": { "kind": "full" }, "shader": "uniform_color", "params": { "color": [0, 1, 0, 1] },
-               "stencil": { "reference": 5, "front": { "compare": "equal" } } } ] }"#,
-        &["color", "drawn", "ds"],
-    ))?;
-    check(
-        color(&frame, "color"),
-        |x, _| if x < 3 { RED } else { GREEN },
+    let columns = [1, 2, 3, 4, 5, 6].map(|x| [x, 2, 3, 4]);
+    let frame = s.show(json!({
+        "attachments": {
+            "color": with(blue(), json!({ "size": [6, 4] })),
+            "ds": { "format": "depth24plus-stencil8", "clear": { "depth": 1, "stencil": 5 } },
+            "drawn": uploaded("columns", columns) },
+        "passes": [
+            { "color": ["color"], "depth_stencil": "ds", "draws": [{
+                "mesh": rect([0, 0, 3, 4]), "shader": "flat_color_depth", "params": red(),
+                "depth": test("less", true), "stencil": {
+                    "reference": 9, "front": { "compare": "always", "pass_op": "replace" } } }] },
+            { "color": ["drawn"], "draws": [
+                { "mesh": rect([1, 0, 2, 4]), "shader": "uniform_color", "params": green() }] },
+            { "color": ["color"], "depth_stencil": "ds", "draws": [{
+                "mesh": full(), "shader": "uniform_color", "params": green(),
+                "stencil": { "reference": 5, "front": { "compare": "equal" } } }] }],
+    }))?;
+    frame.color_is("color", |x, _| if x < 3 { RED } else { GREEN });
+    frame.color_is(
+        "drawn",
+        |x, _| if x == 1 { GREEN } else { columns[x as usize] },
     );
-    check(color(&frame, "drawn"), |x, _| {
-        if x == 1 { GREEN } else { [x + 1, 2, 3, 4] }
-    });
-    check(stencil(&frame, "ds"), |x, _| [if x < 3 { 9 } else { 5 }]);
-    let one = depth(&frame, "ds").channels[0].nearest_code(1.0);
-    check(depth(&frame, "ds"), |x, _| [if x < 3 { 0 } else { one }]);
+    frame.stencil_is("ds", |x, _| if x < 3 { 9 } else { 5 });
+    frame.depth_is("ds", |x, _| if x < 3 { 0.0 } else { 1.0 });
     Ok(())
 }
 
 /// Indices count from the draw's own first vertex, although draws share buffers.
 pub(crate) fn draws_of_a_pass_have_their_own_vertices(s: &Subject) -> Checked {
-    let blend = blend("add", "one", "one");
-    let frame = s.draw(&scene_of(
-        r#""color": { "format": "rgba8unorm", "clear": [0, 0, 1, 1] }"#,
-        &format!(
-            r#"{{ "color": ["color"], "draws": [
-                {{ "mesh": {{ "kind": "vertices", "units": "texels",
-                     "positions": [[1.5, 2.5, 0], [9.5, 4.5, 0], [15.5, 15.5, 0]], "indices": [0, 2] }},
-                   "topology": "point-list", "shader": "flat_color" }},
-                {{ "mesh": {{ "kind": "rect", "texels": [0, 0, 4, 4] }}, {PAINT}, {blend} }},
-                {{ "mesh": {{ "kind": "vertices", "units": "texels",
-                     "positions": [[8, 8, 0], [8, 12, 0], [12, 8, 0], [12, 12, 0]],
-                     "indices": [0, 1, 2, 2, 1, 3] }}, {PAINT} }} ] }}"#
-        ),
-        &["color"],
-    ))?;
-    check(color(&frame, "color"), |x, y| match (x, y) {
+    let points = json!({
+        "kind": "vertices", "units": "texels", "indices": [0, 2],
+        "positions": [[1.5, 2.5, 0], [9.5, 4.5, 0], [15.5, 15.5, 0]] });
+    let square = json!({
+        "kind": "vertices", "units": "texels", "indices": [0, 1, 2, 2, 1, 3],
+        "positions": [[8, 8, 0], [8, 12, 0], [12, 8, 0], [12, 12, 0]] });
+    let frame = s.show(json!({
+        "attachments": { "color": blue() },
+        "draws": [
+            { "mesh": points, "topology": "point-list", "shader": "flat_color" },
+            with(painted(), json!({ "mesh": rect([0, 0, 4, 4]), "blend": blend("add", "one", "one") })),
+            with(painted(), json!({ "mesh": square }))],
+    }))?;
+    frame.color_is("color", |x, y| match (x, y) {
         (15, 15) => NONE,
         (1, 2) => RED,
         (0..4, 0..4) => [255, 0, 255, 255],

@@ -1,98 +1,84 @@
 //! Tests before the shader, and promises about the depth that it writes.
 
 use super::Checked;
-use super::counters::{PARAMS, check_painted, counted};
-use crate::frames::{BLUE, RED, check, color, depth, stencil};
-use crate::scenes::scene_of;
+use super::counters::{check_painted, counted};
+use crate::frames::{BLUE, Expect, RED};
+use crate::scenes::{blue, red, test, uploaded, with};
 use crate::subject::Subject;
+use serde_json::{Value, json};
 
 /// Columns from the tenth on are discarded; tests before the shader have by then stored their depth.
-fn discards(s: &Subject, shader: &str, kinds: &str, names: &str) -> Checked {
-    for (early, behind) in [("implicit", 0.5_f32), ("forced", 0.25)] {
-        let draws = [format!(
-            r#"{{ "mesh": {{ "kind": "full", "z": 0.25 }}, "shader": "{shader}", "textures": ["half"],
-                "params": {{ "color": 0.5 }}, "early_tests": "{early}", "counters": [{names}],
-                "depth": {{ "compare": "less", "write": true }} }}"#
-        )];
-        let frame = counted(s, kinds, &draws)?;
-        check_painted(color(&frame, "color"), |x, _| x < 10);
-        check(depth(&frame, "depth"), |x, _| {
-            [if x < 10 { 0.25 } else { behind }.to_bits()]
-        });
+fn discards(s: &Subject, shader: &str, kinds: Value, names: Value) -> Checked {
+    for (early, behind) in [("implicit", 0.5), ("forced", 0.25)] {
+        let draw = json!({
+            "mesh": { "kind": "full", "z": 0.25 }, "shader": shader, "textures": ["half"],
+            "params": { "color": 0.5 }, "early_tests": early, "counters": names,
+            "depth": test("less", true) });
+        let frame = counted(s, kinds.clone(), vec![draw])?;
+        check_painted(&frame, |x, _| x < 10);
+        frame.depth_is("depth", |x, _| if x < 10 { 0.25 } else { behind });
     }
     Ok(())
 }
 
 pub(crate) fn discarded_fragments_leave_early_depths_alone(s: &Subject) -> Checked {
-    discards(s, "texel_discard", "", "")
+    discards(s, "texel_discard", json!({}), json!([]))
 }
 
 pub(crate) fn discards_that_count_leave_early_depths_alone(s: &Subject) -> Checked {
-    discards(s, "counted_discard", r#""n": "shader-runs""#, r#""n""#)
+    discards(
+        s,
+        "counted_discard",
+        json!({ "n": "shader-runs" }),
+        json!(["n"]),
+    )
 }
 
 /// Both aspects in one attachment.
 pub(crate) fn discarded_fragments_leave_early_stencils_alone(s: &Subject) -> Checked {
+    let texels = [RED, RED, [255, 0, 0, 0], [255, 0, 0, 0]];
     for (tests, early) in [("implicit", false), ("forced", true)] {
-        let frame = s.draw(&scene_of(
-            r#""color": { "format": "rgba8unorm", "size": [4, 4], "clear": [0, 0, 1, 1] },
-               "ds": { "format": "depth32float-stencil8", "clear": { "depth": 1, "stencil": 3 } },
-               "source": { "format": "rgba8unorm", "texels": { "kind": "columns", "values":
-                 [[255, 0, 0, 255], [255, 0, 0, 255], [255, 0, 0, 0], [255, 0, 0, 0]] } }"#,
-            &format!(
-                r#"{{ "color": ["color"], "depth_stencil": "ds", "draws": [
-                    {{ "mesh": {{ "kind": "full", "z": 0.5 }}, "shader": "texel_discard", "textures": ["source"],
-                      "params": {{ "color": [0, 0, 0, 0.5] }}, "early_tests": "{tests}",
-                      "depth": {{ "compare": "less", "write": true }},
-                      "stencil": {{ "front": {{ "compare": "always", "pass_op": "increment-wrap" }} }} }} ] }}"#
-            ),
-            &["color", "ds"],
-        ))?;
-        check(
-            color(&frame, "color"),
-            |x, _| if x < 2 { RED } else { BLUE },
-        );
+        let frame = s.show(json!({
+            "attachments": {
+                "color": with(blue(), json!({ "size": [4, 4] })), "source": uploaded("columns", texels),
+                "ds": { "format": "depth32float-stencil8", "clear": { "depth": 1, "stencil": 3 } } },
+            "draws": [{
+                "mesh": { "kind": "full", "z": 0.5 }, "shader": "texel_discard", "textures": ["source"],
+                "params": { "color": [0, 0, 0, 0.5] }, "early_tests": tests,
+                "depth": test("less", true),
+                "stencil": { "front": { "compare": "always", "pass_op": "increment-wrap" } } }],
+        }))?;
+        frame.color_is("color", |x, _| if x < 2 { RED } else { BLUE });
         let tested = |x: u32| x < 2 || early;
-        check(depth(&frame, "ds"), |x, _| {
-            [if tested(x) { 0.5_f32 } else { 1.0 }.to_bits()]
-        });
-        check(stencil(&frame, "ds"), |x, _| {
-            [if tested(x) { 4 } else { 3 }]
-        });
+        frame.depth_is("ds", |x, _| if tested(x) { 0.5 } else { 1.0 });
+        frame.stencil_is("ds", |x, _| if tested(x) { 4 } else { 3 });
     }
     Ok(())
 }
 
 /// Each half writes a depth of its own, against a half.
-fn promise(s: &Subject, shader: &str, (early, z, written): (&str, f32, [f32; 2])) -> Checked {
-    let (kinds, names) = match shader.starts_with("counted") {
-        true => (r#""n": "shader-runs""#, r#""n""#),
-        false => ("", ""),
+fn promise(s: &Subject, shader: &str, (early, z, written): (&str, f64, [f64; 2])) -> Checked {
+    let counts = shader.starts_with("counted");
+    let (kinds, names) = match counts {
+        true => (json!({ "n": "shader-runs" }), json!(["n"])),
+        false => (json!({}), json!([])),
     };
     let values = written.map(|depth| [depth, 0.0, 0.0, 1.0]);
-    let draws = [format!(
-        r#"{{ "mesh": {{ "kind": "columns", "values": {values:?}, "z": [{z}] }}, "shader": "{shader}", {PARAMS},
-            "early_tests": "{early}", "counters": [{names}], "depth": {{ "compare": "less", "write": true }} }}"#
-    )];
-    let frame = counted(s, kinds, &draws)?;
+    let draw = json!({
+        "mesh": { "kind": "columns", "values": values, "z": [z] }, "shader": shader, "params": red(),
+        "early_tests": early, "counters": names, "depth": test("less", true) });
+    let frame = counted(s, kinds, vec![draw])?;
     let passes = |x: u32| written[x as usize / 8] < 0.5;
     if shader != "frag_coord_depth" {
-        check_painted(color(&frame, "color"), |x, _| passes(x));
+        check_painted(&frame, |x, _| passes(x));
     }
-    check(depth(&frame, "depth"), |x, _| {
-        let depth = written[x as usize / 8];
-        [if passes(x) { depth } else { 0.5 }.to_bits()]
-    });
-    assert_eq!(
-        frame.counters,
-        vec![256; usize::from(!names.is_empty())],
-        "{early}"
-    );
+    frame.depth_is("depth", |x, _| written[x as usize / 8].min(0.5));
+    assert_eq!(frame.counters, vec![256; usize::from(counts)], "{early}");
     Ok(())
 }
 
 /// Depths below and above the fragment's own, and the same.
-const PROMISES: [(&str, f32, [f32; 2]); 10] = [
+const PROMISES: [(&str, f64, [f64; 2]); 10] = [
     ("implicit", 0.25, [0.25, 0.75]),
     ("greater-equal", 0.25, [0.25, 0.75]),
     ("greater-equal", 0.125, [0.375, 0.625]),
@@ -109,10 +95,8 @@ pub(crate) fn kept_promises_change_nothing(s: &Subject) -> Checked {
     for case in PROMISES {
         promise(s, "flat_color_depth", case)?;
     }
-    for case in [PROMISES[8], PROMISES[9]] {
-        promise(s, "frag_coord_depth", case)?;
-    }
-    Ok(())
+    promise(s, "frag_coord_depth", PROMISES[8])?;
+    promise(s, "frag_coord_depth", PROMISES[9])
 }
 
 pub(crate) fn kept_promises_of_shaders_that_count_change_nothing(s: &Subject) -> Checked {
@@ -125,15 +109,12 @@ pub(crate) fn kept_promises_of_shaders_that_count_change_nothing(s: &Subject) ->
 /// There is no depth to make a promise about, or none that the test lets through but the clear's.
 pub(crate) fn promises_need_no_depth_attachment(s: &Subject) -> Checked {
     for early in ["greater-equal", "less-equal", "unchanged"] {
-        let frame = s.draw(&scene_of(
-            r#""alone": { "format": "rgba8unorm", "size": [4, 4] }"#,
-            &format!(
-                r#"{{ "color": ["alone"], "draws": [ {{ "mesh": {{ "kind": "full", "z": 0.25, "value": 1 }},
-                    "shader": "frag_coord_depth", "early_tests": "{early}" }} ] }}"#
-            ),
-            &["alone"],
-        ))?;
-        check(color(&frame, "alone"), |_, _| [255; 4]);
+        let frame = s.show(json!({
+            "attachments": { "alone": { "format": "rgba8unorm", "size": [4, 4] } },
+            "draws": [{ "mesh": { "kind": "full", "z": 0.25, "value": 1 },
+                        "shader": "frag_coord_depth", "early_tests": early }],
+        }))?;
+        frame.color_is("alone", |_, _| [255; 4]);
     }
     Ok(())
 }

@@ -1,13 +1,14 @@
 //! Every colour format that is offered: cleared, uploaded, fetched, drawn and blended.
 
 use super::Checked;
-use crate::frames::{check, check_within_one, codes, color, texels, values};
-use crate::scenes::{blend, scene_of};
+use crate::frames::{Expect, check_within_one, codes, color, texels, values};
+use crate::scenes::{blend, full, scene};
 use crate::subject::Subject;
 use etalon_frame::{Api, ChannelEncoding, ReadPath, TextureFormat};
 use etalon_scene::{Contents, Scene};
+use serde_json::{Value, json};
 
-/// The values of the columns of [`COLUMNS`], which every format holds exactly.
+/// The values of eight columns, which every format holds exactly.
 const VALUES: [[f64; 4]; 8] = [
     [1.0, 0.0, 0.0, 0.0],
     [0.0, 1.0, 0.0, 0.0],
@@ -18,8 +19,6 @@ const VALUES: [[f64; 4]; 8] = [
     [1.0, 0.0, 1.0, 0.0],
     [0.0, 1.0, 0.0, 1.0],
 ];
-const COLUMNS: &str = r#"{ "kind": "columns", "values": [ [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0],
-    [0, 0, 0, 1], 0, 1, [1, 0, 1, 0], [0, 1, 0, 1] ] }"#;
 
 /// Colour formats that are offered, with their sample counts as attachments.
 fn colors<'a>(s: &'a Subject<'_>) -> impl Iterator<Item = (TextureFormat, &'a [u32])> {
@@ -29,25 +28,22 @@ fn colors<'a>(s: &'a Subject<'_>) -> impl Iterator<Item = (TextureFormat, &'a [u
 
 pub(crate) fn clears_store_0_and_1(s: &Subject) -> Checked {
     for (format, samples) in colors(s) {
+        let channels = format.color_channels();
         // A format that cannot be drawn to can be cleared all the same.
         let counts = if samples.is_empty() { &[1] } else { samples };
-        for values in [
-            VALUES[0], VALUES[2], VALUES[3], VALUES[5], VALUES[6], VALUES[7],
-        ] {
+        for values in [0, 2, 3, 5, 6, 7].map(|column| VALUES[column]) {
             for samples in counts {
-                let frame = s.draw(&scene_of(
-                    &format!(
-                        r#""color": {{ "format": "{format}", "size": [4, 3], "samples": {samples}, "clear": {values:?} }}"#
-                    ),
-                    "",
-                    &["color"],
-                ))?;
+                let frame = s.show(json!({
+                    "attachments": { "color": {
+                        "format": format, "size": [4, 3], "samples": samples, "clear": values } },
+                    "passes": [],
+                }))?;
                 let image = color(&frame, "color");
                 assert_eq!(
                     (image.read, &image.channels[..]),
-                    (ReadPath::Copy, format.color_channels())
+                    (ReadPath::Copy, channels)
                 );
-                check(image, |_, _| codes(format.color_channels(), values));
+                frame.color_is("color", |_, _| codes(channels, values));
             }
         }
     }
@@ -57,17 +53,13 @@ pub(crate) fn clears_store_0_and_1(s: &Subject) -> Checked {
 /// Uploads codes from the whole range of each channel, and shows them in a `rgba32float` attachment
 /// where told. Returns the scene and the codes' orders.
 fn whole_range(format: TextureFormat, seen: bool) -> (Scene, Vec<i64>) {
-    let texels = r#""source": { "format": "r8unorm", "size": [16, 16], "texels": { "kind": "columns", "values": "#;
-    let source = format!("{texels} {:?} }} }}", [[0; 4]; 16]);
-    let mut scene = match seen {
-        true => scene_of(
-            &format!(r#""seen": {{ "format": "rgba32float", "size": [16, 16] }}, {source}"#),
-            r#"{ "color": ["seen"], "draws": [
-                 { "mesh": { "kind": "full" }, "shader": "texel_color", "textures": ["source"] } ] }"#,
-            &["source", "seen"],
-        ),
-        false => scene_of(&source, "", &["source"]),
-    };
+    let source = json!({ "format": format, "size": [16, 16] });
+    let mut scene = scene(match seen {
+        true => json!({
+            "attachments": { "seen": { "format": "rgba32float" }, "source": source },
+            "draws": [{ "mesh": full(), "shader": "texel_color", "textures": ["source"] }] }),
+        false => json!({ "attachments": { "source": source }, "passes": [] }),
+    });
     let channels = format.color_channels();
     let mut orders = Vec::new();
     for texel in 0..256 {
@@ -79,8 +71,7 @@ fn whole_range(format: TextureFormat, seen: bool) -> (Scene, Vec<i64>) {
     }
     let pairs = channels.iter().cycle().zip(&orders);
     let codes = pairs.map(|(e, order)| e.code_of_order(*order)).collect();
-    let source = scene.attachments.last_mut().unwrap();
-    (source.format, source.contents) = (format, Contents::Texels(codes));
+    scene.attachments.last_mut().unwrap().contents = Contents::Texels(codes);
     (scene, orders)
 }
 
@@ -123,23 +114,17 @@ pub(crate) fn values_are_uploaded_as_codes(s: &Subject) -> Checked {
                 (order as f64, e.code_of_order(order))
             }
         };
-        let values: Vec<_> = (0..16)
-            .map(|x| [0, 1, 2, 3].map(|c| texel(x, c).0))
-            .collect();
-        let frame = s.draw(&scene_of(
-            &format!(
-                r#""a": {{ "format": "{format}", "size": [16, 4], "texels": {{ "kind": "columns", "values": {values:?} }} }},
-                   "b": {{ "format": "{format}", "clear": [0, 1, 0, 1] }}"#
-            ),
-            "",
-            &["a", "b"],
-        ))?;
-        check(color(&frame, "a"), |x, _| {
-            (0..channels.len())
-                .map(|c| texel(x, c).1)
-                .collect::<Vec<_>>()
-        });
-        check(color(&frame, "b"), |_, _| codes(channels, VALUES[7]));
+        let columns = (0..16).map(|x| [0, 1, 2, 3].map(|c| texel(x, c).0));
+        let texels = json!({ "kind": "columns", "values": columns.collect::<Vec<_>>() });
+        let frame = s.show(json!({
+            "attachments": {
+                "a": { "format": format, "size": [16, 4], "texels": texels },
+                "b": { "format": format, "clear": VALUES[7] } },
+            "passes": [],
+        }))?;
+        let column = |x| (0..channels.len()).map(move |c| texel(x, c).1);
+        frame.color_is("a", |x, _| column(x).collect::<Vec<_>>());
+        frame.color_is("b", |_, _| codes(channels, VALUES[7]));
     }
     Ok(())
 }
@@ -178,15 +163,11 @@ pub(crate) fn uploads_are_fetched(s: &Subject) -> Checked {
 pub(crate) fn draws_store_0_and_1(s: &Subject) -> Checked {
     for (format, counts) in colors(s).filter(|(f, _)| !f.is_integer()) {
         for samples in counts {
-            let frame = s.draw(&scene_of(
-                &format!(
-                    r#""color": {{ "format": "{format}", "size": [32, 8], "samples": {samples}, "clear": [1, 0, 1, 0] }}"#
-                ),
-                &format!(
-                    r#"{{ "color": ["color"], "draws": [ {{ "mesh": {COLUMNS}, "shader": "flat_color" }} ] }}"#
-                ),
-                &["color"],
-            ))?;
+            let frame = s.show(json!({
+                "attachments": { "color": {
+                    "format": format, "size": [32, 8], "samples": samples, "clear": [1, 0, 1, 0] } },
+                "draws": [{ "mesh": { "kind": "columns", "values": VALUES }, "shader": "flat_color" }],
+            }))?;
             let image = color(&frame, "color");
             let on_border = |at| matches!(at % 4, 0 | 3);
             for (x, y) in texels(image.size) {
@@ -211,57 +192,45 @@ pub(crate) fn blendable_formats_blend(s: &Subject) -> Checked {
         if !support.blendable || support.samples.is_empty() {
             continue;
         }
-        let drawn = |clear: [f64; 4], mesh: &str, blend: &str| {
-            s.draw(&scene_of(
-                &format!(r#""color": {{ "format": "{format}", "clear": {clear:?} }}"#),
-                &format!(
-                    r#"{{ "color": ["color"], "draws": [ {{ "mesh": {mesh}, "shader": "flat_color", {blend} }} ] }}"#
-                ),
-                &["color"],
-            ))
+        let drawn = |clear: [f64; 4], mesh: Value, blend: Value| {
+            s.show(json!({
+                "attachments": { "color": { "format": format, "clear": clear } },
+                "draws": [{ "mesh": mesh, "shader": "flat_color", "blend": blend }],
+            }))
         };
         let channels = format.color_channels();
+        let columns = json!({ "kind": "columns", "values": VALUES });
         let larger = blend("add", "one-minus-dst", "one");
-        let frame = drawn([1.0, 0.0, 1.0, 0.0], COLUMNS, &larger)?;
-        check(color(&frame, "color"), |x, _| {
+        let frame = drawn([1.0, 0.0, 1.0, 0.0], columns, larger)?;
+        frame.color_is("color", |x, _| {
             let [_, green, _, alpha] = VALUES[x as usize / 2];
             codes(channels, [1.0, green, 1.0, alpha])
         });
-        let green = r#"{ "kind": "full", "value": [0, 1, 0, 0] }"#;
-        let frame = drawn([1.0, 0.0, 0.0, 1.0], green, &blend("add", "one", "one"))?;
-        check(color(&frame, "color"), |_, _| {
-            codes(channels, [1.0, 1.0, 0.0, 1.0])
-        });
+        let green = json!({ "kind": "full", "value": [0, 1, 0, 0] });
+        let frame = drawn([1.0, 0.0, 0.0, 1.0], green, blend("add", "one", "one"))?;
+        frame.color_is("color", |_, _| codes(channels, [1.0, 1.0, 0.0, 1.0]));
     }
     Ok(())
 }
 
 /// sRGB codes are the stored bytes: linear 0.5 is stored as 188, cleared or drawn, sample by sample.
 pub(crate) fn srgb_codes_are_the_stored_bytes(s: &Subject) -> Checked {
-    let format = TextureFormat::Rgba8UnormSrgb;
-    for samples in &s.limits().formats[&format].samples {
-        let frame = s.draw(&scene_of(
-            &format!(
-                r#""a": {{ "format": "{format}", "samples": {samples}, "clear": [0.5, 0.5, 0.5, 0.5] }},
-                   "b": {{ "format": "rgba8unorm", "samples": {samples}, "clear": [0.5, 0.5, 0.5, 0.5] }}"#
-            ),
-            r#"{ "color": ["a"], "draws": [ { "mesh": { "kind": "rect", "texels": [0, 0, 16, 4], "value": 0.5 },
-                 "shader": "flat_color" } ] },
-               { "color": ["b"], "draws": [ { "mesh": { "kind": "rect", "texels": [0, 0, 16, 4], "value": 0.5 },
-                 "shader": "flat_color" } ] }"#,
-            &["a", "b"],
-        ))?;
+    let half = json!({ "kind": "rect", "texels": [0, 0, 16, 4], "value": 0.5 });
+    let draws = json!([{ "mesh": half, "shader": "flat_color" }]);
+    for samples in &s.limits().formats[&TextureFormat::Rgba8UnormSrgb].samples {
+        let cleared = |format: &str| json!({ "format": format, "samples": samples, "clear": [0.5, 0.5, 0.5, 0.5] });
+        let frame = s.show(json!({
+            "attachments": { "a": cleared("rgba8unorm-srgb"), "b": cleared("rgba8unorm") },
+            "passes": [{ "color": ["a"], "draws": draws }, { "color": ["b"], "draws": draws }],
+        }))?;
         for (name, due) in [("a", [188, 188, 188, 128]), ("b", [128; 4])] {
             for y in [1, 6] {
                 check_within_one(color(&frame, name).sample(3, y, samples - 1), due);
             }
         }
         let drawn = color(&frame, "a").sample(3, 1, samples - 1);
-        assert!(
-            drawn[..3].iter().all(|c| (187..=188).contains(c)),
-            "{drawn:?}"
-        );
-        assert!((127..=128).contains(&drawn[3]), "{drawn:?}");
+        let is_half = drawn[..3].iter().all(|c| (187..=188).contains(c));
+        assert!(is_half && (127..=128).contains(&drawn[3]), "{drawn:?}");
     }
     Ok(())
 }
@@ -269,18 +238,16 @@ pub(crate) fn srgb_codes_are_the_stored_bytes(s: &Subject) -> Checked {
 /// Decoded by the fetch, and encoded by the draw.
 pub(crate) fn srgb_is_fetched_and_drawn(s: &Subject) -> Checked {
     let steps = [0, 10, 50, 90, 130, 170, 210, 251].repeat(2);
-    let rows: Vec<_> = steps.iter().map(|v| [*v, v + 1, v + 2, v + 3]).collect();
-    let frame = s.draw(&scene_of(
-        &format!(
-            r#""a": {{ "format": "rgba8unorm-srgb" }},
-               "t": {{ "format": "rgba8unorm-srgb", "texels": {{ "kind": "columns", "values": {rows:?} }} }}"#
-        ),
-        r#"{ "color": ["a"], "draws": [ { "mesh": { "kind": "full" }, "shader": "texel_color", "textures": ["t"] } ] }"#,
-        &["a", "t"],
-    ))?;
-    check(color(&frame, "t"), |x, _| rows[x as usize]);
+    let columns: Vec<_> = steps.iter().map(|v| [*v, v + 1, v + 2, v + 3]).collect();
+    let texels = json!({ "kind": "columns", "values": columns });
+    let frame = s.show(json!({
+        "attachments": { "a": { "format": "rgba8unorm-srgb" },
+                         "t": { "format": "rgba8unorm-srgb", "texels": texels } },
+        "draws": [{ "mesh": full(), "shader": "texel_color", "textures": ["t"] }],
+    }))?;
+    frame.color_is("t", |x, _| columns[x as usize]);
     for x in 0..16 {
-        check_within_one(color(&frame, "a").sample(x, 12, 0), rows[x as usize]);
+        check_within_one(color(&frame, "a").sample(x, 12, 0), columns[x as usize]);
     }
     Ok(())
 }

@@ -2,70 +2,62 @@
 //! samples discarded by thresholds.
 
 use super::Checked;
-use crate::frames::{GREEN, NONE, RED, check, check_near, color, values};
-use crate::scenes::scene_of;
+use crate::frames::{Expect, GREEN, NONE, RED, check_near, color, texels, values};
+use crate::scenes::{blend, blue, full, test, with};
 use crate::subject::Subject;
+use etalon_frame::Frame;
+use serde_json::{Value, json};
 
-/// Three layers in the wrong order, each covering less than the one behind it.
-const LAYERS: [(&str, [u32; 4], f32); 3] = [
-    ("[0, 0, 1, 0.25]", [0, 0, 8, 4], 0.75),
-    ("[1, 0, 0, 0.5]", [0, 0, 4, 4], 0.25),
-    ("[0, 1, 0, 1]", [0, 0, 8, 2], 0.5),
-];
+/// Draws three layers in the wrong order, each covering less than the one behind it.
+fn layers(state: Value) -> Vec<Value> {
+    let layers = [
+        ([0.0, 0.0, 1.0, 0.25], [0, 0, 8, 4], 0.75),
+        ([1.0, 0.0, 0.0, 0.5], [0, 0, 4, 4], 0.25),
+        ([0.0, 1.0, 0.0, 1.0], [0, 0, 8, 2], 0.5),
+    ];
+    let draws = layers.iter().map(|(value, texels, z)| {
+        let mesh = json!({ "kind": "rect", "texels": texels, "z": z, "value": value });
+        with(json!({ "mesh": mesh }), state.clone())
+    });
+    draws.collect()
+}
 
-/// All layers in one pass.
-fn layers(shader: &str, more: &str) -> String {
-    let draw = |(value, texels, z): &(&str, [u32; 4], f32)| {
-        format!(
-            r#"{{ "mesh": {{ "kind": "rect", "texels": {texels:?}, "z": {z}, "value": {value} }},
-                "shader": "{shader}" {more} }}"#
-        )
-    };
-    LAYERS.iter().map(draw).collect::<Vec<_>>().join(",")
+/// A float attachment of 8 by 4 texels.
+fn float(format: &str, clear: [i32; 4]) -> Value {
+    json!({ "format": format, "size": [8, 4], "clear": clear })
+}
+
+/// Holds a texel of floats to be near values.
+#[track_caller]
+fn near(frame: &Frame, name: &str, (x, y): (u32, u32), due: [f64; 4], off: f64) {
+    check_near(&values(color(frame, name), x, y), &due, off);
 }
 
 /// The last pass has no use for the depth that the shader gives.
 pub(crate) fn layers_are_peeled_one_by_one(s: &Subject) -> Checked {
-    let float = |name: &str, clear: u32| {
-        format!(
-            r#""{name}": {{ "format": "rgba32float", "size": [8, 4], "clear": [{clear}, 0, 0, 1] }}"#
-        )
+    let names = ["first", "second", "third"];
+    let mut attachments = json!({
+        "none": float("rgba32float", [0, 0, 0, 1]),
+        "after-first": float("rgba32float", [1, 0, 0, 1]),
+        "after-second": float("rgba32float", [1, 0, 0, 1]) });
+    for name in names {
+        attachments[name] = json!({ "format": "rgba8unorm" });
+        attachments[format!("z-{name}")] = json!({ "format": "depth32float", "clear": 1 });
+    }
+    let pass = |name: &str, color: &[&str], before: &str| {
+        let state = json!({ "shader": "peel", "textures": [before], "depth": test("less", true) });
+        json!({ "color": color, "depth_stencil": format!("z-{name}"), "draws": layers(state) })
     };
-    let rest = ["first", "second", "third"].map(|name| {
-        format!(
-            r#""{name}": {{ "format": "rgba8unorm", "size": [8, 4] }},
-               "z-{name}": {{ "format": "depth32float", "size": [8, 4], "clear": 1 }}"#
-        )
-    });
-    let pass = |name: &str, depth: &str, before: &str| {
-        let more = format!(
-            r#", "textures": ["{before}"], "depth": {{ "compare": "less", "write": true }}"#
-        );
-        format!(
-            r#"{{ "color": ["{name}" {depth}], "depth_stencil": "z-{name}", "draws": [ {} ] }}"#,
-            layers("peel", &more)
-        )
-    };
-    let scene = scene_of(
-        &[
-            float("none", 0),
-            float("after-first", 1),
-            float("after-second", 1),
-            rest.join(","),
-        ]
-        .join(","),
-        &[
-            pass("first", r#", "after-first""#, "none"),
-            pass("second", r#", "after-second""#, "after-first"),
-            pass("third", "", "after-second"),
-        ]
-        .join(","),
-        &["after-second", "first", "second", "third"],
-    );
-    let frame = s.draw(&scene)?;
+    let frame = s.show(json!({
+        "attachments": attachments,
+        "passes": [pass("first", &["first", "after-first"], "none"),
+                   pass("second", &["second", "after-second"], "after-first"),
+                   pass("third", &["third"], "after-second")],
+        "read": ["after-second", "first", "second", "third"],
+    }))?;
     let [red, green, blue] = [[255, 0, 0, 128], GREEN, [0, 0, 255, 64]];
-    for (at, name) in ["first", "second", "third"].into_iter().enumerate() {
-        check(color(&frame, name), |x, y| {
+    for (at, name) in names.into_iter().enumerate() {
+        frame.color_is(name, |x, y| {
             let peeled: &[[u32; 4]] = match (x, y) {
                 (0..4, 0..2) => &[red, green, blue],
                 (0..4, _) => &[red, blue],
@@ -75,114 +67,71 @@ pub(crate) fn layers_are_peeled_one_by_one(s: &Subject) -> Checked {
             *peeled.get(at).unwrap_or(&NONE)
         });
     }
-    check_near(
-        &values(color(&frame, "after-second"), 0, 0),
-        &[0.5, 0.0, 0.0, 1.0],
-        1e-6,
-    );
-    check_near(
-        &values(color(&frame, "after-second"), 7, 1),
-        &[0.75, 0.0, 0.0, 1.0],
-        1e-6,
-    );
-    check_near(
-        &values(color(&frame, "after-second"), 7, 3),
-        &[1.0, 0.0, 0.0, 1.0],
-        0.0,
-    );
+    near(&frame, "after-second", (0, 0), [0.5, 0.0, 0.0, 1.0], 1e-6);
+    near(&frame, "after-second", (7, 1), [0.75, 0.0, 0.0, 1.0], 1e-6);
+    near(&frame, "after-second", (7, 3), [1.0, 0.0, 0.0, 1.0], 0.0);
     Ok(())
 }
 
 /// The nearest and the farthest layer go in the same pass, by maxima of 32-bit floats.
 pub(crate) fn layers_are_peeled_from_both_ends(s: &Subject) -> Checked {
-    let max = r#"{ "operation": "max", "src_factor": "one", "dst_factor": "one" }"#;
-    let blend = format!(r#", "blend": {{ "color": {max}, "alpha": {max} }}"#);
-    let float = |name: &str, format: &str, clear: &str| {
-        format!(r#""{name}": {{ "format": "{format}", "size": [8, 4], "clear": {clear} }}"#)
-    };
-    let scene = scene_of(
-        &[
-            float("range", "rgba32float", "[-1, 0, 0, 0]"),
-            float("next", "rgba32float", "[-1, -1, 0, 0]"),
-            float("none", "rgba16float", "[0, 0, 0, 0]"),
-            float("front", "rgba16float", "[0, 0, 0, 0]"),
-            float("back", "rgba16float", "[0, 0, 0, 0]"),
-        ]
-        .join(","),
-        &format!(
-            r#"{{ "color": ["range"], "draws": [ {} ] }},
-               {{ "color": ["next", "front", "back"], "draws": [ {} ] }}"#,
-            layers("depth_range", &blend),
-            layers(
-                "dual_peel",
-                &format!(r#"{blend}, "textures": ["range", "none"]"#)
-            ),
-        ),
-        &["back", "front", "next", "range"],
-    );
-    let frame = s.draw(&scene)?;
-    let check =
-        |name: &str, due: [f64; 4]| check_near(&values(color(&frame, name), 1, 1), &due, 1e-6);
-    check("range", [-0.25, 0.75, 0.0, 1.0]);
-    check("next", [-0.5, 0.5, 0.0, 1.0]);
-    check("front", [0.5, 0.0, 0.0, 0.5]);
-    check("back", [0.0, 0.0, 1.0, 0.25]);
+    let max = blend("max", "one", "one");
+    let range = json!({ "shader": "depth_range", "blend": max });
+    let peel = json!({ "shader": "dual_peel", "blend": max, "textures": ["range", "none"] });
+    let frame = s.show(json!({
+        "attachments": {
+            "range": float("rgba32float", [-1, 0, 0, 0]),
+            "next": float("rgba32float", [-1, -1, 0, 0]),
+            "none": float("rgba16float", [0; 4]),
+            "front": float("rgba16float", [0; 4]),
+            "back": float("rgba16float", [0; 4]) },
+        "passes": [{ "color": ["range"], "draws": layers(range) },
+                   { "color": ["next", "front", "back"], "draws": layers(peel) }],
+        "read": ["back", "front", "next", "range"],
+    }))?;
+    near(&frame, "range", (1, 1), [-0.25, 0.75, 0.0, 1.0], 1e-6);
+    near(&frame, "next", (1, 1), [-0.5, 0.5, 0.0, 1.0], 1e-6);
+    near(&frame, "front", (1, 1), [0.5, 0.0, 0.0, 0.5], 1e-6);
+    near(&frame, "back", (1, 1), [0.0, 0.0, 1.0, 0.25], 1e-6);
     // Where there is but one layer, it is the nearest.
-    check_near(
-        &values(color(&frame, "front"), 7, 3),
-        &[0.0, 0.0, 0.25, 0.25],
-        1e-6,
-    );
-    check_near(&values(color(&frame, "back"), 7, 3), &[0.0; 4], 0.0);
+    near(&frame, "front", (7, 3), [0.0, 0.0, 0.25, 0.25], 1e-6);
+    near(&frame, "back", (7, 3), [0.0; 4], 0.0);
     Ok(())
 }
 
 /// Sums and products beside each other, and what both make of the background.
 pub(crate) fn weighted_layers_are_summed_and_shown(s: &Subject) -> Checked {
-    let component = |src: &str, dst: &str| {
-        format!(r#"{{ "operation": "add", "src_factor": "{src}", "dst_factor": "{dst}" }}"#)
+    let layer = |texels: [u32; 4], color: [f64; 4]| {
+        json!({ "mesh": { "kind": "rect", "texels": texels, "z": 0.5, "value": color },
+                "shader": "weighted_accumulate", "targets": [
+                    { "blend": blend("add", "one", "one") },
+                    { "blend": blend("add", "zero", "one-minus-src") }] })
     };
-    let blend = |src: &str, dst: &str| {
-        let both = component(src, dst);
-        format!(r#""blend": {{ "color": {both}, "alpha": {both} }}"#)
-    };
-    let (sum, left) = (blend("one", "one"), blend("zero", "one-minus-src"));
-    let layer = |texels: [u32; 4], color: &str| {
-        format!(
-            r#"{{ "mesh": {{ "kind": "rect", "texels": {texels:?}, "z": 0.5, "value": {color} }},
-                "shader": "weighted_accumulate", "targets": [ {{ {sum} }}, {{ {left} }} ] }}"#
-        )
-    };
-    let scene = scene_of(
-        r#""sum": { "format": "rgba16float", "size": [4, 4], "clear": [0, 0, 0, 0] },
-           "left": { "format": "r8unorm", "size": [4, 4], "clear": [1, 0, 0, 0] },
-           "shown": { "format": "rgba8unorm", "size": [4, 4], "clear": [0, 0, 1, 1] }"#,
-        &format!(
-            r#"{{ "color": ["sum", "left"], "draws": [ {}, {} ] }},
-               {{ "color": ["shown"], "draws": [ {{ "mesh": {{ "kind": "full" }},
-                  "shader": "weighted_resolve", "textures": ["sum", "left"], {} }} ] }}"#,
-            layer([0, 0, 4, 4], "[1, 0, 0, 0.5]"),
-            layer([0, 0, 2, 3], "[0, 1, 0, 0.5]"),
-            blend("one-minus-src-alpha", "src-alpha"),
-        ),
-        &["left", "shown", "sum"],
-    );
-    let frame = s.draw(&scene)?;
-    for (x, y) in (0..4).flat_map(|y| (0..4).map(move |x| (x, y))) {
-        let both = x < 2 && y < 3;
-        let green = if both { 93.75 } else { 0.0 };
-        check_near(
-            &values(color(&frame, "sum"), x, y),
-            &[93.75, green, 0.0, 93.75 + green],
+    let frame = s.show(json!({
+        "attachments": {
+            "sum": { "format": "rgba16float", "size": [4, 4] },
+            "left": { "format": "r8unorm", "clear": [1, 0, 0, 0] },
+            "shown": blue() },
+        "passes": [
+            { "color": ["sum", "left"], "draws": [
+                layer([0, 0, 4, 4], [1.0, 0.0, 0.0, 0.5]), layer([0, 0, 2, 3], [0.0, 1.0, 0.0, 0.5])] },
+            { "color": ["shown"], "draws": [{
+                "mesh": full(), "shader": "weighted_resolve", "textures": ["sum", "left"],
+                "blend": blend("add", "one-minus-src-alpha", "src-alpha") }] }],
+    }))?;
+    for (x, y) in texels([4, 4]) {
+        let (green, left, shown) = match x < 2 && y < 3 {
+            true => (93.75, 0.25, [0.375, 0.375, 0.25]),
+            false => (0.0, 0.5, [0.5, 0.0, 0.5]),
+        };
+        near(
+            &frame,
+            "sum",
+            (x, y),
+            [93.75, green, 0.0, 93.75 + green],
             0.2,
         );
-        let left = if both { 0.25 } else { 0.5 };
         check_near(&values(color(&frame, "left"), x, y), &[left], 1.01 / 255.0);
-        let shown = if both {
-            [0.375, 0.375, 0.25]
-        } else {
-            [0.5, 0.0, 0.5]
-        };
         check_near(
             &values(color(&frame, "shown"), x, y)[..3],
             &shown,
@@ -194,18 +143,18 @@ pub(crate) fn weighted_layers_are_summed_and_shown(s: &Subject) -> Checked {
 
 /// A threshold for each of four samples, in a texture that an earlier pass drew.
 pub(crate) fn samples_are_discarded_by_thresholds(s: &Subject) -> Checked {
-    let scene = scene_of(
-        r#""color": { "format": "rgba8unorm", "size": [4, 4], "samples": 4, "clear": [0, 0, 0, 0] },
-           "thresholds": { "format": "rgba8unorm", "size": [4, 4] }"#,
-        r#"{ "color": ["thresholds"], "draws": [ { "mesh": { "kind": "full" }, "shader": "uniform_color",
-             "params": { "color": [0.875, 0.25, 0.625, 0.125] } } ] },
-           { "color": ["color"], "draws": [ { "mesh": { "kind": "cover", "value": [1, 0, 0, 0.5] },
-             "shader": "stochastic", "textures": ["thresholds"] } ] }"#,
-        &["color"],
-    );
-    let frame = s.draw(&scene)?;
-    let color = color(&frame, "color");
-    for texel in color.codes.chunks(16) {
+    let frame = s.show(json!({
+        "attachments": {
+            "color": { "format": "rgba8unorm", "size": [4, 4], "samples": 4 },
+            "thresholds": { "format": "rgba8unorm" } },
+        "passes": [
+            { "color": ["thresholds"], "draws": [{ "mesh": full(), "shader": "uniform_color",
+                "params": { "color": [0.875, 0.25, 0.625, 0.125] } }] },
+            { "color": ["color"], "draws": [{ "mesh": { "kind": "cover", "value": [1, 0, 0, 0.5] },
+                "shader": "stochastic", "textures": ["thresholds"] }] }],
+        "read": ["color"],
+    }))?;
+    for texel in color(&frame, "color").codes.chunks(16) {
         assert_eq!(texel, [NONE, RED, NONE, RED].concat());
     }
     Ok(())

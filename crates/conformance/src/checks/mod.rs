@@ -87,7 +87,7 @@ registry! {
     }
     depth {
         depths_start_from_their_clear depths_are_compared_with_the_stored_one
-        written_depths_are_stored_where_they_pass floats_keep_any_depth
+         floats_keep_any_depth
         a_draw_without_a_depth_test_neither_tests_nor_writes depth_and_stencil_may_be_read_only
         passes_that_write_take_turns_with_passes_that_do_not a_viewport_moves_depths_into_its_range
         a_range_of_depths_may_be_reversed depths_outside_are_clipped depths_outside_are_clamped

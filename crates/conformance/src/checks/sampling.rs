@@ -1,16 +1,21 @@
 //! Textures sampled with filters and address modes.
 
 use super::Checked;
-use crate::frames::{check, check_near, check_within_one, color, texels, values};
-use crate::scenes::scene_of;
-use crate::subject::Subject;
+use crate::frames::{Expect, check_near, check_within_one, color, texels, values};
+use crate::scenes::{blue, corners, rect, uploaded, with};
+use crate::subject::{Missing, Subject};
 use etalon_frame::Frame;
 use etalon_scene::AddressMode;
+use serde_json::{Value, json};
 
 /// A texture of 4 by 2 texels, each different.
-const TEXELS: &str = r#"{ "kind": "grid", "values": [
-    [[1, 0, 0, 255], [2, 0, 0, 255], [3, 0, 0, 255], [4, 0, 0, 255]],
-    [[11, 0, 0, 255], [12, 0, 0, 255], [13, 0, 0, 255], [14, 0, 0, 255]] ] }"#;
+fn eight() -> Value {
+    let row = |red: u32| [red, red + 1, red + 2, red + 3].map(|red| [red, 0, 0, 255]);
+    with(
+        uploaded("grid", [row(1), row(11)]),
+        json!({ "size": [4, 2] }),
+    )
+}
 
 /// The texel that a number across or down stands for.
 fn addressed(mode: AddressMode, count: i32, at: i32) -> i32 {
@@ -28,36 +33,30 @@ fn addressed(mode: AddressMode, count: i32, at: i32) -> i32 {
 fn sampled(
     s: &Subject,
     size: [u32; 2],
-    source: &str,
+    source: Value,
     uv: [f32; 4],
     filter: &str,
     modes: [AddressMode; 2],
-) -> Result<Frame, crate::Missing> {
-    let modes = modes.map(AddressMode::name);
-    s.draw(&scene_of(
-        &format!(
-            r#""a": {{ "format": "rgba8unorm", "size": {size:?}, "clear": [0, 0, 1, 1] }}, "t": {{ "format": "rgba8unorm", {source} }}"#
-        ),
-        &format!(
-            r#"{{ "color": ["a"], "draws": [ {{ "mesh": {{ "kind": "cover", "uv": {uv:?} }}, "shader": "sampled_color",
-                "textures": ["t"], "sampler": {{ "filter": "{filter}", "address": {modes:?} }} }} ] }}"#
-        ),
-        &["a"],
-    ))
+) -> Result<Frame, Missing> {
+    s.show(json!({
+        "attachments": { "a": with(blue(), json!({ "size": size })), "t": source },
+        "draws": [{ "mesh": { "kind": "cover", "uv": uv }, "shader": "sampled_color", "textures": ["t"],
+                    "sampler": { "filter": filter, "address": modes.map(AddressMode::name) } }],
+        "read": ["a"],
+    }))
 }
 
 /// Row 0 of a texture, the first that is uploaded, lies at coordinate 0. Each texel is shown twice
 /// in either direction, from three textures around or from the middle of one on.
 pub(crate) fn the_nearest_texel_is_taken_from_where_the_address_leads(s: &Subject) -> Checked {
-    let source = format!(r#""size": [4, 2], "texels": {TEXELS}"#);
     for (size, uv, origin) in [
         ([24, 12], [-1.0, -1.0, 2.0, 2.0], [-4, -2]),
         ([24, 8], [-1.0, -0.5, 2.0, 1.5], [-4, -1]),
     ] {
         for across in AddressMode::ALL.iter().copied() {
             for down in AddressMode::ALL.iter().copied() {
-                let frame = sampled(s, size, &source, uv, "nearest", [across, down])?;
-                check(color(&frame, "a"), |x, y| {
+                let frame = sampled(s, size, eight(), uv, "nearest", [across, down])?;
+                frame.color_is("a", |x, y| {
                     let column = addressed(across, 4, x as i32 / 2 + origin[0]);
                     let row = addressed(down, 2, y as i32 / 2 + origin[1]);
                     [(1 + column + 10 * row) as u32, 0, 0, 255]
@@ -70,17 +69,10 @@ pub(crate) fn the_nearest_texel_is_taken_from_where_the_address_leads(s: &Subjec
 
 /// Four attachment texels to each of the texture: weights of eighths.
 fn weights(s: &Subject, mode: AddressMode) -> Checked {
-    let texel = |x: u32, y: u32| [40 * x, 50 * y, 7, 255];
-    let rows = [0, 1, 2, 3].map(|y| [0, 1, 2, 3].map(|x| texel(x, y)));
-    let source = format!(r#""size": [4, 4], "texels": {{ "kind": "grid", "values": {rows:?} }}"#);
-    let frame = sampled(
-        s,
-        [16, 16],
-        &source,
-        [0.0, 0.0, 1.0, 1.0],
-        "linear",
-        [mode; 2],
-    )?;
+    let rows = [0, 1, 2, 3].map(|y| [0, 1, 2, 3].map(|x| [40 * x, 50 * y, 7, 255]));
+    let source = with(uploaded("grid", rows), json!({ "size": [4, 4] }));
+    let uv = [0.0, 0.0, 1.0, 1.0];
+    let frame = sampled(s, [16, 16], source, uv, "linear", [mode; 2])?;
     let weighed = |at: u32, step: f64| {
         let position = (f64::from(at) + 0.5) / 4.0 - 0.5;
         let (below, weight) = (position.floor() as i32, position - position.floor());
@@ -98,7 +90,8 @@ fn weights(s: &Subject, mode: AddressMode) -> Checked {
 
 /// At the middle between two texels both have equal weight, at a texel's centre it is alone.
 fn middles(s: &Subject, mode: AddressMode, due: [u32; 8]) -> Checked {
-    let source = r#""size": [2, 4], "texels": { "kind": "columns", "values": [[40, 0, 0, 255], [200, 0, 0, 255]] }"#;
+    let columns = uploaded("columns", [[40, 0, 0, 255], [200, 0, 0, 255]]);
+    let source = with(columns, json!({ "size": [2, 4] }));
     let modes = [mode, AddressMode::ClampToEdge];
     let uv = [-0.125, 0.0, 1.875, 1.0];
     let frame = sampled(s, [8, 4], source, uv, "linear", modes)?;
@@ -133,15 +126,16 @@ pub(crate) fn neighbours_in_the_mirror_are_averaged(s: &Subject) -> Checked {
 
 /// Weights may have no more than 8 bits.
 pub(crate) fn averages_of_floats_are_floats(s: &Subject) -> Checked {
-    let frame = s.draw(&scene_of(
-        r#""a": { "format": "rgba32float", "size": [8, 8] },
-           "t": { "format": "rgba16float", "size": [2, 2], "texels": { "kind": "grid", "values": [
-             [[0, 0, 0, 1], [1, 0, 0, 1]], [[0, 1, 0, 1], [1, 1, 0, 1]] ] } }"#,
-        r#"{ "color": ["a"], "draws": [ { "mesh": { "kind": "cover", "uv": [0, 0, 1, 1] },
-             "shader": "sampled_color", "textures": ["t"],
-             "sampler": { "filter": "linear", "address": ["clamp-to-edge", "repeat"] } } ] }"#,
-        &["a"],
-    ))?;
+    let grid = [[[0, 0, 0, 1], [1, 0, 0, 1]], [[0, 1, 0, 1], [1, 1, 0, 1]]];
+    let frame = s.show(json!({
+        "attachments": {
+            "a": { "format": "rgba32float", "size": [8, 8] },
+            "t": { "format": "rgba16float", "size": [2, 2], "texels": { "kind": "grid", "values": grid } } },
+        "draws": [{ "mesh": { "kind": "cover", "uv": [0, 0, 1, 1] }, "shader": "sampled_color",
+                    "textures": ["t"],
+                    "sampler": { "filter": "linear", "address": ["clamp-to-edge", "repeat"] } }],
+        "read": ["a"],
+    }))?;
     for (x, y) in texels([8, 8]) {
         let position = |at: u32| (f64::from(at) + 0.5) / 4.0 - 0.5;
         let red = position(x).clamp(0.0, 1.0);
@@ -155,58 +149,43 @@ pub(crate) fn averages_of_floats_are_floats(s: &Subject) -> Checked {
 
 /// A sampler that an earlier draw used has no say in fetches.
 pub(crate) fn fetches_need_no_sampler(s: &Subject) -> Checked {
-    let frame = s.draw(&scene_of(
-        &format!(
-            r#""a": {{ "format": "rgba8unorm", "size": [4, 2], "clear": [0, 0, 1, 1] }},
-               "t": {{ "format": "rgba8unorm", "texels": {TEXELS} }},
-               "f": {{ "format": "rgba32float", "texels": {{ "kind": "columns", "values": [
-                    [0, 1, 0, 1], [1, 0, 0, 1], [0, 0, 1, 1], [1, 1, 1, 1]] }} }}"#
-        ),
-        r#"{ "color": ["a"], "draws": [
-             { "mesh": { "kind": "cover", "uv": [0, 0, 1, 1] }, "shader": "sampled_color", "textures": ["t"],
-               "sampler": { "filter": "linear", "address": ["repeat", "repeat"] } },
-             { "mesh": { "kind": "rect", "texels": [0, 0, 4, 1] }, "shader": "texel_color", "textures": ["f"] } ] }"#,
-        &["a", "t", "f"],
-    ))?;
-    let fetched = [
-        [0, 255, 0, 255],
-        [255, 0, 0, 255],
-        [0, 0, 255, 255],
-        [255; 4],
-    ];
-    check(color(&frame, "a"), |x, y| match y {
-        0 => fetched[x as usize],
+    let floats = [[0, 1, 0, 1], [1, 0, 0, 1], [0, 0, 1, 1], [1, 1, 1, 1]];
+    let frame = s.show(json!({
+        "attachments": {
+            "a": blue(), "t": eight(),
+            "f": { "format": "rgba32float", "texels": { "kind": "columns", "values": floats } } },
+        "draws": [
+            { "mesh": { "kind": "cover", "uv": [0, 0, 1, 1] }, "shader": "sampled_color",
+              "textures": ["t"], "sampler": { "filter": "linear", "address": ["repeat", "repeat"] } },
+            { "mesh": rect([0, 0, 4, 1]), "shader": "texel_color", "textures": ["f"] }],
+    }))?;
+    frame.color_is("a", |x, y| match y {
+        0 => floats[x as usize].map(|value| value * 255),
         // The middle of a texel is that texel.
         _ => [11 + x, 0, 0, 255],
     });
-    check(color(&frame, "t"), |x, y| [1 + x + 10 * y, 0, 0, 255]);
+    frame.color_is("t", |x, y| [1 + x + 10 * y, 0, 0, 255]);
     Ok(())
 }
 
 /// Draws with samplers and textures of their own in one pass.
 pub(crate) fn each_draw_has_its_own_sampler(s: &Subject) -> Checked {
-    let draw = |[left, top, right, bottom]: [u32; 4], texture: &str, filter: &str| {
-        let corners = [[left, top], [left, bottom], [right, top], [right, bottom]];
-        let positions = corners.map(|[x, y]| [x, y, 0]);
-        format!(
-            r#"{{ "mesh": {{ "kind": "vertices", "units": "texels", "positions": {positions:?},
-                  "uv": [[0.5, 0.5]] }}, "topology": "triangle-strip", "shader": "sampled_color",
-                "textures": ["{texture}"],
-                "sampler": {{ "filter": "{filter}", "address": ["repeat", "repeat"] }} }}"#
-        )
+    let draw = |texels: [u32; 4], texture: &str, filter: &str| {
+        json!({ "mesh": with(corners(texels), json!({ "uv": [[0.5, 0.5]] })),
+                "topology": "triangle-strip", "shader": "sampled_color", "textures": [texture],
+                "sampler": { "filter": filter, "address": ["repeat", "repeat"] } })
     };
-    let frame = s.draw(&scene_of(
-        r#""a": { "format": "rgba8unorm", "size": [16, 16] },
-           "two": { "format": "rgba8unorm", "size": [2, 1], "texels": { "kind": "grid", "values": [[[0, 0, 0, 0], [200, 100, 0, 0]]] } },
-           "one": { "format": "rgba8unorm", "size": [1, 1], "texels": { "kind": "grid", "values": [[[1, 2, 3, 4]]] } }"#,
-        &format!(
-            r#"{{ "color": ["a"], "draws": [ {}, {}, {} ] }}"#,
-            draw([0, 0, 4, 16], "two", "linear"),
-            draw([4, 0, 8, 16], "one", "linear"),
-            draw([8, 0, 16, 16], "one", "nearest"),
-        ),
-        &["a"],
-    ))?;
+    let two = uploaded("grid", [[[0, 0, 0, 0], [200, 100, 0, 0]]]);
+    let one = uploaded("grid", [[[1, 2, 3, 4]]]);
+    let frame = s.show(json!({
+        "attachments": {
+            "a": { "format": "rgba8unorm", "size": [16, 16] },
+            "two": with(two, json!({ "size": [2, 1] })),
+            "one": with(one, json!({ "size": [1, 1] })) },
+        "draws": [draw([0, 0, 4, 16], "two", "linear"), draw([4, 0, 8, 16], "one", "linear"),
+                  draw([8, 0, 16, 16], "one", "nearest")],
+        "read": ["a"],
+    }))?;
     let image = color(&frame, "a");
     check_within_one(image.sample(1, 1, 0), [100, 50, 0, 0]);
     for x in 4..16 {

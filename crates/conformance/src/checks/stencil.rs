@@ -1,34 +1,23 @@
 //! Stencil tests, operations and masks, face by face.
 
 use super::Checked;
-use crate::frames::{check, check_red, depth, stencil};
-use crate::scenes::{FACING, PAINT, list, scene_of};
-use crate::subject::Subject;
+use crate::frames::{Expect, stencil};
+use crate::scenes::{blue, painted, rect, red, red_or_green, test, with};
+use crate::subject::{Missing, Subject};
 use etalon_frame::{ChannelEncoding, Frame, ReadPath};
+use serde_json::{Value, json};
 
-/// Two columns, front faces on the left, over blue and a stencil value.
-fn faces(
-    s: &Subject,
-    format: &str,
-    value: u32,
-    shader: &str,
-    state: &str,
-) -> Result<Frame, crate::Missing> {
+/// Draws two columns, front faces on the left, over blue and a stencil value.
+fn faces(s: &Subject, format: &str, value: u32, state: Value) -> Result<Frame, Missing> {
     let clear = match format {
-        "stencil8" => value.to_string(),
-        _ => format!(r#"{{ "depth": 0, "stencil": {value} }}"#),
+        "stencil8" => json!(value),
+        _ => json!({ "depth": 0, "stencil": value }),
     };
-    s.draw(&scene_of(
-        &format!(
-            r#""color": {{ "format": "rgba8unorm", "clear": [0, 0, 1, 1] }},
-               "s": {{ "format": "{format}", "clear": {clear} }}"#
-        ),
-        &format!(
-            r#"{{ "color": ["color"], "depth_stencil": "s", "draws": [
-                {{ "mesh": {{ "kind": "columns", "values": [1, 1], "windings": ["ccw", "cw"] }}, {shader}, {state} }} ] }}"#
-        ),
-        &["color", "s"],
-    ))
+    let mesh = json!({ "kind": "columns", "values": [1, 1], "windings": ["ccw", "cw"] });
+    s.show(json!({
+        "attachments": { "color": blue(), "s": { "format": format, "clear": clear } },
+        "draws": [with(json!({ "mesh": mesh }), state)],
+    }))
 }
 
 const FORMATS: [&str; 3] = ["depth24plus-stencil8", "depth32float-stencil8", "stencil8"];
@@ -37,28 +26,31 @@ const FORMATS: [&str; 3] = ["depth24plus-stencil8", "depth32float-stencil8", "st
 /// half is inverted.
 pub(crate) fn faces_have_masks_and_references_of_their_own(s: &Subject) -> Checked {
     for format in FORMATS {
-        let state = r#""stencil": {
+        let state = json!({ "shader": "front_facing", "params": red_or_green(), "stencil": {
             "front": { "compare": "equal", "fail_op": "zero", "pass_op": "replace",
                        "read_mask": 13, "write_mask": 15, "reference": 247 },
             "back": { "compare": "equal", "fail_op": "invert", "pass_op": "zero",
-                      "read_mask": 255, "write_mask": 240, "reference": 9 } }"#;
-        let frame = faces(s, format, 5, FACING, state)?;
-        check_red(&frame, |x, _| x < 8);
+                      "read_mask": 255, "write_mask": 240, "reference": 9 } } });
+        let frame = faces(s, format, 5, state)?;
+        frame.is_red(|x, _| x < 8);
         let image = stencil(&frame, "s");
         assert_eq!(image.channels, [ChannelEncoding::Uint(8)]);
         assert_eq!(image.read, ReadPath::Copy);
-        check(image, |x, _| [if x < 8 { 7 } else { 0xF5 }]);
+        frame.stencil_is("s", |x, _| if x < 8 { 7 } else { 0xF5 });
     }
     // Front: 32 & 15 equals 240 & 15, so 32 is written through 63: 240 & !63 | 32 & 63 = 224.
     // Back: 1 is not 240, so 241 is written through 3: 240 | 1 = 241.
-    let state = r#""stencil": {
+    let state = with(
+        painted(),
+        json!({ "stencil": {
         "front": { "compare": "equal", "pass_op": "replace", "fail_op": "zero",
                    "read_mask": 15, "write_mask": 63, "reference": 32 },
         "back": { "compare": "equal", "pass_op": "zero", "fail_op": "increment-wrap",
-                  "read_mask": 255, "write_mask": 3, "reference": 1 } }"#;
-    let frame = faces(s, "depth24plus-stencil8", 240, PAINT, state)?;
-    check(stencil(&frame, "s"), |x, _| [if x < 8 { 224 } else { 241 }]);
-    check_red(&frame, |x, _| x < 8);
+                  "read_mask": 255, "write_mask": 3, "reference": 1 } } }),
+    );
+    let frame = faces(s, "depth24plus-stencil8", 240, state)?;
+    frame.stencil_is("s", |x, _| if x < 8 { 224 } else { 241 });
+    frame.is_red(|x, _| x < 8);
     Ok(())
 }
 
@@ -67,18 +59,14 @@ pub(crate) fn faces_have_masks_and_references_of_their_own(s: &Subject) -> Check
 pub(crate) fn faces_have_operations_of_their_own(s: &Subject) -> Checked {
     for format in FORMATS {
         for (front_face, turned) in [("ccw", false), ("cw", true)] {
-            let state = format!(
-                r#""front_face": "{front_face}", "stencil": {{ "reference": 7, "write_mask": 143,
-                    "front": {{ "compare": "less", "pass_op": "increment-wrap" }},
-                    "back": {{ "compare": "greater", "fail_op": "invert" }} }}"#
-            );
-            let frame = faces(s, format, 200, PAINT, &state)?;
+            let state = json!({ "front_face": front_face, "stencil": { "reference": 7, "write_mask": 143,
+                "front": { "compare": "less", "pass_op": "increment-wrap" },
+                "back": { "compare": "greater", "fail_op": "invert" } } });
+            let frame = faces(s, format, 200, with(painted(), state))?;
             let front = |x: u32| (x < 8) != turned;
-            check_red(&frame, |x, _| front(x));
+            frame.is_red(|x, _| front(x));
             let inverted = (200 & !143) | (!200 & 143);
-            check(stencil(&frame, "s"), |x, _| {
-                [if front(x) { 201 } else { inverted }]
-            });
+            frame.stencil_is("s", |x, _| if front(x) { 201 } else { inverted });
         }
     }
     Ok(())
@@ -86,30 +74,25 @@ pub(crate) fn faces_have_operations_of_their_own(s: &Subject) -> Checked {
 
 /// The depth of 1 is not less than the cleared 0; one face holds its value at 255, one goes to 0.
 pub(crate) fn a_failed_depth_test_has_its_own_operation(s: &Subject) -> Checked {
-    let state = r#""shader": "flat_color_depth", "depth": { "compare": "less", "write": true },
-        "stencil": { "front": { "compare": "always", "depth_fail_op": "increment-clamp", "pass_op": "zero" },
-                     "back": { "compare": "always", "depth_fail_op": "increment-wrap", "pass_op": "zero" } }"#;
-    let (shader, state) = state.split_once(", ").unwrap();
-    let frame = faces(s, "depth24plus-stencil8", 255, shader, state)?;
-    check(stencil(&frame, "s"), |x, _| [if x < 8 { 255 } else { 0 }]);
+    let state = json!({ "shader": "flat_color_depth", "depth": test("less", true), "stencil": {
+        "front": { "compare": "always", "depth_fail_op": "increment-clamp", "pass_op": "zero" },
+        "back": { "compare": "always", "depth_fail_op": "increment-wrap", "pass_op": "zero" } } });
+    let frame = faces(s, "depth24plus-stencil8", 255, state)?;
+    frame.stencil_is("s", |x, _| if x < 8 { 255 } else { 0 });
     Ok(())
 }
 
 pub(crate) fn operations_follow_the_depth_test(s: &Subject) -> Checked {
     for format in ["depth24plus-stencil8", "depth32float-stencil8"] {
-        let frame = s.draw(&scene_of(
-            &format!(
-                r#""ds": {{ "format": "{format}", "clear": {{ "depth": 0, "stencil": 5 }} }}"#
-            ),
-            r#"{ "depth_stencil": "ds", "draws": [
-                 { "mesh": { "kind": "columns", "values": [0, 1] }, "shader": "flat_color_depth",
-                   "depth": { "compare": "less-equal", "write": false },
-                   "stencil": { "front": { "compare": "always", "pass_op": "invert",
-                                           "depth_fail_op": "decrement-clamp" } } } ] }"#,
-            &["ds"],
-        ))?;
-        check(stencil(&frame, "ds"), |x, _| [if x < 8 { 250 } else { 4 }]);
-        check(depth(&frame, "ds"), |_, _| [0]);
+        let frame = s.show(json!({
+            "attachments": { "ds": { "format": format, "clear": { "depth": 0, "stencil": 5 } } },
+            "draws": [{
+                "mesh": { "kind": "columns", "values": [0, 1] }, "shader": "flat_color_depth",
+                "depth": test("less-equal", false), "stencil": { "front": {
+                    "compare": "always", "pass_op": "invert", "depth_fail_op": "decrement-clamp" } } }],
+        }))?;
+        frame.stencil_is("ds", |x, _| if x < 8 { 250 } else { 4 });
+        frame.depth_is("ds", |_, _| 0.0);
     }
     Ok(())
 }
@@ -120,27 +103,21 @@ pub(crate) fn every_bit_is_masked_by_itself(s: &Subject) -> Checked {
     for bit in 0..8 {
         for start in (0..256).filter(|v| v % (2 << bit) == 1 << bit) {
             let (x, y, width) = (start % 16, start / 16, 1 << bit);
-            let texels = if width < 16 {
-                [x, y, x + width, y + 1]
-            } else {
-                [0, y, 16, y + width / 16]
+            let texels = match width < 16 {
+                true => [x, y, x + width, y + 1],
+                false => [0, y, 16, y + width / 16],
             };
-            draws.push(format!(
-                r#"{{ "mesh": {{ "kind": "rect", "texels": {texels:?} }}, {PAINT},
-                    "stencil": {{ "reference": 255, "write_mask": {},
-                                  "front": {{ "compare": "always", "pass_op": "replace" }} }} }}"#,
-                1 << bit
-            ));
+            draws.push(
+                json!({ "mesh": rect(texels), "shader": "uniform_color", "params": red(),
+                "stencil": { "reference": 255, "write_mask": 1 << bit,
+                             "front": { "compare": "always", "pass_op": "replace" } } }),
+            );
         }
     }
-    let frame = s.draw(&scene_of(
-        r#""stencil": { "format": "stencil8", "size": [16, 16], "clear": 0 }"#,
-        &format!(
-            r#"{{ "depth_stencil": "stencil", "draws": [ {} ] }}"#,
-            list(&draws)
-        ),
-        &["stencil"],
-    ))?;
-    check(stencil(&frame, "stencil"), |x, y| [16 * y + x]);
+    let frame = s.show(json!({
+        "attachments": { "stencil": { "format": "stencil8", "size": [16, 16], "clear": 0 } },
+        "draws": draws,
+    }))?;
+    frame.stencil_is("stencil", |x, y| 16 * y + x);
     Ok(())
 }

@@ -1,11 +1,14 @@
 //! Several colour attachments, two sources and logic operations.
 
 use super::Checked;
-use crate::frames::{RED, check, check_red, codes, color};
-use crate::scenes::{PAINT, blend, one_draw, scene_of, uploaded};
+use crate::frames::{Expect, RED, check, codes};
+use crate::scenes::{
+    blend, blue, component, filled, full, over_blue, painted, rect, uploaded, with,
+};
 use crate::subject::Subject;
 use etalon_frame::TextureFormat;
 use etalon_scene::LogicOperation;
+use serde_json::{Value, json};
 
 const ROWS: [[u32; 4]; 4] = [
     [255, 0, 255, 0],
@@ -16,16 +19,12 @@ const ROWS: [[u32; 4]; 4] = [
 
 pub(crate) fn images_of_all_targets_agree(s: &Subject) -> Checked {
     assert!(s.limits().max_color_attachments >= 4);
-    let frame = s.draw(&scene_of(
-        &format!(
-            r#""a": {{ "format": "rgba8unorm", "size": [4, 4] }}, "b": {{ "format": "rgba8unorm" }},
-               "c": {{ "format": "rgba8unorm" }}, "d": {{ "format": "rgba8unorm" }},
-               "t": {{ "format": "rgba8unorm", "texels": {{ "kind": "rows", "values": {ROWS:?} }} }}"#
-        ),
-        r#"{ "color": ["a", "b", "c", "d"], "draws": [
-             { "mesh": { "kind": "full" }, "shader": "texel_color_all", "textures": ["t"] } ] }"#,
-        &["a", "b", "c", "d"],
-    ))?;
+    let target = json!({ "format": "rgba8unorm", "size": [4, 4] });
+    let frame = s.show(json!({
+        "attachments": { "a": target, "b": target, "c": target, "d": target, "t": uploaded("rows", ROWS) },
+        "draws": [{ "mesh": full(), "shader": "texel_color_all", "textures": ["t"] }],
+        "read": ["a", "b", "c", "d"],
+    }))?;
     for image in &frame.images {
         check(image, |_, y| ROWS[y as usize]);
     }
@@ -34,148 +33,114 @@ pub(crate) fn images_of_all_targets_agree(s: &Subject) -> Checked {
 
 /// The last draw, which writes nothing, and the one before it share no state.
 pub(crate) fn targets_blend_and_mask_on_their_own(s: &Subject) -> Checked {
-    let add = r#"{ "operation": "add", "src_factor": "one", "dst_factor": "one" }"#;
-    let subtract =
-        r#"{ "operation": "reverse-subtract", "src_factor": "one", "dst_factor": "one" }"#;
-    let frame = s.draw(&scene_of(
-        &format!(
-            r#""a": {{ "format": "rgba8unorm", "size": [4, 4], "clear": [0, 0, 1, 1] }},
-               "b": {{ "format": "rgba8unorm", "clear": [0, 0, 1, 1] }},
-               "c": {{ "format": "rgba8unorm", "clear": [0, 0, 1, 1] }},
-               "t": {{ "format": "rgba8unorm", "texels": {{ "kind": "rows", "values": {ROWS:?} }} }}"#
-        ),
-        &format!(
-            r#"{{ "color": ["a", "b", "c"], "draws": [
-                {{ "mesh": {{ "kind": "full" }}, "shader": "texel_color_all", "textures": ["t"], "targets": [
-                    {{ "blend": {{ "color": {add}, "alpha": {subtract} }} }},
-                    {{ "write_mask": "gb" }},
-                    {{ "blend": {{ "color": {subtract}, "alpha": {add} }}, "write_mask": "rba" }} ] }},
-                {{ "mesh": {{ "kind": "rect", "texels": [0, 3, 4, 4] }}, "shader": "texel_color_all",
-                  "textures": ["t"], "write_mask": "" }} ] }}"#
-        ),
-        &["a", "b", "c"],
-    ))?;
+    let add = component("add", "one", "one");
+    let subtract = component("reverse-subtract", "one", "one");
+    let target = with(blue(), json!({ "size": [4, 4] }));
+    let frame = s.show(json!({
+        "attachments": { "a": target, "b": target, "c": target, "t": uploaded("rows", ROWS) },
+        "draws": [
+            { "mesh": full(), "shader": "texel_color_all", "textures": ["t"], "targets": [
+                { "blend": { "color": add, "alpha": subtract } },
+                { "write_mask": "gb" },
+                { "blend": { "color": subtract, "alpha": add }, "write_mask": "rba" }] },
+            { "mesh": rect([0, 3, 4, 4]), "shader": "texel_color_all", "textures": ["t"],
+              "write_mask": "" }],
+    }))?;
     let row = |y: u32| ROWS[y as usize];
-    check(color(&frame, "a"), |_, y| {
-        let [r, g, _, a] = row(y);
-        [r, g, 255, 255 - a]
-    });
-    check(color(&frame, "b"), |_, y| [0, row(y)[1], row(y)[2], 255]);
-    check(color(&frame, "c"), |_, y| [0, 0, 255 - row(y)[2], 255]);
+    frame.color_is("a", |_, y| [row(y)[0], row(y)[1], 255, 255 - row(y)[3]]);
+    frame.color_is("b", |_, y| [0, row(y)[1], row(y)[2], 255]);
+    frame.color_is("c", |_, y| [0, 0, 255 - row(y)[2], 255]);
     Ok(())
 }
 
 /// Sums that keep to their channels, and one target in the order of bytes that windows use.
 pub(crate) fn targets_keep_apart(s: &Subject) -> Checked {
-    let add = r#"{ "operation": "add", "src_factor": "one", "dst_factor": "one" }"#;
-    let keep = r#"{ "operation": "reverse-subtract", "src_factor": "zero", "dst_factor": "one" }"#;
-    let stored = [100, 1, 2, 3];
+    let add = component("add", "one", "one");
+    let keep = component("reverse-subtract", "zero", "one");
+    let stored = filled([100, 1, 2, 3]);
     for last in ["rgba8unorm", "bgra8unorm"] {
-        let scene = scene_of(
-            &[
-                uploaded("a", stored),
-                uploaded("b", stored),
-                uploaded("c", stored),
-                uploaded("d", stored).replace("rgba8unorm", last),
-                uploaded("source", [50, 60, 70, 80]),
-            ]
-            .join(","),
-            &format!(
-                r#"{{ "color": ["a", "b", "c", "d"], "draws": [ {{ "mesh": {{ "kind": "full" }},
-                    "shader": "texel_color_all", "textures": ["source"], "targets": [
-                        {{}}, {{ "blend": {{ "color": {add}, "alpha": {keep} }} }},
-                        {{ "write_mask": "ga" }}, {{ "blend": {{ "color": {keep}, "alpha": {add} }}, "write_mask": "ra" }} ] }} ] }}"#
-            ),
-            &["a", "b", "c", "d"],
-        );
-        let Ok(frame) = s.draw(&scene) else {
+        let Ok(frame) = s.show(json!({
+            "attachments": {
+                "a": stored, "b": stored, "c": stored, "source": filled([50, 60, 70, 80]),
+                "d": with(stored.clone(), json!({ "format": last })) },
+            "draws": [{ "mesh": full(), "shader": "texel_color_all", "textures": ["source"], "targets": [
+                {}, { "blend": { "color": add, "alpha": keep } },
+                { "write_mask": "ga" }, { "blend": { "color": keep, "alpha": add }, "write_mask": "ra" }] }],
+        })) else {
             continue;
         };
-        for (name, due) in [
-            ("a", [50, 60, 70, 80]),
-            ("b", [150, 61, 72, 3]),
-            ("c", [100, 60, 2, 80]),
-            ("d", [100, 1, 2, 83]),
-        ] {
-            check(color(&frame, name), |_, _| due);
-        }
+        frame.color_is("a", |_, _| [50, 60, 70, 80]);
+        frame.color_is("b", |_, _| [150, 61, 72, 3]);
+        frame.color_is("c", |_, _| [100, 60, 2, 80]);
+        frame.color_is("d", |_, _| [100, 1, 2, 83]);
     }
     Ok(())
 }
 
 pub(crate) fn targets_of_different_formats_take_one_draw(s: &Subject) -> Checked {
-    let formats = [
-        TextureFormat::Rgba16Float,
-        TextureFormat::R8Unorm,
-        TextureFormat::Rgba32Float,
-        TextureFormat::Rgb10a2Unorm,
+    let targets = [
+        ("z", TextureFormat::Rgba16Float),
+        ("a", TextureFormat::R8Unorm),
+        ("y", TextureFormat::Rgba32Float),
+        ("b", TextureFormat::Rgb10a2Unorm),
     ];
-    let names = ["z", "a", "y", "b"];
-    let mut attachments = vec![uploaded("source", [255, 0, 255, 255])];
-    for (name, format) in names.iter().zip(formats) {
-        attachments.push(format!(r#""{name}": {{ "format": "{format}" }}"#));
+    let mut attachments = json!({ "source": filled([255, 0, 255, 255]) });
+    for (name, format) in targets {
+        attachments[name] = json!({ "format": format });
     }
-    let frame = s.draw(&scene_of(
-        &attachments.join(","),
-        &format!(
-            r#"{{ "color": {names:?}, "draws": [ {{ "mesh": {{ "kind": "full" }},
-                "shader": "texel_color_all", "textures": ["source"] }} ] }}"#
-        ),
-        &names,
-    ))?;
-    for (name, format) in names.iter().zip(formats) {
+    let frame = s.show(json!({
+        "attachments": attachments,
+        "passes": [{ "color": targets.map(|(name, _)| name), "draws": [
+            { "mesh": full(), "shader": "texel_color_all", "textures": ["source"] }] }],
+        "read": targets.map(|(name, _)| name),
+    }))?;
+    for (name, format) in targets {
         let due = codes(format.color_channels(), [1.0, 0.0, 1.0, 1.0]);
-        check(color(&frame, name), |_, _| &due);
+        frame.color_is(name, |_, _| &due);
     }
     Ok(())
 }
 
-/// Source 0x33 and destination 0x55 show the truth table of an operation in each nibble.
+/// The results of source 0x33 and destination 0x55: a truth table in each nibble.
+const OPERATIONS: [(&str, u32); 16] = [
+    ("clear", 0x00),
+    ("and", 0x11),
+    ("and-reverse", 0x22),
+    ("copy", 0x33),
+    ("and-inverted", 0x44),
+    ("noop", 0x55),
+    ("xor", 0x66),
+    ("or", 0x77),
+    ("nor", 0x88),
+    ("equivalent", 0x99),
+    ("invert", 0xaa),
+    ("or-reverse", 0xbb),
+    ("copy-inverted", 0xcc),
+    ("or-inverted", 0xdd),
+    ("nand", 0xee),
+    ("set", 0xff),
+];
+
 pub(crate) fn logic_operations_follow_their_truth_tables(s: &Subject) -> Checked {
-    let table = [
-        ("clear", 0x00),
-        ("and", 0x11),
-        ("and-reverse", 0x22),
-        ("copy", 0x33),
-        ("and-inverted", 0x44),
-        ("noop", 0x55),
-        ("xor", 0x66),
-        ("or", 0x77),
-        ("nor", 0x88),
-        ("equivalent", 0x99),
-        ("invert", 0xaa),
-        ("or-reverse", 0xbb),
-        ("copy-inverted", 0xcc),
-        ("or-inverted", 0xdd),
-        ("nand", 0xee),
-        ("set", 0xff),
-    ];
-    assert_eq!(table.len(), LogicOperation::ALL.len());
-    for (name, due) in table {
+    assert_eq!(OPERATIONS.len(), LogicOperation::ALL.len());
+    for (name, due) in OPERATIONS {
         for mask in ["rgba", "rba"] {
-            let frame = s.draw(&scene_of(
-                &[
-                    uploaded("color", [0x55, 0x55, 0xaa, 0x55]),
-                    uploaded("source", [0x33, 0x33, 0xcc, 0x33]),
-                ]
-                .join(","),
-                &format!(
-                    r#"{{ "color": ["color"], "draws": [ {{ "mesh": {{ "kind": "full" }}, "shader": "texel_color",
-                        "textures": ["source"], "logic": "{name}", "write_mask": "{mask}" }} ] }}"#
-                ),
-                &["color"],
-            ))?;
+            let frame = s.show(json!({
+                "attachments": { "color": filled([0x55, 0x55, 0xaa, 0x55]),
+                                 "source": filled([0x33, 0x33, 0xcc, 0x33]) },
+                "draws": [{ "mesh": full(), "shader": "texel_color", "textures": ["source"],
+                            "logic": name, "write_mask": mask }],
+            }))?;
             // Of 0xcc and 0xaa the table stands the other way round, from the highest bit.
             let turned = u32::from((due as u8).reverse_bits());
             let green = if mask == "rgba" { due } else { 0x55 };
-            check(color(&frame, "color"), |_, _| [due, green, turned, due]);
+            frame.color_is("color", |_, _| [due, green, turned, due]);
         }
     }
     // Nothing of it is left for the next scene.
-    let frame = s.draw(&one_draw(&format!(
-        r#""mesh": {{ "kind": "rect", "texels": [0, 0, 4, 16] }}, {PAINT}"#
-    )))?;
-    check_red(&frame, |x, _| x < 4);
+    let draw = json!({ "mesh": rect([0, 0, 4, 16]) });
+    s.show(over_blue(with(draw, painted())))?
+        .is_red(|x, _| x < 4);
     Ok(())
 }
 
@@ -183,38 +148,25 @@ pub(crate) fn logic_operations_follow_their_truth_tables(s: &Subject) -> Checked
 pub(crate) fn the_second_source_is_a_factor(s: &Subject) -> Checked {
     let (stored, first) = ([101, 102, 103, 104], [11, 22, 33, 44]);
     for second in [[255, 0, 255, 255], [0, 255, 0, 0]] {
-        for factor in [
-            "src1",
-            "src1-alpha",
-            "one-minus-src1",
-            "one-minus-src1-alpha",
+        for (factor, other) in [
+            ("src1", "one-minus-src1"),
+            ("src1-alpha", "one-minus-src1-alpha"),
+            ("one-minus-src1", "src1"),
+            ("one-minus-src1-alpha", "src1-alpha"),
         ] {
-            let plain = factor.strip_prefix("one-minus-");
-            let other = plain.map_or(format!("one-minus-{factor}"), str::to_owned);
-            let blend = blend("add", factor, &other);
-            let frame = s.draw(&scene_of(
-                &[
-                    uploaded("color", stored),
-                    uploaded("first", first),
-                    uploaded("second", second),
-                ]
-                .join(","),
-                &format!(
-                    r#"{{ "color": ["color"], "draws": [ {{ "mesh": {{ "kind": "full" }},
-                        "shader": "texel_dual_source", "textures": ["first", "second"], {blend} }} ] }}"#
-                ),
-                &["color"],
-            ))?;
-            let due = [0, 1, 2, 3].map(|c| {
-                let by = second[if factor.ends_with("alpha") { 3 } else { c }];
-                let one = if (by == 255) == plain.is_none() {
-                    first
-                } else {
-                    stored
-                };
-                one[c]
+            let frame = s.show(json!({
+                "attachments": { "color": filled(stored), "first": filled(first),
+                                 "second": filled(second) },
+                "draws": [{ "mesh": full(), "shader": "texel_dual_source",
+                            "textures": ["first", "second"], "blend": blend("add", factor, other) }],
+            }))?;
+            frame.color_is("color", |_, _| {
+                [0, 1, 2, 3].map(|c| {
+                    let by = second[if factor.ends_with("alpha") { 3 } else { c }];
+                    let takes_first = (by == 255) == factor.starts_with("src1");
+                    if takes_first { first[c] } else { stored[c] }
+                })
             });
-            check(color(&frame, "color"), |_, _| due);
         }
     }
     Ok(())
@@ -222,33 +174,24 @@ pub(crate) fn the_second_source_is_a_factor(s: &Subject) -> Checked {
 
 /// As factor of the source alone and of the destination alone.
 pub(crate) fn the_second_source_weighs_one_side(s: &Subject) -> Checked {
-    let part = |src: &str, dst: &str| {
-        format!(r#"{{ "operation": "add", "src_factor": "{src}", "dst_factor": "{dst}" }}"#)
+    let drawn = |rgb: Value, alpha: Value| {
+        s.show(json!({
+            "attachments": {
+                "a": { "format": "rgba8unorm", "size": [4, 4], "clear": [1, 1, 0, 1] },
+                "s": uploaded("rows", [[255; 4], [255; 4], [0; 4], [0; 4]]),
+                "t": uploaded("rows", ROWS) },
+            "draws": [{ "mesh": full(), "shader": "texel_dual_source", "textures": ["s", "t"],
+                        "blend": { "color": rgb, "alpha": alpha } }],
+        }))
     };
-    let drawn = |rgb: String, alpha: String| {
-        s.draw(&scene_of(
-            &format!(
-                r#""a": {{ "format": "rgba8unorm", "size": [4, 4], "clear": [1, 1, 0, 1] }},
-                   "s": {{ "format": "rgba8unorm", "texels": {{ "kind": "rows", "values": [
-                        [255, 255, 255, 255], [255, 255, 255, 255], [0, 0, 0, 0], [0, 0, 0, 0]] }} }},
-                   "t": {{ "format": "rgba8unorm", "texels": {{ "kind": "rows", "values": {ROWS:?} }} }}"#
-            ),
-            &format!(
-                r#"{{ "color": ["a"], "draws": [ {{ "mesh": {{ "kind": "full" }}, "shader": "texel_dual_source",
-                    "textures": ["s", "t"], "blend": {{ "color": {rgb}, "alpha": {alpha} }} }} ] }}"#
-            ),
-            &["a"],
-        ))
-    };
-    let frame = drawn(part("src1", "zero"), part("src1-alpha", "zero"))?;
-    check(color(&frame, "a"), |_, y| {
-        if y < 2 { ROWS[y as usize] } else { [0; 4] }
-    });
-    let frame = drawn(
-        part("zero", "one-minus-src1"),
-        part("zero", "one-minus-src1-alpha"),
-    )?;
-    check(color(&frame, "a"), |_, y| {
+    let of_source = ["src1", "src1-alpha"].map(|f| component("add", f, "zero"));
+    let of_stored = ["one-minus-src1", "one-minus-src1-alpha"].map(|f| component("add", "zero", f));
+    let [rgb, alpha] = of_source;
+    let frame = drawn(rgb, alpha)?;
+    frame.color_is("a", |_, y| if y < 2 { ROWS[y as usize] } else { [0; 4] });
+    let [rgb, alpha] = of_stored;
+    let frame = drawn(rgb, alpha)?;
+    frame.color_is("a", |_, y| {
         let [r, g, _, a] = ROWS[y as usize];
         [255 - r, 255 - g, 0, 255 - a]
     });
@@ -259,10 +202,8 @@ pub(crate) fn the_second_source_weighs_one_side(s: &Subject) -> Checked {
 pub(crate) fn later_draws_have_one_source(s: &Subject) -> Checked {
     the_second_source_weighs_one_side(s)?;
     images_of_all_targets_agree(s)?;
-    let frame = s.draw(&one_draw(&format!(
-        r#""mesh": {{ "kind": "full" }}, {PAINT}, {}"#,
-        blend("add", "one", "zero")
-    )))?;
-    check(color(&frame, "color"), |_, _| RED);
+    let draw = json!({ "mesh": full(), "blend": blend("add", "one", "zero") });
+    s.show(over_blue(with(draw, painted())))?
+        .color_is("color", |_, _| RED);
     Ok(())
 }

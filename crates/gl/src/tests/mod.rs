@@ -3,8 +3,8 @@
 use crate::{GlBackend, Options, Platform, Profile, Tuning, open_with};
 use etalon_backend::{Backend, BackendError};
 use etalon_conformance::{
-    Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, SOFTPIPE_DEFECTS, ZINK, in_child, run_all, scene,
-    variables,
+    Defect, Driver, GALLIUM_INSTALL, Known, LLVMPIPE, SOFTPIPE, SOFTPIPE_WRONG, ZINK, in_child,
+    json, known, run_all, scene, variables,
 };
 use etalon_frame::Feature;
 
@@ -28,16 +28,23 @@ fn contexts(driver: &str, clip_control: bool) -> [GlBackend; 2] {
 }
 
 /// Every check without `glClipControl`, whose place takes the vertex shader.
-fn without_clip_control(driver: &str, defects: &[(&str, &str)]) {
+fn without_clip_control(driver: &str, defects: &'static [&'static [Defect]]) {
     for backend in &contexts(driver, false) {
-        let any = Driver {
+        let prefix = if backend.context.caps.es {
+            "gl:es"
+        } else {
+            "gl"
+        };
+        let described = Driver {
+            known: Known {
+                defects,
+                ..known(&format!("{prefix}:{driver}"))
+            },
             environment: Vec::new(),
             open: |_| unreachable!("it is open"),
-            lacks: &[""],
-            defects: defects.to_vec(),
             tolerated: &[],
         };
-        run_all(backend, &any, None);
+        run_all(backend, &described);
     }
 }
 
@@ -53,38 +60,32 @@ fn llvmpipe_without_clip_control() {
 fn softpipe_without_clip_control() {
     let test = "tests::softpipe_without_clip_control";
     in_child(test, &variables(SOFTPIPE), || {
-        without_clip_control("softpipe", SOFTPIPE_DEFECTS);
+        without_clip_control("softpipe", &[SOFTPIPE_WRONG]);
     });
 }
 
+/// Limits follow what the context has; the drivers' descriptions hold the rest.
 fn features(backend: &GlBackend) {
     let caps = &backend.context.caps;
     let has = |feature| backend.limits().features.contains(&feature);
-    let softpipe = backend
-        .adapter()
-        .device
-        .to_lowercase()
-        .starts_with("softpipe");
     assert_eq!(has(Feature::PreciseOcclusion), !caps.es);
     assert_eq!(has(Feature::FragmentInvocations), !caps.es);
-    // Softpipe's core profile is too old for storage buffers.
-    assert_eq!(has(Feature::StorageCounters), caps.es || !softpipe);
     assert!(has(Feature::ForcedEarlyTests));
     // In ES it takes an extension.
     assert!(caps.es || caps.conservative_depth);
     assert_eq!(has(Feature::ConservativeDepth), caps.conservative_depth);
-    assert!(!has(Feature::MirroredViewport));
 }
 
 /// GL may round a viewport where it keeps no bits below the texel, and then it must not be drawn.
 fn a_viewport_between_texels_is_kept_or_refused(backend: &GlBackend) {
     let bits = backend.context.caps.viewport_bits;
-    let between = scene(
-        r#"{ "attachments": { "color": { "format": "rgba8unorm", "clear": [0, 0, 1, 1] } },
-             "passes": [ { "color": ["color"], "draws": [ { "mesh": { "kind": "full" }, "shader": "uniform_color",
-                 "viewport": { "rect": [0, 0, 8.5, 16], "depth": [0, 1] } } ] } ],
-             "read": ["color"] }"#,
-    );
+    let between = scene(json!({
+        "attachments": { "color": { "format": "rgba8unorm", "clear": [0, 0, 1, 1] } },
+        "passes": [{ "color": ["color"], "draws": [{
+            "mesh": { "kind": "full" }, "shader": "uniform_color",
+            "viewport": { "rect": [0, 0, 8.5, 16], "depth": [0, 1] } }] }],
+        "read": ["color"],
+    }));
     let refused = backend.prepare(&between).err();
     let refused = matches!(refused, Some(BackendError::NotSupported(_)));
     assert_eq!(refused, bits.unwrap_or(0) == 0);

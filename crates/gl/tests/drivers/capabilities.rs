@@ -2,41 +2,21 @@
 
 use crate::drivers::{self, context, is_softpipe};
 use etalon_backend::Backend;
-use etalon_conformance::{CHECKS, Driver, LLVMPIPE, in_child, run_all, variables};
-use etalon_frame::{Api, Feature, ReadPath, TextureFormat};
+use etalon_conformance::{LLVMPIPE, in_child, json, run_all, variables};
+use etalon_frame::{Api, ReadPath, TextureFormat};
 use etalon_gl::{Options, Platform, Profile, enumerate, open};
 
-/// Holds a driver to what it is known to offer; a check skipped for lack of it would pass.
+/// Depths of OpenGL ES are read by a shader, all else by a copy.
 pub(crate) fn offers(backend: &dyn Backend) {
     let limits = backend.limits();
     for (format, support) in &limits.formats {
-        let es = limits.api == Api::OpenGlEs;
-        let path = if es && format.has_depth() {
-            ReadPath::Shader
-        } else {
-            ReadPath::Copy
-        };
-        assert_eq!(support.read, path, "{format}");
+        let shader = limits.api == Api::OpenGlEs && format.has_depth();
+        let due = [ReadPath::Copy, ReadPath::Shader][usize::from(shader)];
+        assert_eq!(support.read, due, "{format}");
     }
-    assert!(!limits.formats.contains_key(&TextureFormat::Bgra8Unorm));
-    for format in [
-        TextureFormat::R8Unorm,
-        TextureFormat::Rg8Unorm,
-        TextureFormat::Rgba8Unorm,
-        TextureFormat::Rgba8UnormSrgb,
-        TextureFormat::Rgb10a2Unorm,
-        TextureFormat::Rg11b10Ufloat,
-        TextureFormat::Rgba16Float,
-        TextureFormat::Rgba32Float,
-    ] {
-        let support = &limits.formats[&format];
-        let drawn = support.samples.contains(&1) && support.blendable;
-        assert!(drawn && support.read == ReadPath::Copy, "{format}");
-    }
-    let softpipe = is_softpipe(backend);
-    let several = &limits.formats[&TextureFormat::Rgba8Unorm].samples[1..];
-    assert_eq!(several, if softpipe { &[][..] } else { &[4] });
-    assert!(softpipe || limits.features.contains(&Feature::CentroidInterpolation));
+    let rgba8 = &limits.formats[&TextureFormat::Rgba8Unorm];
+    let due: &[u32] = if is_softpipe(backend) { &[1] } else { &[1, 4] };
+    assert_eq!(rgba8.samples, due);
 }
 
 #[test]
@@ -55,12 +35,7 @@ fn devices_are_enumerated_and_open() {
             read_fault: None,
         };
         let backend = open("gl:device", &options).expect("the software device opens");
-        // Through a device it has four samples of fewer formats.
-        let driver = Driver {
-            lacks: &["feature", "format bgra8unorm", "4 samples of"],
-            ..drivers::llvmpipe()
-        };
-        run_all(&backend, &driver, Some(SKIPPED));
+        run_all(&backend, &drivers::llvmpipe());
         let none = Options {
             platform: Platform::Device(devices.len()),
             ..options
@@ -69,28 +44,22 @@ fn devices_are_enumerated_and_open() {
     });
 }
 
-/// On llvmpipe's core profile, every other check draws.
-const SKIPPED: &[&str] = &[
-    "depth::bounds_reject_by_the_stored_depth",
-    "raster::a_viewport_of_negative_height_turns_the_picture_over",
-];
-
 #[test]
 fn two_adapters_take_turns() {
     let test = "capabilities::two_adapters_take_turns";
     in_child(test, &variables(LLVMPIPE), || {
         let core = context(Profile::Core, "llvmpipe");
         let es = context(Profile::Es, "llvmpipe");
-        let scene = |color: &str| {
-            etalon_conformance::scene(&format!(
-                r#"{{ "attachments": {{ "color": {{ "format": "rgba8unorm", "clear": [0, 0, 1, 1] }} }},
-                    "passes": [ {{ "color": ["color"], "draws": [ {{ "shader": "uniform_color",
-                        "mesh": {{ "kind": "rect", "texels": [0, 0, 5, 3] }}, "params": {{ "color": {color} }} }} ] }} ],
-                    "read": ["color"] }}"#
-            ))
+        let scene = |color: [u32; 4]| {
+            etalon_conformance::scene(json!({
+                "attachments": { "color": { "format": "rgba8unorm", "clear": [0, 0, 1, 1] } },
+                "passes": [{ "color": ["color"], "draws": [{ "shader": "uniform_color",
+                    "mesh": { "kind": "rect", "texels": [0, 0, 5, 3] }, "params": { "color": color } }] }],
+                "read": ["color"],
+            }))
         };
-        let red = (scene("[1, 0, 0, 1]"), [255, 0, 0, 255]);
-        let green = (scene("[0, 1, 0, 1]"), [0, 255, 0, 255]);
+        let red = (scene([1, 0, 0, 1]), [255, 0, 0, 255]);
+        let green = (scene([0, 1, 0, 1]), [0, 255, 0, 255]);
         let turns = |backends: &[&dyn Backend]| {
             let mut prepared = Vec::new();
             for backend in backends {
@@ -113,13 +82,4 @@ fn two_adapters_take_turns() {
         drop(core);
         turns(&[&es]);
     });
-}
-
-#[test]
-fn checks_known_to_fail_exist() {
-    for driver in [drivers::softpipe(), drivers::softpipe_es()] {
-        for (name, _) in &driver.defects {
-            assert!(CHECKS.iter().any(|check| check.name == *name), "{name}");
-        }
-    }
 }

@@ -1,9 +1,7 @@
 //! The contexts under test. A missing driver is a failure: nothing would have been tested.
 
 use etalon_backend::Backend;
-use etalon_conformance::{
-    Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, SOFTPIPE_DEFECTS, ZINK, variables,
-};
+use etalon_conformance::{Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, ZINK, known, variables};
 use etalon_frame::Api;
 use etalon_gl::{GlBackend, Options, Platform, Profile, open};
 
@@ -38,83 +36,45 @@ pub(crate) fn is_softpipe(backend: &dyn Backend) -> bool {
     device.starts_with("softpipe")
 }
 
-/// No driver of OpenGL stores blue first.
-const CORE: &[&str] = &[
-    "feature mirrored-viewport",
-    "feature depth-bounds",
-    "format bgra8unorm",
-    // No fetch tells 24 bits for certain.
-    "4 samples of depth24plus",
-];
-
 fn driver(
+    name: &str,
     environment: &'static [(&'static str, &'static str)],
     open: fn(bool) -> Box<dyn Backend>,
-    lacks: &'static [&'static str],
 ) -> Driver<'static> {
     Driver {
+        known: known(name),
         environment: variables(environment),
         open,
-        lacks,
-        defects: Vec::new(),
         tolerated: &[],
     }
 }
 
 pub(crate) fn llvmpipe() -> Driver<'static> {
-    driver(
-        LLVMPIPE,
-        |_| Box::new(context(Profile::Core, "llvmpipe")),
-        CORE,
-    )
+    let open = |_| Box::new(context(Profile::Core, "llvmpipe")) as Box<dyn Backend>;
+    driver("gl:llvmpipe", LLVMPIPE, open)
 }
 
 pub(crate) fn llvmpipe_es() -> Driver<'static> {
-    driver(LLVMPIPE, |_| Box::new(context(Profile::Es, "llvmpipe")), ES)
+    let open = |_| Box::new(context(Profile::Es, "llvmpipe")) as Box<dyn Backend>;
+    driver("gl:es:llvmpipe", LLVMPIPE, open)
 }
 
 pub(crate) fn softpipe() -> Driver<'static> {
-    Driver {
-        defects: defects(),
-        ..driver(
-            SOFTPIPE,
-            |_| Box::new(context(Profile::Core, "softpipe")),
-            SOFT,
-        )
-    }
+    let open = |_| Box::new(context(Profile::Core, "softpipe")) as Box<dyn Backend>;
+    driver("gl:softpipe", SOFTPIPE, open)
 }
 
 pub(crate) fn softpipe_es() -> Driver<'static> {
-    Driver {
-        defects: defects(),
-        ..driver(
-            SOFTPIPE,
-            |_| Box::new(context(Profile::Es, "softpipe")),
-            SOFT_ES,
-        )
-    }
+    let open = |_| Box::new(context(Profile::Es, "softpipe")) as Box<dyn Backend>;
+    driver("gl:es:softpipe", SOFTPIPE, open)
 }
 
 pub(crate) fn zink() -> Driver<'static> {
-    driver(ZINK, |_| Box::new(context(Profile::Core, "zink")), CORE)
+    let open = |_| Box::new(context(Profile::Core, "zink")) as Box<dyn Backend>;
+    driver("gl:zink", ZINK, open)
 }
 
 pub(crate) fn zink_es() -> Driver<'static> {
-    driver(ZINK, |_| Box::new(context(Profile::Es, "zink")), ES)
+    let open = |_| Box::new(context(Profile::Es, "zink")) as Box<dyn Backend>;
+    driver("gl:es:zink", ZINK, open)
 }
-
-const ES: &[&str] = &["feature", "format", "drawing", "4 samples"];
-const SOFT: &[&str] = &["feature", "format", "4 samples"];
-const SOFT_ES: &[&str] = &["feature", "format", "drawing", "4 samples"];
-
-/// Those of softpipe, and those that it has under clip control.
-fn defects() -> Vec<(&'static str, &'static str)> {
-    let clamps = [
-        ("depth::depths_outside_are_clamped", CLAMP),
-        ("depth::depths_are_clamped_to_a_reversed_range", CLAMP),
-    ];
-    [SOFTPIPE_DEFECTS, &clamps].concat()
-}
-
-/// Near = translate - scale in `sp_quad_depth_test.c`.
-const CLAMP: &str = "depths are clamped to the range that clip depths from -1 on would have";

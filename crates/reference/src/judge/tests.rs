@@ -73,7 +73,7 @@ fn a_vertex_depth_of_one_half_has_four_codes_on_16_bits_and_many_on_24() {
 fn a_depth_between_those_of_the_vertices_may_pass_them_by_the_error_of_interpolation() {
     let scene = scene(
         &format!(r#"{COLOR},"depth":{{"format":"depth32float","clear":1}}"#),
-        r#"{"mesh":{"kind":"vertices","positions":[[-1,-1,0.75],[3,-1,0.5],[-1,3,0.75]]},
+        r#"{"mesh":{"kind":"vertices","positions":[[-1,-1,0.75],[3,-1,0.7499999],[-1,3,0.75]]},
             "shader":"uniform_color","depth":{"compare":"always","write":true}}"#,
         r#""depth""#,
     );

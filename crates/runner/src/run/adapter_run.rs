@@ -4,7 +4,7 @@ use super::adapter_queue::AdapterQueue;
 use super::shared::Shared;
 use crate::drawing::Drawing;
 use crate::event::Event;
-use crate::judge::Judged;
+use crate::judge::{Judged, is_due_to_fail};
 use crate::loss::Failure;
 use crate::loss::Loss;
 use crate::measure::measured;
@@ -75,7 +75,7 @@ impl<'s> AdapterRun<'s, '_> {
                 let failure = Failure::Lost(Loss::NotStarted(error.to_owned()));
                 let report = FailureReport::new(failure, None);
                 let mut record = Record::new(&case.id, &self.queue.adapter.name, report.verdict);
-                record.due_fail = case.judged_as.is_some();
+                record.due_fail = is_due_to_fail(case, &self.queue.adapter.limits);
                 record.message = report.message;
                 record.process = report.process;
                 self.record(self.settled(record));
@@ -110,7 +110,7 @@ impl<'s> AdapterRun<'s, '_> {
             record.expected = blocked.expected.map(|reason| Expected { reason });
             record
         };
-        record.due_fail = case.judged_as.is_some();
+        record.due_fail = is_due_to_fail(case, &self.queue.adapter.limits);
         Some(record)
     }
 
@@ -164,7 +164,7 @@ impl<'s> AdapterRun<'s, '_> {
             }
         };
         let record = &mut observed.record;
-        record.due_fail = case.judged_as.is_some();
+        record.due_fail = is_due_to_fail(case, &self.queue.adapter.limits);
         let lost = record.process.is_some();
         record.seconds = Seconds {
             draw: if lost { drawing.since } else { drawing.working }.as_secs_f64(),

@@ -1,7 +1,7 @@
 //! The driver under test.
 
 use etalon_backend::Backend;
-use etalon_conformance::Driver;
+use etalon_conformance::{Driver, known};
 use etalon_vulkan::{Options, VulkanBackend, enumerate, open};
 
 /// The name of the adapter under test.
@@ -34,15 +34,15 @@ pub(crate) fn backend(validate: bool) -> VulkanBackend {
 }
 
 pub(crate) fn lavapipe() -> Driver<'static> {
+    let mut known = known("vulkan:lavapipe");
+    if !is_lavapipe() {
+        // Another driver may lack anything.
+        known.lacks = None;
+    }
     Driver {
+        known,
         environment: Vec::new(),
         open: |validate| -> Box<dyn Backend> { Box::new(backend(validate)) },
-        lacks: match is_lavapipe() {
-            true => &["feature depth-bounds", "4 samples of depth24plus"],
-            // Another driver may lack anything.
-            false => &[""],
-        },
-        defects: Vec::new(),
         tolerated: &[],
     }
 }

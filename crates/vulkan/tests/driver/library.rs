@@ -15,11 +15,7 @@ pub(crate) fn sample(backend: &dyn Backend) {
 fn the_validation_layer_is_silent() {
     let backend = backend(true);
     if is_lavapipe() {
-        run_all(
-            &backend,
-            &lavapipe(),
-            Some(&["depth::bounds_reject_by_the_stored_depth"]),
-        );
+        run_all(&backend, &lavapipe());
     }
     draw_library(
         &Subject::new(&backend, &[]),

@@ -1,9 +1,7 @@
 //! The drivers under wgpu. A missing driver is a failure: nothing would have been tested.
 
 use etalon_backend::Backend;
-use etalon_conformance::{
-    COUNTING_SHADERS, Driver, FOUR_SAMPLES, LLVMPIPE, SOFTPIPE, SOFTPIPE_DEFECTS, variables,
-};
+use etalon_conformance::{Driver, LLVMPIPE, SOFTPIPE, known, variables};
 use etalon_wgpu::{Options, Via, WgpuBackend, enumerate, open};
 use std::fs;
 use std::path::PathBuf;
@@ -57,62 +55,30 @@ const MISTAKES_OF_WGPU: &[&str] = &["VUID-VkGraphicsPipelineCreateInfo-pDynamicS
 pub(crate) fn lavapipe() -> Driver<'static> {
     let manifest = lavapipe_manifest().to_string_lossy().into_owned();
     Driver {
+        known: known("wgpu:vulkan:lavapipe"),
         environment: vec![
             ("VK_DRIVER_FILES", manifest.clone()),
             ("VK_ICD_FILENAMES", manifest),
         ],
         open: |validate| Box::new(opened("wgpu:vulkan:lavapipe", Via::Vulkan, validate)),
-        lacks: &["feature", "format", "4 samples"],
-        defects: Vec::new(),
         tolerated: MISTAKES_OF_WGPU,
     }
 }
 
 pub(crate) fn llvmpipe() -> Driver<'static> {
     Driver {
+        known: known("wgpu:gl:llvmpipe"),
         environment: variables(LLVMPIPE),
         open: |validate| Box::new(opened("wgpu:gl:llvmpipe", Via::Gl, validate)),
-        lacks: &["feature", "format", "drawing", "blending", "4 samples"],
-        defects: vec![RESTART, SIGNED, FACTORS, SAMPLES],
         tolerated: MISTAKES_OF_WGPU,
     }
 }
 
 pub(crate) fn softpipe() -> Driver<'static> {
-    let defects = [
-        RESTART,
-        SIGNED,
-        SAMPLES,
-        (COUNTING_SHADERS, UNTRANSLATED),
-        ("integers::integers_are_drawn_through_the_write_mask", CLEAR),
-        ("targets::the_second_source_is_a_factor", SECOND),
-        ("targets::the_second_source_weighs_one_side", SECOND),
-        ("targets::later_draws_have_one_source", SECOND),
-    ];
     Driver {
+        known: known("wgpu:gl:softpipe"),
         environment: variables(SOFTPIPE),
         open: |validate| Box::new(opened("wgpu:gl:softpipe", Via::Gl, validate)),
-        lacks: &["feature", "format", "drawing", "blending", "4 samples"],
-        defects: [SOFTPIPE_DEFECTS, &defects].concat(),
         tolerated: MISTAKES_OF_WGPU,
     }
 }
-
-/// wgpu's OpenGL never enables the restart of primitives.
-const RESTART: (&str, &str) = ("raster::strips_begin_again", "strips that are joined");
-const SIGNED: (&str, &str) = (
-    "formats::uploads_come_back",
-    "negative codes of rgba8snorm that come back as 0",
-);
-/// wgpu's OpenGL leaves the factors of a draw with two sources behind, and Mesa refuses later draws to
-/// several targets with GL_INVALID_OPERATION.
-const FACTORS: (&str, &str) = (
-    "targets::later_draws_have_one_source",
-    "factors of a second source that outlive their draw",
-);
-/// wgpu 30 offers four samples over OpenGL, also where the driver has one, and makes no texture of which
-/// a shader could read them.
-const SAMPLES: (&str, &str) = (FOUR_SAMPLES, "textures of four samples that stay empty");
-const UNTRANSLATED: &str = "storage buffers that wgpu does not translate to GLSL 330";
-const CLEAR: &str = "a clear that is lost to the draws of its pass";
-const SECOND: &str = "a second source that comes as the first";

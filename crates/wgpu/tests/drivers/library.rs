@@ -27,7 +27,7 @@ fn validated(driver: &str, described: &Driver<'_>) {
     let test = format!("library::validation_of_{driver}_is_silent");
     in_child(&test, &described.environment, || {
         let backend = (described.open)(true);
-        run_all(&*backend, described, None);
+        run_all(&*backend, described);
         let subject = described.subject(&*backend);
         draw_library(&subject, Profile::Quick, Share::sample(2));
     });

@@ -35,9 +35,10 @@ pub(crate) fn section(run: &Run) -> Markup {
                     " are of cases that were not drawn. Nothing is known about them."
                 }
                 div.wide { table {
+                    caption.vh { "Reasons why cases were not drawn" }
                     thead { tr {
-                        th { "Reason" } th { "Records" }
-                        @for name in &used { th { (breakable(name)) } }
+                        th scope="col" { "Reason" } th scope="col" { "Records" }
+                        @for name in &used { th scope="col" { (breakable(name)) } }
                     } }
                     tbody { @for reason in reasons.iter().take(ROWS) {
                         tr {

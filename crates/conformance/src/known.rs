@@ -1,0 +1,224 @@
+//! The software drivers under test: what each lacks and what it is known to do wrong.
+
+use crate::lacks::Lacks;
+use crate::subject::Subject;
+use etalon_backend::Backend;
+use etalon_frame::{Api, Feature};
+
+/// A check and its defect in a driver; or [`FOUR_SAMPLES`] or [`COUNTING_SHADERS`].
+pub type Defect = (&'static str, &'static str);
+
+/// The name of a defect of four samples: all scenes that need them are left out.
+pub const FOUR_SAMPLES: &str = "four samples";
+/// The name of a defect of shaders that count: all scenes that need them are left out.
+pub const COUNTING_SHADERS: &str = "counting shaders";
+/// The names of defects that are no check's.
+pub(crate) const WHOLE: [&str; 2] = [FOUR_SAMPLES, COUNTING_SHADERS];
+
+/// What is known of a driver.
+#[derive(Clone, Copy, Debug)]
+pub struct Known {
+    /// The adapter's name.
+    pub name: &'static str,
+    /// The API whose rules bind it.
+    pub api: Api,
+    /// What it lacks; anything, where nothing is known.
+    pub lacks: Option<Lacks>,
+    /// Checks that it fails. They are not run.
+    pub defects: &'static [&'static [Defect]],
+}
+
+impl Known {
+    /// Returns an open backend as the subject of checks, without what the driver offers and does wrong.
+    pub fn subject<'a>(&self, backend: &'a dyn Backend, tolerated: &'a [&'a str]) -> Subject<'a> {
+        let defects = self.defects.iter().copied().flatten();
+        defects.fold(
+            Subject::new(backend, tolerated),
+            |subject, (name, _)| match *name {
+                FOUR_SAMPLES => subject.without_four_samples(),
+                COUNTING_SHADERS => subject.without_feature(Feature::StorageCounters),
+                _ => subject,
+            },
+        )
+    }
+}
+
+/// What is known of the adapter of this name.
+///
+/// # Panics
+/// When nothing is.
+pub fn known(name: &str) -> Known {
+    let found = KNOWN.iter().find(|known| known.name == name);
+    *found.unwrap_or_else(|| panic!("{name} is not described"))
+}
+
+const fn driver(
+    name: &'static str,
+    api: Api,
+    lacks: Lacks,
+    defects: &'static [&'static [Defect]],
+) -> Known {
+    Known {
+        name,
+        api,
+        lacks: Some(lacks),
+        defects,
+    }
+}
+
+/// The software drivers that the backends' tests run all checks on.
+pub const KNOWN: &[Known] = &[
+    driver("vulkan:lavapipe", Api::Vulkan, VULKAN, &[]),
+    driver("gl:llvmpipe", Api::OpenGl, GL, &[]),
+    driver("gl:zink", Api::OpenGl, GL, &[]),
+    driver("gl:softpipe", Api::OpenGl, GL_SOFTPIPE, SOFTPIPE_DEFECTS),
+    driver("gl:es:llvmpipe", Api::OpenGlEs, ES, &[]),
+    driver("gl:es:zink", Api::OpenGlEs, ES, &[]),
+    driver(
+        "gl:es:softpipe",
+        Api::OpenGlEs,
+        ES_SOFTPIPE,
+        SOFTPIPE_DEFECTS,
+    ),
+    driver("wgpu:vulkan:lavapipe", Api::WebGpu, WGPU_VULKAN, &[]),
+    driver(
+        "wgpu:gl:llvmpipe",
+        Api::WebGpu,
+        WGPU_GL,
+        &[WGPU_GL_WRONG, FACTORS],
+    ),
+    driver(
+        "wgpu:gl:softpipe",
+        Api::WebGpu,
+        WGPU_SOFTPIPE,
+        &[SOFTPIPE_WRONG, WGPU_GL_WRONG, WGPU_SOFTPIPE_WRONG],
+    ),
+];
+
+const NOTHING: Lacks = Lacks {
+    features: &[],
+    formats: &[],
+    drawing: &[],
+    blending: &[],
+    samples: &[],
+};
+
+const EVERY_FORMAT: &str = "r8unorm rg8unorm rgba8unorm rgba8unorm-srgb bgra8unorm rgba8snorm \
+    rgb10a2unorm b5g6r5unorm bgr5a1unorm bgra4unorm rg11b10ufloat rgba8uint rgba16float rgba32float \
+    depth16unorm depth24plus depth24plus-stencil8 depth32float depth32float-stencil8 stencil8";
+
+const VULKAN: Lacks = Lacks {
+    features: &["depth-bounds sample-coverage"],
+    blending: &["rgba8snorm"],
+    samples: &["depth24plus depth24plus-stencil8"],
+    ..NOTHING
+};
+
+/// The core profile of llvmpipe and zink. No driver of OpenGL stores blue first. No fetch
+/// tells 24 bits for certain.
+const GL: Lacks = Lacks {
+    features: &["depth-bounds mirrored-viewport"],
+    formats: &["bgra8unorm"],
+    samples: &["depth24plus depth24plus-stencil8"],
+    ..NOTHING
+};
+const GL_SOFTPIPE: Lacks = Lacks {
+    features: &[
+        "depth-bias-clamp min-sample-shading mirrored-viewport sample-shading \
+        storage-counters",
+    ],
+    samples: &[EVERY_FORMAT],
+    ..GL
+};
+
+const ES_FEATURES: &str = "alpha-to-one conservative-depth depth-bounds fragment-invocations \
+    logic-operations mirrored-viewport polygon-mode-line precise-occlusion";
+/// OpenGL ES of llvmpipe and zink.
+const ES: Lacks = Lacks {
+    features: &[ES_FEATURES],
+    formats: &["bgra8unorm"],
+    ..NOTHING
+};
+const ES_SOFTPIPE: Lacks = Lacks {
+    features: &[
+        ES_FEATURES,
+        "depth-bias-clamp independent-blend min-sample-shading sample-shading",
+    ],
+    samples: &[EVERY_FORMAT],
+    ..ES
+};
+
+const WGPU_FEATURES: &str = "alpha-to-one constant-alpha-blend-factor depth-bounds \
+    front-and-back-culling logic-operations min-max-blend-factors min-sample-shading \
+    mirrored-viewport polygon-mode-line precise-occlusion rasterizer-discard reversed-depth-range \
+    sample-coverage scissor-outside separate-stencil-masks triangle-fans";
+/// Codes of two formats' samples could not be told for certain; WebGPU does not resolve integers.
+const WGPU_VULKAN: Lacks = Lacks {
+    features: &[WGPU_FEATURES],
+    formats: &["b5g6r5unorm bgr5a1unorm bgra4unorm"],
+    blending: &["rgba8snorm"],
+    samples: &["rgba8snorm rgba8uint depth16unorm"],
+    ..NOTHING
+};
+/// wgpu 30 over OpenGL asks for extensions that core contexts have no need of. It has no views of other
+/// formats, and all depths are read by a shader.
+const WGPU_GL: Lacks = Lacks {
+    features: &[WGPU_FEATURES, "depth-bias-clamp fragment-invocations"],
+    drawing: &["rgba8snorm rg11b10ufloat rgba32float"],
+    blending: &[],
+    samples: &["rgba8snorm rgba8unorm-srgb rgba8uint"],
+    ..WGPU_VULKAN
+};
+const WGPU_SOFTPIPE: Lacks = Lacks {
+    features: &[
+        WGPU_FEATURES,
+        "depth-bias-clamp fragment-invocations independent-blend sample-shading",
+    ],
+    drawing: &["rgba8snorm"],
+    blending: &["rgba32float"],
+    ..WGPU_GL
+};
+
+/// Softpipe's defects through OpenGL and OpenGL ES.
+const SOFTPIPE_DEFECTS: &[&[Defect]] = &[SOFTPIPE_WRONG, SOFTPIPE_CLAMPS];
+/// Checks that softpipe fails through every API.
+#[rustfmt::skip]
+pub const SOFTPIPE_WRONG: &[Defect] = &[
+    ("depth::a_slope_bias_counts_the_slope", "a bias that is not the slope times its factor"),
+    ("sampling::neighbours_in_the_mirror_are_averaged", "the wrong neighbour in the mirror"),
+    ("formats::uploads_are_fetched", "the lowest code of rgba8snorm, fetched as less than -1"),
+    ("counters::rejected_fragments_run", EARLY),
+    ("counters::forced_tests_come_before_the_shader", EARLY),
+];
+const EARLY: &str = "fragments that are rejected before a shader that counts";
+/// Those that it fails under clip control.
+const SOFTPIPE_CLAMPS: &[Defect] = &[
+    ("depth::depths_outside_are_clamped", CLAMP),
+    ("depth::depths_are_clamped_to_a_reversed_range", CLAMP),
+];
+/// Near = translate - scale in `sp_quad_depth_test.c`.
+const CLAMP: &str = "depths are clamped to the range that clip depths from -1 on would have";
+
+/// wgpu's OpenGL never enables the restart of primitives.
+#[rustfmt::skip]
+const WGPU_GL_WRONG: &[Defect] = &[
+    ("raster::strips_begin_again", "strips that are joined"),
+    ("formats::uploads_come_back", "negative codes of rgba8snorm that come back as 0"),
+    // It offers them also where the driver has one, and makes no texture of which a shader could read them.
+    (FOUR_SAMPLES, "textures of four samples that stay empty"),
+];
+/// wgpu's OpenGL leaves the factors of a draw with two sources behind, and Mesa refuses later draws to
+/// several targets with GL_INVALID_OPERATION.
+#[rustfmt::skip]
+const FACTORS: &[Defect] = &[
+    ("targets::later_draws_have_one_source", "factors of a second source that outlive their draw"),
+];
+#[rustfmt::skip]
+const WGPU_SOFTPIPE_WRONG: &[Defect] = &[
+    (COUNTING_SHADERS, "storage buffers that wgpu does not translate to GLSL 330"),
+    ("integers::integers_are_drawn_through_the_write_mask", "a clear that is lost to the pass's draws"),
+    ("targets::the_second_source_is_a_factor", SECOND),
+    ("targets::the_second_source_weighs_one_side", SECOND),
+    ("targets::later_draws_have_one_source", SECOND),
+];
+const SECOND: &str = "a second source that comes as the first";

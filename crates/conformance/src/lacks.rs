@@ -1,0 +1,104 @@
+//! The capabilities that a driver lacks, by their very names, and the limits that are left.
+//!
+//! Drivers are described by what they lack, so that a capability which is new to the suite is
+//! expected of all of them.
+
+use etalon_frame::{
+    Api, ApiVersion, Feature, FormatSupport, Limits, ReadPath, Requirement, TextureFormat,
+};
+use std::collections::BTreeSet;
+
+/// Names of features or formats, separated by spaces.
+pub type Names = &'static [&'static str];
+
+/// The capabilities that a driver lacks.
+#[derive(Clone, Copy, Debug)]
+pub struct Lacks {
+    /// Features.
+    pub features: Names,
+    /// Formats of which there are no textures.
+    pub formats: Names,
+    /// Formats that are only fetched from.
+    pub drawing: Names,
+    /// Formats of colour that are drawn to and not blended into.
+    pub blending: Names,
+    /// Formats that are drawn to, but not with four samples.
+    pub samples: Names,
+}
+
+impl Lacks {
+    /// The limits of a driver that lacks exactly these.
+    pub fn limits(&self, api: Api) -> Limits {
+        let formats = TextureFormat::ALL.iter().copied();
+        let formats = formats.filter(|f| !names(self.formats, f.name()));
+        let features = Feature::ALL.iter().copied();
+        let features = features.filter(|f| !names(self.features, f.name()));
+        let four = vec![[96, 32], [224, 96], [32, 160], [160, 224]];
+        Limits {
+            api,
+            sub_pixel_bits: 8,
+            max_size: 4096,
+            max_color_attachments: 4,
+            formats: formats.map(|f| (f, self.support(api, f))).collect(),
+            features: features.collect(),
+            version: ApiVersion::UNKNOWN,
+            properties: BTreeSet::new(),
+            exempt: BTreeSet::new(),
+            sample_positions: [(1, vec![[128, 128]]), (4, four)].into(),
+        }
+    }
+
+    fn support(&self, api: Api, format: TextureFormat) -> FormatSupport {
+        let name = format.name();
+        let samples: &[u32] = match (names(self.drawing, name), names(self.samples, name)) {
+            (true, _) => &[],
+            (_, true) => &[1],
+            _ => &[1, 4],
+        };
+        let blendable = format.is_color() && !format.is_integer() && !samples.is_empty();
+        let shader = api == Api::OpenGlEs && format.has_depth();
+        FormatSupport {
+            samples: samples.to_vec(),
+            blendable: blendable && !names(self.blending, name),
+            depth: format.depth_encodings().iter().take(1).copied().collect(),
+            read: [ReadPath::Copy, ReadPath::Shader][usize::from(shader)],
+        }
+    }
+
+    /// Holds that limits deny all of these and nothing else.
+    ///
+    /// # Panics
+    /// When they do not.
+    pub fn check(&self, limits: &Limits) {
+        let due = self.limits(limits.api);
+        let only = |by: &Limits, not_by: &Limits| -> Vec<String> {
+            let all = requirements().into_iter();
+            let only =
+                all.filter(|r| by.missing(&[*r]).is_some() && not_by.missing(&[*r]).is_none());
+            only.map(|r| r.to_string()).collect()
+        };
+        let (lost, gained) = (only(limits, &due), only(&due, limits));
+        let same = lost.is_empty() && gained.is_empty();
+        assert!(same, "lost: {lost:#?}, gained: {gained:#?}");
+    }
+}
+
+/// True if the names hold this one.
+fn names(names: Names, name: &str) -> bool {
+    names.iter().any(|list| list.split(' ').any(|n| n == name))
+}
+
+/// All that a driver may lack.
+fn requirements() -> Vec<Requirement> {
+    let features = Feature::ALL.iter().copied().map(Requirement::Feature);
+    let mut all: Vec<_> = features.collect();
+    for format in TextureFormat::ALL.iter().copied() {
+        all.extend([
+            Requirement::Format(format),
+            Requirement::Drawing(format),
+            Requirement::Blending(format),
+            Requirement::Samples(format, 4),
+        ]);
+    }
+    all
+}

@@ -1,0 +1,164 @@
+//! The checks that will draw on a driver, told from what it lacks.
+//!
+//! Tests of different drivers lie in different binaries, and none of them sees the others' results.
+//! The prediction needs no driver, so one test holds that each check draws on one of them at least;
+//! each run then holds that the prediction came true.
+
+use crate::checks::Check;
+use crate::known::Known;
+use crate::subject::Outcome;
+use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
+use etalon_frame::Limits;
+use etalon_scene::Scene;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+
+/// The result of a check that draws nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Prediction {
+    /// It draws.
+    Draws,
+    /// It has nothing to draw on any driver.
+    OnlyLooks,
+    /// It is skipped.
+    Skips,
+}
+
+/// What a check does on a driver that lacks this and nothing else; none where nothing is known of the
+/// driver.
+pub(crate) fn predict(check: &Check, known: &Known) -> Option<Prediction> {
+    let backend = Undrawn {
+        info: AdapterInfo {
+            name: known.name.to_owned(),
+            backend: String::new(),
+            device: String::new(),
+            driver: String::new(),
+            driver_version: String::new(),
+            driver_id: String::new(),
+            api_version: String::new(),
+            software: true,
+        },
+        limits: known.lacks?.limits(known.api),
+    };
+    let subject = known.subject(&backend, &[]);
+    let outcome = catch_unwind(AssertUnwindSafe(|| check.run(&subject)));
+    Some(match outcome {
+        Ok(Outcome::Passed(_)) => Prediction::OnlyLooks,
+        Ok(Outcome::Skipped(_)) => Prediction::Skips,
+        Err(payload) if payload.is::<WouldDraw>() => Prediction::Draws,
+        Err(payload) => resume_unwind(payload),
+    })
+}
+
+/// A backend that unwinds where another would draw.
+struct Undrawn {
+    info: AdapterInfo,
+    limits: Limits,
+}
+
+struct WouldDraw;
+
+impl Backend for Undrawn {
+    fn adapter(&self) -> &AdapterInfo {
+        &self.info
+    }
+
+    fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
+        match self.limits.missing(&scene.requirements()) {
+            Some(requirement) => Err(BackendError::NotSupported(requirement)),
+            None => resume_unwind(Box::new(WouldDraw)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::checks::CHECKS;
+    use crate::known::{KNOWN, WHOLE, known};
+
+    /// The drivers that each crate's tests run the suite on.
+    const TESTED: [(&str, &str); 3] = [
+        ("vulkan", include_str!("../../vulkan/tests/driver/main.rs")),
+        ("gl", include_str!("../../gl/tests/drivers/main.rs")),
+        ("wgpu", include_str!("../../wgpu/tests/drivers/main.rs")),
+    ];
+
+    /// Checks that draw on none of the drivers, each with its reason.
+    const NOT_DRAWN_ANYWHERE: &[(&str, &str)] = &[];
+
+    #[test]
+    fn every_check_draws_on_a_driver() {
+        let drawn = |check: &&Check| {
+            KNOWN.iter().any(|known| {
+                let fails = known.defects.concat().iter().any(|d| d.0 == check.name);
+                !fails && predict(check, known).unwrap() != Prediction::Skips
+            })
+        };
+        let undrawn = CHECKS.iter().filter(|check| !drawn(check));
+        let undrawn: Vec<_> = undrawn.map(|check| check.name).collect();
+        let due: Vec<_> = NOT_DRAWN_ANYWHERE.iter().map(|(name, _)| *name).collect();
+        assert_eq!(undrawn, due);
+    }
+
+    #[test]
+    fn checks_draw_unless_the_driver_lacks_what_they_need() {
+        let which = |name: &str, due: Prediction| -> Vec<_> {
+            let known = known(name);
+            let checks = CHECKS
+                .iter()
+                .filter(|check| predict(check, &known) == Some(due));
+            checks.map(|check| check.name).collect()
+        };
+        let skipped = ["depth::bounds_reject_by_the_stored_depth"];
+        assert_eq!(which("vulkan:lavapipe", Prediction::Skips), skipped);
+        let skipped = [
+            "depth::bounds_reject_by_the_stored_depth",
+            "raster::a_viewport_of_negative_height_turns_the_picture_over",
+        ];
+        assert_eq!(which("gl:llvmpipe", Prediction::Skips), skipped);
+        let due = [
+            "limits::limits_are_at_least_the_required_ones",
+            "limits::formats_are_described_without_contradiction",
+            "prepared::denials_are_named",
+        ];
+        for known in KNOWN {
+            assert_eq!(
+                which(known.name, Prediction::OnlyLooks),
+                due,
+                "{}",
+                known.name
+            );
+        }
+    }
+
+    #[test]
+    fn every_described_driver_is_tested() {
+        for known in KNOWN {
+            let (api, driver) = known.name.split_once(':').unwrap();
+            let name = match driver.split_once(':') {
+                Some(("es", driver)) => format!("{driver}_es"),
+                Some((_, driver)) => driver.to_owned(),
+                None => driver.to_owned(),
+            };
+            let (_, text) = TESTED.iter().find(|(tested, _)| *tested == api).unwrap();
+            let (_, tests) = text.split_once("driver_tests! {").unwrap();
+            let tested = tests.split(';').next().unwrap().split_whitespace();
+            assert!(tested.into_iter().any(|t| t == name), "{}", known.name);
+        }
+    }
+
+    #[test]
+    fn names_of_defects_are_those_of_checks() {
+        for (name, _) in KNOWN.iter().flat_map(|known| known.defects.concat()) {
+            let whole = WHOLE.contains(&name);
+            assert!(
+                whole || CHECKS.iter().any(|check| check.name == name),
+                "{name}"
+            );
+        }
+    }
+}
