@@ -25,6 +25,7 @@ macro_rules! areas {
 
 areas! {
     blend = "blend",
+    capabilities = "capabilities",
     combined = "combined",
     cull = "cull",
     depth = "depth",
