@@ -1,7 +1,7 @@
 //! Standard output, standard error and the terminal.
 //!
 //! A reader that goes away, as `head` does, never changes an exit code: it has what it wanted. Nothing here panics, as
-//! `println!` and `eprintln!` do. [`print`] is for commands whose product is what they print, so that any other failed
+//! `println!` and `eprintln!` do. [`print()`] is for commands whose product is what they print, so that any other failed
 //! write is an error; [`summarize`] for those whose product is a folder, where none is.
 
 use crate::failure::Failure;

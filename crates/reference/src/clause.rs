@@ -100,12 +100,14 @@ impl Rejection {
         match limits.api {
             Api::Vulkan => format!("Vulkan: {}", self.vulkan(topology)),
             Api::WebGpu => format!("WebGPU: {}", self.webgpu(topology)),
-            Api::OpenGl => match Edition::of_opengl(limits.version) {
-                (name, edition) => self.opengl(name, edition, topology),
-            },
-            Api::OpenGlEs => match Edition::of_opengl_es(limits.version) {
-                (name, edition) => self.opengl(name, edition, topology),
-            },
+            Api::OpenGl => {
+                let (name, edition) = Edition::of_opengl(limits.version);
+                self.opengl(name, edition, topology)
+            }
+            Api::OpenGlEs => {
+                let (name, edition) = Edition::of_opengl_es(limits.version);
+                self.opengl(name, edition, topology)
+            }
         }
     }
 

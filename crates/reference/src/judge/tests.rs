@@ -79,7 +79,11 @@ fn a_depth_between_those_of_the_vertices_may_pass_them_by_the_error_of_interpola
     );
     let limits = limits(Api::Vulkan);
     let set = judge(&scene, &limits, &Rules::of(&limits));
-    let highest = set.groups[0].sample(0, 0, 0).hull(0).unwrap().high;
+    let highest = set.groups[0]
+        .sample(0, 0, 0)
+        .hull(0)
+        .expect("asserted")
+        .high;
     // The vertices' own error ends at 0.75 * (1 + 1e-5).
     assert!(highest > i64::from((0.75_f32 * 1.000_01).to_bits()));
 }

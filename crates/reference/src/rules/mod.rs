@@ -76,8 +76,8 @@ mod tests {
             for (name, citation, _) in rules.permissions() {
                 assert!(citation.contains(':'), "{name}: {citation:?}");
                 // A text before the feature cites the first that has it; silence names the others.
-                let own = rules.text.split(" (").next().unwrap();
-                let family = own.split(' ').next().unwrap();
+                let own = rules.text.split(" (").next().expect("a name");
+                let family = own.split(' ').next().expect("a word");
                 assert!(
                     citation.contains(family) || citation.starts_with("WGSL"),
                     "{own}, {name}: {citation}"

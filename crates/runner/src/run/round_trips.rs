@@ -322,7 +322,7 @@ mod tests {
         let blocked = found.blocks(&case).expect("it is blocked");
         let reason = format!("{}: bug 12", one.id);
         assert_eq!(blocked.expected, Some(reason));
-        assert_eq!(blocked.by, [one.id.clone()]);
+        assert_eq!(blocked.by, std::slice::from_ref(&one.id));
         assert!(blocked.message.contains(&format!("{} is fail", one.id)));
         found.take(&other, &Record::new(&other.id, "x", Verdict::Crash));
         let blocked = found.blocks(&case).expect("it is blocked");
