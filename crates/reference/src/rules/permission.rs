@@ -318,7 +318,7 @@ rules! {
     signed_clamp: SignedClamp,
     /// Clamping of what a shader or a blend stores into signed normalized formats.
     signed_result: SignedClamp,
-    /// True if a blend constant may be clamped to [0,1] whatever the format.
+    /// True if a blend constant may be clamped to 0 to 1 whatever the format.
     clamps_constant: bool,
     /// True if the stencil read mask also masks the reference; otherwise it may.
     masks_reference: bool,
