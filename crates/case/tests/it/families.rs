@@ -97,6 +97,7 @@ fn every_file_says_what_it_proves_and_by_which_clauses() {
     let apis = [
         "Vulkan",
         "OpenGL 3.3",
+        "OpenGL ES 3.0",
         "OpenGL 4.6",
         "OpenGL ES 3.2",
         "WebGPU",

@@ -307,7 +307,7 @@ fn a_diff_tells_what_is_worse() {
 
     let path = folders[0].path().join("diff.html");
     let html = page(&write_diff(&path, &found).unwrap());
-    assert!(html.contains("2 slower, 2 no longer right"));
+    assert!(html.contains("2 slower; 2 no longer right; 4 of 6 comparisons cannot tell."));
 }
 
 #[test]
