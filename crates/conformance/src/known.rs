@@ -220,5 +220,11 @@ const WGPU_SOFTPIPE_WRONG: &[Defect] = &[
     ("targets::the_second_source_is_a_factor", SECOND),
     ("targets::the_second_source_weighs_one_side", SECOND),
     ("targets::later_draws_have_one_source", SECOND),
+    ("counters::any_samples_that_pass_are_told", TIMESTAMP),
+    ("counters::any_samples_of_several_passes_are_told", TIMESTAMP),
 ];
+/// Mesa's `softpipe_end_query` takes one from the number of active queries, also for a timestamp,
+/// which never began: the occlusion queries between the first two timestamps of a context count
+/// nothing.
+const TIMESTAMP: &str = "occlusion queries that stay 0 after a context's first timestamp";
 const SECOND: &str = "a second source that comes as the first";
