@@ -310,6 +310,7 @@ impl<'a> Walk<'a> {
                     }
                 }
             }
+            self.resolve_depth_stencil(p, at, &mut worlds, notes)?;
             self.store(p, notes);
         }
         Some(worlds)
