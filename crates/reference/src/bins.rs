@@ -94,9 +94,13 @@ impl PassSetup {
         self.draws[draw].iter().filter(holds)
     }
 
-    /// Returns the rows of the pass's attachments, from the top.
-    pub(crate) fn rows(&self) -> Rows<'_> {
-        let mut coming: Vec<u32> = (0..self.reaches.len() as u32).collect();
+    /// Returns the rows of the pass's attachments, from the top, with the primitives of some draws.
+    pub(crate) fn rows(&self, draws: Range<usize>) -> Rows<'_> {
+        let first = |draw: usize| {
+            let before = |reach: &Reach| (reach.draw as usize) < draw;
+            self.reaches.partition_point(before) as u32
+        };
+        let mut coming: Vec<u32> = (first(draws.start)..first(draws.end)).collect();
         coming.sort_by_key(|number| self.reaches[*number as usize].rows.start);
         Rows {
             setup: self,

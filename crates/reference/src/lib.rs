@@ -20,6 +20,7 @@ mod interval;
 mod judge;
 mod judging;
 mod notes;
+mod pass_operations;
 mod picture;
 mod primitive;
 mod rejections;
@@ -33,6 +34,7 @@ mod store;
 #[cfg(test)]
 mod test_limits;
 mod texels;
+mod undefined;
 mod verdict;
 mod walk;
 mod world;

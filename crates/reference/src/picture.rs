@@ -181,20 +181,46 @@ impl Walk<'_> {
 
     fn paint_pass(&self, p: usize) {
         let pass = &self.scene.passes[p];
-        let (size, samples) = (self.scene.pass_size(pass), self.scene.pass_samples(pass));
-        let Some(shape) = self.pictures.borrow().shape((size, samples)) else {
+        let shape = (self.scene.pass_size(pass), self.scene.pass_samples(pass));
+        let Some(index) = self.pictures.borrow().shape(shape) else {
             return;
         };
-        if pass.draws.is_empty() {
-            return;
+        // Draws that sample the picture see it as it was before the pass.
+        let mut picture = self.pictures.borrow().samples[index].clone();
+        if !pass.cleared().is_empty() {
+            self.each_state(&mut picture, |worlds| {
+                self.load(p, worlds, &mut Notes(None));
+            });
         }
         let inputs: Vec<Inputs> = (0..pass.draws.len()).map(|d| self.inputs(p, d)).collect();
-        // Draws that sample the picture see it as it was before the pass.
-        let mut picture = self.pictures.borrow().samples[shape].clone();
+        let mut stops: Vec<usize> = pass.clears.iter().map(|clear| clear.before).collect();
+        stops.push(pass.draws.len());
+        stops.dedup();
+        let mut next = 0;
+        for stop in stops {
+            if next < stop {
+                self.paint_draws((p, next..stop), &inputs, shape, &mut picture);
+            }
+            self.paint_clears((p, stop), shape, &mut picture);
+            next = stop;
+        }
+        if pass.draws.iter().any(|d| d.multisample.sample_coverage.is_some()) {
+            self.each_state(&mut picture, |worlds| self.end_pass(worlds));
+        }
+        self.pictures.borrow_mut().samples[index] = picture;
+    }
+
+    fn paint_draws(
+        &self,
+        (p, draws): (usize, Range<usize>),
+        inputs: &[Inputs],
+        (size, samples): Shape,
+        picture: &mut [State],
+    ) {
         let mut brush = Brush {
             walk: self,
             pass: p,
-            inputs: &inputs,
+            inputs,
             size,
             samples,
             known: Known::default(),
@@ -203,7 +229,7 @@ impl Walk<'_> {
         };
         let lattice = self.texels.lattice(size);
         let setup = &self.setups[p];
-        let mut rows = setup.rows();
+        let mut rows = setup.rows(draws);
         let mut segments = Segments::default();
         for y in 0..size[1] {
             let active = rows.row(y);
@@ -211,32 +237,80 @@ impl Walk<'_> {
                 continue;
             }
             segments.of_row(setup, active, |columns, members| {
-                brush.segment(&mut picture, y, columns, members, lattice);
+                brush.segment(picture, y, columns, members, lattice);
             });
         }
-        drop(brush);
-        if pass.draws.iter().any(|d| d.multisample.sample_coverage.is_some()) {
-            self.forget_choices(&mut picture);
-        }
-        self.pictures.borrow_mut().samples[shape] = picture;
     }
 
-    /// Takes away the choices of a pass that ends.
-    fn forget_choices(&self, picture: &mut [State]) {
-        let mut known: FxHashMap<State, State> = FxHashMap::default();
-        let mut pictures = self.pictures.borrow_mut();
-        for state in picture {
-            if *state == OPEN {
-                continue;
-            }
-            *state = *known.entry(*state).or_insert_with(|| {
-                let mut worlds = pictures.states.worlds(*state).map(|w| Worlds::clone(w));
-                if let Some(worlds) = &mut worlds {
-                    self.end_pass(worlds);
-                }
-                pictures.states.number(worlds)
-            });
+    /// Executes the clear commands before a draw, or at the end of the pass.
+    fn paint_clears(
+        &self,
+        (p, draw): (usize, usize),
+        (size, samples): Shape,
+        picture: &mut [State],
+    ) {
+        let clears = self.scene.passes[p].clears_before(draw);
+        if clears.is_empty() {
+            return;
         }
+        let clear = |at: Sample, worlds: &mut Worlds| {
+            self.clear((p, draw), at, worlds, &mut Notes(None));
+        };
+        if clears.iter().all(|clear| clear.rect.is_none()) {
+            let anywhere = Sample {
+                size,
+                samples,
+                x: 0,
+                y: 0,
+                sample: 0,
+            };
+            self.each_state(picture, |worlds| clear(anywhere, worlds));
+            return;
+        }
+        let mut known: FxHashMap<(State, SmallVec<[bool; 8]>), State> = FxHashMap::default();
+        for_each_judged(self.texels.lattice(size), size, |x, y| {
+            let inside = |rect: Option<[u32; 4]>| {
+                rect.is_none_or(|[left, top, w, h]| {
+                    x >= left && y >= top && x - left < w && y - top < h
+                })
+            };
+            let inside: SmallVec<[bool; 8]> = clears.iter().map(|c| inside(c.rect)).collect();
+            if !inside.contains(&true) {
+                return;
+            }
+            for sample in 0..samples {
+                let at = Sample {
+                    size,
+                    samples,
+                    x,
+                    y,
+                    sample,
+                };
+                let own = &mut picture[place(at)];
+                let known = known.entry((*own, inside.clone()));
+                *own = *known.or_insert_with(|| self.changed(*own, |worlds| clear(at, worlds)));
+            }
+        });
+    }
+
+    /// Changes the worlds of all samples in the same way.
+    fn each_state(&self, picture: &mut [State], change: impl Fn(&mut Worlds)) {
+        let mut known: FxHashMap<State, State> = FxHashMap::default();
+        for state in picture {
+            let known = known.entry(*state);
+            *state = *known.or_insert_with(|| self.changed(*state, &change));
+        }
+    }
+
+    /// Returns a state after a change of its worlds.
+    fn changed(&self, state: State, change: impl Fn(&mut Worlds)) -> State {
+        let worlds = self.pictures.borrow().states.worlds(state).cloned();
+        let changed = worlds.map(|worlds| {
+            let mut worlds = Worlds::clone(&worlds);
+            change(&mut worlds);
+            worlds
+        });
+        self.pictures.borrow_mut().states.number(changed)
     }
 
     fn paint_resolves(&self, p: usize) {

@@ -11,6 +11,7 @@ use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
 use crate::rules::{Copies, Rules};
 use crate::snap::units_per_texel;
 use crate::texels::Texels;
+use crate::undefined::Undefined;
 use crate::world::{Cell, Decision, World, Worlds, merge};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Limits, ReadPath, TexelSet, WorldBox};
 use etalon_pipeline::{Arithmetic, Point};
@@ -57,6 +58,8 @@ pub(crate) struct Walk<'a> {
     pub(crate) units: i64,
     /// The judged texels.
     pub(crate) texels: Texels,
+    /// The results that depend on discarded contents.
+    pub(crate) undefined: Undefined,
     /// The samples after some passes that a story needed.
     known: RefCell<Known>,
     pub(crate) pictures: RefCell<Pictures>,
@@ -145,6 +148,7 @@ impl<'a> Walk<'a> {
             draw_ids: draw_ids.collect(),
             units: units_per_texel(limits),
             texels,
+            undefined: Undefined::of(scene),
             known: RefCell::default(),
             pictures: RefCell::default(),
         }
@@ -224,7 +228,11 @@ impl<'a> Walk<'a> {
             if !is_own && !pass.draws.is_empty() {
                 note_other_attachments(notes, p, shape);
             }
+            if is_own {
+                self.load(p, &mut worlds, notes);
+            }
             for (d, draw) in pass.draws.iter().enumerate().filter(|_| is_own) {
+                self.clear((p, d), at, &mut worlds, notes);
                 if draw.rasterizer_discard || !in_scissor(draw, at) {
                     self.note_draw(notes, (p, d, draw));
                     continue;
@@ -232,11 +240,15 @@ impl<'a> Walk<'a> {
                 let primitives = self.setups[p].at(d, at.x, at.y);
                 worlds = self.draw(at, (p, d), primitives, worlds, notes)?;
             }
+            if is_own {
+                self.clear((p, pass.draws.len()), at, &mut worlds, notes);
+            }
             self.end_pass(&mut worlds);
             for (source, target) in self.resolves_into(p, at) {
                 let outcomes = self.resolve(source, target, at, p + 1, notes)?;
                 worlds = resolved(&worlds, target, &outcomes)?;
             }
+            self.store(p, notes);
         }
         Some(worlds)
     }
@@ -440,7 +452,7 @@ impl<'a> Walk<'a> {
     pub(crate) fn finish(&self, worlds: &[World], at: Sample, notes: &mut Notes<'_>) -> TexelSet {
         let mut set = TexelSet::default();
         for (w, world) in worlds.iter().enumerate() {
-            let mut channels = SmallVec::new();
+            let mut channels: SmallVec<[CodeInterval; 6]> = SmallVec::new();
             for index in &self.scene.read {
                 let attachment = &self.scene.attachments[*index];
                 if (attachment.size, attachment.samples) != (at.size, at.samples) {
@@ -448,6 +460,7 @@ impl<'a> Walk<'a> {
                 }
                 let cell = &world.cells[*index];
                 for aspect in attachment.format.aspects() {
+                    let first = channels.len();
                     match aspect {
                         Aspect::Color => {
                             let n = attachment.format.color_channels().len();
@@ -460,6 +473,7 @@ impl<'a> Walk<'a> {
                             channels.push(CodeInterval::exact(i64::from(cell.stencil)));
                         }
                     }
+                    self.open_undefined(*index, *aspect, &mut channels[first..]);
                 }
                 let how = match self.read_encoding(*index, Aspect::Depth).1 {
                     ReadPath::Shader if attachment.format.has_depth() => {
