@@ -139,10 +139,11 @@ pub fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels)
 /// Returns the shapes of all attachments that are drawn to or read back.
 fn shapes(scene: &Scene) -> Vec<Shape> {
     let drawn = scene.passes.iter().flat_map(|pass| {
-        let resolved = pass.resolve.iter().flatten();
-        pass.color.iter().chain(&pass.depth_stencil).chain(resolved)
+        let all = pass.color.iter().chain(&pass.depth_stencil).copied();
+        all.chain(pass.resolve_targets())
     });
-    let attachments = scene.read.iter().chain(drawn).map(|index| &scene.attachments[*index]);
+    let all = scene.read.iter().copied().chain(drawn);
+    let attachments = all.map(|index| &scene.attachments[index]);
     let shapes: BTreeSet<Shape> = attachments.map(|a| (a.size, a.samples)).collect();
     shapes.into_iter().collect()
 }

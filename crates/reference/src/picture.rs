@@ -315,10 +315,8 @@ impl Walk<'_> {
 
     fn paint_resolves(&self, p: usize) {
         let pass = &self.scene.passes[p];
-        let both = pass.color.iter().zip(&pass.resolve);
         let mut shapes: Vec<Shape> = Vec::new();
-        for (_, target) in both.filter(|(_, target)| target.is_some()) {
-            let Some(target) = *target else { continue };
+        for target in pass.resolve_targets() {
             let attachment = &self.scene.attachments[target];
             let shape = (attachment.size, attachment.samples);
             if !shapes.contains(&shape) && self.pictures.borrow().shape(shape).is_some() {
@@ -367,6 +365,7 @@ impl Walk<'_> {
                                 self.resolve(source, target, at, p + 1, &mut Notes(None))?;
                             worlds = resolved(&worlds, target, &outcomes)?;
                         }
+                        self.resolve_depth_stencil(p, at, &mut worlds, &mut Notes(None))?;
                         Some(worlds)
                     });
                     let state = self.pictures.borrow_mut().states.number(after);
@@ -386,12 +385,12 @@ impl Walk<'_> {
 fn held(scene: &Scene, (size, samples): Shape) -> Vec<bool> {
     let mut held = vec![false; scene.attachments.len()];
     let drawn = scene.passes.iter().flat_map(|pass| {
-        let resolved = pass.resolve.iter().flatten();
-        pass.color.iter().chain(&pass.depth_stencil).chain(resolved)
+        let all = pass.color.iter().chain(&pass.depth_stencil).copied();
+        all.chain(pass.resolve_targets())
     });
-    for index in scene.read.iter().chain(drawn) {
-        let attachment = &scene.attachments[*index];
-        held[*index] = (attachment.size, attachment.samples) == (size, samples);
+    for index in scene.read.iter().copied().chain(drawn) {
+        let attachment = &scene.attachments[index];
+        held[index] = (attachment.size, attachment.samples) == (size, samples);
     }
     held
 }
