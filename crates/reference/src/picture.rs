@@ -236,7 +236,7 @@ impl Walk<'_> {
             if active.is_empty() || lattice.first(0, y).is_none_or(|x| x >= size[0]) {
                 continue;
             }
-            segments.of_row(setup, active, |columns, members| {
+            segments.of_row(setup, y, active, |columns, members| {
                 brush.segment(picture, y, columns, members, lattice);
             });
         }
