@@ -152,7 +152,7 @@ impl Walk<'_> {
         let mut judging = Judging::new(self.rules);
         let values = samples.iter().map(|s| judging.decode(encoding, *s).float);
         let zero = Interval::exact(0.0);
-        let sum = values.fold(zero, |sum, value| sum.corners(value, |a, b| a + b));
+        let sum = values.fold(zero, |sum, value| sum.plus(value));
         let count = samples.len() as f64;
         let largest = encoding.value_of_order(between.high).abs();
         let error = largest * count * self.rules.float_error.value;
