@@ -84,9 +84,11 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::SampleCoverage => vk::FALSE,
         Feature::MinSampleShading | Feature::SampleShading => features.sample_rate_shading,
         Feature::StorageCounters => features.fragment_stores_and_atomics,
-        Feature::CentroidInterpolation
+        Feature::BaseVertex
+        | Feature::CentroidInterpolation
         | Feature::ConservativeDepth
         | Feature::ConstantAlphaBlendFactor
+        | Feature::FirstInstance
         | Feature::ForcedEarlyTests
         | Feature::FrontAndBackCulling
         | Feature::MinMaxBlendFactors
