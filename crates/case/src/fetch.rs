@@ -30,7 +30,8 @@ pub(crate) fn fetch(
         return Ok((mesh, fetch));
     };
     repeatable(&mesh, topology, instances).map_err(|e| e.key("instances"))?;
-    let colors: Vec<_> = instances.colors.iter().map(|c| c.0).collect();
+    let all = instances.colors.iter().cycle().map(|c| c.0);
+    let colors: Vec<_> = all.take(parts(instances)).collect();
     fetch.instances = colors.len() as u32;
     fetch.first_instance = instances.first;
     Ok((mesh.instanced(&colors), fetch))
@@ -86,14 +87,20 @@ fn short_indices(mesh: &Mesh, topology: PrimitiveTopology, base: i32) -> Result<
     Ok(())
 }
 
+/// The number of instances.
+fn parts(wire: &InstancesWire) -> usize {
+    wire.count.map_or(wire.colors.len(), |n| n as usize)
+}
+
 /// Checks that several meshes in a row are the mesh several times.
 fn repeatable(
     mesh: &Mesh,
     topology: PrimitiveTopology,
     instances: &InstancesWire,
 ) -> Result<(), At> {
-    let parts = instances.colors.len();
-    if parts == 0 || parts * mesh.vertices.len() > MAX_VERTICES || instances.first > MOST_UNUSED {
+    let parts = parts(instances);
+    let none = parts == 0 || instances.colors.is_empty();
+    if none || parts * mesh.vertices.len() > MAX_VERTICES || instances.first > MOST_UNUSED {
         return Err(At::new(
             "an instance at least, and no more vertices than a mesh may have",
         ));
@@ -183,6 +190,11 @@ mod tests {
         let all = draw(full, keys.clone()).expect("it is valid");
         assert_eq!(all.mesh.vertices.len(), 3 * one.mesh.vertices.len());
         assert_eq!((all.fetch.instances, all.fetch.first_instance), (3, 2));
+        let mut more = keys.clone();
+        more["instances"]["count"] = json!(4);
+        let more = draw(json!({ "kind": "full" }), more).expect("it is valid");
+        let last = more.mesh.vertices.last().expect("there are vertices");
+        assert_eq!((more.fetch.instances, last.color), (4, [0.0; 4]));
         let mut strip = keys;
         strip["topology"] = json!("triangle-strip");
         assert!(draw(json!({ "kind": "full" }), strip.clone()).is_none());

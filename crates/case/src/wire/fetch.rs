@@ -34,12 +34,14 @@ impl Default for FetchWire {
     }
 }
 
-/// Instances: the mesh again for each colour, which replaces that of its vertices.
+/// Instances: the mesh again for each of them, in the instance's colour instead of its vertices'.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InstancesWire {
-    /// The colour of each instance.
+    /// The colour of each instance, repeated as needed.
     pub(crate) colors: Vec<Splat>,
+    /// The number of instances; without it, as many as there are colours.
+    pub(crate) count: Option<u32>,
     /// The number of unused instances in front.
     #[serde(default)]
     pub(crate) first: u32,
