@@ -13,6 +13,7 @@ mod fetch;
 mod file;
 mod library;
 mod pairwise;
+mod pass_operations;
 mod random;
 mod relation;
 mod resolve;

@@ -14,6 +14,7 @@ mod fetch;
 mod invariance;
 mod mesh;
 mod mesh_source;
+mod pass;
 mod rasterization;
 mod requirements;
 mod sampler;
@@ -33,9 +34,12 @@ pub use fetch::{Call, Fetch, IndexFormat, RESTART_16};
 pub use invariance::Invariance;
 pub use mesh::{MAX_VERTICES, Mesh, PrimitiveVertices, RESTART, Vertex};
 pub use mesh_source::{FieldOf, MeshSource, Splat, Units};
+pub use pass::{
+    Clear, ClearTarget, LoadOperation, Operations, Pass, PassOperations, StoreOperation,
+};
 pub use rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, SampleCoverage, Viewport,
 };
 pub use sampler::{AddressMode, FilterMode, Sampler};
-pub use scene::{Counter, Pass, Scene};
+pub use scene::{Counter, Scene};
 pub use shader::Shader;
