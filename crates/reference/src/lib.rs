@@ -6,12 +6,15 @@
 //! between is legal. The permissions are data in [`rules`], with their citations.
 
 mod bias;
+mod bins;
 mod clause;
+mod clip;
 mod contents;
 mod context;
 mod counting;
 mod coverage;
 mod depth;
+mod depth_resolve;
 mod fit;
 mod fragment;
 mod interval;
@@ -19,12 +22,14 @@ mod judge;
 mod judging;
 mod notes;
 mod pass_operations;
+mod picture;
 mod primitive;
 mod rejections;
 pub mod rules;
 mod sample_state;
 mod sampling;
 mod setup;
+mod signature;
 mod snap;
 mod store;
 #[cfg(test)]
