@@ -4,10 +4,13 @@
 //! follow the file's spelling.
 
 mod axis;
+mod fetch;
 mod file;
 mod scene;
+mod tiles;
 
 pub(crate) use axis::AxisValue;
+pub(crate) use fetch::{FetchWire, InstancesWire};
 pub(crate) use file::{
     ExpectWire, FileWire, QuickWire, RandomWire, RelationWire, StatesWire, VariantWire,
 };
@@ -15,3 +18,4 @@ pub(crate) use scene::{
     AttachmentWire, ClearCommandWire, ClearMaskWire, ClearWire, DepthStencilResolveWire, DrawWire,
     PassWire, SceneWire, StencilFaceWire, StencilWire, TexelsWire,
 };
+pub(crate) use tiles::{TileBy, TilesWire};

@@ -7,9 +7,11 @@
 
 mod attachment;
 mod blend;
+mod call;
 mod depth_stencil;
 mod draw;
 mod early_tests;
+mod fetch;
 mod invariance;
 mod mesh;
 mod mesh_source;
@@ -24,14 +26,16 @@ pub use attachment::{Attachment, Contents};
 pub use blend::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, LogicOperation,
 };
+pub use call::Call;
 pub use depth_stencil::{
     CompareFunction, DepthBias, DepthState, StencilFace, StencilOperation, StencilState,
 };
 pub use draw::{Draw, Params};
 pub use early_tests::EarlyTests;
+pub use fetch::{Fetch, IndexFormat, RESTART_16};
 pub use invariance::Invariance;
 pub use mesh::{MAX_VERTICES, Mesh, PrimitiveVertices, RESTART, Vertex};
-pub use mesh_source::{MeshSource, Splat, Units};
+pub use mesh_source::{FieldOf, MeshSource, Splat, Units};
 pub use pass::{
     Clear, ClearTarget, DepthStencilResolve, LoadOperation, Operations, Pass, PassOperations,
     ResolveMode, StoreOperation,
