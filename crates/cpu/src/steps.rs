@@ -13,7 +13,7 @@ use etalon_pipeline::{
     Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
 };
 use etalon_scene::{
-    BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Sampler, Shader,
+    BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Sampler, Scene, Shader,
     StencilFace, StencilOperation,
 };
 
@@ -60,8 +60,52 @@ pub struct Written {
     pub depth: Mask,
 }
 
+/// A moment of a submission.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Moment {
+    /// The attachments have their initial contents.
+    Initial,
+    /// A pass begins.
+    Begin {
+        /// The index of the pass.
+        pass: usize,
+    },
+    /// A draw follows.
+    Draw {
+        /// The index of the pass.
+        pass: usize,
+        /// The index of the draw.
+        draw: usize,
+    },
+    /// A draw is done.
+    Drawn {
+        /// The index of the pass.
+        pass: usize,
+        /// The index of the draw.
+        draw: usize,
+    },
+    /// A pass has ended, and its attachments are resolved.
+    End {
+        /// The index of the pass.
+        pass: usize,
+    },
+}
+
+/// What a submission has stored so far: the attachments, and the counters with their kinds.
+#[derive(Debug)]
+pub struct Stored<'a> {
+    /// The attachments, in the scene's order.
+    pub surfaces: &'a mut [Surface],
+    /// The counters, in the scene's order.
+    pub counters: &'a mut [(CounterKind, u64)],
+}
+
 /// The steps that a planted bug may override, with the pipeline's own as defaults.
 pub trait Steps {
+    /// Changes nothing. A planted bug of memory changes what is stored at this moment.
+    #[inline(always)]
+    fn reached(&self, _moment: Moment, _scene: &Scene, _stored: Stored<'_>) {}
+
     /// Returns the covered texels of a span that starts at column `x` of row `y`.
     #[inline(always)]
     fn covered(&self, _x: usize, _y: usize, _size: [u32; 2], mask: Mask) -> Mask {

@@ -39,7 +39,7 @@ impl MutantBackend {
                     bug(before, &mut believed);
                 }
             }
-            Plant::Steps(_) | Plant::Frame(_) => return believed,
+            Plant::Steps(_) | Plant::Memory(_) | Plant::Frame(_) => return believed,
         }
         keep_possible(scene, &mut believed);
         believed
@@ -85,6 +85,7 @@ impl Backend for MutantBackend {
         }
         Ok(match &self.mutant.plant {
             Plant::Steps(hooks) => Box::new(PreparedScene::new(believed, hooks.as_ref())),
+            Plant::Memory(bug) => Box::new(PreparedScene::new(believed, bug())),
             Plant::Frame(bug) => Box::new(PreparedMutant {
                 inner: self.inner.prepare(&believed)?,
                 scene: believed,

@@ -1,12 +1,14 @@
 //! Planting a bug: in the scene, in a step, or in the frame.
 
 use super::hooks::Hooks;
+use super::memory::Memory;
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, TextureFormat};
 use etalon_scene::{BlendComponent, Draw, Scene, StencilFace};
 use std::fmt;
 
 type SceneBug = dyn Fn(&mut Scene) + Send + Sync;
 type StickyBug = dyn Fn(&Scene, &mut Scene) + Send + Sync;
+type MemoryBug = dyn Fn() -> Memory + Send + Sync;
 type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
 
 /// A planted bug.
@@ -17,6 +19,9 @@ pub(super) enum Plant {
     Sticky(Box<StickyBug>),
     /// A step of the rasterizer is replaced.
     Steps(Box<Hooks>),
+    /// What a submission has stored is changed. Each prepared scene has a bug of its own, which may
+    /// remember earlier moments and submissions.
+    Memory(Box<MemoryBug>),
     /// The frame is changed when it is read back.
     Frame(Box<FrameBug>),
 }
@@ -27,6 +32,7 @@ impl fmt::Debug for Plant {
             Self::Scene(_) => "Scene",
             Self::Sticky(_) => "Sticky",
             Self::Steps(_) => "Steps",
+            Self::Memory(_) => "Memory",
             Self::Frame(_) => "Frame",
         })
     }
