@@ -25,6 +25,7 @@ mod features;
 mod format;
 mod objects;
 mod options;
+mod planted;
 mod pool;
 mod prepared;
 mod probe;
