@@ -16,6 +16,7 @@ mod random;
 mod relation;
 mod resolve;
 mod schema;
+mod sequence;
 mod states;
 mod values;
 mod variants;

@@ -9,7 +9,8 @@ mod scene;
 
 pub(crate) use axis::AxisValue;
 pub(crate) use file::{
-    ExpectWire, FileWire, QuickWire, RandomWire, RelationWire, StatesWire, VariantWire,
+    Across, ExpectWire, FileWire, QuickWire, RandomWire, RelationWire, SequenceWire, StatesWire,
+    VariantWire,
 };
 pub(crate) use scene::{
     AttachmentWire, ClearWire, DrawWire, PassWire, SceneWire, StencilFaceWire, StencilWire,
