@@ -1,6 +1,6 @@
 //! A scene prepared for drawing.
 
-use crate::raster;
+use crate::pass;
 use crate::span::Counted;
 use crate::steps::{Moment, Steps, Stored};
 use crate::surface::{Surface, depth_encoding};
@@ -30,40 +30,6 @@ impl<S> PreparedScene<S> {
     }
 }
 
-impl<S: Steps> PreparedScene<S> {
-    fn reached(&mut self, moment: Moment) {
-        let stored = Stored {
-            surfaces: &mut self.surfaces,
-            counters: &mut self.counters,
-        };
-        self.steps.reached(moment, &self.scene, stored);
-    }
-
-    fn draw(&mut self, pass: usize, draw: usize) {
-        let pass = &self.scene.passes[pass];
-        let (surfaces, counters) = (&mut self.surfaces, &mut self.counters);
-        let draw = &pass.draws[draw];
-        raster::draw(&self.scene, pass, draw, surfaces, counters, &self.steps);
-    }
-
-    /// Resolves the attachments of a pass.
-    fn resolve(&mut self, pass: usize) -> Result<(), BackendError> {
-        let pass = &self.scene.passes[pass];
-        for (source, target) in pass.color.iter().zip(&pass.resolve) {
-            if let Some(target) = target {
-                let both = self.surfaces.get_disjoint_mut([*source, *target]);
-                let [source, target] = both.map_err(|_| {
-                    BackendError::Internal("an attachment is resolved to itself".to_owned())
-                })?;
-                target.resolve_from(source, |encoding, codes| {
-                    self.steps.resolve(encoding, codes)
-                });
-            }
-        }
-        Ok(())
-    }
-}
-
 impl<S: Steps> Prepared for PreparedScene<S> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         let start = Instant::now();
@@ -75,16 +41,14 @@ impl<S: Steps> Prepared for PreparedScene<S> {
             .collect();
         let counters = self.scene.counters.iter();
         self.counters = counters.map(|c| (c.kind, 0)).collect();
-        self.reached(Moment::Initial);
+        let stored = Stored {
+            surfaces: &mut self.surfaces,
+            counters: &mut self.counters,
+        };
+        self.steps.reached(Moment::Initial, &self.scene, stored);
         for pass in 0..self.scene.passes.len() {
-            self.reached(Moment::Begin { pass });
-            for draw in 0..self.scene.passes[pass].draws.len() {
-                self.reached(Moment::Draw { pass, draw });
-                self.draw(pass, draw);
-                self.reached(Moment::Drawn { pass, draw });
-            }
-            self.resolve(pass)?;
-            self.reached(Moment::End { pass });
+            let (surfaces, counters) = (&mut self.surfaces, &mut self.counters);
+            pass::run(&self.scene, pass, surfaces, counters, &self.steps)?;
         }
         let elapsed = start.elapsed();
         Ok(FrameTime {

@@ -13,8 +13,8 @@ use etalon_pipeline::{
     Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
 };
 use etalon_scene::{
-    BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Sampler, Scene, Shader,
-    StencilFace, StencilOperation,
+    BlendState, Clear, CompareFunction, DepthBias, LogicOperation, Multisample, Sampler, Scene,
+    Shader, StencilFace, StencilOperation,
 };
 
 /// The outcome of a fragment's stencil and depth test.
@@ -61,7 +61,7 @@ pub struct Written {
 }
 
 /// A moment of a submission.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Moment {
     /// The attachments have their initial contents.
     Initial,
@@ -69,6 +69,18 @@ pub enum Moment {
     Begin {
         /// The index of the pass.
         pass: usize,
+    },
+    /// The load operations of a pass are done.
+    Loaded {
+        /// The index of the pass.
+        pass: usize,
+    },
+    /// A clear command is done.
+    Cleared {
+        /// The index of the pass.
+        pass: usize,
+        /// The command.
+        clear: Clear,
     },
     /// A draw follows.
     Draw {

@@ -9,11 +9,11 @@ use super::memory::{Area, Memory, copy, memory};
 use super::plant::Plant;
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{Moment, Stored};
-use etalon_frame::ChannelEncoding;
+use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::{Plain, window_position};
 use etalon_scene::{
-    CompareFunction, CullMode, DepthBias, Draw, EarlyTests, Multisample, Pass, PrimitiveTopology,
-    PrimitiveVertices, Scene, StencilFace, StencilOperation, Viewport,
+    Clear, ClearTarget, CompareFunction, CullMode, DepthBias, Draw, EarlyTests, Multisample, Pass,
+    PrimitiveTopology, PrimitiveVertices, Scene, StencilFace, StencilOperation, Viewport,
 };
 
 /// The bug of a coarse depth.
@@ -44,6 +44,18 @@ enum Bug {
     Wraps(usize),
     /// Tiles that extend beyond the attachment are not noted after the initial clear.
     Partial,
+    /// The clear of a load operation is not noted.
+    LoadMissed,
+    /// Clear commands are not noted.
+    ClearMissed,
+    /// Clear commands with a rectangle are not noted.
+    PartialClearMissed,
+    /// Clear commands with a rectangle are noted everywhere.
+    ClearUnbounded,
+    /// Clear commands are noted everywhere, whatever a mask keeps.
+    MaskIgnored,
+    /// A clear command of stencil sets the coarse depth to 1.
+    StencilClear,
     /// Rejected tiles lose their stencil operation.
     StencilLost,
 }
@@ -155,6 +167,20 @@ impl Coarse {
                 self.rejected.clear();
                 self.drawn(scene, pass, &scene.passes[pass].draws[draw], surfaces);
             }
+            Moment::Loaded { pass } => {
+                let index = scene.passes[pass].depth_stencil;
+                let clears = scene.passes[pass].cleared();
+                for index in index.filter(|i| clears.contains(&(*i, Aspect::Depth))) {
+                    if !matches!(self.bug, Bug::LoadMissed) {
+                        self.note(scene, index, surfaces);
+                    }
+                }
+            }
+            Moment::Cleared { pass, clear } => {
+                if let Some(index) = scene.passes[pass].depth_stencil {
+                    self.cleared(scene, index, &clear, surfaces);
+                }
+            }
             Moment::End { .. } => {}
         }
     }
@@ -239,6 +265,30 @@ impl Coarse {
         let all = found.into_iter().enumerate();
         all.filter_map(|(tile, range)| Some((tile, range?)))
             .collect()
+    }
+
+    /// Notes a clear command.
+    fn cleared(&mut self, scene: &Scene, index: usize, clear: &Clear, surfaces: &[Surface]) {
+        let ClearTarget::DepthStencil { depth, stencil, .. } = clear.target else {
+            return;
+        };
+        let missed = match self.bug {
+            Bug::ClearMissed => true,
+            Bug::PartialClearMissed => clear.rect.is_some(),
+            _ => false,
+        };
+        if depth.is_some() && !missed {
+            self.note(scene, index, surfaces);
+        }
+        let noted = match self.bug {
+            Bug::ClearUnbounded if clear.rect.is_some() => depth,
+            Bug::MaskIgnored => depth,
+            Bug::StencilClear if stencil.is_some() && depth.is_none() => Some(1.0),
+            _ => None,
+        };
+        if let (Some(depth), Some(encoding)) = (noted, encoding(scene, index)) {
+            self.maps[index].ranges.fill([code(encoding, depth); 2]);
+        }
     }
 
     /// Finds the tiles in which a draw is rejected.
@@ -606,6 +656,41 @@ fn kept(list: &mut List) {
             format!("A row of coarse depths has {n} tiles and begins anew after them."),
             plant(SIDE, Bug::Wraps(n)),
         );
+    }
+    let clears = [
+        (
+            "load-missed",
+            "The coarse depth misses the clear of a load operation.",
+            Bug::LoadMissed,
+        ),
+        (
+            "clear-command-missed",
+            "The coarse depth misses clear commands.",
+            Bug::ClearMissed,
+        ),
+        (
+            "partial-clear-missed",
+            "The coarse depth misses clear commands with a rectangle.",
+            Bug::PartialClearMissed,
+        ),
+        (
+            "partial-clear-noted-everywhere",
+            "The coarse depth notes the clear of a rectangle everywhere.",
+            Bug::ClearUnbounded,
+        ),
+        (
+            "masked-clear-noted",
+            "The coarse depth notes a clear of depth that a mask keeps from acting.",
+            Bug::MaskIgnored,
+        ),
+        (
+            "stencil-clear-noted",
+            "A clear command of stencil alone sets the coarse depth to 1.",
+            Bug::StencilClear,
+        ),
+    ];
+    for (name, about, bug) in clears {
+        list.add(name, CONFUSION, about, plant(SIDE, bug));
     }
     list.add(
         "edge-missed",

@@ -2,6 +2,7 @@
 
 use super::list::List;
 
+mod clears;
 mod contents;
 mod counts;
 mod passes;
@@ -12,5 +13,6 @@ pub(super) fn add(list: &mut List) {
     states::add(list);
     passes::add(list);
     contents::add(list);
+    clears::add(list);
     counts::add(list);
 }

@@ -35,11 +35,7 @@ fn restored(
         let mut kept: Vec<Surface> = Vec::new();
         Memory::new(move |moment, scene, stored| {
             if to(moment, scene) && !kept.is_empty() {
-                let (Moment::Begin { pass }
-                | Moment::End { pass }
-                | Moment::Draw { pass, .. }
-                | Moment::Drawn { pass, .. }) = moment
-                else {
+                let (Moment::Begin { pass } | Moment::End { pass }) = moment else {
                     return;
                 };
                 let pass = &scene.passes[pass];

@@ -1,0 +1,478 @@
+//! Clears between and within passes: skipped, moved, or wider than they were asked for.
+
+use super::super::list::{CONFUSION, List};
+use super::super::plant::{Plant, scene};
+use etalon_scene::{Clear, ClearTarget, LoadOperation, Pass, StoreOperation};
+
+/// Changes every pass, given its number.
+fn passes(bug: impl Fn(usize, &mut Pass) + Send + Sync + 'static) -> Plant {
+    scene(move |scene| {
+        for (number, pass) in scene.passes.iter_mut().enumerate() {
+            bug(number, pass);
+        }
+    })
+}
+
+/// Changes every clear command.
+fn clears(bug: fn(&mut Clear)) -> Plant {
+    passes(move |_, pass| pass.clears.iter_mut().for_each(bug))
+}
+
+/// Removes clear commands.
+fn kept(keeps: fn(usize, &Clear) -> bool) -> Plant {
+    passes(move |_, pass| {
+        let mut number = 0;
+        pass.clears.retain(|clear| {
+            number += 1;
+            keeps(number - 1, clear)
+        });
+    })
+}
+
+fn is_color(clear: &Clear) -> bool {
+    matches!(clear.target, ClearTarget::Color { .. })
+}
+
+pub(super) fn add(list: &mut List) {
+    loads(list);
+    commands(list);
+    moved(list);
+}
+
+fn loads(list: &mut List) {
+    type Bug = (&'static str, &'static str, fn(usize, &mut Pass));
+    let bugs: [Bug; 14] = [
+        (
+            "color-load-clear-skipped",
+            "Load operations do not clear colour.",
+            |_, pass| {
+                for own in &mut pass.operations.color {
+                    own.load = LoadOperation::Load;
+                }
+            },
+        ),
+        (
+            "depth-load-clear-skipped",
+            "Load operations do not clear depth.",
+            |_, pass| {
+                pass.operations.depth.load = LoadOperation::Load;
+            },
+        ),
+        (
+            "stencil-load-clear-skipped",
+            "Load operations do not clear stencil.",
+            |_, pass| {
+                pass.operations.stencil.load = LoadOperation::Load;
+            },
+        ),
+        (
+            "color-load-clears",
+            "Passes after the first clear colour instead of loading it.",
+            |n, pass| {
+                if n > 0 {
+                    let count = pass.color.len();
+                    pass.operations.color.resize_with(count, Default::default);
+                    for own in &mut pass.operations.color {
+                        own.load = LoadOperation::Clear([0.0; 4]);
+                    }
+                }
+            },
+        ),
+        (
+            "depth-load-clears",
+            "Passes after the first clear depth instead of loading it.",
+            |n, pass| {
+                if n > 0 && !pass.depth_stencil_read_only {
+                    pass.operations.depth.load = LoadOperation::Clear(1.0);
+                }
+            },
+        ),
+        (
+            "stencil-load-clears",
+            "Passes after the first clear stencil instead of loading it.",
+            |n, pass| {
+                if n > 0 && !pass.depth_stencil_read_only {
+                    pass.operations.stencil.load = LoadOperation::Clear(0);
+                }
+            },
+        ),
+        (
+            "stencil-cleared-with-depth",
+            "A load operation that clears depth sets stencil to 0.",
+            |_, pass| {
+                if pass.operations.depth.load != LoadOperation::Load
+                    && pass.operations.stencil.load == LoadOperation::Load
+                {
+                    pass.operations.stencil.load = LoadOperation::Clear(0);
+                }
+            },
+        ),
+        (
+            "depth-cleared-with-stencil",
+            "A load operation that clears stencil sets depth to 1.",
+            |_, pass| {
+                if pass.operations.stencil.load != LoadOperation::Load
+                    && pass.operations.depth.load == LoadOperation::Load
+                {
+                    pass.operations.depth.load = LoadOperation::Clear(1.0);
+                }
+            },
+        ),
+        (
+            "clear-value-of-first-target",
+            "Load operations clear all targets with the value of the first.",
+            |_, pass| {
+                if let Some(LoadOperation::Clear(first)) =
+                    pass.operations.color.first().map(|o| o.load)
+                {
+                    for own in &mut pass.operations.color {
+                        if own.load != LoadOperation::Load {
+                            own.load = LoadOperation::Clear(first);
+                        }
+                    }
+                }
+            },
+        ),
+        (
+            "only-first-target-cleared",
+            "Load operations clear the first target only.",
+            |_, pass| {
+                for own in pass.operations.color.iter_mut().skip(1) {
+                    own.load = LoadOperation::Load;
+                }
+            },
+        ),
+        (
+            "every-target-cleared",
+            "A load operation that clears the first target clears all.",
+            |_, pass| {
+                let count = pass.color.len();
+                if let Some(LoadOperation::Clear(first)) =
+                    pass.operations.color.first().map(|o| o.load)
+                {
+                    pass.operations.color.resize_with(count, Default::default);
+                    for own in &mut pass.operations.color {
+                        if own.load == LoadOperation::Load {
+                            own.load = LoadOperation::Clear(first);
+                        }
+                    }
+                }
+            },
+        ),
+        (
+            "color-store-dropped",
+            "Colour that passes store is discarded.",
+            |_, pass| {
+                let count = pass.color.len();
+                pass.operations.color.resize_with(count, Default::default);
+                for own in &mut pass.operations.color {
+                    own.store = StoreOperation::Discard;
+                }
+            },
+        ),
+        (
+            "depth-store-dropped",
+            "Depth that passes store is discarded.",
+            |_, pass| {
+                if pass.depth_stencil.is_some() && !pass.depth_stencil_read_only {
+                    pass.operations.depth.store = StoreOperation::Discard;
+                }
+            },
+        ),
+        (
+            "stencil-store-dropped",
+            "Stencil that passes store is discarded.",
+            |_, pass| {
+                if pass.depth_stencil.is_some() && !pass.depth_stencil_read_only {
+                    pass.operations.stencil.store = StoreOperation::Discard;
+                }
+            },
+        ),
+    ];
+    for (name, about, bug) in bugs {
+        list.add(name, CONFUSION, about, passes(bug));
+    }
+    list.add(
+        "clear-value-of-the-pass-before",
+        CONFUSION,
+        "A load operation clears with the value of the pass before that cleared.",
+        scene(|scene| {
+            let mut before = None;
+            for pass in &mut scene.passes {
+                if let Some(own) = pass.operations.color.first_mut()
+                    && let LoadOperation::Clear(value) = own.load
+                {
+                    own.load = LoadOperation::Clear(before.unwrap_or(value));
+                    before = Some(value);
+                }
+            }
+        }),
+    );
+    list.add(
+        "depth-clear-value-of-the-pass-before",
+        CONFUSION,
+        "A load operation clears depth with the value of the pass before that cleared.",
+        scene(|scene| {
+            let mut before = None;
+            for pass in &mut scene.passes {
+                if let LoadOperation::Clear(value) = pass.operations.depth.load {
+                    pass.operations.depth.load = LoadOperation::Clear(before.unwrap_or(value));
+                    before = Some(value);
+                }
+            }
+        }),
+    );
+    list.add(
+        "second-equal-load-clear-skipped",
+        CONFUSION,
+        "A load operation that clears colour with the value of an earlier clear is skipped.",
+        scene(|scene| {
+            let mut seen = Vec::new();
+            for pass in &mut scene.passes {
+                for (index, own) in pass.color.iter().zip(&mut pass.operations.color) {
+                    if let LoadOperation::Clear(value) = own.load {
+                        if seen.contains(&(*index, value)) {
+                            own.load = LoadOperation::Load;
+                        }
+                        seen.push((*index, value));
+                    }
+                }
+            }
+        }),
+    );
+    list.add(
+        "second-equal-depth-load-clear-skipped",
+        CONFUSION,
+        "A load operation that clears depth with the value of an earlier clear is skipped.",
+        scene(|scene| {
+            let mut seen = Vec::new();
+            for pass in &mut scene.passes {
+                if let LoadOperation::Clear(value) = pass.operations.depth.load {
+                    if seen.contains(&(pass.depth_stencil, value)) {
+                        pass.operations.depth.load = LoadOperation::Load;
+                    }
+                    seen.push((pass.depth_stencil, value));
+                }
+            }
+        }),
+    );
+}
+
+fn commands(list: &mut List) {
+    type Bug = (&'static str, &'static str, fn(&mut Clear));
+    let bugs: [Bug; 9] = [
+        (
+            "clear-ignores-rectangle",
+            "A clear command ignores its rectangle.",
+            |clear| clear.rect = None,
+        ),
+        (
+            "clear-ignores-left-of-rectangle",
+            "The rectangle of a clear command begins at column 0.",
+            |clear| {
+                if let Some([x, _, w, _]) = &mut clear.rect {
+                    *w += *x;
+                    *x = 0;
+                }
+            },
+        ),
+        (
+            "clear-loses-last-row",
+            "The rectangle of a clear command is a row too small.",
+            |clear| {
+                if let Some([_, _, _, h]) = &mut clear.rect {
+                    *h = h.saturating_sub(1);
+                }
+            },
+        ),
+        (
+            "clear-loses-last-column",
+            "The rectangle of a clear command is a column too small.",
+            |clear| {
+                if let Some([_, _, w, _]) = &mut clear.rect {
+                    *w = w.saturating_sub(1);
+                }
+            },
+        ),
+        (
+            "clear-ignores-color-mask",
+            "A clear command ignores the mask of colour.",
+            |clear| {
+                if let ClearTarget::Color { write_mask, .. } = &mut clear.target {
+                    *write_mask = 0b1111;
+                }
+            },
+        ),
+        (
+            "clear-ignores-depth-mask",
+            "A clear command ignores the mask of depth.",
+            |clear| {
+                if let ClearTarget::DepthStencil { depth_write, .. } = &mut clear.target {
+                    *depth_write = true;
+                }
+            },
+        ),
+        (
+            "clear-ignores-stencil-mask",
+            "A clear command ignores the mask of stencil.",
+            |clear| {
+                if let ClearTarget::DepthStencil {
+                    stencil_write_mask, ..
+                } = &mut clear.target
+                {
+                    *stencil_write_mask = 0xff;
+                }
+            },
+        ),
+        (
+            "clear-command-of-depth-takes-stencil",
+            "A clear command of depth sets stencil to 0.",
+            |clear| {
+                if let ClearTarget::DepthStencil {
+                    depth: Some(_),
+                    stencil,
+                    ..
+                } = &mut clear.target
+                {
+                    *stencil = stencil.or(Some(0));
+                }
+            },
+        ),
+        (
+            "clear-command-of-stencil-takes-depth",
+            "A clear command of stencil sets depth to 1.",
+            |clear| {
+                if let ClearTarget::DepthStencil {
+                    stencil: Some(_),
+                    depth,
+                    ..
+                } = &mut clear.target
+                {
+                    *depth = depth.or(Some(1.0));
+                }
+            },
+        ),
+    ];
+    for (name, about, bug) in bugs {
+        list.add(name, CONFUSION, about, clears(bug));
+    }
+    type Keep = (&'static str, &'static str, fn(usize, &Clear) -> bool);
+    let keeps: [Keep; 5] = [
+        (
+            "color-clear-command-skipped",
+            "Clear commands of colour are skipped.",
+            |_, c| !is_color(c),
+        ),
+        (
+            "depth-clear-command-skipped",
+            "Clear commands of depth are skipped.",
+            |_, c| !matches!(c.target, ClearTarget::DepthStencil { depth: Some(_), .. }),
+        ),
+        (
+            "stencil-clear-command-skipped",
+            "Clear commands of stencil are skipped.",
+            |_, c| {
+                !matches!(
+                    c.target,
+                    ClearTarget::DepthStencil {
+                        stencil: Some(_),
+                        ..
+                    }
+                )
+            },
+        ),
+        (
+            "second-clear-command-skipped",
+            "The second clear command of a pass is skipped.",
+            |n, _| n != 1,
+        ),
+        (
+            "first-clear-command-skipped",
+            "The first clear command of a pass is skipped.",
+            |n, _| n != 0,
+        ),
+    ];
+    for (name, about, keep) in keeps {
+        list.add(name, CONFUSION, about, kept(keep));
+    }
+    list.add(
+        "second-equal-clear-skipped",
+        CONFUSION,
+        "A clear command that equals an earlier one of its pass is skipped.",
+        passes(|_, pass| {
+            let mut seen: Vec<(ClearTarget, Option<[u32; 4]>)> = Vec::new();
+            pass.clears.retain(|clear| {
+                let new = (clear.target, clear.rect);
+                let again = seen.contains(&new);
+                seen.push(new);
+                !again
+            });
+        }),
+    );
+}
+
+fn moved(list: &mut List) {
+    list.add(
+        "clears-before-all-draws",
+        CONFUSION,
+        "Clear commands of a pass are executed before its draws.",
+        passes(|_, pass| pass.clears.iter_mut().for_each(|c| c.before = 0)),
+    );
+    list.add(
+        "clears-after-all-draws",
+        CONFUSION,
+        "Clear commands of a pass are executed after its draws.",
+        passes(|_, pass| {
+            let end = pass.draws.len();
+            pass.clears.iter_mut().for_each(|c| c.before = end);
+        }),
+    );
+    list.add(
+        "clears-one-draw-late",
+        CONFUSION,
+        "Clear commands are executed after the draw that follows them.",
+        passes(|_, pass| {
+            let end = pass.draws.len();
+            pass.clears
+                .iter_mut()
+                .for_each(|c| c.before = (c.before + 1).min(end));
+        }),
+    );
+    list.add(
+        "clear-within-scissor",
+        CONFUSION,
+        "A clear command is cut off by the scissor rectangle of the draw before.",
+        passes(|_, pass| {
+            let draws = &pass.draws;
+            for clear in &mut pass.clears {
+                let before = clear.before.checked_sub(1).and_then(|at| draws.get(at));
+                if let Some(scissor) = before.and_then(|draw| draw.scissor) {
+                    clear.rect = clear.rect.or(Some(scissor));
+                }
+            }
+        }),
+    );
+    list.add(
+        "clear-within-write-mask",
+        CONFUSION,
+        "A clear command obeys the write mask of the draw before.",
+        passes(|_, pass| {
+            let draws = &pass.draws;
+            for clear in &mut pass.clears {
+                let before = clear.before.checked_sub(1).and_then(|at| draws.get(at));
+                if let (
+                    Some(draw),
+                    ClearTarget::Color {
+                        location,
+                        write_mask,
+                        ..
+                    },
+                ) = (before, &mut clear.target)
+                    && let Some(target) = draw.targets.get(*location)
+                {
+                    *write_mask &= target.write_mask;
+                }
+            }
+        }),
+    );
+}
