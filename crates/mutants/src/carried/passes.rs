@@ -155,22 +155,6 @@ fn attachments(list: &mut List) {
         }),
     );
     list.add(
-        "attachment-not-picked-up-again",
-        CONFUSION,
-        "A pass that returns to the attachments of the pass before last draws to those of the last.",
-        scene(|scene| {
-            for at in (2..scene.passes.len()).rev() {
-                let last = scene.passes[at - 1].color.clone();
-                let own = &scene.passes[at].color;
-                let fetched = scene.passes[at].draws.iter().flat_map(|d| &d.textures);
-                let free = !fetched.into_iter().any(|t| last.contains(t));
-                if free && *own == scene.passes[at - 2].color && alike(scene, &last, own) {
-                    scene.passes[at].color = last;
-                }
-            }
-        }),
-    );
-    list.add(
         "texture-as-it-began",
         CONFUSION,
         "A texture that earlier passes drew is read as it began.",
@@ -185,32 +169,12 @@ fn read_only(list: &mut List) {
         }
     };
     list.add(
-        "read-only-depth-kept",
-        CONFUSION,
-        "A pass after a read-only one does not write depth.",
-        after(move |before, pass| {
-            if before.depth_stencil_read_only {
-                pass.draws.iter_mut().for_each(depth_off);
-            }
-        }),
-    );
-    list.add(
         "read-only-stencil-kept",
         CONFUSION,
         "A pass after a read-only one does not write stencil.",
         after(|before, pass| {
             if before.depth_stencil_read_only {
                 pass.draws.iter_mut().for_each(without_stencil_writes);
-            }
-        }),
-    );
-    list.add(
-        "first-draw-after-read-only-writes-no-depth",
-        CONFUSION,
-        "The first draw after a read-only pass does not write depth.",
-        after(move |before, pass| {
-            if before.depth_stencil_read_only {
-                pass.draws.first_mut().into_iter().for_each(depth_off);
             }
         }),
     );
@@ -237,16 +201,6 @@ fn read_only(list: &mut List) {
 }
 
 fn resolves(list: &mut List) {
-    list.add(
-        "only-first-target-resolved",
-        CONFUSION,
-        "Of several targets, only the first is resolved.",
-        scene(|scene| {
-            for pass in &mut scene.passes {
-                pass.resolve.iter_mut().skip(1).for_each(|r| *r = None);
-            }
-        }),
-    );
     list.add(
         "second-resolve-in-format-of-first",
         CONFUSION,

@@ -29,12 +29,6 @@ fn uncounted(of: fn(usize) -> Option<usize>) -> Plant {
 
 pub(super) fn add(list: &mut List) {
     list.add(
-        "second-count-is-the-first",
-        CONFUSION,
-        "The second counter has the first one's value.",
-        counts(|all| all[1] = all[0]),
-    );
-    list.add(
         "every-count-is-the-last",
         CONFUSION,
         "Every counter has the last one's value.",

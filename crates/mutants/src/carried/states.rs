@@ -1,4 +1,4 @@
-//! States that a pass change keeps or resets.
+//! States that a pass change resets.
 
 use super::super::list::{CONFUSION, List};
 use super::super::plant::scene;
@@ -6,25 +6,6 @@ use super::super::sticky::LEFTOVERS;
 use etalon_scene::{ColorTarget, Draw, Viewport};
 
 pub(super) fn add(list: &mut List) {
-    for (what, _, take) in LEFTOVERS {
-        list.add(
-            &format!("{what}-kept-in-the-next-pass"),
-            "lavapipe, ANGLE: stale state",
-            format!(
-                "The {what} of a pass's last draw persists in the first draw of the next pass."
-            ),
-            scene(move |scene| {
-                let mut before: Option<Draw> = None;
-                for pass in &mut scene.passes {
-                    let last = pass.draws.last().cloned();
-                    if let (Some(before), Some(first)) = (&before, pass.draws.first_mut()) {
-                        take(before, first);
-                    }
-                    before = last.or(before);
-                }
-            }),
-        );
-    }
     for (what, _, take) in LEFTOVERS {
         // What is off by default cannot be left on.
         if what.ends_with("-when-off") {

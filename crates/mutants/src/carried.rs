@@ -1,4 +1,5 @@
-//! Bugs of sequences: what a draw or a pass leaves to the next, on the same attachments and on others.
+//! Bugs of sequences: what clears, passes and submissions carry from one to the next, beside the states of
+//! draws.
 
 use super::list::List;
 
