@@ -38,6 +38,7 @@ mod sample_coverage;
 mod sample_shading;
 mod samples;
 mod scissor;
+mod sequence;
 mod stencil;
 mod sticky;
 mod tables;

@@ -5,8 +5,8 @@ use crate::mutant::Mutant;
 use crate::{
     bias, blend, bounds, capability, clear, counter, cull, depth, depth_range, discard,
     dual_source, early, fetch, formats, geometry, invariance, logic, mask, read_only, readback,
-    resolve, sample_coverage, sample_shading, samples, scissor, stencil, sticky, targets, texture,
-    topology, upload, viewport,
+    resolve, sample_coverage, sample_shading, samples, scissor, sequence, stencil, sticky, targets,
+    texture, topology, upload, viewport,
 };
 use std::sync::LazyLock;
 
@@ -47,6 +47,7 @@ pub fn mutants() -> &'static [Mutant] {
         invariance::add(&mut list);
         readback::add(&mut list);
         sticky::add(&mut list);
+        sequence::add(&mut list);
         list.mutants
     });
     &ALL

@@ -14,6 +14,7 @@ fn every_mutant_is_named_explained_and_sourced() {
         "texture",
         "order",
         "capabilities",
+        "sequence",
     ];
     let mut names = HashSet::new();
     assert!(mutants().len() >= 1000, "{}", mutants().len());
