@@ -41,7 +41,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
             queue.launch.clone(),
             shared.options.memory,
             queue.failed_starts.clone(),
-            queue.take_running(),
+            None,
         );
         Self {
             run: AdapterRun { shared, queue },
@@ -64,7 +64,11 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         if let Some(error) = &queue.start_error {
             return run.record_not_started(error);
         }
-        let round_trips = queue.round_trips_or(|| self.draw_round_trips());
+        let round_trips = queue.round_trips_or(|| {
+            // Whoever draws first has the worker that runs, and starts no second one beside it.
+            self.supervisor.take_over(queue.take_running());
+            self.draw_round_trips()
+        });
         if let Some(error) = round_trips.not_started() {
             return run.record_not_started(error);
         }
