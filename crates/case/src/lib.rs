@@ -12,6 +12,7 @@ mod error;
 mod file;
 mod library;
 mod pairwise;
+mod pass_operations;
 mod random;
 mod relation;
 mod resolve;

@@ -3,6 +3,7 @@
 use crate::attachment::{attachment, default_size, find};
 use crate::draw::{Target, draw, writes_depth_stencil};
 use crate::error::At;
+use crate::pass_operations::{PassTarget, clears, operations};
 use crate::values::typed;
 use crate::wire::{PassWire, SceneWire};
 use etalon_scene::{Attachment, Counter, Pass, Scene};
@@ -133,7 +134,15 @@ fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Re
         }
         draws.push(draw);
     }
+    let target = PassTarget {
+        size: first.size,
+        color: color.iter().map(|i| attachments[*i].format).collect(),
+        depth_stencil: format,
+        draws: draws.len(),
+    };
     Ok(Pass {
+        operations: operations(wire, &target).map_err(|e| e.key("operations"))?,
+        clears: clears(wire, &target).map_err(|e| e.key("clears"))?,
         color,
         resolve,
         depth_stencil,

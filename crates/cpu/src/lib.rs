@@ -6,6 +6,7 @@
 mod backend;
 mod lanes;
 mod linear;
+mod pass;
 mod prepared;
 mod raster;
 mod sampling;

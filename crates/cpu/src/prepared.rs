@@ -1,6 +1,6 @@
 //! A scene prepared for drawing.
 
-use crate::raster;
+use crate::pass;
 use crate::span::Counted;
 use crate::steps::Steps;
 use crate::surface::{Surface, depth_encoding};
@@ -42,21 +42,8 @@ impl<S: Steps> Prepared for PreparedScene<S> {
         let counters = self.scene.counters.iter();
         self.counters = counters.map(|c| (c.kind, 0)).collect();
         for pass in &self.scene.passes {
-            for draw in &pass.draws {
-                let (surfaces, counters) = (&mut self.surfaces, &mut self.counters);
-                raster::draw(&self.scene, pass, draw, surfaces, counters, &self.steps);
-            }
-            for (source, target) in pass.color.iter().zip(&pass.resolve) {
-                if let Some(target) = target {
-                    let both = self.surfaces.get_disjoint_mut([*source, *target]);
-                    let [source, target] = both.map_err(|_| {
-                        BackendError::Internal("an attachment is resolved to itself".to_owned())
-                    })?;
-                    target.resolve_from(source, |encoding, codes| {
-                        self.steps.resolve(encoding, codes)
-                    });
-                }
-            }
+            let (surfaces, counters) = (&mut self.surfaces, &mut self.counters);
+            pass::run(&self.scene, pass, surfaces, counters, &self.steps)?;
         }
         let elapsed = start.elapsed();
         Ok(FrameTime {

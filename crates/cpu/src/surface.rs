@@ -4,6 +4,7 @@
 use crate::lanes::LANES;
 use etalon_frame::{Aspect, ChannelEncoding, TextureFormat};
 use etalon_scene::{Attachment, Contents};
+use std::ops::Range;
 
 /// An attachment in memory.
 #[derive(Clone, Debug)]
@@ -83,6 +84,38 @@ impl Surface {
     /// Returns the plane of one channel and sample.
     pub(crate) fn plane_mut(&mut self, channel: usize, sample: usize) -> &mut [u32] {
         &mut self.planes[channel * self.samples + sample]
+    }
+
+    /// Sets one channel, or depth, in a rectangle of all samples.
+    pub(crate) fn fill(&mut self, channel: usize, code: u32, rect: Option<[u32; 4]>) {
+        let (rows, columns) = self.area(rect);
+        for sample in 0..self.samples {
+            let stride = self.stride;
+            let plane = self.plane_mut(channel, sample);
+            for y in rows.clone() {
+                plane[y * stride..][columns.clone()].fill(code);
+            }
+        }
+    }
+
+    /// Sets the masked bits of stencil in a rectangle of all samples.
+    pub(crate) fn fill_stencil(&mut self, value: u8, mask: u8, rect: Option<[u32; 4]>) {
+        let (rows, columns) = self.area(rect);
+        for plane in &mut self.stencil {
+            for y in rows.clone() {
+                for stored in &mut plane[y * self.stride..][columns.clone()] {
+                    *stored = *stored & !mask | value & mask;
+                }
+            }
+        }
+    }
+
+    /// Returns the rows and columns of a rectangle, or all.
+    fn area(&self, rect: Option<[u32; 4]>) -> (Range<usize>, Range<usize>) {
+        match rect.map(|r| r.map(|v| v as usize)) {
+            Some([x, y, w, h]) => (y..y + h, x..x + w),
+            None => (0..self.height, 0..self.width),
+        }
     }
 
     /// Resolves another surface into this one. `resolve` returns one code for the codes of all

@@ -11,6 +11,8 @@ state_enum! {
         AlphaToOne = "alpha-to-one",
         /// Attributes interpolated inside the part of a texel that a primitive covers.
         CentroidInterpolation = "centroid-interpolation",
+        /// Clears between the draws of a pass, of all texels or a rectangle.
+        ClearCommands = "clear-commands",
         /// Shaders that promise on which side of the fragment's own depth theirs lies.
         ConservativeDepth = "conservative-depth",
         /// The factors `constant-alpha` and `one-minus-constant-alpha` for colour.
@@ -33,6 +35,8 @@ state_enum! {
         IndependentBlend = "independent-blend",
         /// Logic operations.
         LogicOperations = "logic-operations",
+        /// Clear commands that leave masked channels and bits.
+        MaskedClears = "masked-clears",
         /// The operations `min` and `max` with factors other than `one` (which they ignore).
         MinMaxBlendFactors = "min-max-blend-factors",
         /// A least share of a texel's samples that have a shader run of their own.

@@ -39,6 +39,8 @@ pub(crate) struct Caps {
     pub(crate) conservative_depth: bool,
     /// The offset alignment of storage buffers; `None` if fragment shaders have none.
     pub(crate) storage_alignment: Option<usize>,
+    /// `glInvalidateFramebuffer` exists.
+    pub(crate) invalidate: bool,
     /// `GL_SAMPLES_PASSED` queries work.
     pub(crate) samples_passed: bool,
     /// `GL_FRAGMENT_SHADER_INVOCATIONS` queries work.
@@ -108,6 +110,7 @@ impl Caps {
                 || has("GL_ARB_conservative_depth")
                 || (es && has("GL_EXT_conservative_depth")),
             storage_alignment,
+            invalidate: since((4, 3), ALWAYS) || has("GL_ARB_invalidate_subdata"),
             // ES only has `GL_ANY_SAMPLES_PASSED`.
             samples_passed: !es,
             fragment_invocations: since((4, 6), NEVER)

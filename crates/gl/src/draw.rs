@@ -1,6 +1,7 @@
 //! The draw calls of a prepared scene.
 
 use crate::attachment::Attachment;
+use crate::clear::{ClearCall, discard};
 use crate::context::Context;
 use crate::pool::Target;
 use crate::program::{PARAMS_BINDING, RUNS_BINDING};
@@ -32,6 +33,12 @@ impl Inputs {
 pub(crate) struct Pass {
     pub(crate) target: Target,
     pub(crate) draws: Vec<DrawCall>,
+    /// The clears of load operations.
+    pub(crate) loads: Vec<ClearCall>,
+    /// Clear commands with the draws before which they are executed, in order.
+    pub(crate) clears: Vec<(usize, ClearCall)>,
+    /// The attachment points that are discarded at the end.
+    pub(crate) discards: Vec<u32>,
     /// Multisampled attachments and their resolve targets.
     pub(crate) resolves: Vec<(usize, usize)>,
 }
@@ -98,8 +105,18 @@ pub(crate) fn draw_all(
         }
         // SAFETY: the framebuffer is the context's own.
         unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(pass.target.framebuffer)) };
-        for draw in &pass.draws {
+        for clear in &pass.loads {
+            clear.apply(context);
+        }
+        let mut clears = pass.clears.iter().peekable();
+        for (index, draw) in pass.draws.iter().enumerate() {
+            while let Some((_, clear)) = clears.next_if(|(before, _)| *before <= index) {
+                clear.apply(context);
+            }
             draw_one(context, inputs, draw);
+        }
+        for (_, clear) in clears {
+            clear.apply(context);
         }
         for (from, to) in &pass.resolves {
             if let (Some(from), Some(to)) = (attachments.get(*from), attachments.get(*to)) {
@@ -108,6 +125,11 @@ pub(crate) fn draw_all(
                 resolve(context, &from.surface, &to.surface);
                 closed = true;
             }
+        }
+        if !pass.discards.is_empty() {
+            // SAFETY: as above. A resolve has bound other framebuffers.
+            unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(pass.target.framebuffer)) };
+            discard(context, &pass.discards);
         }
     }
 }

@@ -10,8 +10,10 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
     let known = |feature: &Feature| match feature {
         // Part of version 3.
         Feature::CentroidInterpolation
+        | Feature::ClearCommands
         | Feature::ConstantAlphaBlendFactor
         | Feature::FrontAndBackCulling
+        | Feature::MaskedClears
         | Feature::MinMaxBlendFactors
         | Feature::RasterizerDiscard
         | Feature::ReversedDepthRange

@@ -13,6 +13,7 @@
 mod attachment;
 mod backend;
 mod caps;
+mod clear;
 mod codes;
 mod context;
 mod counters;

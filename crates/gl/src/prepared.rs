@@ -1,6 +1,7 @@
 //! A scene prepared for drawing.
 
 use crate::attachment::{self, Attachment, InitialContents};
+use crate::clear::{self, ClearCall};
 use crate::codes;
 use crate::context::{Context, refused};
 use crate::counters::Counters;
@@ -211,6 +212,9 @@ impl<'a> PreparedScene<'a> {
         let target = pool
             .target(context, &surfaces, depth.map(|a| &a.surface))?
             .ok_or(BackendError::NotSupported(Requirement::Drawing(format)))?;
+        let integers: Vec<bool> = color.iter().map(|a| a.format.is_integer()).collect();
+        let packed = depth.is_some_and(|a| a.format.has_depth() && a.format.has_stencil());
+        let clears = pass.clears.iter();
         let mut draws = Vec::new();
         for draw in &pass.draws {
             // On error the target is not returned to the pool; it is deleted with the context.
@@ -219,6 +223,11 @@ impl<'a> PreparedScene<'a> {
         self.passes.push(Pass {
             target,
             draws,
+            loads: ClearCall::loads(pass, &integers),
+            clears: clears
+                .map(|c| (c.before, ClearCall::new(c, &integers)))
+                .collect(),
+            discards: clear::discards(pass, packed),
             resolves,
         });
         Ok(())

@@ -135,8 +135,8 @@ impl Stage {
             color: color.to_vec(),
             resolve,
             depth_stencil,
-            depth_stencil_read_only: false,
             draws,
+            ..Pass::default()
         });
     }
 

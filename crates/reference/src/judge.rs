@@ -144,8 +144,8 @@ pub fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels)
             }
         }
     }
-    for mut counter in tally.finish() {
-        if !texels.is_all() {
+    for (index, mut counter) in tally.finish().enumerate() {
+        if !texels.is_all() || walk.undefined.counter(index) {
             counter.range = CountRange { low: 0, high: None };
         }
         builder.counter(counter);

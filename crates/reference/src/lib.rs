@@ -18,6 +18,7 @@ mod interval;
 mod judge;
 mod judging;
 mod notes;
+mod pass_operations;
 mod primitive;
 mod rejections;
 pub mod rules;
@@ -29,6 +30,7 @@ mod store;
 #[cfg(test)]
 mod test_limits;
 mod texels;
+mod undefined;
 mod verdict;
 mod walk;
 mod world;

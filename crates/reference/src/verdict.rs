@@ -313,6 +313,12 @@ impl Telling<'_> {
                         _ => self.stored(&name, note),
                     });
                 }
+                None if note.line.operation == "clear" => {
+                    return format!(
+                        "{}, {} is what a clear left",
+                        note.line.at, note.line.detail
+                    );
+                }
                 None => return format!("it is resolved from {}", note.line.detail),
             }
         }

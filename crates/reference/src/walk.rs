@@ -10,6 +10,7 @@ use crate::rules::{Copies, Rules};
 use crate::setup::{self, DrawSetup};
 use crate::snap::units_per_texel;
 use crate::texels::Texels;
+use crate::undefined::Undefined;
 use crate::world::{Cell, Decision, World, merge};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Limits, ReadPath, TexelSet, WorldBox};
 use etalon_pipeline::{Arithmetic, Point};
@@ -55,6 +56,8 @@ pub(crate) struct Walk<'a> {
     pub(crate) units: i64,
     /// The judged texels.
     pub(crate) texels: Texels,
+    /// The results that depend on discarded contents.
+    pub(crate) undefined: Undefined,
     /// The samples after some passes that the current texel needed.
     known: RefCell<Known>,
 }
@@ -123,6 +126,7 @@ impl<'a> Walk<'a> {
             setups,
             units: units_per_texel(limits),
             texels,
+            undefined: Undefined::of(scene),
             known: RefCell::default(),
         }
     }
@@ -195,11 +199,16 @@ impl<'a> Walk<'a> {
             if shape != (at.size, at.samples) && !pass.draws.is_empty() {
                 note_other_attachments(notes, p, shape);
             }
+            let own = shape == (at.size, at.samples);
+            if own {
+                self.load(p, &mut worlds, notes);
+            }
             for (d, draw) in pass.draws.iter().enumerate() {
                 draw_id += 1;
-                if shape != (at.size, at.samples) {
+                if !own {
                     continue;
                 }
+                self.clear((p, d), at, &mut worlds, notes);
                 if draw.rasterizer_discard || !in_scissor(draw, at) {
                     self.note_draw(notes, (p, d, draw));
                     continue;
@@ -276,6 +285,9 @@ impl<'a> Walk<'a> {
                 worlds.iter_mut().for_each(|w| w.decisions.retain(outlives));
                 merge(&mut worlds);
             }
+            if own {
+                self.clear((p, pass.draws.len()), at, &mut worlds, notes);
+            }
             worlds.iter_mut().for_each(|w| w.decisions.clear());
             merge(&mut worlds);
             for (source, target) in pass.color.iter().zip(&pass.resolve) {
@@ -298,6 +310,7 @@ impl<'a> Walk<'a> {
                     }
                 }
             }
+            self.store(p, notes);
         }
         Some(worlds)
     }
@@ -367,7 +380,7 @@ impl<'a> Walk<'a> {
     pub(crate) fn finish(&self, worlds: &[World], at: Sample, notes: &mut Notes<'_>) -> TexelSet {
         let mut set = TexelSet::default();
         for (w, world) in worlds.iter().enumerate() {
-            let mut channels = SmallVec::new();
+            let mut channels: SmallVec<[CodeInterval; 6]> = SmallVec::new();
             for index in &self.scene.read {
                 let attachment = &self.scene.attachments[*index];
                 if (attachment.size, attachment.samples) != (at.size, at.samples) {
@@ -375,6 +388,7 @@ impl<'a> Walk<'a> {
                 }
                 let cell = &world.cells[*index];
                 for aspect in attachment.format.aspects() {
+                    let first = channels.len();
                     match aspect {
                         Aspect::Color => {
                             let n = attachment.format.color_channels().len();
@@ -387,6 +401,7 @@ impl<'a> Walk<'a> {
                             channels.push(CodeInterval::exact(i64::from(cell.stencil)));
                         }
                     }
+                    self.open_undefined(*index, *aspect, &mut channels[first..]);
                 }
                 let how = match self.read_encoding(*index, Aspect::Depth).1 {
                     ReadPath::Shader if attachment.format.has_depth() => {

@@ -13,6 +13,7 @@ mod early_tests;
 mod invariance;
 mod mesh;
 mod mesh_source;
+mod pass;
 mod rasterization;
 mod requirements;
 mod sampler;
@@ -31,9 +32,12 @@ pub use early_tests::EarlyTests;
 pub use invariance::Invariance;
 pub use mesh::{MAX_VERTICES, Mesh, PrimitiveVertices, RESTART, Vertex};
 pub use mesh_source::{MeshSource, Splat, Units};
+pub use pass::{
+    Clear, ClearTarget, LoadOperation, Operations, Pass, PassOperations, StoreOperation,
+};
 pub use rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, SampleCoverage, Viewport,
 };
 pub use sampler::{AddressMode, FilterMode, Sampler};
-pub use scene::{Counter, Pass, Scene};
+pub use scene::{Counter, Scene};
 pub use shader::Shader;

@@ -34,6 +34,12 @@ impl Scene {
         for pass in &self.passes {
             let size = self.pass_size(pass);
             needed.insert(Requirement::ColorAttachments(pass.color.len() as u32));
+            if !pass.clears.is_empty() {
+                needed.insert(Requirement::Feature(Feature::ClearCommands));
+            }
+            if pass.clears.iter().any(|c| c.target.is_masked()) {
+                needed.insert(Requirement::Feature(Feature::MaskedClears));
+            }
             for draw in &pass.draws {
                 needed.extend(features(draw, size).into_iter().map(Requirement::Feature));
                 for (target, index) in draw.targets.iter().zip(&pass.color) {

@@ -1,10 +1,11 @@
-//! Scenes and passes.
+//! Scenes.
 //!
 //! Scenes are valid by construction: whoever builds one keeps indices in range, sizes equal within a
 //! pass, and no pass reading what it draws to. Backends and the judge rely on it.
 
 use crate::attachment::Attachment;
 use crate::draw::Draw;
+use crate::pass::Pass;
 use etalon_frame::{CounterKind, TextureFormat};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -20,22 +21,6 @@ pub struct Scene {
     pub read: Vec<usize>,
     /// The counters, by name in ascending order. All are read back; each starts from 0.
     pub counters: Vec<Counter>,
-}
-
-/// One render pass. Attachments keep their contents from the pass before.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Pass {
-    /// Indices of the colour attachments, in location order.
-    pub color: Vec<usize>,
-    /// The attachment to which each colour attachment is resolved at the end of the pass: a
-    /// single-sample attachment of the same format and size. As long as `color`.
-    pub resolve: Vec<Option<usize>>,
-    /// Index of the depth-stencil attachment.
-    pub depth_stencil: Option<usize>,
-    /// True if the pass promises to write neither depth nor stencil.
-    pub depth_stencil_read_only: bool,
-    /// Draws, in order.
-    pub draws: Vec<Draw>,
 }
 
 /// Something that is counted over one or more draws.

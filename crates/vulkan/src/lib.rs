@@ -11,6 +11,7 @@
 
 mod backend;
 mod buffer;
+mod clear;
 mod counting;
 mod descriptors;
 mod device;

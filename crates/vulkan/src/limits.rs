@@ -80,11 +80,12 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::LogicOperations => features.logic_op,
         Feature::PolygonModeLine => features.fill_mode_non_solid,
         Feature::PreciseOcclusion => features.occlusion_query_precise,
-        // Only OpenGL has it.
-        Feature::SampleCoverage => vk::FALSE,
+        // Only OpenGL has them.
+        Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
         Feature::MinSampleShading | Feature::SampleShading => features.sample_rate_shading,
         Feature::StorageCounters => features.fragment_stores_and_atomics,
         Feature::CentroidInterpolation
+        | Feature::ClearCommands
         | Feature::ConservativeDepth
         | Feature::ConstantAlphaBlendFactor
         | Feature::ForcedEarlyTests

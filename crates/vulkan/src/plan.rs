@@ -1,5 +1,6 @@
 //! The commands of a scene in terms of device handles, ready to be recorded at each submit.
 
+use crate::clear::{ClearPlan, Ends, color_value, depth_stencil_value};
 use crate::counting::{Counting, Query};
 use crate::dynamic::Dynamic;
 use crate::error::internal;
@@ -13,7 +14,7 @@ use crate::read::ReadPlan;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::Requirement;
-use etalon_scene::{Attachment, Contents, Draw, Pass, Scene};
+use etalon_scene::{Attachment, ClearTarget, Contents, Draw, Pass, Scene};
 use std::rc::Rc;
 
 /// The plan of a scene.
@@ -69,11 +70,14 @@ pub(crate) struct PassPlan {
     pub(crate) color: Vec<ColorPlan>,
     pub(crate) depth_stencil: Option<DepthStencilPlan>,
     pub(crate) draws: Vec<DrawPlan>,
+    /// Clear commands with the draws before which they are executed, in order.
+    pub(crate) clears: Vec<(usize, ClearPlan)>,
 }
 
 /// A colour attachment of a pass.
 pub(crate) struct ColorPlan {
     pub(crate) view: vk::ImageView,
+    pub(crate) ends: Ends,
     /// The view and mode of the resolve, if the pass resolves it.
     pub(crate) resolve: Option<(vk::ImageView, vk::ResolveModeFlags)>,
 }
@@ -81,8 +85,10 @@ pub(crate) struct ColorPlan {
 /// The depth-stencil attachment of a pass.
 pub(crate) struct DepthStencilPlan {
     pub(crate) view: vk::ImageView,
-    pub(crate) has_depth: bool,
-    pub(crate) has_stencil: bool,
+    /// The operations of depth, if the format has it.
+    pub(crate) depth: Option<Ends>,
+    /// The operations of stencil, if the format has it.
+    pub(crate) stencil: Option<Ends>,
     pub(crate) read_only: bool,
 }
 
@@ -146,12 +152,9 @@ impl InitialContents {
     /// buffer.
     pub(crate) fn of(attachment: &Attachment, texels: u64) -> Self {
         match &attachment.contents {
-            Contents::Color(color) if attachment.format.is_integer() => {
-                Self::Color(vk::ClearColorValue {
-                    uint32: color.map(|c| c as u32),
-                })
+            Contents::Color(color) => {
+                Self::Color(color_value(*color, attachment.format.is_integer()))
             }
-            Contents::Color(color) => Self::Color(vk::ClearColorValue { float32: *color }),
             Contents::DepthStencil { depth, stencil } => Self::DepthStencil {
                 depth: *depth,
                 stencil: *stencil,
@@ -175,7 +178,19 @@ impl PassPlan {
             color: Vec::with_capacity(pass.color.len()),
             depth_stencil: None,
             draws: Vec::with_capacity(pass.draws.len()),
+            clears: Vec::with_capacity(pass.clears.len()),
         };
+        let integer = |location: usize| {
+            let index = pass.color.get(location);
+            let attachment = index.and_then(|i| scene.attachments.get(*i));
+            attachment.is_some_and(|a| a.format.is_integer())
+        };
+        for clear in &pass.clears {
+            let integer =
+                matches!(clear.target, ClearTarget::Color { location, .. } if integer(location));
+            let planned = ClearPlan::new(clear, integer, plan.size)?;
+            plan.clears.push((clear.before, planned));
+        }
         for (location, index) in pass.color.iter().enumerate() {
             let resolve = match pass.resolve.get(location).copied().flatten() {
                 Some(index) => {
@@ -193,8 +208,12 @@ impl PassPlan {
                 }
                 None => None,
             };
+            let value = |color| vk::ClearValue {
+                color: color_value(color, integer(location)),
+            };
             plan.color.push(ColorPlan {
                 view: image(*index)?.whole()?,
+                ends: Ends::new(pass.color_operations(location), value),
                 resolve,
             });
         }
@@ -202,8 +221,12 @@ impl PassPlan {
             let format = scene.attachments.get(index).map(|a| a.format);
             plan.depth_stencil = Some(DepthStencilPlan {
                 view: image(index)?.whole()?,
-                has_depth: format.is_some_and(|f| f.has_depth()),
-                has_stencil: format.is_some_and(|f| f.has_stencil()),
+                depth: format
+                    .is_some_and(|f| f.has_depth())
+                    .then(|| Ends::new(pass.operations.depth, |v| depth_stencil_value(v, 0))),
+                stencil: format
+                    .is_some_and(|f| f.has_stencil())
+                    .then(|| Ends::new(pass.operations.stencil, |v| depth_stencil_value(0.0, v))),
                 read_only: pass.depth_stencil_read_only,
             });
         }

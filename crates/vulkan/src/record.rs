@@ -1,5 +1,6 @@
 //! Recording of commands: initial contents, passes, and copies for reading back.
 
+use crate::clear::Ends;
 use crate::device::Device;
 use crate::image::range;
 use crate::pipeline::Pipeline;
@@ -256,17 +257,18 @@ fn between_passes(device: &Device, commands: vk::CommandBuffer) {
 
 fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk::Buffer) {
     let api = &device.raw;
-    let attachment = |view: vk::ImageView, layout: vk::ImageLayout| {
+    let attachment = |view: vk::ImageView, layout: vk::ImageLayout, ends: &Ends| {
         vk::RenderingAttachmentInfo::default()
             .image_view(view)
             .image_layout(layout)
-            .load_op(vk::AttachmentLoadOp::LOAD)
-            .store_op(vk::AttachmentStoreOp::STORE)
+            .load_op(ends.load)
+            .store_op(ends.store)
+            .clear_value(ends.value)
     };
     let drawn = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
     let mut color = Vec::with_capacity(pass.color.len());
     for target in &pass.color {
-        let mut info = attachment(target.view, drawn);
+        let mut info = attachment(target.view, drawn, &target.ends);
         if let Some((resolve, mode)) = target.resolve {
             info = info
                 .resolve_mode(mode)
@@ -275,18 +277,19 @@ fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk
         }
         color.push(info);
     }
-    let tested = pass.depth_stencil.as_ref().map(|d| {
-        if d.read_only {
+    let aspect = |ends: fn(&DepthStencilPlan) -> Option<&Ends>| {
+        let plan = pass.depth_stencil.as_ref()?;
+        let ends = ends(plan)?;
+        Some(if plan.read_only {
             // A store operation would count as a write.
-            attachment(d.view, DEPTH_STENCIL_READ_ONLY.layout).store_op(vk::AttachmentStoreOp::NONE)
+            attachment(plan.view, DEPTH_STENCIL_READ_ONLY.layout, ends)
+                .store_op(vk::AttachmentStoreOp::NONE)
         } else {
-            attachment(d.view, DEPTH_STENCIL.layout)
-        }
-    });
-    let has =
-        |aspect: fn(&DepthStencilPlan) -> bool| pass.depth_stencil.as_ref().is_some_and(aspect);
-    let depth = tested.filter(|_| has(|d| d.has_depth));
-    let stencil = tested.filter(|_| has(|d| d.has_stencil));
+            attachment(plan.view, DEPTH_STENCIL.layout, ends)
+        })
+    };
+    let depth = aspect(|plan| plan.depth.as_ref());
+    let stencil = aspect(|plan| plan.stencil.as_ref());
     let [width, height] = pass.size;
     let area = vk::Rect2D {
         offset: vk::Offset2D::default(),
@@ -306,7 +309,11 @@ fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk
     unsafe {
         api.cmd_begin_rendering(commands, &info);
         let mut bound: Option<&Pipeline> = None;
-        for draw in &pass.draws {
+        let mut clears = pass.clears.iter().peekable();
+        for (index, draw) in pass.draws.iter().enumerate() {
+            while let Some((_, clear)) = clears.next_if(|(before, _)| *before <= index) {
+                clear.record(device, commands);
+            }
             let pipeline = &*draw.pipeline;
             if bound.is_none_or(|b| b.raw != pipeline.raw) {
                 let point = vk::PipelineBindPoint::GRAPHICS;
@@ -314,6 +321,9 @@ fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk
                 bound = Some(pipeline);
             }
             self::draw(device, commands, draw, input);
+        }
+        for (_, clear) in clears {
+            clear.record(device, commands);
         }
         api.cmd_end_rendering(commands);
     }

@@ -5,7 +5,7 @@ use crate::state;
 use crate::texel;
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
-use etalon_scene::{Contents, Scene};
+use etalon_scene::{Contents, Operations, PassOperations, Scene, StoreOperation};
 use wgpu::BufferUsages;
 
 /// An attachment of a scene on the device.
@@ -86,7 +86,7 @@ impl<'a> DeviceAttachment<'a> {
                 }
             }
             InitialContents::Color(_) if self.cleared_by.is_none() => {
-                let attachment = [Some(self.as_color(None, None))];
+                let attachment = [Some(self.as_color(None, None, Operations::default()))];
                 encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                     color_attachments: &attachment,
                     ..wgpu::RenderPassDescriptor::default()
@@ -94,7 +94,9 @@ impl<'a> DeviceAttachment<'a> {
             }
             InitialContents::DepthStencil(..) if self.cleared_by.is_none() => {
                 encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                    depth_stencil_attachment: Some(self.as_depth_stencil(None)),
+                    depth_stencil_attachment: Some(
+                        self.as_depth_stencil(None, &PassOperations::default()),
+                    ),
                     ..wgpu::RenderPassDescriptor::default()
                 });
             }
@@ -120,19 +122,18 @@ impl<'a> DeviceAttachment<'a> {
         &'s self,
         pass: Option<usize>,
         resolve: Option<&'s wgpu::TextureView>,
+        operations: Operations<[f32; 4]>,
     ) -> wgpu::RenderPassColorAttachment<'s> {
-        let load = match self.initial {
-            InitialContents::Color(color) if self.cleared_by == pass => wgpu::LoadOp::Clear(color),
-            _ => wgpu::LoadOp::Load,
+        let initial = match self.initial {
+            InitialContents::Color(color) if self.cleared_by == pass => Some(color),
+            _ => None,
         };
+        let cleared = operations.load.clear_value().map(state::color);
         wgpu::RenderPassColorAttachment {
             view: &self.target.view,
             depth_slice: None,
             resolve_target: resolve,
-            ops: wgpu::Operations {
-                load,
-                store: wgpu::StoreOp::Store,
-            },
+            ops: both(cleared.or(initial), operations.store),
         }
     }
 
@@ -140,19 +141,18 @@ impl<'a> DeviceAttachment<'a> {
     pub(crate) fn as_depth_stencil(
         &self,
         pass: Option<usize>,
+        operations: &PassOperations,
     ) -> wgpu::RenderPassDepthStencilAttachment<'_> {
         let (depth, stencil) = match self.initial {
             InitialContents::DepthStencil(depth, stencil) if self.cleared_by == pass => {
-                (wgpu::LoadOp::Clear(depth), wgpu::LoadOp::Clear(stencil))
+                (Some(depth), Some(stencil))
             }
-            _ => (wgpu::LoadOp::Load, wgpu::LoadOp::Load),
+            _ => (None, None),
         };
-        let store = wgpu::StoreOp::Store;
-        let depth = wgpu::Operations { load: depth, store };
-        let stencil = wgpu::Operations {
-            load: stencil,
-            store,
-        };
+        let cleared = operations.depth.load.clear_value();
+        let depth = both(cleared.or(depth), operations.depth.store);
+        let cleared = operations.stencil.load.clear_value().map(u32::from);
+        let stencil = both(cleared.or(stencil), operations.stencil.store);
         wgpu::RenderPassDepthStencilAttachment {
             view: &self.target.view,
             depth_ops: self.format.has_depth().then_some(depth),
@@ -167,6 +167,17 @@ impl<'a> DeviceAttachment<'a> {
             depth_ops: None,
             stencil_ops: None,
         }
+    }
+}
+
+/// Returns wgpu's operations of an aspect: a clear with this value, or a load.
+fn both<V>(cleared: Option<V>, store: StoreOperation) -> wgpu::Operations<V> {
+    wgpu::Operations {
+        load: cleared.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear),
+        store: match store {
+            StoreOperation::Store => wgpu::StoreOp::Store,
+            StoreOperation::Discard => wgpu::StoreOp::Discard,
+        },
     }
 }
 

@@ -160,8 +160,8 @@ fn support(
     })
 }
 
-/// Returns the features that wgpu offers beyond WebGPU's minimum. It lacks or refuses the rest:
-/// reversed depth ranges, mirrored viewports, scissors beyond the attachments, factors of `min` and
+/// Returns the features that wgpu offers beyond WebGPU's minimum. It lacks or refuses the rest: clears
+/// within a pass, reversed depth ranges, mirrored viewports, scissors beyond the attachments, factors of `min` and
 /// `max`, counts of samples, sample coverage, least shares of sample shading.
 ///
 /// Shaders with early-test attributes keep them in translation, since the wgpu feature requires the

@@ -10,7 +10,7 @@ use crate::read::{self, Source};
 use crate::state;
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::Frame;
-use etalon_scene::{Draw, Pass, PrimitiveTopology, RESTART, Scene, Viewport};
+use etalon_scene::{Draw, Pass, PassOperations, PrimitiveTopology, RESTART, Scene, Viewport};
 use std::time::Instant;
 use wgpu::BufferUsages;
 
@@ -36,6 +36,7 @@ struct PreparedPass {
     resolve: Vec<Option<usize>>,
     depth_stencil: Option<usize>,
     read_only: bool,
+    operations: PassOperations,
     draws: Vec<PreparedDraw>,
 }
 
@@ -86,6 +87,12 @@ impl<'a> PreparedScene<'a> {
                 resolve: pass.resolve.clone(),
                 depth_stencil: pass.depth_stencil,
                 read_only: pass.depth_stencil_read_only,
+                operations: PassOperations {
+                    color: (0..pass.color.len())
+                        .map(|location| pass.color_operations(location))
+                        .collect(),
+                    ..pass.operations.clone()
+                },
                 draws: draws
                     .map(|(draw, counted)| {
                         let bound = groups.bind(draw, counted.runs)?;
@@ -134,9 +141,10 @@ impl<'a> PreparedScene<'a> {
             .color
             .iter()
             .zip(&pass.resolve)
-            .map(|(color, resolve)| {
+            .zip(&pass.operations.color)
+            .map(|((color, resolve), operations)| {
                 let resolve = resolve.map(|r| &self.attachments[r].target.view);
-                Some(self.attachments[*color].as_color(Some(index), resolve))
+                Some(self.attachments[*color].as_color(Some(index), resolve, *operations))
             })
             .collect();
         let depth_stencil = pass.depth_stencil.map(|i| {
@@ -144,7 +152,7 @@ impl<'a> PreparedScene<'a> {
             if pass.read_only {
                 attachment.as_read_only()
             } else {
-                attachment.as_depth_stencil(Some(index))
+                attachment.as_depth_stencil(Some(index), &pass.operations)
             }
         });
         let last = index + 1 == self.passes.len();

@@ -3,8 +3,8 @@
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
     BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace,
-    LogicOperation, MeshSource, Multisample, PolygonMode, PrimitiveTopology, Sampler, Shader,
-    Splat, StencilOperation, Viewport,
+    LogicOperation, MeshSource, Multisample, PassOperations, PolygonMode, PrimitiveTopology,
+    Sampler, Shader, Splat, StencilOperation, Viewport,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -129,8 +129,44 @@ pub(crate) struct PassWire {
     /// True if the pass promises to write neither depth nor stencil.
     #[serde(default)]
     pub(crate) depth_stencil_read_only: bool,
+    /// Load and store operations; without them, everything is loaded and stored.
+    #[serde(default)]
+    pub(crate) operations: PassOperations,
+    /// Clear commands, in order.
+    #[serde(default)]
+    pub(crate) clears: Vec<ClearCommandWire>,
     /// Draws, in order.
     pub(crate) draws: Vec<DrawWire>,
+}
+
+/// A clear command: of one colour attachment, of depth, of stencil or of the last two together.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ClearCommandWire {
+    /// The index of the draw before which it is executed; the number of draws stands for the end.
+    pub(crate) before: usize,
+    /// The place of a colour attachment in the pass, with a `value`.
+    pub(crate) color: Option<usize>,
+    /// Red, green, blue and alpha of a colour.
+    pub(crate) value: Option<[f32; 4]>,
+    /// A depth.
+    pub(crate) depth: Option<f32>,
+    /// A stencil value.
+    pub(crate) stencil: Option<u8>,
+    /// Left, top, width and height in texels; without it, everything.
+    pub(crate) rect: Option<[u32; 4]>,
+    /// Written channels, as letters of `rgba`; `false` for depth; bits of stencil; both in an object.
+    pub(crate) write_mask: Option<ClearMaskWire>,
+}
+
+/// The mask of a clear command, whose form follows what is cleared.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(crate) enum ClearMaskWire {
+    Channels(String),
+    Depth(bool),
+    Stencil(u8),
+    Both { depth: bool, stencil: u8 },
 }
 
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

@@ -12,6 +12,7 @@ mod formats;
 mod integers;
 mod layers;
 mod limits;
+mod passes;
 mod prepared;
 mod raster;
 mod samples;
@@ -141,6 +142,13 @@ registry! {
         two_attachments_take_turns a_clear_is_read_before_the_first_draw what_was_resolved_is_read
         a_larger_attachment_is_averaged sampled_fragments_are_discarded
         invocations_of_all_passes_add_up
+    }
+    passes {
+        load_operations_clear_everything each_attachment_has_its_own_load_operation
+        depth_and_stencil_are_loaded_apart discarded_contents_are_cleared_again
+        samples_are_discarded_after_their_average clears_reach_their_rectangle
+        clears_ignore_the_draws_around clears_leave_the_other_aspect clears_know_their_target
+        masked_clears_keep_the_rest
     }
     layers {
         layers_are_peeled_one_by_one layers_are_peeled_from_both_ends

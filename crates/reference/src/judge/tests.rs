@@ -169,3 +169,104 @@ fn a_story_names_operations_and_citations() {
     assert_eq!(test.detail, "0.5 less stored 0.25 is false");
     assert!(test.citation.as_ref().is_some_and(|c| c.contains("Depth")));
 }
+
+/// The set of two passes over `color` and `depth`, which `first` and `second` extend.
+fn passes(api: Api, first: &str, second: &str) -> etalon_frame::LegalSet {
+    let pass = |keys: &str| format!(r#"{{"color":["color"],"depth_stencil":"depth"{keys}}}"#);
+    let text = format!(
+        r#"{{"about":"t","spec":["t"],"scene":{{"attachments":{{{COLOR},
+           "depth":{{"format":"depth24plus-stencil8","clear":{{"depth":0,"stencil":170}}}}}},
+           "counters":{{"passed":"samples-passed"}},
+           "passes":[{},{}],"read":["color","depth"]}}}}"#,
+        pass(first),
+        pass(second)
+    );
+    let limits = limits(api);
+    judge(&case(&text).scene, &limits, &Rules::of(&limits))
+}
+
+#[test]
+fn load_operations_and_clears_store_what_the_first_clear_stores() {
+    for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu] {
+        let set = passes(
+            api,
+            r#","draws":[],"operations":{"color":[{"load":{"clear":[1,0,0,1]}}],"depth":{"load":{"clear":1}}}"#,
+            r#","draws":[],"clears":[{"before":0,"color":0,"value":[0,1,1,0],"write_mask":"ga"},
+               {"before":0,"stencil":255,"write_mask":15,"rect":[1,1,2,3]}]"#,
+        );
+        let group = &set.groups[0];
+        let deep = 0xff_ffff;
+        assert!(
+            group.sample(0, 0, 0).allows(&[255, 255, 0, 0, deep, 170]),
+            "{api}"
+        );
+        assert!(
+            group.sample(2, 3, 0).allows(&[255, 255, 0, 0, deep, 175]),
+            "{api}"
+        );
+        assert!(
+            !group.sample(3, 3, 0).allows(&[255, 255, 0, 0, deep, 175]),
+            "{api}"
+        );
+        let first = &group.sample(0, 0, 0).worlds;
+        assert!(first[0].channels.iter().all(|c| c.is_exact()), "{api}");
+    }
+}
+
+#[test]
+fn clears_stand_between_their_draws() {
+    let draw = r#"{"mesh":{"kind":"full"},"shader":"uniform_color","params":{"color":[1,0,0,1]}}"#;
+    let set = passes(
+        Api::Vulkan,
+        &format!(
+            r#","draws":[{draw},{{"mesh":{{"kind":"rect","texels":[0,0,2,4]}},"shader":"uniform_color",
+               "params":{{"color":[0,0,1,0]}}}}],
+               "clears":[{{"before":0,"color":0,"value":[0,0,0,0]}},
+               {{"before":1,"color":0,"value":[0,1,0,1],"rect":[1,0,2,4]}},
+               {{"before":2,"color":0,"value":[1,1,1,1],"rect":[0,0,4,1]}}]"#
+        ),
+        r#","draws":[]"#,
+    );
+    let group = &set.groups[0];
+    let holds = |x, y, due: [i64; 4]| {
+        let all = &group.sample(x, y, 0).worlds;
+        assert_eq!(all.len(), 1);
+        let found: Vec<_> = all[0].channels[..4]
+            .iter()
+            .map(|c| (c.low, c.high))
+            .collect();
+        assert_eq!(found, due.map(|d| (d, d)), "{x}, {y}");
+    };
+    holds(0, 0, [255; 4]);
+    holds(1, 1, [0, 0, 255, 0]);
+    holds(2, 1, [0, 255, 0, 255]);
+    holds(3, 1, [255, 0, 0, 255]);
+}
+
+#[test]
+fn nothing_is_asserted_of_what_depends_on_discarded_contents() {
+    let draw = |compare: &str| {
+        format!(
+            r#","draws":[{{"mesh":{{"kind":"full"}},"shader":"uniform_color","counters":["passed"],
+               "params":{{"color":[1,0,0,1]}},"depth":{{"compare":"{compare}","write":false}}}}]"#
+        )
+    };
+    let discard = r#","draws":[],"operations":{"depth":{"store":"discard"}}"#;
+    let shares = |first: &str, second: &str| {
+        let set = passes(Api::Vulkan, first, second);
+        let range = set.counters[0].range;
+        let figures = set.statistics().into_iter();
+        let asserted: Vec<u64> = figures.map(|(_, f)| f.asserted).collect();
+        (asserted, range.low, range.high)
+    };
+    assert_eq!(shares(discard, &draw("greater")), (vec![0, 0, 16], 0, None));
+    assert_eq!(
+        shares(discard, &draw("always")),
+        (vec![64, 0, 16], 16, Some(16))
+    );
+    let cleared = format!(
+        r#"{},"operations":{{"depth":{{"load":{{"clear":1}}}}}}"#,
+        draw("less")
+    );
+    assert_eq!(shares(discard, &cleared), (vec![64, 16, 16], 16, Some(16)));
+}

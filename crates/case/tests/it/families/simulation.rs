@@ -3,7 +3,7 @@
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, CompareFunction, Contents, CullMode, Draw,
-    EarlyTests, FrontFace, PolygonMode, PrimitiveVertices, Scene, Shader, StencilFace,
+    EarlyTests, FrontFace, Pass, PolygonMode, PrimitiveVertices, Scene, Shader, StencilFace,
     StencilOperation,
 };
 
@@ -75,7 +75,9 @@ pub(crate) fn knows(scene: &Scene) -> bool {
         Shader::TexelColor,
         Shader::UniformColor,
     ];
+    let plain = |pass: &Pass| pass.operations == Default::default() && pass.clears.is_empty();
     formats
+        && scene.passes.iter().all(plain)
         && draws(scene).all(|(pass, draw)| {
             let size = scene.pass_size(pass).map(|s| s as f32);
             let factors = draw.targets.iter().filter_map(|t| t.blend).flat_map(|b| {

@@ -1,0 +1,401 @@
+//! Load and store operations and clear commands of a pass: impossible ones refused.
+
+use crate::draw::write_mask;
+use crate::error::At;
+use crate::wire::{ClearCommandWire, ClearMaskWire, PassWire};
+use etalon_frame::TextureFormat;
+use etalon_scene::{Clear, ClearTarget, LoadOperation, Operations, PassOperations, StoreOperation};
+
+/// The parts of a pass that its operations and clears name.
+pub(crate) struct PassTarget {
+    pub(crate) size: [u32; 2],
+    /// The formats of the colour attachments.
+    pub(crate) color: Vec<TextureFormat>,
+    pub(crate) depth_stencil: Option<TextureFormat>,
+    pub(crate) draws: usize,
+}
+
+impl PassTarget {
+    fn has_depth(&self) -> bool {
+        self.depth_stencil.is_some_and(TextureFormat::has_depth)
+    }
+
+    fn has_stencil(&self) -> bool {
+        self.depth_stencil.is_some_and(TextureFormat::has_stencil)
+    }
+}
+
+/// Returns the load and store operations of a pass.
+pub(crate) fn operations(wire: &PassWire, target: &PassTarget) -> Result<PassOperations, At> {
+    let PassOperations {
+        color,
+        depth,
+        stencil,
+    } = &wire.operations;
+    for (i, one) in color.iter().enumerate() {
+        let check = || -> Result<(), At> {
+            let format = color_at(target, i)?;
+            match one.load {
+                LoadOperation::Load => Ok(()),
+                LoadOperation::Clear(value) => {
+                    color_value(format, value).map_err(|e| e.key("clear").key("load"))
+                }
+            }
+        };
+        check().map_err(|e| e.index(i).key("color"))?;
+    }
+    if let Some(value) = depth.load.clear_value() {
+        depth_value(value).map_err(|e| e.key("clear").key("load").key("depth"))?;
+    }
+    let aspects = [
+        ("depth", target.has_depth(), is_default(depth)),
+        ("stencil", target.has_stencil(), is_default(stencil)),
+    ];
+    for (name, has, same) in aspects {
+        if same {
+            continue;
+        }
+        if !has {
+            return Err(At::new(format!("the pass has no {name}")).key(name));
+        }
+        if wire.depth_stencil_read_only {
+            let message = "the pass promises to write neither depth nor stencil";
+            return Err(At::new(message).key(name));
+        }
+    }
+    Ok(wire.operations.clone())
+}
+
+fn is_default<V: PartialEq>(operations: &Operations<V>) -> bool {
+    operations.load == LoadOperation::Load && operations.store == StoreOperation::Store
+}
+
+/// Returns the clear commands of a pass.
+pub(crate) fn clears(wire: &PassWire, target: &PassTarget) -> Result<Vec<Clear>, At> {
+    let mut all: Vec<Clear> = Vec::new();
+    for (i, one) in wire.clears.iter().enumerate() {
+        let made = || -> Result<Clear, At> {
+            if one.before > target.draws {
+                let message = format!("the pass has {} draws", target.draws);
+                return Err(At::new(message).key("before"));
+            }
+            if all.last().is_some_and(|last| last.before > one.before) {
+                let message = "clears before earlier draws come first";
+                return Err(At::new(message).key("before"));
+            }
+            Ok(Clear {
+                before: one.before,
+                target: clear_target(one, wire.depth_stencil_read_only, target)?,
+                rect: rect(one, target.size).map_err(|e| e.key("rect"))?,
+            })
+        };
+        let clear = made().map_err(|e| e.index(i))?;
+        all.push(clear);
+    }
+    Ok(all)
+}
+
+fn clear_target(
+    wire: &ClearCommandWire,
+    read_only: bool,
+    target: &PassTarget,
+) -> Result<ClearTarget, At> {
+    let Some(location) = wire.color else {
+        return clear_depth_stencil(wire, read_only, target);
+    };
+    if wire.depth.is_some() || wire.stencil.is_some() {
+        let message = "colour is cleared apart from depth and stencil";
+        return Err(At::new(message).key("color"));
+    }
+    let format = color_at(target, location).map_err(|e| e.key("color"))?;
+    let value = wire
+        .value
+        .ok_or_else(|| At::new("a cleared colour needs a `value`").key("color"))?;
+    color_value(format, value).map_err(|e| e.key("value"))?;
+    let write_mask = match &wire.write_mask {
+        None => Ok(0b1111),
+        Some(ClearMaskWire::Channels(letters)) => write_mask(letters),
+        Some(_) => Err(At::new("the mask of colours has letters of rgba")),
+    };
+    Ok(ClearTarget::Color {
+        location,
+        value,
+        write_mask: write_mask.map_err(|e| e.key("write_mask"))?,
+    })
+}
+
+fn clear_depth_stencil(
+    wire: &ClearCommandWire,
+    read_only: bool,
+    target: &PassTarget,
+) -> Result<ClearTarget, At> {
+    if wire.value.is_some() {
+        return Err(At::new("`value` is that of a `color`").key("value"));
+    }
+    let (depth, stencil) = (wire.depth, wire.stencil);
+    let aspects = [
+        ("depth", depth.is_some(), target.has_depth()),
+        ("stencil", stencil.is_some(), target.has_stencil()),
+    ];
+    for (name, cleared, has) in aspects {
+        if cleared && !has {
+            return Err(At::new(format!("the pass has no {name}")).key(name));
+        }
+        if cleared && read_only {
+            let message = "the pass promises to write neither depth nor stencil";
+            return Err(At::new(message).key(name));
+        }
+    }
+    if let Some(value) = depth {
+        depth_value(value).map_err(|e| e.key("depth"))?;
+    }
+    let (depth_write, stencil_write_mask) = match (&wire.write_mask, depth, stencil) {
+        (_, None, None) => {
+            return Err(At::new("a clear names a `color`, `depth` or `stencil`"));
+        }
+        (None, ..) => (true, 0xff),
+        (Some(ClearMaskWire::Depth(write)), Some(_), None) => (*write, 0xff),
+        (Some(ClearMaskWire::Stencil(bits)), None, Some(_)) => (true, *bits),
+        (Some(ClearMaskWire::Both { depth, stencil }), Some(_), Some(_)) => (*depth, *stencil),
+        _ => {
+            let message = "the mask of depth is true or false, that of stencil a number of 8 bits, \
+                           that of both {\"depth\": …, \"stencil\": …}";
+            return Err(At::new(message).key("write_mask"));
+        }
+    };
+    Ok(ClearTarget::DepthStencil {
+        depth,
+        stencil,
+        depth_write,
+        stencil_write_mask,
+    })
+}
+
+fn color_at(target: &PassTarget, location: usize) -> Result<TextureFormat, At> {
+    let missing = || At::new("there is no colour attachment at this place");
+    target.color.get(location).copied().ok_or_else(missing)
+}
+
+fn color_value(format: TextureFormat, value: [f32; 4]) -> Result<(), At> {
+    let whole = |v: &f32| v.fract() == 0.0 && (0.0..=255.0).contains(v);
+    if format.is_integer() && !value.iter().all(whole) {
+        return Err(At::new("integers from 0 to 255 are cleared"));
+    }
+    if !value.iter().all(|v| v.is_finite()) {
+        return Err(At::new("a cleared colour is finite"));
+    }
+    Ok(())
+}
+
+fn depth_value(value: f32) -> Result<(), At> {
+    match (0.0..=1.0).contains(&value) {
+        true => Ok(()),
+        false => Err(At::new("a cleared depth lies between 0 and 1")),
+    }
+}
+
+/// Returns the rectangle of a clear, which lies inside the attachments.
+fn rect(wire: &ClearCommandWire, size: [u32; 2]) -> Result<Option<[u32; 4]>, At> {
+    let Some([x, y, w, h]) = wire.rect else {
+        return Ok(None);
+    };
+    if w == 0 || h == 0 {
+        return Err(At::new("an empty rectangle clears nothing"));
+    }
+    if x.saturating_add(w) > size[0] || y.saturating_add(h) > size[1] {
+        return Err(At::new("the rectangle reaches beyond the attachments"));
+    }
+    Ok(wire.rect)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{CaseFile, Profile};
+    use etalon_scene::Scene;
+
+    fn build(pass: &str) -> Result<Scene, String> {
+        let text = format!(
+            r#"{{"about":"t","spec":["t"],"scene":{{
+            "attachments":{{"color":{{"format":"rgba8unorm","size":[4,4]}},
+                "integer":{{"format":"rgba8uint"}},
+                "depth":{{"format":"depth24plus-stencil8"}},"d16":{{"format":"depth16unorm"}}}},
+            "passes":[{{{pass}}}],"read":["color"]}}}}"#
+        );
+        let file = CaseFile::parse("t.json", &text).unwrap();
+        let case = file.cases(Profile::Full).next().unwrap();
+        case.build()
+            .map(|case| case.scene)
+            .map_err(|e| e.to_string())
+    }
+
+    /// A pass of no draws with these keys.
+    fn with(keys: &str) -> String {
+        format!(r#""color":["color","integer"],"depth_stencil":"depth","draws":[],{keys}"#)
+    }
+
+    #[track_caller]
+    fn refused(pass: &str, due: &str) {
+        let error = build(pass).unwrap_err();
+        assert!(error.contains(due), "{error}");
+    }
+
+    #[test]
+    fn operations_are_read_in_the_words_of_webgpu() {
+        let scene = build(&with(
+            r#""operations":{"color":[{"load":{"clear":[0,1,0,1]},"store":"discard"},{"load":"load"}],
+               "stencil":{"load":{"clear":7}}}"#,
+        ))
+        .unwrap();
+        let pass = &scene.passes[0];
+        let first = pass.color_operations(0);
+        assert_eq!(first.load.clear_value(), Some([0.0, 1.0, 0.0, 1.0]));
+        assert_eq!(first.store, StoreOperation::Discard);
+        assert_eq!(pass.color_operations(1), Operations::default());
+        assert_eq!(pass.operations.stencil.load, LoadOperation::Clear(7));
+        assert_eq!(pass.operations.depth, Operations::default());
+    }
+
+    #[test]
+    fn clears_are_read_with_their_masks() {
+        let scene = build(&with(
+            r#""clears":[{"before":0,"color":0,"value":[0,1,0,1],"write_mask":"ra","rect":[1,2,3,2]},
+               {"before":0,"depth":0.5,"stencil":3,"write_mask":{"depth":false,"stencil":15}},
+               {"before":0,"depth":0.5}]"#,
+        ))
+        .unwrap();
+        let [color, both, depth] = &scene.passes[0].clears[..] else {
+            panic!("{:?}", scene.passes[0].clears);
+        };
+        let due = ClearTarget::Color {
+            location: 0,
+            value: [0.0, 1.0, 0.0, 1.0],
+            write_mask: 0b1001,
+        };
+        assert_eq!((color.target, color.rect), (due, Some([1, 2, 3, 2])));
+        let due = ClearTarget::DepthStencil {
+            depth: Some(0.5),
+            stencil: Some(3),
+            depth_write: false,
+            stencil_write_mask: 15,
+        };
+        assert_eq!((both.target, both.rect), (due, None));
+        assert!(!depth.target.is_masked());
+    }
+
+    #[test]
+    fn what_the_pass_lacks_is_neither_cleared_nor_discarded() {
+        let stencil_less = |keys: &str| format!(r#""depth_stencil":"d16","draws":[],{keys}"#);
+        let discard = r#""operations":{"stencil":{"store":"discard"}}"#;
+        refused(
+            &stencil_less(discard),
+            "operations.stencil: the pass has no stencil",
+        );
+        let clear = r#""clears":[{"before":0,"depth":1,"stencil":1}]"#;
+        refused(
+            &stencil_less(clear),
+            "clears[0].stencil: the pass has no stencil",
+        );
+        let color = r#""clears":[{"before":0,"color":2,"value":[0,0,0,0]}]"#;
+        refused(
+            &with(color),
+            "clears[0].color: there is no colour attachment at this place",
+        );
+        let color = r#""operations":{"color":[{},{},{}]}"#;
+        refused(
+            &with(color),
+            "operations.color[2]: there is no colour attachment at this place",
+        );
+    }
+
+    #[test]
+    fn a_read_only_pass_neither_clears_nor_discards() {
+        let read_only = |keys: &str| with(&format!(r#""depth_stencil_read_only":true,{keys}"#));
+        let due = "promises to write neither depth nor stencil";
+        refused(
+            &read_only(r#""operations":{"depth":{"load":{"clear":1}}}"#),
+            due,
+        );
+        refused(
+            &read_only(r#""operations":{"depth":{"store":"discard"}}"#),
+            due,
+        );
+        refused(&read_only(r#""clears":[{"before":0,"depth":1}]"#), due);
+        let color = r#""clears":[{"before":0,"color":0,"value":[0,0,0,0]}]"#;
+        assert!(build(&read_only(color)).is_ok());
+    }
+
+    #[test]
+    fn values_places_and_order_are_checked() {
+        let clears = |clears: &str| with(&format!(r#""clears":[{clears}]"#));
+        for (one, due) in [
+            (r#"{"before":1,"depth":1}"#, "before: the pass has 0 draws"),
+            (
+                r#"{"before":0}"#,
+                "a clear names a `color`, `depth` or `stencil`",
+            ),
+            (r#"{"before":0,"color":0}"#, "needs a `value`"),
+            (
+                r#"{"before":0,"depth":1,"value":[0,0,0,0]}"#,
+                "`value` is that of a `color`",
+            ),
+            (
+                r#"{"before":0,"depth":2}"#,
+                "depth: a cleared depth lies between 0 and 1",
+            ),
+            (
+                r#"{"before":0,"color":1,"value":[0,0,0.5,0]}"#,
+                "value: integers from 0 to 255",
+            ),
+            (
+                r#"{"before":0,"color":0,"value":[0,0,0,0],"depth":1}"#,
+                "apart from depth",
+            ),
+            (
+                r#"{"before":0,"depth":1,"rect":[1,1,4,1]}"#,
+                "rect: the rectangle reaches beyond",
+            ),
+            (
+                r#"{"before":0,"depth":1,"rect":[1,1,0,1]}"#,
+                "rect: an empty rectangle",
+            ),
+            (
+                r#"{"before":0,"depth":1,"write_mask":3}"#,
+                "write_mask: the mask of depth",
+            ),
+            (
+                r#"{"before":0,"stencil":1,"write_mask":false}"#,
+                "write_mask: the mask of depth",
+            ),
+            (
+                r#"{"before":0,"color":0,"value":[0,0,0,0],"write_mask":1}"#,
+                "letters of rgba",
+            ),
+            (
+                r#"{"before":0,"color":0,"value":[0,0,0,0],"write_mask":"rx"}"#,
+                "write_mask",
+            ),
+        ] {
+            refused(&clears(one), due);
+        }
+        let draw = r#"{"mesh":{"kind":"full"},"shader":"uniform_color"}"#;
+        let turned = format!(
+            r#""color":["color"],"draws":[{draw}],"clears":[
+               {{"before":1,"color":0,"value":[0,0,0,0]}},{{"before":0,"color":0,"value":[0,0,0,0]}}]"#
+        );
+        refused(
+            &turned,
+            "clears[1].before: clears before earlier draws come first",
+        );
+        let operations = r#""operations":{"color":[{},{"load":{"clear":[0,0,256,0]}}]}"#;
+        refused(
+            &with(operations),
+            "operations.color[1].load.clear: integers from 0 to 255",
+        );
+        let operations = r#""operations":{"depth":{"load":{"clear":-1}}}"#;
+        refused(
+            &with(operations),
+            "operations.depth.load.clear: a cleared depth lies",
+        );
+    }
+}

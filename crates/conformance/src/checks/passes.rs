@@ -1,0 +1,297 @@
+//! Load and store operations of passes, and clears between their draws.
+
+use super::Checked;
+use crate::frames::{BLUE, Expect, GREEN, RED};
+use crate::scenes::{blue, everywhere, filled, full, green, rect, red, test, with};
+use crate::subject::Subject;
+use etalon_frame::Feature;
+use serde_json::{Value, json};
+
+/// A draw of green over a part.
+fn green_over(texels: [u32; 4]) -> Value {
+    json!({ "mesh": rect(texels), "shader": "uniform_color", "params": green() })
+}
+
+/// A draw of red over everything.
+fn probe(state: Value) -> Value {
+    with(
+        json!({ "mesh": full(), "shader": "uniform_color", "params": red() }),
+        state,
+    )
+}
+
+fn stencil_equal(reference: u8) -> Value {
+    json!({ "stencil": { "front": { "compare": "equal" }, "reference": reference } })
+}
+
+/// What a pass drew is gone with the next one's load operation, which clears again what it clears.
+pub(crate) fn load_operations_clear_everything(s: &Subject) -> Checked {
+    let load = json!({ "color": [{ "load": { "clear": [1, 0, 0, 1] } }] });
+    for draws in [json!([]), json!([green_over([3, 2, 7, 11])])] {
+        let painted = draws != json!([]);
+        let frame = s.show(json!({
+            "attachments": { "color": blue() },
+            "passes": [
+                { "color": ["color"], "draws": [green_over([0, 0, 16, 9])] },
+                { "color": ["color"], "draws": draws, "operations": load }],
+        }))?;
+        frame.color_is("color", |x, y| {
+            if painted && (3..7).contains(&x) && (2..11).contains(&y) {
+                GREEN
+            } else {
+                RED
+            }
+        });
+    }
+    Ok(())
+}
+
+/// One attachment of two is cleared, in the first pass that uses either.
+pub(crate) fn each_attachment_has_its_own_load_operation(s: &Subject) -> Checked {
+    let [clear, keep] = [json!({ "load": { "clear": [0, 1, 0, 1] } }), json!({})];
+    for first in [true, false] {
+        let both = if first {
+            [&clear, &keep]
+        } else {
+            [&keep, &clear]
+        };
+        let frame = s.show(json!({
+            "attachments": { "a": blue(), "b": blue() },
+            "passes": [{ "color": ["a", "b"], "draws": [], "operations": { "color": both } }],
+        }))?;
+        frame.color_is("a", |_, _| if first { GREEN } else { BLUE });
+        frame.color_is("b", |_, _| if first { BLUE } else { GREEN });
+    }
+    Ok(())
+}
+
+/// Depth and stencil of one attachment, each with a load operation of its own.
+pub(crate) fn depth_and_stencil_are_loaded_apart(s: &Subject) -> Checked {
+    for format in ["depth24plus-stencil8", "depth32float-stencil8"] {
+        for (depth, stencil) in [(true, true), (true, false), (false, true)] {
+            let mut operations = json!({});
+            if depth {
+                operations["depth"] = json!({ "load": { "clear": 0 } });
+            }
+            if stencil {
+                operations["stencil"] = json!({ "load": { "clear": 5 } });
+            }
+            let Ok(frame) = s.show(json!({
+                "attachments": { "color": blue(),
+                    "depth": { "format": format, "clear": { "depth": 1, "stencil": 9 } } },
+                "passes": [
+                    { "color": ["color"], "depth_stencil": "depth", "draws": [] },
+                    { "color": ["color"], "depth_stencil": "depth", "operations": operations,
+                      "draws": [
+                        probe(with(json!({ "depth": test("less", false) }), stencil_equal(5))),
+                        with(green_over([0, 0, 16, 16]), with(
+                            json!({ "depth": test("less", false) }), stencil_equal(9)))] }],
+            })) else {
+                continue;
+            };
+            let due = match (depth, stencil) {
+                (false, true) => RED,
+                _ => BLUE,
+            };
+            frame.color_is("color", |_, _| due);
+            frame.depth_is("depth", |_, _| if depth { 0.0 } else { 1.0 });
+            frame.stencil_is("depth", |_, _| if stencil { 5 } else { 9 });
+        }
+    }
+    Ok(())
+}
+
+/// What was discarded and cleared again is as if it had been stored.
+pub(crate) fn discarded_contents_are_cleared_again(s: &Subject) -> Checked {
+    let discard = json!({ "store": "discard" });
+    let frame = s.show(json!({
+        "attachments": { "color": blue(), "other": blue(), "t": filled(RED), "u": filled(GREEN),
+            "depth": { "format": "depth24plus-stencil8", "clear": { "depth": 0, "stencil": 1 } } },
+        "passes": [
+            { "color": ["color", "other"], "depth_stencil": "depth",
+              "draws": [{ "mesh": rect([0, 0, 8, 8]), "shader": "texel_color_all", "textures": ["t"],
+                          "depth": test("always", true) }],
+              "operations": { "color": [{}, discard], "depth": discard, "stencil": discard } },
+            { "color": ["color", "other"], "depth_stencil": "depth",
+              "draws": [{ "mesh": rect([4, 4, 12, 12]), "shader": "texel_color_all",
+                  "textures": ["u"], "depth": test("less", true),
+                  "stencil": { "front": { "compare": "equal", "pass_op": "increment-clamp" },
+                               "reference": 7 } }],
+              "operations": { "color": [{}, { "load": { "clear": [1, 0, 0, 1] } }],
+                              "depth": { "load": { "clear": 1 } },
+                              "stencil": { "load": { "clear": 7 } } } }],
+        "read": ["color", "other", "depth"],
+    }))?;
+    let inside = |x: u32, y: u32| (4..12).contains(&x) && (4..12).contains(&y);
+    frame.color_is("color", |x, y| match (inside(x, y), x < 8 && y < 8) {
+        (true, _) => GREEN,
+        (_, true) => RED,
+        _ => BLUE,
+    });
+    frame.color_is("other", |x, y| if inside(x, y) { GREEN } else { RED });
+    frame.stencil_is("depth", |x, y| if inside(x, y) { 8 } else { 7 });
+    Ok(())
+}
+
+/// A discarded attachment whose average is kept, and a depth that nobody needs.
+pub(crate) fn samples_are_discarded_after_their_average(s: &Subject) -> Checked {
+    let discard = json!({ "store": "discard" });
+    let frame = s.show(json!({
+        "attachments": { "many": with(blue(), json!({ "samples": 4 })), "color": blue(),
+            "depth": { "format": "depth32float", "samples": 4 } },
+        "passes": [{ "color": ["many"], "resolve": ["color"], "depth_stencil": "depth",
+            "draws": [{ "mesh": everywhere(json!(0)), "shader": "uniform_color", "params": red(),
+                        "scissor": [2, 3, 5, 6], "depth": test("less", true) }],
+            "operations": { "color": [{ "load": { "clear": [0, 1, 0, 1] }, "store": "discard" }],
+                            "depth": discard } }],
+        "read": ["color"],
+    }))?;
+    frame.color_is("color", |x, y| {
+        if (2..7).contains(&x) && (3..9).contains(&y) {
+            RED
+        } else {
+            GREEN
+        }
+    });
+    Ok(())
+}
+
+/// A clear before a draw, one after it and one between draws, each of a rectangle.
+pub(crate) fn clears_reach_their_rectangle(s: &Subject) -> Checked {
+    let clear = |before: u32, value: Value, rect: [u32; 4]| json!({ "before": before, "color": 0, "value": value, "rect": rect });
+    let frame = s.show(json!({
+        "attachments": { "color": blue() },
+        "passes": [{ "color": ["color"], "draws": [
+                green_over([4, 0, 8, 16]), green_over([0, 9, 16, 10])],
+            "clears": [
+                clear(0, json!([1, 0, 0, 1]), [0, 0, 6, 3]),
+                clear(1, json!([1, 1, 1, 1]), [5, 2, 7, 9]),
+                clear(2, json!([0, 0, 0, 0]), [15, 15, 1, 1])] }],
+    }))?;
+    frame.color_is("color", |x, y| {
+        let white = (5..12).contains(&x) && (2..11).contains(&y);
+        match (x, y) {
+            (15, 15) => [0; 4],
+            (_, 9) => GREEN,
+            _ if white => [255; 4],
+            (4..8, _) => GREEN,
+            (0..6, 0..3) => RED,
+            _ => BLUE,
+        }
+    });
+    Ok(())
+}
+
+/// The state of the draw before a clear: scissor, masks, discarded primitives and tests.
+pub(crate) fn clears_ignore_the_draws_around(s: &Subject) -> Checked {
+    let discards = s.offers(Feature::RasterizerDiscard);
+    let narrow = json!({
+        "mesh": full(), "shader": "uniform_color", "params": green(), "scissor": [1, 1, 2, 2],
+        "write_mask": "g", "depth": test("never", false), "rasterizer_discard": discards,
+        "stencil": { "front": { "compare": "never", "fail_op": "invert" }, "write_mask": 1 } });
+    let frame = s.show(json!({
+        "attachments": { "color": blue(),
+            "depth": { "format": "depth24plus-stencil8", "clear": { "depth": 0, "stencil": 0 } } },
+        "passes": [{ "color": ["color"], "depth_stencil": "depth",
+            "draws": [narrow, with(green_over([8, 0, 16, 16]), json!({ "depth": test("less", true) })), narrow],
+            "clears": [
+                { "before": 1, "color": 0, "value": [1, 0, 0, 1] },
+                { "before": 1, "depth": 1, "rect": [0, 0, 16, 12] },
+                { "before": 1, "stencil": 0xf0, "rect": [0, 4, 16, 12] },
+                { "before": 3, "depth": 1, "stencil": 0x0f, "rect": [14, 14, 2, 2] }] }],
+    }))?;
+    let corner = |x: u32, y: u32| x >= 14 && y >= 14;
+    frame.color_is("color", |x, y| if x >= 8 && y < 12 { GREEN } else { RED });
+    let drawn = |x: u32, y: u32| (1..3).contains(&x) && (1..3).contains(&y) && !discards;
+    frame.stencil_is("depth", |x, y| match y {
+        _ if corner(x, y) => 0x0f,
+        0..4 => u32::from(drawn(x, y)),
+        _ => 0xf0,
+    });
+    Ok(())
+}
+
+/// Depth or stencil cleared, and the other as it was.
+pub(crate) fn clears_leave_the_other_aspect(s: &Subject) -> Checked {
+    for format in ["depth24plus-stencil8", "depth32float-stencil8"] {
+        for clear in [
+            json!({ "before": 1, "depth": 1 }),
+            json!({ "before": 1, "stencil": 200 }),
+            json!({ "before": 1, "depth": 1, "stencil": 200 }),
+        ] {
+            let Ok(frame) = s.show(json!({
+                "attachments": { "depth": { "format": format, "clear": { "depth": 0.25, "stencil": 100 } } },
+                "passes": [{ "depth_stencil": "depth", "clears": [clear], "draws": [
+                    { "mesh": { "kind": "columns", "values": [0, 0] }, "shader": "flat_color_depth",
+                      "depth": test("always", true),
+                      "stencil": { "front": { "compare": "always", "pass_op": "replace" }, "reference": 3 } }] }],
+            })) else {
+                continue;
+            };
+            let has = |name: &str| clear.get(name).is_some();
+            frame.depth_is("depth", |_, _| if has("depth") { 1.0 } else { 0.0 });
+            frame.stencil_is("depth", |_, _| if has("stencil") { 200 } else { 3 });
+        }
+    }
+    Ok(())
+}
+
+/// Integers, the second of two targets, and all samples of a texel.
+pub(crate) fn clears_know_their_target(s: &Subject) -> Checked {
+    let frame = s.show(json!({
+        "attachments": { "a": blue(), "b": blue() },
+        "passes": [{ "color": ["a", "b"], "draws": [],
+            "clears": [{ "before": 0, "color": 1, "value": [1, 0, 0, 1], "rect": [0, 0, 16, 5] }] }],
+    }))?;
+    frame.color_is("a", |_, _| BLUE);
+    frame.color_is("b", |_, y| if y < 5 { RED } else { BLUE });
+    let integers = s.show(json!({
+        "attachments": { "color": { "format": "rgba8uint", "clear": [1, 2, 3, 4] } },
+        "passes": [{ "color": ["color"], "draws": [],
+            "operations": { "color": [{ "load": { "clear": [5, 6, 7, 8] } }] },
+            "clears": [{ "before": 0, "color": 0, "value": [255, 0, 1, 254], "rect": [1, 0, 15, 16] }] }],
+    }));
+    if let Ok(frame) = integers {
+        frame.color_is("color", |x, _| {
+            if x == 0 {
+                [5, 6, 7, 8]
+            } else {
+                [255, 0, 1, 254]
+            }
+        });
+    }
+    let many = s.show(json!({
+        "attachments": { "color": with(blue(), json!({ "samples": 4 })) },
+        "passes": [{ "color": ["color"], "draws": [],
+            "clears": [{ "before": 0, "color": 0, "value": [1, 0, 0, 1], "rect": [3, 3, 3, 3] }] }],
+    }));
+    if let Ok(frame) = many {
+        frame.is_red(|x, y| (3..6).contains(&x) && (3..6).contains(&y));
+    }
+    Ok(())
+}
+
+/// Channels and bits that a mask keeps.
+pub(crate) fn masked_clears_keep_the_rest(s: &Subject) -> Checked {
+    let frame = s.show(json!({
+        "attachments": { "color": blue(),
+            "depth": { "format": "depth24plus-stencil8", "clear": { "depth": 0, "stencil": 0xaa } } },
+        "passes": [{ "color": ["color"], "depth_stencil": "depth", "draws": [],
+            "clears": [
+                { "before": 0, "color": 0, "value": [1, 1, 0, 0], "write_mask": "ra" },
+                { "before": 0, "color": 0, "value": [0, 1, 0, 1], "write_mask": "g", "rect": [2, 2, 2, 2] },
+                { "before": 0, "depth": 1, "write_mask": false },
+                { "before": 0, "stencil": 0x55, "write_mask": 0x0f },
+                { "before": 0, "depth": 1, "stencil": 0xff, "rect": [8, 0, 8, 16],
+                  "write_mask": { "depth": true, "stencil": 0x80 } },
+                { "before": 0, "depth": 0, "stencil": 0, "rect": [8, 0, 8, 8],
+                  "write_mask": { "depth": false, "stencil": 0x80 } }] }],
+    }))?;
+    let inner = |x: u32, y: u32| (2..4).contains(&x) && (2..4).contains(&y);
+    frame.color_is("color", |x, y| {
+        [255, if inner(x, y) { 255 } else { 0 }, 255, 0]
+    });
+    frame.depth_is("depth", |x, _| if x < 8 { 0.0 } else { 1.0 });
+    frame.stencil_is("depth", |x, y| if x >= 8 && y < 8 { 0x25 } else { 0xa5 });
+    Ok(())
+}

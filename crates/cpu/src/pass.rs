@@ -1,0 +1,139 @@
+//! Passes: load operations, clear commands, draws, resolves and store operations, in this order.
+
+use crate::raster;
+use crate::span::Counted;
+use crate::steps::Steps;
+use crate::surface::{Surface, depth_encoding};
+use etalon_backend::BackendError;
+use etalon_frame::{Aspect, ChannelEncoding};
+use etalon_scene::{Clear, ClearTarget, LoadOperation, Pass, Scene};
+
+/// The value of what is discarded. No case clears or draws it.
+const DISCARDED: f64 = 0.6;
+
+/// Runs a pass on its attachments.
+pub(crate) fn run<S: Steps>(
+    scene: &Scene,
+    pass: &Pass,
+    surfaces: &mut [Surface],
+    counters: &mut [Counted],
+    steps: &S,
+) -> Result<(), BackendError> {
+    load(scene, pass, surfaces, steps);
+    for (index, draw) in pass.draws.iter().enumerate() {
+        for command in pass.clears_before(index) {
+            clear(scene, pass, command, surfaces, steps);
+        }
+        raster::draw(scene, pass, draw, surfaces, counters, steps);
+    }
+    for command in pass.clears_before(pass.draws.len()) {
+        clear(scene, pass, command, surfaces, steps);
+    }
+    for (source, target) in pass.color.iter().zip(&pass.resolve) {
+        if let Some(target) = target {
+            let both = surfaces.get_disjoint_mut([*source, *target]);
+            let [source, target] = both.map_err(|_| {
+                BackendError::Internal("an attachment is resolved to itself".to_owned())
+            })?;
+            target.resolve_from(source, |encoding, codes| steps.resolve(encoding, codes));
+        }
+    }
+    for (index, aspect) in pass.discarded() {
+        discard(scene, index, aspect, &mut surfaces[index]);
+    }
+    Ok(())
+}
+
+/// Clears what load operations clear.
+fn load(scene: &Scene, pass: &Pass, surfaces: &mut [Surface], steps: &impl Steps) {
+    let all = None;
+    for (location, index) in pass.color.iter().enumerate() {
+        if let LoadOperation::Clear(value) = pass.color_operations(location).load {
+            clear_color(&mut surfaces[*index], value, 0b1111, all, steps);
+        }
+    }
+    let Some(index) = pass.depth_stencil else {
+        return;
+    };
+    let surface = &mut surfaces[index];
+    if let LoadOperation::Clear(value) = pass.operations.depth.load
+        && let Some(encoding) = depth_encoding(scene.attachments[index].format)
+    {
+        surface.fill(0, steps.clear_code(encoding, value), all);
+    }
+    if let LoadOperation::Clear(value) = pass.operations.stencil.load {
+        surface.fill_stencil(value, 0xff, all);
+    }
+}
+
+/// Executes a clear command.
+fn clear(
+    scene: &Scene,
+    pass: &Pass,
+    command: &Clear,
+    surfaces: &mut [Surface],
+    steps: &impl Steps,
+) {
+    match command.target {
+        ClearTarget::Color {
+            location,
+            value,
+            write_mask,
+        } => {
+            let surface = &mut surfaces[pass.color[location]];
+            clear_color(surface, value, write_mask, command.rect, steps);
+        }
+        ClearTarget::DepthStencil {
+            depth,
+            stencil,
+            depth_write,
+            stencil_write_mask,
+        } => {
+            let Some(index) = pass.depth_stencil else {
+                return;
+            };
+            let surface = &mut surfaces[index];
+            if let Some(value) = depth.filter(|_| depth_write)
+                && let Some(encoding) = depth_encoding(scene.attachments[index].format)
+            {
+                surface.fill(0, steps.clear_code(encoding, value), command.rect);
+            }
+            if let Some(value) = stencil {
+                surface.fill_stencil(value, stencil_write_mask, command.rect);
+            }
+        }
+    }
+}
+
+fn clear_color(
+    surface: &mut Surface,
+    value: [f32; 4],
+    write_mask: u8,
+    rect: Option<[u32; 4]>,
+    steps: &impl Steps,
+) {
+    for (channel, encoding) in surface.encodings.iter().enumerate() {
+        if write_mask & (1 << channel) != 0 {
+            let code = steps.clear_code(*encoding, value[channel]);
+            surface.fill(channel, code, rect);
+        }
+    }
+}
+
+/// Replaces what is discarded, so that nothing can depend on it unseen.
+fn discard(scene: &Scene, index: usize, aspect: Aspect, surface: &mut Surface) {
+    let code = |encoding: ChannelEncoding| encoding.nearest_code(DISCARDED);
+    match aspect {
+        Aspect::Color => {
+            for (channel, encoding) in surface.encodings.iter().enumerate() {
+                surface.fill(channel, code(*encoding), None);
+            }
+        }
+        Aspect::Depth => {
+            if let Some(encoding) = depth_encoding(scene.attachments[index].format) {
+                surface.fill(0, code(encoding), None);
+            }
+        }
+        Aspect::Stencil => surface.fill_stencil(0x99, 0xff, None),
+    }
+}

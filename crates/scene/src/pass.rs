@@ -1,0 +1,248 @@
+//! Passes: their attachments, and what happens to these around the draws.
+//!
+//! Load and store operations stand beside the lists of attachments, not in them, so that a pass without any
+//! is what it is without this file. Clear commands stand beside the draws for the same reason: each names
+//! the draw before which it is executed.
+
+use crate::draw::Draw;
+use etalon_frame::{Aspect, state_enum};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// One render pass. Attachments keep their contents from the pass before, unless a load operation clears
+/// them or a store operation discarded them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Pass {
+    /// Indices of the colour attachments, in location order.
+    pub color: Vec<usize>,
+    /// The attachment to which each colour attachment is resolved at the end of the pass: a
+    /// single-sample attachment of the same format and size. As long as `color`.
+    pub resolve: Vec<Option<usize>>,
+    /// Index of the depth-stencil attachment.
+    pub depth_stencil: Option<usize>,
+    /// True if the pass promises to write neither depth nor stencil.
+    pub depth_stencil_read_only: bool,
+    /// Load and store operations.
+    #[serde(default)]
+    pub operations: PassOperations,
+    /// Clear commands, in order; those before earlier draws first.
+    #[serde(default)]
+    pub clears: Vec<Clear>,
+    /// Draws, in order.
+    pub draws: Vec<Draw>,
+}
+
+/// The load and store operations of a pass, per aspect.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PassOperations {
+    /// Those of the colour attachments, in location order; attachments past the end are loaded and stored.
+    #[serde(default)]
+    pub color: Vec<Operations<[f32; 4]>>,
+    /// Those of depth.
+    #[serde(default)]
+    pub depth: Operations<f32>,
+    /// Those of stencil.
+    #[serde(default)]
+    pub stencil: Operations<u8>,
+}
+
+/// The load and store operation of one aspect, of which `V` is a clear value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Operations<V> {
+    /// At the start of the pass.
+    #[serde(default)]
+    pub load: LoadOperation<V>,
+    /// At the end of the pass, after resolves.
+    #[serde(default)]
+    pub store: StoreOperation,
+}
+
+/// The contents of an aspect at the start of a pass.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LoadOperation<V> {
+    /// What it holds.
+    #[default]
+    Load,
+    /// A value, in all texels and samples.
+    Clear(V),
+}
+
+impl<V: Copy> LoadOperation<V> {
+    /// The clear value; `None` where nothing is cleared.
+    pub fn clear_value(self) -> Option<V> {
+        match self {
+            Self::Load => None,
+            Self::Clear(value) => Some(value),
+        }
+    }
+}
+
+state_enum! {
+    /// The fate of an aspect at the end of a pass.
+    StoreOperation {
+        /// The aspect keeps what the pass left.
+        Store = "store",
+        /// The aspect is undefined from here on, until the whole of it is cleared.
+        Discard = "discard",
+    }
+}
+
+impl Default for StoreOperation {
+    fn default() -> Self {
+        Self::Store
+    }
+}
+
+/// A clear command within a pass. Neither the scissor rectangle nor the masks of draws affect it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Clear {
+    /// Index of the draw before which it is executed; the number of draws stands for the end.
+    pub before: usize,
+    /// The cleared aspects with their values.
+    pub target: ClearTarget,
+    /// Left, top, width and height of the cleared texels, inside the attachments; `None` is all.
+    pub rect: Option<[u32; 4]>,
+}
+
+/// The aspects that a clear command writes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ClearTarget {
+    /// One colour attachment.
+    Color {
+        /// Its place in the pass.
+        location: usize,
+        /// Red, green, blue, alpha.
+        value: [f32; 4],
+        /// Written channels: bit 0 red to bit 3 alpha.
+        write_mask: u8,
+    },
+    /// Depth, stencil or both.
+    DepthStencil {
+        /// Depth in 0..=1; `None` leaves it.
+        depth: Option<f32>,
+        /// Stencil; `None` leaves it.
+        stencil: Option<u8>,
+        /// False if a mask keeps the depth.
+        depth_write: bool,
+        /// Written bits of stencil.
+        stencil_write_mask: u8,
+    },
+}
+
+impl ClearTarget {
+    /// True if a mask keeps channels or bits from being written.
+    pub fn is_masked(&self) -> bool {
+        match *self {
+            Self::Color { write_mask, .. } => write_mask != 0b1111,
+            Self::DepthStencil {
+                depth,
+                stencil,
+                depth_write,
+                stencil_write_mask,
+            } => depth.is_some() && !depth_write || stencil.is_some() && stencil_write_mask != 0xff,
+        }
+    }
+}
+
+impl Pass {
+    /// The operations of the colour attachment at a location.
+    pub fn color_operations(&self, location: usize) -> Operations<[f32; 4]> {
+        let given = self.operations.color.get(location);
+        given.copied().unwrap_or_default()
+    }
+
+    /// The clear commands that are executed before the draw of this index, or at the end.
+    pub fn clears_before(&self, draw: usize) -> &[Clear] {
+        let start = self.clears.partition_point(|c| c.before < draw);
+        let end = self.clears.partition_point(|c| c.before <= draw);
+        &self.clears[start..end]
+    }
+
+    /// The aspects that load operations clear, by attachment.
+    pub fn cleared(&self) -> Vec<(usize, Aspect)> {
+        let Self { operations, .. } = self;
+        self.aspects(
+            |location| self.color_operations(location).load != LoadOperation::Load,
+            operations.depth.load != LoadOperation::Load,
+            operations.stencil.load != LoadOperation::Load,
+        )
+    }
+
+    /// The aspects that store operations discard, by attachment.
+    pub fn discarded(&self) -> Vec<(usize, Aspect)> {
+        let Self { operations, .. } = self;
+        self.aspects(
+            |location| self.color_operations(location).store == StoreOperation::Discard,
+            operations.depth.store == StoreOperation::Discard,
+            operations.stencil.store == StoreOperation::Discard,
+        )
+    }
+
+    fn aspects(
+        &self,
+        color: impl Fn(usize) -> bool,
+        depth: bool,
+        stencil: bool,
+    ) -> Vec<(usize, Aspect)> {
+        let colors = self.color.iter().enumerate();
+        let mut all: Vec<_> = colors
+            .filter(|(location, _)| color(*location))
+            .map(|(_, index)| (*index, Aspect::Color))
+            .collect();
+        for (has, aspect) in [(depth, Aspect::Depth), (stencil, Aspect::Stencil)] {
+            all.extend(self.depth_stencil.filter(|_| has).map(|i| (i, aspect)));
+        }
+        all
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn clear(before: usize) -> Clear {
+        Clear {
+            before,
+            target: ClearTarget::Color {
+                location: 0,
+                value: [0.0; 4],
+                write_mask: 0b1111,
+            },
+            rect: None,
+        }
+    }
+
+    #[test]
+    fn clears_stand_before_their_draws() {
+        let pass = Pass {
+            clears: [0, 2, 2, 3].map(clear).to_vec(),
+            ..Pass::default()
+        };
+        let counts = [0, 1, 2, 3, 4].map(|draw| pass.clears_before(draw).len());
+        assert_eq!(counts, [1, 0, 2, 1, 0]);
+    }
+
+    #[test]
+    fn operations_name_the_aspects_of_the_pass() {
+        let mut pass = Pass {
+            color: vec![4, 5],
+            depth_stencil: Some(2),
+            ..Pass::default()
+        };
+        assert_eq!((pass.cleared(), pass.discarded()), (vec![], vec![]));
+        let red = Operations {
+            load: LoadOperation::Clear([1.0, 0.0, 0.0, 1.0]),
+            ..Operations::default()
+        };
+        pass.operations.color = vec![Operations::default(), red];
+        pass.operations.depth.store = StoreOperation::Discard;
+        pass.operations.stencil.load = LoadOperation::Clear(3);
+        assert_eq!(pass.cleared(), [(5, Aspect::Color), (2, Aspect::Stencil)]);
+        assert_eq!(pass.discarded(), [(2, Aspect::Depth)]);
+        let value = pass.color_operations(1).load.clear_value();
+        assert_eq!(value, Some([1.0, 0.0, 0.0, 1.0]));
+    }
+}

@@ -1,0 +1,124 @@
+//! Clears of a pass: load and store operations, and commands between draws.
+
+use crate::device::Device;
+use crate::error::internal;
+use ash::vk;
+use etalon_backend::BackendError;
+use etalon_scene::{Clear, ClearTarget, LoadOperation, Operations, StoreOperation};
+
+/// The load and store operation of one aspect.
+pub(crate) struct Ends {
+    pub(crate) load: vk::AttachmentLoadOp,
+    pub(crate) store: vk::AttachmentStoreOp,
+    /// The clear value; read only if the load operation clears.
+    pub(crate) value: vk::ClearValue,
+}
+
+impl Ends {
+    /// Returns the operations, with a clear value made by `value`.
+    pub(crate) fn new<V: Copy>(
+        operations: Operations<V>,
+        value: impl Fn(V) -> vk::ClearValue,
+    ) -> Self {
+        let (load, value) = match operations.load {
+            LoadOperation::Load => (vk::AttachmentLoadOp::LOAD, vk::ClearValue::default()),
+            LoadOperation::Clear(v) => (vk::AttachmentLoadOp::CLEAR, value(v)),
+        };
+        let store = match operations.store {
+            StoreOperation::Store => vk::AttachmentStoreOp::STORE,
+            StoreOperation::Discard => vk::AttachmentStoreOp::DONT_CARE,
+        };
+        Self { load, store, value }
+    }
+}
+
+/// A clear command.
+pub(crate) struct ClearPlan {
+    attachment: vk::ClearAttachment,
+    rect: vk::ClearRect,
+}
+
+impl ClearPlan {
+    /// Returns the command; `integer` tells the colour attachment's kind.
+    pub(crate) fn new(clear: &Clear, integer: bool, size: [u32; 2]) -> Result<Self, BackendError> {
+        let attachment = match clear.target {
+            ClearTarget::Color {
+                location, value, ..
+            } => vk::ClearAttachment {
+                aspect_mask: vk::ImageAspectFlags::COLOR,
+                color_attachment: u32::try_from(location)
+                    .map_err(|_| internal("too many colour attachments"))?,
+                clear_value: vk::ClearValue {
+                    color: color_value(value, integer),
+                },
+            },
+            ClearTarget::DepthStencil { depth, stencil, .. } => {
+                let mut aspects = vk::ImageAspectFlags::empty();
+                if depth.is_some() {
+                    aspects |= vk::ImageAspectFlags::DEPTH;
+                }
+                if stencil.is_some() {
+                    aspects |= vk::ImageAspectFlags::STENCIL;
+                }
+                vk::ClearAttachment {
+                    aspect_mask: aspects,
+                    color_attachment: 0,
+                    clear_value: depth_stencil_value(
+                        depth.unwrap_or_default(),
+                        stencil.unwrap_or_default(),
+                    ),
+                }
+            }
+        };
+        let [x, y, width, height] = clear.rect.unwrap_or([0, 0, size[0], size[1]]);
+        let offset = |v: u32| i32::try_from(v).map_err(|_| internal("a rectangle lies outside"));
+        Ok(Self {
+            attachment,
+            rect: vk::ClearRect {
+                rect: vk::Rect2D {
+                    offset: vk::Offset2D {
+                        x: offset(x)?,
+                        y: offset(y)?,
+                    },
+                    extent: vk::Extent2D { width, height },
+                },
+                base_array_layer: 0,
+                layer_count: 1,
+            },
+        })
+    }
+
+    /// Records the command.
+    ///
+    /// # Safety
+    /// Within the render pass of `commands` that it was planned for.
+    pub(crate) unsafe fn record(&self, device: &Device, commands: vk::CommandBuffer) {
+        // SAFETY: the caller's; the rectangle lies inside the render area, and masked clears are denied.
+        unsafe {
+            device
+                .raw
+                .cmd_clear_attachments(commands, &[self.attachment], &[self.rect]);
+        }
+    }
+}
+
+/// Returns a clear value of a colour attachment, of integers or other numbers.
+pub(crate) fn color_value(color: [f32; 4], integer: bool) -> vk::ClearColorValue {
+    if integer {
+        vk::ClearColorValue {
+            uint32: color.map(|c| c as u32),
+        }
+    } else {
+        vk::ClearColorValue { float32: color }
+    }
+}
+
+/// Returns a clear value of depth and stencil.
+pub(crate) fn depth_stencil_value(depth: f32, stencil: u8) -> vk::ClearValue {
+    vk::ClearValue {
+        depth_stencil: vk::ClearDepthStencilValue {
+            depth,
+            stencil: u32::from(stencil),
+        },
+    }
+}
