@@ -10,7 +10,7 @@ use crate::resolve::parse_scene;
 use crate::sequence;
 use crate::states;
 use crate::values::{substitute, typed};
-use crate::variants::{patch, variant_scene};
+use crate::variants::{patch, read_again, variant_scene};
 use crate::wire::{ExpectWire, RandomWire};
 use etalon_methods::{Method, MethodScene, MethodWire, Parameter};
 use etalon_scene::Scene;
@@ -38,7 +38,8 @@ impl CaseRef<'_> {
         }
         let scene_value = self.scene_value(&values)?;
         let scene = parse_scene(&scene_value).map_err(|e| e.key("scene"))?;
-        let variants = wire
+        let again = read_again(&scene, &wire.submissions).map_err(|e| e.key("submissions"))?;
+        let changed = wire
             .variants
             .iter()
             .enumerate()
@@ -47,6 +48,7 @@ impl CaseRef<'_> {
                     .map_err(|e| e.index(i).key("variants"))
             })
             .collect::<Result<Vec<_>, At>>()?;
+        let variants = [again, changed].concat();
         let relation =
             relation(&wire.relation, &values, &scene, &variants).map_err(|e| e.key("relation"))?;
         let judged_as = if wire.judged_as.is_empty() {
@@ -83,6 +85,7 @@ impl CaseRef<'_> {
         ];
         let alone = others.into_iter().all(Value::is_null)
             && wire.variants.is_empty()
+            && wire.submissions.is_empty()
             && wire.judged_as.is_empty();
         if !alone {
             return Err(

@@ -41,6 +41,7 @@ mod sample_coverage;
 mod sample_shading;
 mod samples;
 mod scissor;
+mod sequence;
 mod size;
 mod stencil;
 mod sticky;

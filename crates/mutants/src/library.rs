@@ -5,8 +5,8 @@ use crate::mutant::Mutant;
 use crate::{
     bias, blend, bounds, capability, carried, clear, counter, cull, depth, depth_range, discard,
     dual_source, early, fetch, formats, geometry, hierarchy, invariance, logic, mask, read_only,
-    readback, resolve, sample_coverage, sample_shading, samples, scissor, size, stencil, sticky,
-    targets, texture, topology, upload, viewport,
+    readback, resolve, sample_coverage, sample_shading, samples, scissor, sequence, size, stencil,
+    sticky, targets, texture, topology, upload, viewport,
 };
 use std::sync::LazyLock;
 
@@ -50,6 +50,7 @@ pub fn mutants() -> &'static [Mutant] {
         size::add(&mut list);
         hierarchy::add(&mut list);
         carried::add(&mut list);
+        sequence::add(&mut list);
         list.mutants
     });
     &ALL

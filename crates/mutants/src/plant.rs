@@ -17,6 +17,8 @@ pub(super) enum Plant {
     Scene(Box<SceneBug>),
     /// The driver draws another scene, with state of the previous one.
     Sticky(Box<StickyBug>),
+    /// From this submission of a prepared scene on, counted from 1, the driver draws another scene.
+    Again(u32, Box<SceneBug>),
     /// A step of the rasterizer is replaced.
     Steps(Box<Hooks>),
     /// What a submission has stored is changed. Each prepared scene has a bug of its own, which may
@@ -31,6 +33,7 @@ impl fmt::Debug for Plant {
         f.write_str(match self {
             Self::Scene(_) => "Scene",
             Self::Sticky(_) => "Sticky",
+            Self::Again(..) => "Again",
             Self::Steps(_) => "Steps",
             Self::Memory(_) => "Memory",
             Self::Frame(_) => "Frame",
@@ -47,6 +50,11 @@ impl From<Hooks> for Plant {
 /// Changes the scene.
 pub(super) fn scene(bug: impl Fn(&mut Scene) + Send + Sync + 'static) -> Plant {
     Plant::Scene(Box::new(bug))
+}
+
+/// Changes the scene from a submission on.
+pub(super) fn again(from: u32, bug: impl Fn(&mut Scene) + Send + Sync + 'static) -> Plant {
+    Plant::Again(from, Box::new(bug))
 }
 
 /// Changes every draw.

@@ -1,7 +1,8 @@
 //! The hunt for planted bugs: every case drawn by every mutant, in this process, on all cores.
 
+use crate::drawing::draw_frames;
 use crate::judge::Judge;
-use etalon_backend::{Backend, BackendError};
+use etalon_backend::Backend;
 use etalon_case::Case;
 use etalon_frame::{Frame, WrongTexel};
 use etalon_record::{AreaTally, Catch, MutantInfo, MutantRecord, Sighting, Verdict};
@@ -114,17 +115,9 @@ fn broken(case: &Case, message: String) -> Sighting {
     }
 }
 
-/// Draws a case's scenes once each. A panic is a broken mutant, not the end of the hunt.
+/// Draws the frames of a case. A panic is a broken mutant, not the end of the hunt.
 fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
-    let attempt = || -> Result<Vec<Frame>, BackendError> {
-        let draw = |scene| {
-            let mut prepared = backend.prepare(scene)?;
-            prepared.submit()?;
-            prepared.read_back()
-        };
-        case.scenes().map(draw).collect()
-    };
-    match catch_unwind(AssertUnwindSafe(attempt)) {
+    match catch_unwind(AssertUnwindSafe(|| draw_frames(backend, case))) {
         Ok(outcome) => outcome.map_err(|e| e.to_string()),
         Err(_) => Err("it panicked".to_owned()),
     }

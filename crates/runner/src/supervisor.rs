@@ -78,6 +78,11 @@ impl Supervisor {
         }
     }
 
+    /// Makes a running worker the supervisor's first one.
+    pub(crate) fn take_over(&mut self, running: Option<Worker>) {
+        self.worker = running.map(|worker| limited(worker.process, self.memory));
+    }
+
     /// The worker, started if there is none.
     pub(crate) fn worker(&mut self) -> Result<&mut WorkerProcess, Loss> {
         while self.worker.is_none() && lock(&self.failed_starts.0).count < MAX_FAILED_STARTS {

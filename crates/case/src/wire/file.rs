@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU32, NonZeroUsize};
 
 /// A case file. In `scene`, `judged_as` and `expect`, the string `"$name"` stands for the value of
 /// the axis or derived value of that name.
@@ -54,6 +54,10 @@ pub(crate) struct FileWire {
     /// Changes to the scene, each of which is drawn too.
     #[serde(default)]
     pub(crate) variants: Vec<VariantWire>,
+    /// Further submissions of the prepared scene, behind each of which the frame is read again: it must be the
+    /// same every time.
+    #[serde(default)]
+    pub(crate) submissions: Vec<NonZeroU32>,
     /// The relation of the variants' frames to the scene's own.
     #[serde(default)]
     #[schemars(with = "Option<RelationWire>")]

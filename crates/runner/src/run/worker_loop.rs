@@ -7,7 +7,7 @@ use super::adapter_run::{AdapterRun, Observation};
 use super::round_trips::RoundTrips;
 use super::second_look::confirm;
 use super::shared::Shared;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Due};
 use crate::event::Event;
 use crate::loss::{Failure, Loss};
 use crate::supervisor::Supervisor;
@@ -41,7 +41,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
             queue.launch.clone(),
             shared.options.memory,
             queue.failed_starts.clone(),
-            queue.take_running(),
+            None,
         );
         Self {
             run: AdapterRun { shared, queue },
@@ -64,7 +64,11 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         if let Some(error) = &queue.start_error {
             return run.record_not_started(error);
         }
-        let round_trips = queue.round_trips_or(|| self.draw_round_trips());
+        let round_trips = queue.round_trips_or(|| {
+            // Whoever draws first has the worker that runs, and starts no second one beside it.
+            self.supervisor.take_over(queue.take_running());
+            self.draw_round_trips()
+        });
         if let Some(error) = round_trips.not_started() {
             return run.record_not_started(error);
         }
@@ -179,7 +183,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         let case = self.run.case(number);
         let wait = self.run.wait(case);
         match self.supervisor.running() {
-            Ok(worker) => worker.receive_frames(number as u32, case.scene_count(), asked, wait),
+            Ok(worker) => worker.receive_frames(number as u32, Due::of(case), asked, wait),
             Err(loss) => Drawing::failed(Failure::Lost(loss)),
         }
     }
