@@ -2,6 +2,7 @@
 
 use crate::attachment::{MAX_SIZE, find};
 use crate::error::{At, Step};
+use crate::fetch::fetch;
 use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
@@ -38,6 +39,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
     if mesh.vertices.is_empty() || mesh.vertices.len() > MAX_VERTICES {
         return Err(At::new(format!("a mesh has 1 to {MAX_VERTICES} vertices")).key("mesh"));
     }
+    let (mesh, fetch) = fetch(mesh, wire.topology, wire.fetch, wire.instances.as_ref())?;
     check_vertices(&mesh, wire.shader).map_err(|e| e.key("mesh"))?;
     if wire.depth.is_some() && !depth_stencil.is_some_and(TextureFormat::has_depth) {
         return Err(At::new("a depth test needs a depth attachment").key("depth"));
@@ -106,6 +108,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
             .below(Step::Key("params".to_owned())));
     }
     Ok(Draw {
+        fetch,
         topology: wire.topology,
         params: Params {
             color: wire.params.color.0,

@@ -4,6 +4,7 @@ use crate::attachment::{attachment, default_size, find};
 use crate::draw::{Target, draw, writes_depth_stencil};
 use crate::error::At;
 use crate::pass_operations::{PassTarget, clears, operations};
+use crate::tiles::tiles;
 use crate::values::typed;
 use crate::wire::{PassWire, SceneWire};
 use etalon_scene::{Attachment, Counter, Pass, Scene};
@@ -124,15 +125,17 @@ fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Re
             attachments,
             counters,
         };
-        let draw = draw(d, &target).map_err(|e| e.index(i).key("draws"))?;
-        if wire.depth_stencil_read_only && writes_depth_stencil(&draw) {
-            return Err(
-                At::new("the pass promises to write neither depth nor stencil")
-                    .index(i)
-                    .key("draws"),
-            );
+        for one in tiles(d, first.size).map_err(|e| e.index(i).key("draws"))? {
+            let draw = draw(&one, &target).map_err(|e| e.index(i).key("draws"))?;
+            if wire.depth_stencil_read_only && writes_depth_stencil(&draw) {
+                return Err(
+                    At::new("the pass promises to write neither depth nor stencil")
+                        .index(i)
+                        .key("draws"),
+                );
+            }
+            draws.push(draw);
         }
-        draws.push(draw);
     }
     let target = PassTarget {
         size: first.size,

@@ -4,10 +4,13 @@
 //! follow the file's spelling.
 
 mod axis;
+mod fetch;
 mod file;
 mod scene;
+mod tiles;
 
 pub(crate) use axis::AxisValue;
+pub(crate) use fetch::{FetchWire, InstancesWire};
 pub(crate) use file::{
     Across, ExpectWire, FileWire, QuickWire, RandomWire, RelationWire, SequenceWire, StatesWire,
     VariantWire,
@@ -16,3 +19,4 @@ pub(crate) use scene::{
     AttachmentWire, ClearCommandWire, ClearMaskWire, ClearWire, DrawWire, PassWire, SceneWire,
     StencilFaceWire, StencilWire, TexelsWire,
 };
+pub(crate) use tiles::{TileBy, TilesWire};

@@ -207,6 +207,7 @@ const CLAMP: &str = "depths are clamped to the range that clip depths from -1 on
 #[rustfmt::skip]
 const WGPU_GL_WRONG: &[Defect] = &[
     ("raster::strips_begin_again", "strips that are joined"),
+    ("fetch::short_strips_begin_again", "strips that are joined"),
     ("formats::uploads_come_back", "negative codes of rgba8snorm that come back as 0"),
     // It offers them also where the driver has one, and makes no texture of which a shader could read them.
     (FOUR_SAMPLES, "textures of four samples that stay empty"),

@@ -9,6 +9,8 @@ state_enum! {
     Feature: array {
         /// Alpha counting as 1 after alpha to coverage.
         AlphaToOne = "alpha-to-one",
+        /// A number that a draw call adds to every index.
+        BaseVertex = "base-vertex",
         /// Attributes interpolated inside the part of a texel that a primitive covers.
         CentroidInterpolation = "centroid-interpolation",
         /// Clears between the draws of a pass, of all texels or a rectangle.
@@ -25,6 +27,8 @@ state_enum! {
         DepthClamp = "depth-clamp",
         /// Blending with two sources.
         DualSourceBlending = "dual-source-blending",
+        /// Instances that start from another than the first.
+        FirstInstance = "first-instance",
         /// Shaders that run after the depth and stencil tests, whatever they do.
         ForcedEarlyTests = "forced-early-tests",
         /// Pipeline statistics of fragment shader runs.

@@ -8,9 +8,8 @@ use crate::program::{PARAMS_BINDING, RUNS_BINDING};
 use crate::query::Query;
 use crate::state::{self, DrawState};
 use crate::surface::Surface;
-use etalon_scene::Vertex;
+use crate::vertices::{self, Fetched};
 use glow::HasContext;
-use std::mem::offset_of;
 
 /// Buffers that all draws share, with their sizes in bytes.
 #[derive(Default)]
@@ -56,11 +55,7 @@ pub(crate) struct DrawCall {
     /// The offset of the parameter block, if the shader has one.
     pub(crate) params: Option<i32>,
     pub(crate) mode: u32,
-    /// True for an indexed draw.
-    pub(crate) indexed: bool,
-    /// The first vertex or index.
-    pub(crate) first: i32,
-    pub(crate) count: i32,
+    pub(crate) fetched: Fetched,
 }
 
 /// Draws all passes.
@@ -82,17 +77,8 @@ pub(crate) fn draw_all(
         // The vertex array stores this binding.
         let indices = inputs.indices.map(|(buffer, _)| buffer);
         gl.bind_buffer(glow::ELEMENT_ARRAY_BUFFER, indices);
-        let attributes = [
-            (0, 4, offset_of!(Vertex, position)),
-            (1, 4, offset_of!(Vertex, color)),
-            (2, 2, offset_of!(Vertex, uv)),
-        ];
         if inputs.vertices.is_some() {
-            let stride = size_of::<Vertex>() as i32;
-            for (index, size, offset) in attributes {
-                let offset = offset as i32;
-                gl.vertex_attrib_pointer_f32(index, size, glow::FLOAT, false, stride, offset);
-            }
+            vertices::set_pointers(context, 0);
         }
     }
     let mut closed = false;
@@ -163,12 +149,7 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
         for query in &draw.queries {
             gl.begin_query(query.target, query.object);
         }
-        if draw.indexed {
-            let offset = draw.first * size_of::<u32>() as i32;
-            gl.draw_elements(draw.mode, draw.count, glow::UNSIGNED_INT, offset);
-        } else {
-            gl.draw_arrays(draw.mode, draw.first, draw.count);
-        }
+        draw.fetched.draw(context, draw.mode);
         for query in &draw.queries {
             gl.end_query(query.target);
         }

@@ -4,6 +4,9 @@ use crate::egl::{EglContext, function_at};
 use std::collections::HashSet;
 use std::ffi::{c_char, c_void};
 
+/// Offsets of indices are passed as pointers.
+type Offset = *const c_void;
+
 type DebugCallback =
     unsafe extern "system" fn(u32, u32, u32, u32, i32, *const c_char, *const c_void);
 
@@ -33,6 +36,10 @@ entry_points! {
     depth_bounds: fn(f64, f64);
     viewport_indexed: fn(u32, f32, f32, f32, f32);
     primitive_restart_index: fn(u32);
+    draw_elements_base_vertex: fn(u32, i32, u32, Offset, i32);
+    draw_elements_instanced_base_vertex: fn(u32, i32, u32, Offset, i32, i32);
+    draw_arrays_instanced_base_instance: fn(u32, i32, i32, i32, u32);
+    draw_elements_instanced_base_vertex_base_instance: fn(u32, i32, u32, Offset, i32, i32, u32);
 }
 
 impl EntryPoints {
@@ -108,6 +115,44 @@ impl EntryPoints {
             if version >= (4, 1) || has("GL_ARB_viewport_array") {
                 load!(viewport_indexed, c"glViewportIndexedf");
             }
+        }
+        if !es || version >= (3, 2) {
+            load!(draw_elements_base_vertex, c"glDrawElementsBaseVertex");
+            load!(
+                draw_elements_instanced_base_vertex,
+                c"glDrawElementsInstancedBaseVertex"
+            );
+        } else if has("GL_EXT_draw_elements_base_vertex") {
+            load!(draw_elements_base_vertex, c"glDrawElementsBaseVertexEXT");
+            load!(
+                draw_elements_instanced_base_vertex,
+                c"glDrawElementsInstancedBaseVertexEXT"
+            );
+        } else if has("GL_OES_draw_elements_base_vertex") {
+            load!(draw_elements_base_vertex, c"glDrawElementsBaseVertexOES");
+            load!(
+                draw_elements_instanced_base_vertex,
+                c"glDrawElementsInstancedBaseVertexOES"
+            );
+        }
+        if !es && (version >= (4, 2) || has("GL_ARB_base_instance")) {
+            load!(
+                draw_arrays_instanced_base_instance,
+                c"glDrawArraysInstancedBaseInstance"
+            );
+            load!(
+                draw_elements_instanced_base_vertex_base_instance,
+                c"glDrawElementsInstancedBaseVertexBaseInstance"
+            );
+        } else if es && has("GL_EXT_base_instance") {
+            load!(
+                draw_arrays_instanced_base_instance,
+                c"glDrawArraysInstancedBaseInstanceEXT"
+            );
+            load!(
+                draw_elements_instanced_base_vertex_base_instance,
+                c"glDrawElementsInstancedBaseVertexBaseInstanceEXT"
+            );
         }
         if !es && (version >= (4, 6) || has("GL_ARB_polygon_offset_clamp")) {
             load!(polygon_offset_clamp, c"glPolygonOffsetClamp");

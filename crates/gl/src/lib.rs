@@ -38,6 +38,7 @@ mod support;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod vertices;
 
 pub use backend::{GlBackend, open};
 pub use egl::{EglDevice, Platform, enumerate};

@@ -12,9 +12,10 @@ use crate::pool::Pool;
 use crate::read::{Reading, Source};
 use crate::state::{self, DrawState};
 use crate::surface::{Surface, SurfaceKind, upload};
+use crate::vertices::{Fetched, Geometry};
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::{Frame, Requirement, TextureFormat};
-use etalon_scene::{Contents, Draw, RESTART, Scene};
+use etalon_scene::{Contents, Draw, Scene};
 use glow::HasContext;
 use std::time::{Duration, Instant};
 
@@ -32,14 +33,11 @@ pub(crate) struct PreparedScene<'a> {
     reusable: bool,
 }
 
-/// The used parts of the shared buffers.
-#[derive(Default)]
-struct Used {
-    /// Vertices.
-    vertices: i32,
-    /// Indices.
-    indices: i32,
-    /// Bytes of parameter blocks.
+/// The parts of the shared buffers that draws have not taken yet.
+struct Unused {
+    /// The places of draws, in order.
+    places: std::vec::IntoIter<Fetched>,
+    /// The offset of the next parameter block.
     params: i32,
 }
 
@@ -79,10 +77,12 @@ impl<'a> PreparedScene<'a> {
             let drawn = scene.passes.iter().any(is_drawn);
             self.attachment(&mut pool, attachment, drawn)?;
         }
-        self.buffers(&mut pool, scene)?;
-        let mut used = Used::default();
+        let mut unused = Unused {
+            places: self.buffers(&mut pool, scene)?.into_iter(),
+            params: 0,
+        };
         for pass in &scene.passes {
-            self.pass(&mut pool, pass, &mut used)?;
+            self.pass(&mut pool, pass, &mut unused)?;
         }
         Ok(())
     }
@@ -139,22 +139,15 @@ impl<'a> PreparedScene<'a> {
         Ok(())
     }
 
-    /// Fills one buffer with all vertices, one with all indices, one with all parameter blocks.
-    fn buffers(&mut self, pool: &mut Pool, scene: &Scene) -> Result<(), BackendError> {
+    /// Fills one buffer with all vertices, one with all indices, one with all parameter blocks. Returns
+    /// the places of all draws.
+    fn buffers(&mut self, pool: &mut Pool, scene: &Scene) -> Result<Vec<Fetched>, BackendError> {
         let context = self.context;
-        let mut vertices = Vec::new();
-        let mut indices = Vec::new();
+        let mut geometry = Geometry::default();
+        let mut places = Vec::new();
         let mut params = Vec::new();
-        let mut first = 0;
         for draw in scene.passes.iter().flat_map(|pass| &pass.draws) {
-            vertices.extend_from_slice(draw.mesh.bytes());
-            // Not every version has a base vertex.
-            let shifted = |index: &u32| match *index {
-                RESTART => RESTART,
-                index => index + first,
-            };
-            indices.extend(draw.mesh.indices.iter().flatten().map(shifted));
-            first += draw.mesh.vertices.len() as u32;
+            places.push(geometry.place(draw));
             if draw.shader.uses_params() {
                 params.extend_from_slice(&draw.params.to_bytes());
                 params.resize(params.len().next_multiple_of(self.objects.params_stride), 0);
@@ -170,19 +163,19 @@ impl<'a> PreparedScene<'a> {
             Ok(made.transpose()?.map(|buffer| (buffer, bytes.len())))
         };
         self.inputs = Inputs {
-            vertices: buffer(&vertices)?,
-            indices: buffer(bytemuck::cast_slice(&indices))?,
+            vertices: buffer(&geometry.vertices)?,
+            indices: buffer(&geometry.indices)?,
             params: buffer(&params)?,
             runs: buffer(&vec![0; self.counters.storage_size()])?,
         };
-        Ok(())
+        Ok(places)
     }
 
     fn pass(
         &mut self,
         pool: &mut Pool,
         pass: &etalon_scene::Pass,
-        used: &mut Used,
+        unused: &mut Unused,
     ) -> Result<(), BackendError> {
         let context = self.context;
         let attachment = |index: usize| {
@@ -218,7 +211,7 @@ impl<'a> PreparedScene<'a> {
         let mut draws = Vec::new();
         for draw in &pass.draws {
             // On error the target is not returned to the pool; it is deleted with the context.
-            draws.push(self.draw(pool, draw, pass.depth_stencil_read_only, used)?);
+            draws.push(self.draw(pool, draw, pass.depth_stencil_read_only, unused)?);
         }
         self.passes.push(Pass {
             target,
@@ -238,12 +231,13 @@ impl<'a> PreparedScene<'a> {
         pool: &mut Pool,
         draw: &Draw,
         read_only: bool,
-        used: &mut Used,
+        unused: &mut Unused,
     ) -> Result<DrawCall, BackendError> {
         let context = self.context;
-        let vertices = draw.mesh.vertices.len() as i32;
-        let indices = draw.mesh.indices.as_ref().map(|list| list.len() as i32);
-        let block = draw.shader.uses_params().then_some(used.params);
+        let fetched = unused.places.next();
+        let fetched =
+            fetched.ok_or_else(|| BackendError::Internal("a draw has no place".to_owned()))?;
+        let block = draw.shader.uses_params().then_some(unused.params);
         let textures = draw
             .textures
             .iter()
@@ -268,14 +262,10 @@ impl<'a> PreparedScene<'a> {
             runs: self.counters.runs(draw),
             params: block,
             mode: topology(draw.topology),
-            indexed: indices.is_some(),
-            first: indices.map_or(used.vertices, |_| used.indices),
-            count: indices.unwrap_or(vertices),
+            fetched,
         };
-        used.vertices += vertices;
-        used.indices += indices.unwrap_or(0);
         if block.is_some() {
-            used.params += self.objects.params_stride as i32;
+            unused.params += self.objects.params_stride as i32;
         }
         Ok(call)
     }

@@ -10,7 +10,7 @@ use etalon_backend::BackendError;
 use etalon_frame::{Feature, Requirement};
 use etalon_scene::{
     ColorTarget, CullMode, DepthBias, DepthState, Draw, FrontFace, Multisample, PolygonMode,
-    PrimitiveTopology, RESTART, SampleCoverage, StencilFace, StencilState, Viewport,
+    PrimitiveTopology, RESTART, RESTART_16, SampleCoverage, StencilFace, StencilState, Viewport,
 };
 use glow::HasContext;
 
@@ -344,6 +344,23 @@ pub(crate) fn set_restart(context: &Context) {
         set(gl, glow::PRIMITIVE_RESTART, true);
         // SAFETY: the context is current and has the function.
         unsafe { index(RESTART) };
+    }
+}
+
+/// Sets primitive restart for one draw of indices of a type: on at the type's largest index, or off, so
+/// that this index names a vertex.
+pub(crate) fn set_restart_of(context: &Context, kind: u32, on: bool) {
+    let gl = &context.gl;
+    if context.caps.fixed_restart {
+        set(gl, glow::PRIMITIVE_RESTART_FIXED_INDEX, on);
+    } else if let Some(index) = context.entry_points.primitive_restart_index {
+        set(gl, glow::PRIMITIVE_RESTART, on);
+        let largest = match kind {
+            glow::UNSIGNED_SHORT => u32::from(RESTART_16),
+            _ => RESTART,
+        };
+        // SAFETY: the context is current and has the function.
+        unsafe { index(largest) };
     }
 }
 

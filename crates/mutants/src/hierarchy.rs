@@ -170,10 +170,9 @@ impl Coarse {
             Moment::Loaded { pass } => {
                 let index = scene.passes[pass].depth_stencil;
                 let clears = scene.passes[pass].cleared();
-                for index in index.filter(|i| clears.contains(&(*i, Aspect::Depth))) {
-                    if !matches!(self.bug, Bug::LoadMissed) {
-                        self.note(scene, index, surfaces);
-                    }
+                let cleared = index.filter(|i| clears.contains(&(*i, Aspect::Depth)));
+                if let Some(index) = cleared.filter(|_| !matches!(self.bug, Bug::LoadMissed)) {
+                    self.note(scene, index, surfaces);
                 }
             }
             Moment::Cleared { pass, clear } => {

@@ -23,6 +23,22 @@ pub struct HuntPlan<'a> {
     pub jobs: usize,
 }
 
+/// The areas whose bugs show in large cases.
+const LATE_AREAS: [&str; 2] = ["size", "sequence"];
+/// The longest side of a small case's attachments in texels, the most draws, and the most vertices.
+const SMALL: (u32, usize, usize) = (64, 500, 5_000);
+
+/// True if a case is hunted with the bugs of [`LATE_AREAS`] only.
+fn is_large(case: &Case) -> bool {
+    let (side, most, corners) = SMALL;
+    case.scenes().any(|scene| {
+        let draws = || scene.passes.iter().flat_map(|p| &p.draws);
+        let vertices: usize = draws().map(|d| d.mesh.vertices.len()).sum();
+        let sizes = scene.attachments.iter().flat_map(|a| a.size);
+        sizes.into_iter().any(|s| s > side) || draws().count() > most || vertices > corners
+    })
+}
+
 /// Draws and judges the cases with every bug planted. Returns a record of each bug, in the order of the
 /// plan. `open` returns the backend with the named bug in it; each thread calls `drawn` after each case.
 ///
@@ -50,7 +66,8 @@ pub fn hunt(
                     .collect();
                 for (number, case) in plan.cases.iter().enumerate() {
                     if case.judged_as.is_none() {
-                        try_case(judge, number, case, &mut share, plan.full);
+                        let share = share.iter_mut().filter(|m| m.meets(case));
+                        try_case(judge, number, case, share, plan.full);
                     }
                     drawn();
                 }
@@ -69,7 +86,13 @@ pub fn hunt(
 
 /// Draws one case with each of a thread's bugs. Most of them give the same few frames, which are
 /// judged once.
-fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], full: bool) {
+fn try_case<'a>(
+    judge: &Judge,
+    number: usize,
+    case: &Case,
+    share: impl Iterator<Item = &'a mut Mutant>,
+    full: bool,
+) {
     let mut seen: Vec<(Vec<Frame>, Sighting)> = Vec::new();
     for mutant in share {
         let area = mutant.area(case.area());
@@ -146,6 +169,12 @@ impl Mutant {
             },
             backend,
         }
+    }
+
+    /// True if the bug is tried on a case: any on a small one, and on a large one those that need it, since
+    /// a large case takes as long as hundreds of others.
+    fn meets(&self, case: &Case) -> bool {
+        LATE_AREAS.contains(&self.record.mutant.area.as_str()) || !is_large(case)
     }
 
     /// The place of an area's tally.

@@ -3,6 +3,7 @@
 use crate::blend::{ColorTarget, LogicOperation};
 use crate::depth_stencil::{DepthBias, DepthState, StencilState};
 use crate::early_tests::EarlyTests;
+use crate::fetch::Fetch;
 use crate::mesh::Mesh;
 use crate::rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, Viewport,
@@ -16,6 +17,8 @@ use serde::{Deserialize, Serialize};
 pub struct Draw {
     /// Vertices.
     pub mesh: Mesh,
+    /// The path of the mesh's vertices to the pipeline.
+    pub fetch: Fetch,
     /// The topology.
     pub topology: PrimitiveTopology,
     /// Vertex and fragment shader.
@@ -69,6 +72,7 @@ impl Draw {
     pub fn new(shader: Shader, mesh: Mesh, viewport: Viewport) -> Self {
         Self {
             mesh,
+            fetch: Fetch::default(),
             topology: PrimitiveTopology::TriangleList,
             shader,
             params: Params::default(),

@@ -10,6 +10,7 @@ mod blend;
 mod depth_stencil;
 mod draw;
 mod early_tests;
+mod fetch;
 mod invariance;
 mod mesh;
 mod mesh_source;
@@ -29,9 +30,10 @@ pub use depth_stencil::{
 };
 pub use draw::{Draw, Params};
 pub use early_tests::EarlyTests;
+pub use fetch::{Call, Fetch, IndexFormat, RESTART_16};
 pub use invariance::Invariance;
 pub use mesh::{MAX_VERTICES, Mesh, PrimitiveVertices, RESTART, Vertex};
-pub use mesh_source::{MeshSource, Splat, Units};
+pub use mesh_source::{FieldOf, MeshSource, Splat, Units};
 pub use pass::{
     Clear, ClearTarget, LoadOperation, Operations, Pass, PassOperations, StoreOperation,
 };

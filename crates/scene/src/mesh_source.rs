@@ -1,16 +1,19 @@
 //! Meshes as case files describe them, and their expansion.
 
 mod builder;
+mod field;
 mod splat;
 mod surface;
 #[cfg(test)]
 mod tests;
 
+pub use field::FieldOf;
 pub use splat::Splat;
 
 use crate::mesh::{Mesh, RESTART, Vertex};
 use crate::rasterization::FrontFace;
 use builder::Builder;
+use field::Field;
 use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -118,6 +121,32 @@ pub enum MeshSource {
         #[serde(default)]
         value: Splat,
     },
+    /// Separate primitives, each in a cell of its own, row by row from the top left.
+    Field {
+        /// The primitives, which fit the draw's topology and polygon mode.
+        of: FieldOf,
+        /// Width and height of a cell in texels; without it, what the primitives need.
+        #[serde(default)]
+        cell: Option<[u32; 2]>,
+        /// Column and row of the texel of its cell at which a primitive starts.
+        #[serde(default)]
+        at: [u32; 2],
+        /// The number of primitives; without it, as many as there are cells.
+        #[serde(default)]
+        count: Option<u32>,
+        /// Vertex depth.
+        #[serde(default)]
+        z: f32,
+        /// The vertex colour of each primitive, repeated as needed.
+        #[serde(default = "one_splat")]
+        values: Vec<Splat>,
+        /// True for an indexed draw.
+        #[serde(default)]
+        indexed: bool,
+        /// The number of vertices in front that no index names.
+        #[serde(default)]
+        spare: u32,
+    },
     /// Vertices one by one.
     Vertices {
         /// Positions x, y, z.
@@ -192,6 +221,30 @@ impl MeshSource {
             }
             Self::Grid { cells, z, value } => {
                 indices = Some(builder.grid(*cells, *z, value.0)?);
+            }
+            Self::Field {
+                of,
+                cell,
+                at,
+                count,
+                z,
+                values,
+                indexed,
+                spare,
+            } => {
+                if *spare > 0 && !indexed {
+                    return Err("vertices are spared by indices alone".to_owned());
+                }
+                let values: Vec<_> = values.iter().map(|v| v.0).collect();
+                let field = Field {
+                    of: *of,
+                    cell: *cell,
+                    at: *at,
+                    count: *count,
+                    spare: *spare,
+                };
+                let all = builder.field(&field, *z, &values)?;
+                indices = indexed.then_some(all);
             }
             Self::Torus { segments, value } => {
                 indices = Some(builder.torus(*segments, value.0)?);

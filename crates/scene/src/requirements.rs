@@ -77,6 +77,9 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
         Feature::PolygonModeLine,
     );
     need(draw.rasterizer_discard, Feature::RasterizerDiscard);
+    let indexed = draw.mesh.indices.is_some();
+    need(indexed && draw.fetch.base_vertex != 0, Feature::BaseVertex);
+    need(draw.fetch.first_instance > 0, Feature::FirstInstance);
     need(draw.logic.is_some(), Feature::LogicOperations);
     need(draw.depth_clamp, Feature::DepthClamp);
     need(draw.depth_bounds.is_some(), Feature::DepthBounds);

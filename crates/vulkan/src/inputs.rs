@@ -4,9 +4,10 @@
 use crate::buffer::Buffer;
 use crate::device::Device;
 use crate::format::{self, Native};
+use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
-use etalon_scene::{Contents, Draw, Params, PrimitiveTopology, RESTART, Scene, Vertex};
+use etalon_scene::{Call, Contents, Draw, IndexFormat, Params, Scene, Vertex};
 use std::collections::BTreeMap;
 use std::mem::size_of;
 
@@ -28,68 +29,66 @@ impl OffsetAllocator {
     }
 }
 
-/// The offsets and counts of one draw's inputs.
+/// The offsets of one draw's inputs, and the arguments of its draw call.
 pub(crate) struct DrawInputs {
     pub(crate) vertices: u64,
     pub(crate) params: u64,
-    /// The number of vertices, or of indices in an indexed draw.
-    pub(crate) count: usize,
-    /// The offset of the indices, and the indices, in an indexed draw.
-    indices: Option<(u64, Vec<u32>)>,
+    /// The offset of the indices and their type, in an indexed draw.
+    pub(crate) indices: Option<(u64, vk::IndexType)>,
+    /// The offset of the colours of instances.
+    pub(crate) colors: Option<u64>,
+    /// True if an index restarts the primitive.
+    pub(crate) restarts: bool,
+    pub(crate) call: CallNumbers,
+}
+
+/// The arguments of a draw call.
+#[derive(Clone, Copy)]
+pub(crate) struct CallNumbers {
+    /// The first vertex, or the first index of an indexed draw.
+    pub(crate) first: u32,
+    /// The number of vertices, or of indices of an indexed draw.
+    pub(crate) count: u32,
+    pub(crate) base_vertex: i32,
+    pub(crate) instances: u32,
+    pub(crate) first_instance: u32,
 }
 
 impl DrawInputs {
     fn place(offsets: &mut OffsetAllocator, uniform: u64, draw: &Draw) -> Self {
         let params = offsets.allocate(PARAMS_BYTES, uniform);
-        let mesh = &draw.mesh;
-        let vertices = offsets.allocate(mesh.bytes().len() as u64, size_of::<Vertex>() as u64);
-        let indices = mesh.indices.as_ref().map(|all| {
-            let indices = device_indices(draw.topology, all);
-            let bytes = indices.len() * size_of::<u32>();
-            (
-                offsets.allocate(bytes as u64, size_of::<u32>() as u64),
-                indices,
-            )
+        let call = call(draw);
+        let bytes = size_of_val(&*call.vertices);
+        let vertices = offsets.allocate(bytes as u64, size_of::<Vertex>() as u64);
+        let indices = call.indices.as_ref().map(|all| {
+            let (kind, size) = match call.index {
+                IndexFormat::Uint16 => (vk::IndexType::UINT16, size_of::<u16>()),
+                IndexFormat::Uint32 => (vk::IndexType::UINT32, size_of::<u32>()),
+            };
+            let bytes = all.len() * size;
+            (offsets.allocate(bytes as u64, size as u64), kind)
         });
+        let colors = call.color_bytes().len() as u64;
         Self {
             vertices,
             params,
-            count: match &indices {
-                Some((_, indices)) => indices.len(),
-                None => mesh.vertices.len(),
-            },
             indices,
+            colors: (colors > 0).then(|| offsets.allocate(colors, size_of::<f32>() as u64)),
+            restarts: call.restarts(),
+            call: CallNumbers {
+                first: call.first,
+                count: call.count,
+                base_vertex: call.base_vertex,
+                instances: call.instances,
+                first_instance: call.first_instance,
+            },
         }
-    }
-
-    /// The offset of the indices in an indexed draw.
-    pub(crate) fn index_offset(&self) -> Option<u64> {
-        self.indices.as_ref().map(|(offset, _)| *offset)
-    }
-
-    /// True if an index restarts the primitive.
-    pub(crate) fn restarts(&self) -> bool {
-        let indices = self.indices.as_ref().map(|(_, indices)| indices);
-        indices.is_some_and(|i| i.contains(&RESTART))
     }
 }
 
-/// Returns the indices to upload. Vulkan restarts lists only with an extension
-/// (primitiveTopologyListRestart), so restart indices of lists and the incomplete primitives before
-/// them are removed.
-fn device_indices(topology: PrimitiveTopology, indices: &[u32]) -> Vec<u32> {
-    let per_primitive = match topology {
-        PrimitiveTopology::PointList => 1,
-        PrimitiveTopology::LineList => 2,
-        PrimitiveTopology::TriangleList => 3,
-        PrimitiveTopology::LineStrip
-        | PrimitiveTopology::TriangleStrip
-        | PrimitiveTopology::TriangleFan => return indices.to_vec(),
-    };
-    let runs = indices.split(|i| *i == RESTART);
-    runs.flat_map(|run| &run[..run.len() / per_primitive * per_primitive])
-        .copied()
-        .collect()
+/// The draw call. Vulkan restarts lists only with an extension (primitiveTopologyListRestart).
+fn call(draw: &Draw) -> Call<'_> {
+    draw.call().without_list_restarts(draw.topology)
 }
 
 /// The inputs of a scene with their offsets.
@@ -138,11 +137,14 @@ impl Inputs {
     pub(crate) fn write(&self, buffer: &mut Buffer, scene: &Scene) -> Result<(), BackendError> {
         for (pass, places) in scene.passes.iter().zip(&self.draws) {
             for (draw, place) in pass.draws.iter().zip(places) {
-                buffer.write(place.vertices, draw.mesh.bytes())?;
+                let call = call(draw);
+                buffer.write(place.vertices, call.vertex_bytes())?;
                 buffer.write(place.params, &draw.params.to_bytes())?;
-                if let Some((offset, indices)) = &place.indices {
-                    let bytes: Vec<u8> = indices.iter().flat_map(|i| i.to_ne_bytes()).collect();
-                    buffer.write(*offset, &bytes)?;
+                if let Some((offset, _)) = place.indices {
+                    buffer.write(offset, &call.index_bytes())?;
+                }
+                if let Some(offset) = place.colors {
+                    buffer.write(offset, call.color_bytes())?;
                 }
             }
         }
@@ -156,20 +158,5 @@ impl Inputs {
     pub(crate) fn texels(&self, attachment: usize) -> u64 {
         let texels = self.texels.get(attachment).and_then(Option::as_ref);
         texels.map_or(0, |(offset, _)| *offset)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn restarts_of_a_list_remove_incomplete_primitives() {
-        let indices = [0, 1, 2, 3, RESTART, 4, 5, 6, RESTART, 7];
-        let list = |topology| device_indices(topology, &indices);
-        assert_eq!(list(PrimitiveTopology::TriangleList), [0, 1, 2, 4, 5, 6]);
-        assert_eq!(list(PrimitiveTopology::LineList), [0, 1, 2, 3, 4, 5]);
-        assert_eq!(list(PrimitiveTopology::PointList), [0, 1, 2, 3, 4, 5, 6, 7]);
-        assert_eq!(list(PrimitiveTopology::TriangleFan), indices);
     }
 }

@@ -84,10 +84,12 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
         Feature::MinSampleShading | Feature::SampleShading => features.sample_rate_shading,
         Feature::StorageCounters => features.fragment_stores_and_atomics,
-        Feature::CentroidInterpolation
+        Feature::BaseVertex
+        | Feature::CentroidInterpolation
         | Feature::ClearCommands
         | Feature::ConservativeDepth
         | Feature::ConstantAlphaBlendFactor
+        | Feature::FirstInstance
         | Feature::ForcedEarlyTests
         | Feature::FrontAndBackCulling
         | Feature::MinMaxBlendFactors

@@ -38,6 +38,8 @@ struct Key {
     early_tests: EarlyTests,
     /// The first topology of its class (Vulkan, Topology Class): within it, topology is dynamic.
     class: PrimitiveTopology,
+    /// True if the vertex colour advances once an instance.
+    instanced: bool,
     polygon_mode: PolygonMode,
     depth_clamp: bool,
     multisample: MultisampleKey,
@@ -80,6 +82,9 @@ fn class(topology: PrimitiveTopology) -> PrimitiveTopology {
 pub(crate) const RUNS_BINDING: u32 = 3;
 /// The binding of the sampler.
 pub(crate) const SAMPLER_BINDING: u32 = 4;
+
+/// The vertex binding of the colours of instances.
+pub(crate) const INSTANCE_BINDING: u32 = 1;
 
 /// The bindings of a shader besides its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -180,6 +185,7 @@ impl Pipelines {
             shader: draw.shader,
             early_tests: draw.early_tests,
             class: class(draw.topology),
+            instanced: draw.fetch.instances > 0,
             polygon_mode: draw.polygon_mode,
             depth_clamp: draw.depth_clamp,
             multisample: MultisampleKey::of(&draw.multisample),
@@ -267,14 +273,22 @@ fn create(
         stage(vk::ShaderStageFlags::VERTEX, c"vs"),
         stage(vk::ShaderStageFlags::FRAGMENT, c"fs"),
     ];
-    let bindings = [vk::VertexInputBindingDescription {
-        binding: 0,
-        stride: size_of::<etalon_scene::Vertex>() as u32,
-        input_rate: vk::VertexInputRate::VERTEX,
-    }];
-    let attributes = attributes(&module.attributes)?;
+    let bindings = [
+        vk::VertexInputBindingDescription {
+            binding: 0,
+            stride: size_of::<etalon_scene::Vertex>() as u32,
+            input_rate: vk::VertexInputRate::VERTEX,
+        },
+        vk::VertexInputBindingDescription {
+            binding: INSTANCE_BINDING,
+            stride: size_of::<[f32; 4]>() as u32,
+            input_rate: vk::VertexInputRate::INSTANCE,
+        },
+    ];
+    let attributes = attributes(&module.attributes, key.instanced)?;
+    let used = if key.instanced { 2 } else { 1 };
     let vertex_input = vk::PipelineVertexInputStateCreateInfo::default()
-        .vertex_binding_descriptions(&bindings)
+        .vertex_binding_descriptions(&bindings[..used])
         .vertex_attribute_descriptions(&attributes);
     let assembly =
         vk::PipelineInputAssemblyStateCreateInfo::default().topology(state::topology(key.class));
@@ -334,10 +348,21 @@ fn create(
 
 /// Returns the attributes at these locations, those that a shader reads: validation warns of
 /// others.
-fn attributes(locations: &[u32]) -> Result<Vec<vk::VertexInputAttributeDescription>, BackendError> {
+fn attributes(
+    locations: &[u32],
+    instanced: bool,
+) -> Result<Vec<vk::VertexInputAttributeDescription>, BackendError> {
     type Vertex = etalon_scene::Vertex;
     let attribute = |location: &u32| {
         let (format, offset) = match location {
+            1 if instanced => {
+                return Ok(vk::VertexInputAttributeDescription {
+                    location: 1,
+                    binding: INSTANCE_BINDING,
+                    format: vk::Format::R32G32B32A32_SFLOAT,
+                    offset: 0,
+                });
+            }
             0 => (
                 vk::Format::R32G32B32A32_SFLOAT,
                 offset_of!(Vertex, position),

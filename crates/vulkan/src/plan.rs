@@ -7,7 +7,7 @@ use crate::error::internal;
 use crate::format;
 use crate::gpu::Gpu;
 use crate::image::{Image, ImageKey};
-use crate::inputs::DrawInputs;
+use crate::inputs::{CallNumbers, DrawInputs};
 use crate::limits::attachment_usage;
 use crate::pipeline::{Pipeline, Targets};
 use crate::read::ReadPlan;
@@ -98,10 +98,11 @@ pub(crate) struct DrawPlan {
     pub(crate) set: vk::DescriptorSet,
     pub(crate) params: u32,
     pub(crate) vertices: u64,
-    /// The offset of the indices in an indexed draw.
-    pub(crate) indices: Option<u64>,
-    /// The number of vertices, or of indices in an indexed draw.
-    pub(crate) count: u32,
+    /// The offset of the indices and their type, in an indexed draw.
+    pub(crate) indices: Option<(u64, vk::IndexType)>,
+    /// The offset of the colours of instances.
+    pub(crate) colors: Option<u64>,
+    pub(crate) call: CallNumbers,
     pub(crate) dynamic: Dynamic,
     /// The queries around the draw.
     pub(crate) queries: Vec<Query>,
@@ -248,9 +249,10 @@ impl DrawPlan {
             set,
             params: u32::try_from(inputs.params).map_err(|_| internal("inputs too large"))?,
             vertices: inputs.vertices,
-            indices: inputs.index_offset(),
-            count: u32::try_from(inputs.count).map_err(|_| internal("too many vertices"))?,
-            dynamic: Dynamic::new(draw, size, inputs.restarts())?,
+            indices: inputs.indices,
+            colors: inputs.colors,
+            call: inputs.call,
+            dynamic: Dynamic::new(draw, size, inputs.restarts)?,
             queries,
         })
     }

@@ -3,7 +3,8 @@
 use crate::clear::Ends;
 use crate::device::Device;
 use crate::image::range;
-use crate::pipeline::Pipeline;
+use crate::inputs::CallNumbers;
+use crate::pipeline::{INSTANCE_BINDING, Pipeline};
 use crate::plan::{
     AttachmentPlan, DepthStencilPlan, DrawPlan, InitialContents, PassPlan, Plan, Role,
 };
@@ -349,12 +350,29 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
         for query in &draw.queries {
             api.cmd_begin_query(commands, query.pool, query.index, query.flags);
         }
+        if let Some(colors) = draw.colors {
+            api.cmd_bind_vertex_buffers(commands, INSTANCE_BINDING, &[input], &[colors]);
+        }
+        let CallNumbers {
+            first,
+            count,
+            base_vertex,
+            instances,
+            first_instance,
+        } = draw.call;
         match draw.indices {
-            Some(offset) => {
-                api.cmd_bind_index_buffer(commands, input, offset, vk::IndexType::UINT32);
-                api.cmd_draw_indexed(commands, draw.count, 1, 0, 0, 0);
+            Some((offset, kind)) => {
+                api.cmd_bind_index_buffer(commands, input, offset, kind);
+                api.cmd_draw_indexed(
+                    commands,
+                    count,
+                    instances,
+                    first,
+                    base_vertex,
+                    first_instance,
+                );
             }
-            None => api.cmd_draw(commands, draw.count, 1, 0, 0),
+            None => api.cmd_draw(commands, count, instances, first, first_instance),
         }
         for query in draw.queries.iter().rev() {
             api.cmd_end_query(commands, query.pool, query.index);

@@ -171,6 +171,7 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
     let flag = |flag| flags.contains(flag);
     let feature = |feature| features.contains(feature);
     let all = [
+        (Feature::BaseVertex, flag(DownlevelFlags::BASE_VERTEX)),
         (Feature::CentroidInterpolation, true),
         (
             Feature::ConservativeDepth,
@@ -185,6 +186,8 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
             Feature::DualSourceBlending,
             feature(Features::DUAL_SOURCE_BLENDING),
         ),
+        // Only the arguments of indirect draws need a feature of their own.
+        (Feature::FirstInstance, true),
         (
             Feature::ForcedEarlyTests,
             feature(Features::SHADER_EARLY_DEPTH_TEST),

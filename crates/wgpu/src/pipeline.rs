@@ -16,6 +16,15 @@ use std::borrow::Cow;
 /// The size of a vertex.
 pub(crate) const VERTEX_BYTES: u64 = size_of::<Vertex>() as u64;
 
+/// The slot of the colours of instances.
+pub(crate) const INSTANCE_SLOT: u32 = 1;
+
+/// The location of the colour.
+const COLOR: u32 = 1;
+
+/// The colour of an instance.
+const INSTANCE: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![1 => Float32x4];
+
 /// Pipelines with their shaders, layouts and samplers.
 pub(crate) struct Pipelines {
     pub(crate) layouts: Layouts,
@@ -33,6 +42,8 @@ pub(crate) struct DrawKey {
     /// The bindings of the draw, of which the shader may use fewer.
     bindings: Bindings,
     early_tests: EarlyTests,
+    /// True if the vertex colour advances once an instance.
+    instanced: bool,
     shape: Shape,
     depth: Option<DepthState>,
     stencil: Option<StencilState>,
@@ -91,9 +102,15 @@ impl DrawKey {
             shader,
             bindings: Bindings::of(draw.shader),
             early_tests,
+            instanced: draw.fetch.instances > 0,
             shape: Shape {
                 topology: draw.topology,
-                indexed: draw.mesh.indices.is_some(),
+                strip_indices: draw
+                    .mesh
+                    .indices
+                    .as_ref()
+                    .filter(|_| state::is_strip(draw.topology))
+                    .map(|_| draw.fetch.index),
                 cull: draw.cull,
                 front_face: draw.front_face,
                 polygon_mode: draw.polygon_mode,
@@ -154,11 +171,27 @@ impl Pipelines {
                     compiled(device, errors, shader.name(), shader.wgsl_with(*tests))
                 })?;
             let layout = self.layouts.draw(device, key.bindings)?;
+            let all = attributes(shader);
+            let apart: Vec<_> = match key.instanced {
+                true => all
+                    .iter()
+                    .filter(|a| a.shader_location != COLOR)
+                    .copied()
+                    .collect(),
+                false => all.to_vec(),
+            };
             let vertices = wgpu::VertexBufferLayout {
                 array_stride: VERTEX_BYTES,
                 step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: attributes(shader),
+                attributes: &apart,
             };
+            let colors = wgpu::VertexBufferLayout {
+                array_stride: size_of::<[f32; 4]>() as u64,
+                step_mode: wgpu::VertexStepMode::Instance,
+                attributes: &INSTANCE[..usize::from(apart.len() < all.len())],
+            };
+            let buffers = [Some(vertices), Some(colors)];
+            let used = if key.instanced { 2 } else { 1 };
             let targets: Result<Vec<_>, _> =
                 key.targets.iter().map(|(f, t)| target(*f, *t)).collect();
             let bias = state::bias(key.bias.get(), key.shape.topology);
@@ -172,7 +205,7 @@ impl Pipelines {
                     module: &module,
                     entry_point: Some("vs"),
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    buffers: &[Some(vertices)],
+                    buffers: &buffers[..used],
                 },
                 primitive: state::primitive(key.shape),
                 depth_stencil: depth_stencil.transpose()?,

@@ -5,17 +5,15 @@ use crate::binding::{Bound, Groups};
 use crate::clock::Clock;
 use crate::counting::{Counted, Counting};
 use crate::gpu::{BufferLease, Gpu};
-use crate::pipeline::{DrawKey, VERTEX_BYTES};
+use crate::pipeline::{DrawKey, INSTANCE_SLOT};
 use crate::read::{self, Source};
 use crate::state;
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::Frame;
-use etalon_scene::{Draw, Pass, PassOperations, PrimitiveTopology, RESTART, Scene, Viewport};
+use etalon_scene::{Draw, Pass, PassOperations, Scene, Viewport};
+use std::ops::Range;
 use std::time::Instant;
 use wgpu::BufferUsages;
-
-/// The size of an index.
-const INDEX_BYTES: u64 = size_of::<u32>() as u64;
 
 /// A scene with all objects that drawing it needs.
 pub(crate) struct PreparedScene<'a> {
@@ -48,17 +46,35 @@ struct PreparedDraw {
     scissor: [u32; 4],
     blend_constant: wgpu::Color,
     stencil_reference: Option<u32>,
-    first_vertex: u64,
-    vertices: u32,
-    /// The first index and the number of indices.
-    indices: Option<(u64, u32)>,
+    /// The place of the vertices, in bytes.
+    vertices: Range<u64>,
+    /// The place of the colours of instances, in bytes.
+    colors: Option<Range<u64>>,
+    /// The place of the indices, in bytes, and their size.
+    indices: Option<(Range<u64>, wgpu::IndexFormat)>,
+    /// The drawn vertices, or indices of an indexed draw.
+    drawn: Range<u32>,
+    base_vertex: i32,
+    instances: Range<u32>,
 }
 
 /// The contents of a scene's vertex and index buffers.
 #[derive(Default)]
 struct Geometry {
     vertices: Vec<u8>,
-    indices: Vec<u32>,
+    indices: Vec<u8>,
+}
+
+/// Adds bytes, and zeroes up to the alignment of copies. Returns the place of the bytes.
+fn append(all: &mut Vec<u8>, bytes: &[u8]) -> Range<u64> {
+    let first = all.len() as u64;
+    all.extend_from_slice(bytes);
+    let place = first..all.len() as u64;
+    let aligned = all
+        .len()
+        .next_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT as usize);
+    all.resize(aligned, 0);
+    place
 }
 
 impl<'a> PreparedScene<'a> {
@@ -103,14 +119,13 @@ impl<'a> PreparedScene<'a> {
         }
         let filled = |usage, data: &[u8]| (!data.is_empty()).then(|| gpu.filled(usage, data));
         let params = groups.finish();
-        let indices = bytemuck::cast_slice(&geometry.indices);
         Ok(Self {
             gpu,
             attachments,
             passes,
             read: scene.read.clone(),
             vertices: filled(BufferUsages::VERTEX, &geometry.vertices),
-            indices: filled(BufferUsages::INDEX, indices),
+            indices: filled(BufferUsages::INDEX, &geometry.indices),
             _params: params,
             counting,
             submitted: false,
@@ -189,20 +204,21 @@ impl<'a> PreparedScene<'a> {
             encoder.set_stencil_reference(reference);
         }
         if let Some(vertices) = &self.vertices {
-            let first = draw.first_vertex * VERTEX_BYTES;
-            let bytes = u64::from(draw.vertices) * VERTEX_BYTES;
-            encoder.set_vertex_buffer(0, vertices.slice(first..first + bytes));
-        }
-        match (draw.indices, &self.indices) {
-            (Some((first, count)), Some(indices)) => {
-                let (first, bytes) = (first * INDEX_BYTES, u64::from(count) * INDEX_BYTES);
-                let slice = indices.slice(first..first + bytes);
-                encoder.set_index_buffer(slice, wgpu::IndexFormat::Uint32);
-                encoder.draw_indexed(0..count, 0, 0..1);
+            encoder.set_vertex_buffer(0, vertices.slice(draw.vertices.clone()));
+            if let Some(colors) = draw.colors.clone() {
+                encoder.set_vertex_buffer(INSTANCE_SLOT, vertices.slice(colors));
             }
+        }
+        let (drawn, instances) = (draw.drawn.clone(), draw.instances.clone());
+        match (&draw.indices, &self.indices) {
             // All indices were restarts or incomplete primitives.
+            (Some((place, _)), _) if place.is_empty() => {}
+            (Some((place, format)), Some(indices)) => {
+                encoder.set_index_buffer(indices.slice(place.clone()), *format);
+                encoder.draw_indexed(drawn, draw.base_vertex, instances);
+            }
             (Some(_), None) => {}
-            (None, _) => encoder.draw(0..draw.vertices, 0..1),
+            (None, _) => encoder.draw(drawn, instances),
         }
     }
 
@@ -271,12 +287,14 @@ impl PreparedDraw {
         let formats = pass.color.iter().map(|i| scene.attachments[*i].format);
         let depth_stencil = pass.depth_stencil.map(|i| scene.attachments[i].format);
         let key = DrawKey::of(draw, formats, depth_stencil, scene.pass_samples(pass));
-        let first_vertex = geometry.vertices.len() as u64 / VERTEX_BYTES;
-        geometry.vertices.extend_from_slice(draw.mesh.bytes());
-        let indices = draw.mesh.indices.as_ref().map(|indices| {
-            let first = geometry.indices.len();
-            geometry.indices.extend(drawn(indices, draw.topology));
-            (first as u64, (geometry.indices.len() - first) as u32)
+        // WebGPU restarts only strips.
+        let call = draw.call().without_list_restarts(draw.topology);
+        let vertices = append(&mut geometry.vertices, call.vertex_bytes());
+        let colors =
+            (!call.colors.is_empty()).then(|| append(&mut geometry.vertices, call.color_bytes()));
+        let indices = call.indices.as_ref().map(|_| {
+            let place = append(&mut geometry.indices, &call.index_bytes());
+            (place, state::index_format(call.index))
         });
         let [width, height] = scene.pass_size(pass);
         Ok(Self {
@@ -287,26 +305,14 @@ impl PreparedDraw {
             scissor: draw.scissor.unwrap_or([0, 0, width, height]),
             blend_constant: state::color(draw.blend_constant),
             stencil_reference: reference(draw),
-            first_vertex,
-            vertices: draw.mesh.vertices.len() as u32,
+            vertices,
+            colors,
             indices,
+            drawn: call.first..call.first + call.count,
+            base_vertex: call.base_vertex,
+            instances: call.first_instance..call.first_instance + call.instances,
         })
     }
-}
-
-/// Returns the indices to draw. WebGPU restarts only strips, so restart indices of lists and the
-/// incomplete primitives before them are removed.
-fn drawn(indices: &[u32], topology: PrimitiveTopology) -> Vec<u32> {
-    let size = match topology {
-        PrimitiveTopology::LineStrip | PrimitiveTopology::TriangleStrip => return indices.to_vec(),
-        PrimitiveTopology::PointList => 1,
-        PrimitiveTopology::LineList => 2,
-        PrimitiveTopology::TriangleList | PrimitiveTopology::TriangleFan => 3,
-    };
-    let runs = indices.split(|i| *i == RESTART);
-    runs.flat_map(|run| &run[..run.len() / size * size])
-        .copied()
-        .collect()
 }
 
 /// WebGPU has one reference for both faces; `SeparateStencilMasks` is denied, so they are equal.

@@ -5,8 +5,8 @@ use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
 use etalon_scene::{
     AddressMode, BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction,
-    CullMode, DepthBias, DepthState, FilterMode, FrontFace, PolygonMode, PrimitiveTopology,
-    Sampler, StencilFace, StencilOperation, StencilState,
+    CullMode, DepthBias, DepthState, FilterMode, FrontFace, IndexFormat, PolygonMode,
+    PrimitiveTopology, Sampler, StencilFace, StencilOperation, StencilState,
 };
 
 /// Returns a pipeline's depth and stencil state. A disabled test always passes and writes nothing.
@@ -139,11 +139,20 @@ fn factor(factor: BlendFactor) -> wgpu::BlendFactor {
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Shape {
     pub(crate) topology: PrimitiveTopology,
-    pub(crate) indexed: bool,
+    /// The size of the indices of an indexed strip.
+    pub(crate) strip_indices: Option<IndexFormat>,
     pub(crate) front_face: FrontFace,
     pub(crate) cull: CullMode,
     pub(crate) polygon_mode: PolygonMode,
     pub(crate) depth_clamp: bool,
+}
+
+/// Returns the size of an index.
+pub(crate) fn index_format(index: IndexFormat) -> wgpu::IndexFormat {
+    match index {
+        IndexFormat::Uint16 => wgpu::IndexFormat::Uint16,
+        IndexFormat::Uint32 => wgpu::IndexFormat::Uint32,
+    }
 }
 
 /// Returns true for a strip.
@@ -166,8 +175,7 @@ pub(crate) fn primitive(shape: Shape) -> wgpu::PrimitiveState {
             }
             PrimitiveTopology::TriangleStrip => wgpu::PrimitiveTopology::TriangleStrip,
         },
-        strip_index_format: (shape.indexed && is_strip(shape.topology))
-            .then_some(wgpu::IndexFormat::Uint32),
+        strip_index_format: shape.strip_indices.map(index_format),
         front_face: match shape.front_face {
             FrontFace::Ccw => wgpu::FrontFace::Ccw,
             FrontFace::Cw => wgpu::FrontFace::Cw,

@@ -1,5 +1,7 @@
 //! The keys of a scene.
 
+use super::fetch::{FetchWire, InstancesWire};
+use super::tiles::TilesWire;
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
     BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace,
@@ -173,6 +175,13 @@ pub(crate) enum ClearMaskWire {
 #[serde(deny_unknown_fields)]
 pub(crate) struct DrawWire {
     pub(crate) mesh: MeshSource,
+    /// The path of the mesh's vertices to the pipeline.
+    #[serde(default)]
+    pub(crate) fetch: FetchWire,
+    /// Instances of the mesh; without it, one without a colour of its own.
+    pub(crate) instances: Option<InstancesWire>,
+    /// The draw once for each tile of the attachments, instead of once.
+    pub(crate) tiles: Option<TilesWire>,
     #[serde(default = "triangle_list")]
     pub(crate) topology: PrimitiveTopology,
     pub(crate) shader: Shader,

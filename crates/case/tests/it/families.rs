@@ -25,7 +25,11 @@ fn cases(prefix: &str) -> Vec<Case> {
     library
         .cases(Profile::Full)
         .filter(|c| c.id().starts_with(prefix))
-        .filter(|c| !["methods/", "perf/"].iter().any(|a| c.id().starts_with(a)))
+        .filter(|c| {
+            !["methods/", "perf/", "size/"]
+                .iter()
+                .any(|a| c.id().starts_with(a))
+        })
         .map(|c| c.build().expect("built-in cases build"))
         .filter(|c| simulation::knows(&c.scene))
         .collect()
@@ -50,6 +54,7 @@ fn every_area_holds_its_cases() {
         ("selftest", 86),
         ("capabilities", 250),
         ("sequence", 3000),
+        ("size", 500),
     ];
     for (area, least) in due {
         let count = counts.get(area).copied().unwrap_or(0);
@@ -76,9 +81,9 @@ fn the_quick_profile_takes_some_of_every_file() {
         if measures.iter().any(|area| file.name().starts_with(area)) {
             continue;
         }
-        // One seed is as good as another, and the other areas draw every format and feature too, and every value
-        // of each state.
-        let partly = ["combined/", "capabilities/", "sequence/state/"];
+        // One seed is as good as another, the other areas draw every format and feature too, and every
+        // value of each state, and the largest sizes take too long.
+        let partly = ["combined/", "capabilities/", "sequence/state/", "size/"];
         if partly.iter().any(|area| file.name().starts_with(area)) {
             all += quick.len();
             continue;

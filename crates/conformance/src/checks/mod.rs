@@ -8,6 +8,7 @@ mod counters;
 mod depth;
 mod drawing;
 mod early_tests;
+mod fetch;
 mod formats;
 mod integers;
 mod layers;
@@ -107,6 +108,12 @@ registry! {
         discarded_primitives_draw_nothing points_cover_the_texel_they_lie_in
         lines_through_centres_cover_their_texels points_and_lines_share_a_pass lists_are_indexed
         strips_begin_again fans_turn_about_their_first_vertex polygons_may_be_drawn_as_their_edges
+    }
+    fetch {
+        a_base_vertex_is_added_to_every_index draws_start_at_their_first_index
+        draws_start_at_their_first_vertex the_last_short_index_names_a_vertex
+        short_strips_begin_again instances_have_a_color_each instances_start_at_their_first
+        instances_have_offsets_too
     }
     formats {
         clears_store_0_and_1 uploads_come_back values_are_uploaded_as_codes uploads_are_fetched

@@ -163,11 +163,6 @@ fn attachments(list: &mut List) {
 }
 
 fn read_only(list: &mut List) {
-    let depth_off = |draw: &mut Draw| {
-        if let Some(depth) = &mut draw.depth {
-            depth.write = false;
-        }
-    };
     list.add(
         "read-only-stencil-kept",
         CONFUSION,

@@ -1,0 +1,135 @@
+//! The paths of vertices to the pipeline: indices, offsets and instances, none of which may show.
+
+use super::Checked;
+use crate::frames::{BLUE, Expect, GREEN, RED};
+use crate::scenes::{blue, with};
+use crate::subject::Subject;
+use serde_json::{Value, json};
+
+const WHITE: [u32; 4] = [255; 4];
+
+/// Four triangles of a texel each in a row: red, green, white, red.
+fn row(keys: Value) -> Value {
+    let values = json!([[1, 0, 0, 1], [0, 1, 0, 1], [1, 1, 1, 1]]);
+    with(
+        json!({ "kind": "field", "of": "triangles", "values": values }),
+        keys,
+    )
+}
+
+/// A draw of [`row`] to one of three rows of texels.
+fn draw(at: u32, mesh: Value, keys: Value) -> Value {
+    let viewport = json!({ "rect": [0, at, 4, 1], "depth": [0, 1] });
+    with(
+        json!({ "mesh": mesh, "shader": "flat_color", "viewport": viewport }),
+        keys,
+    )
+}
+
+/// Draws a row by a path between two rows without, and checks that all are the same.
+fn is_like_the_others(s: &Subject, mesh: Value, keys: Value) -> Checked {
+    let frame = s.show(json!({
+        "attachments": { "color": with(blue(), json!({ "size": [4, 3] })) },
+        "draws": [draw(0, mesh.clone(), json!({})), draw(1, mesh.clone(), keys), draw(2, mesh, json!({}))],
+    }))?;
+    frame.color_is("color", |x, _| [RED, GREEN, WHITE, RED][x as usize]);
+    Ok(())
+}
+
+pub(crate) fn a_base_vertex_is_added_to_every_index(s: &Subject) -> Checked {
+    for base in [1, -1, 3, 1000, -70_000] {
+        let fetch = json!({ "fetch": { "base_vertex": base } });
+        is_like_the_others(s, row(json!({ "indexed": true })), fetch)?;
+    }
+    Ok(())
+}
+
+pub(crate) fn draws_start_at_their_first_index(s: &Subject) -> Checked {
+    for index in ["uint16", "uint32"] {
+        for first in [0, 1, 3, 70_000] {
+            let fetch = json!({ "fetch": { "index": index, "first_index": first } });
+            is_like_the_others(s, row(json!({ "indexed": true })), fetch)?;
+        }
+    }
+    Ok(())
+}
+
+pub(crate) fn draws_start_at_their_first_vertex(s: &Subject) -> Checked {
+    for first in [1, 3, 70_000] {
+        let fetch = json!({ "fetch": { "first_vertex": first } });
+        is_like_the_others(s, row(json!({})), fetch)?;
+    }
+    Ok(())
+}
+
+/// Of 16 bits, the last one is 65,535, which ends no list.
+pub(crate) fn the_last_short_index_names_a_vertex(s: &Subject) -> Checked {
+    let mesh = row(json!({ "indexed": true, "spare": 65_536 - 12 }));
+    is_like_the_others(s, mesh, json!({ "fetch": { "index": "uint16" } }))
+}
+
+/// Two strips of a column each, which would be one over all.
+pub(crate) fn short_strips_begin_again(s: &Subject) -> Checked {
+    for base in [0, 5] {
+        let frame = s.show(json!({
+            "attachments": { "color": blue() },
+            "draws": [{
+                "mesh": {
+                    "kind": "vertices", "units": "texels",
+                    "positions": [[0, 16, 0], [4, 16, 0], [0, 0, 0], [4, 0, 0],
+                                  [12, 16, 0], [16, 16, 0], [12, 0, 0], [16, 0, 0]],
+                    "values": [[1, 0, 0, 1]],
+                    "indices": [0, 1, 2, 3, null, 4, 5, 6, 7] },
+                "topology": "triangle-strip", "shader": "flat_color",
+                "fetch": { "index": "uint16", "base_vertex": base } }],
+        }))?;
+        frame.color_is(
+            "color",
+            |x, _| if (4..12).contains(&x) { BLUE } else { RED },
+        );
+    }
+    Ok(())
+}
+
+/// The last of three instances stays, and each is counted.
+fn instances(s: &Subject, mesh: Value, first: u32, fetch: Value) -> Checked {
+    let colors = json!([[0, 1, 0, 1], [1, 1, 1, 1], [1, 0, 0, 1]]);
+    let count = json!({ "front": { "compare": "always", "pass_op": "increment-clamp" } });
+    let middle = json!({
+        "instances": { "colors": colors, "first": first }, "fetch": fetch, "stencil": count });
+    let frame = s.show(json!({
+        "attachments": {
+            "color": with(blue(), json!({ "size": [4, 3] })),
+            "ds": { "format": "depth24plus-stencil8", "size": [4, 3] } },
+        "draws": [draw(0, mesh.clone(), json!({})), draw(1, mesh.clone(), middle), draw(2, mesh, json!({}))],
+    }))?;
+    frame.color_is("color", |x, y| match y {
+        1 => RED,
+        _ => [RED, GREEN, WHITE, RED][x as usize],
+    });
+    frame.stencil_is("ds", |_, y| if y == 1 { 3 } else { 0 });
+    Ok(())
+}
+
+pub(crate) fn instances_have_a_color_each(s: &Subject) -> Checked {
+    for indexed in [false, true] {
+        instances(s, row(json!({ "indexed": indexed })), 0, json!({}))?;
+    }
+    Ok(())
+}
+
+pub(crate) fn instances_start_at_their_first(s: &Subject) -> Checked {
+    for indexed in [false, true] {
+        for first in [1, 1000] {
+            instances(s, row(json!({ "indexed": indexed })), first, json!({}))?;
+        }
+    }
+    Ok(())
+}
+
+pub(crate) fn instances_have_offsets_too(s: &Subject) -> Checked {
+    instances(s, row(json!({})), 0, json!({ "first_vertex": 4 }))?;
+    let fetch = json!({ "index": "uint16", "base_vertex": 7, "first_index": 5 });
+    instances(s, row(json!({ "indexed": true })), 0, fetch.clone())?;
+    instances(s, row(json!({ "indexed": true })), 2, fetch)
+}

@@ -1,0 +1,224 @@
+//! Vertices, indices and instances in buffers that all draws of a scene share.
+//!
+//! Most draws share the attributes' pointers too: their indices are moved to their vertices, since not
+//! every version has a base vertex. A draw whose [`Fetch`](etalon_scene::Fetch) asks for more sets
+//! pointers of its own, so that its numbers reach the driver as they are.
+
+use crate::context::Context;
+use crate::state;
+use etalon_scene::{Call, Draw, IndexFormat, RESTART, Vertex};
+use glow::HasContext;
+use std::mem::offset_of;
+
+/// The attributes: location, number of components and offset.
+const ATTRIBUTES: [(u32, i32, usize); 3] = [
+    (0, 4, offset_of!(Vertex, position)),
+    (COLOR, 4, offset_of!(Vertex, color)),
+    (2, 2, offset_of!(Vertex, uv)),
+];
+
+/// The location of the colour.
+const COLOR: u32 = 1;
+
+/// The contents of the buffers.
+#[derive(Default)]
+pub(crate) struct Geometry {
+    pub(crate) vertices: Vec<u8>,
+    pub(crate) indices: Vec<u8>,
+}
+
+/// The place of a draw's geometry in the buffers, and how it is drawn.
+pub(crate) enum Fetched {
+    /// With the pointers of all draws.
+    Shared {
+        /// The first vertex of a draw without indices.
+        first: i32,
+        /// The number of vertices or indices.
+        count: i32,
+        /// The offset of the first index in bytes, in an indexed draw.
+        indices: Option<i32>,
+    },
+    /// With pointers of its own.
+    Own(Own),
+}
+
+/// A draw with pointers of its own.
+pub(crate) struct Own {
+    /// The offset of the vertices in bytes.
+    vertices: i32,
+    /// The offset of the colours of instances in bytes.
+    colors: Option<i32>,
+    /// The offset of the first index in bytes and its type, in an indexed draw.
+    indices: Option<(i32, u32)>,
+    /// True if an index restarts the primitive.
+    restarts: bool,
+    first: i32,
+    count: i32,
+    base_vertex: i32,
+    instances: i32,
+    first_instance: u32,
+}
+
+impl Geometry {
+    /// Adds a draw's vertices, indices and instances.
+    pub(crate) fn place(&mut self, draw: &Draw) -> Fetched {
+        let call = draw.call();
+        let vertices = self.vertices.len();
+        self.vertices.extend_from_slice(call.vertex_bytes());
+        if draw.fetch != etalon_scene::Fetch::default() {
+            return Fetched::Own(self.place_own(vertices, &call));
+        }
+        let first = vertices / size_of::<Vertex>();
+        let indices = call.indices.as_ref().map(|list| {
+            let place = self.indices.len();
+            let shifted = |index: &u32| match *index {
+                RESTART => RESTART,
+                index => index + first as u32,
+            };
+            let bytes = list.iter().flat_map(|i| shifted(i).to_ne_bytes());
+            self.indices.extend(bytes);
+            place as i32
+        });
+        Fetched::Shared {
+            first: first as i32,
+            count: call.count as i32,
+            indices,
+        }
+    }
+
+    fn place_own(&mut self, vertices: usize, call: &Call<'_>) -> Own {
+        let colors = (!call.colors.is_empty()).then_some(self.vertices.len() as i32);
+        self.vertices.extend_from_slice(call.color_bytes());
+        // The next draw's vertices start at a whole number of them.
+        let whole = self.vertices.len().next_multiple_of(size_of::<Vertex>());
+        self.vertices.resize(whole, 0);
+        let indices = call.indices.as_ref().map(|_| {
+            let place = self.indices.len();
+            self.indices.extend(call.index_bytes());
+            let whole = self.indices.len().next_multiple_of(size_of::<u32>());
+            self.indices.resize(whole, 0);
+            let (kind, size) = match call.index {
+                IndexFormat::Uint16 => (glow::UNSIGNED_SHORT, size_of::<u16>()),
+                IndexFormat::Uint32 => (glow::UNSIGNED_INT, size_of::<u32>()),
+            };
+            ((place + call.first as usize * size) as i32, kind)
+        });
+        Own {
+            vertices: vertices as i32,
+            colors,
+            indices,
+            restarts: call.restarts(),
+            first: call.first as i32,
+            count: call.count as i32,
+            base_vertex: call.base_vertex,
+            instances: call.instances as i32,
+            first_instance: call.first_instance,
+        }
+    }
+}
+
+/// Points the attributes at vertices from an offset in the bound buffer on.
+///
+/// # Safety
+/// The context is current, and the vertex array and the buffer are bound.
+pub(crate) unsafe fn set_pointers(context: &Context, vertices: i32) {
+    let stride = size_of::<Vertex>() as i32;
+    for (index, size, offset) in ATTRIBUTES {
+        let offset = vertices + offset as i32;
+        // SAFETY: as for this function.
+        unsafe {
+            context
+                .gl
+                .vertex_attrib_pointer_f32(index, size, glow::FLOAT, false, stride, offset);
+        }
+    }
+}
+
+impl Fetched {
+    /// Calls the driver's draw.
+    ///
+    /// # Safety
+    /// The context is current, and the vertex array with the scene's buffers is bound.
+    pub(crate) unsafe fn draw(&self, context: &Context, mode: u32) {
+        let gl = &context.gl;
+        // SAFETY: as for this function; vertices and indices were counted when the buffers were filled.
+        unsafe {
+            match self {
+                Self::Shared {
+                    count,
+                    indices: Some(offset),
+                    ..
+                } => gl.draw_elements(mode, *count, glow::UNSIGNED_INT, *offset),
+                Self::Shared { first, count, .. } => gl.draw_arrays(mode, *first, *count),
+                Self::Own(own) => {
+                    set_pointers(context, own.vertices);
+                    if let Some(offset) = own.colors {
+                        let stride = size_of::<[f32; 4]>() as i32;
+                        gl.vertex_attrib_pointer_f32(COLOR, 4, glow::FLOAT, false, stride, offset);
+                        gl.vertex_attrib_divisor(COLOR, 1);
+                    }
+                    own.draw(context, mode);
+                    gl.vertex_attrib_divisor(COLOR, 0);
+                    set_pointers(context, 0);
+                }
+            }
+        }
+    }
+}
+
+impl Own {
+    /// Calls the plainest function that takes all of the numbers.
+    ///
+    /// # Safety
+    /// As for [`Fetched::draw`], with pointers set.
+    unsafe fn draw(&self, context: &Context, mode: u32) {
+        let (gl, entry_points) = (&context.gl, &context.entry_points);
+        let Self {
+            first,
+            count,
+            base_vertex,
+            instances,
+            first_instance,
+            ..
+        } = *self;
+        let instanced = self.colors.is_some();
+        // SAFETY: as for this function; limits deny scenes whose functions are missing.
+        unsafe {
+            let Some((offset, kind)) = self.indices else {
+                match entry_points.draw_arrays_instanced_base_instance {
+                    Some(draw) if first_instance > 0 => {
+                        draw(mode, first, count, instances, first_instance);
+                    }
+                    _ if instanced => gl.draw_arrays_instanced(mode, first, count, instances),
+                    _ => gl.draw_arrays(mode, first, count),
+                }
+                return;
+            };
+            state::set_restart_of(context, kind, self.restarts);
+            let at = std::ptr::without_provenance(offset as usize);
+            let whole = entry_points.draw_elements_instanced_base_vertex_base_instance;
+            let moved = entry_points.draw_elements_base_vertex;
+            let moved_instances = entry_points.draw_elements_instanced_base_vertex;
+            match (whole, moved, moved_instances) {
+                (Some(draw), ..) if first_instance > 0 => {
+                    draw(
+                        mode,
+                        count,
+                        kind,
+                        at,
+                        instances,
+                        base_vertex,
+                        first_instance,
+                    );
+                }
+                (_, _, Some(draw)) if instanced && base_vertex != 0 => {
+                    draw(mode, count, kind, at, instances, base_vertex);
+                }
+                (_, Some(draw), _) if base_vertex != 0 => draw(mode, count, kind, at, base_vertex),
+                _ if instanced => gl.draw_elements_instanced(mode, count, kind, offset, instances),
+                _ => gl.draw_elements(mode, count, kind, offset),
+            }
+            state::set_restart(context);
+        }
+    }
+}
