@@ -4,8 +4,8 @@ use crate::counter::CounterSet;
 use crate::encoding::ChannelEncoding;
 use crate::format::Aspect;
 use crate::image::{Image, ReadPath};
+use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
-use std::collections::HashMap;
 
 /// A closed interval of code orders (see [`ChannelEncoding`]); never empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -275,7 +275,7 @@ impl LegalSet {
 pub struct LegalSetBuilder {
     images: Vec<ImageInfo>,
     groups: Vec<SampleGroup>,
-    interned: Vec<HashMap<TexelSet, u32>>,
+    interned: Vec<FxHashMap<TexelSet, u32>>,
     counters: Vec<CounterSet>,
 }
 
@@ -295,7 +295,7 @@ impl LegalSetBuilder {
             .iter()
             .position(|g| g.size == size && g.samples == samples)
             .unwrap_or_else(|| {
-                self.interned.push(HashMap::new());
+                self.interned.push(FxHashMap::default());
                 self.groups.push(SampleGroup {
                     size,
                     samples,
@@ -319,29 +319,33 @@ impl LegalSetBuilder {
         group
     }
 
-    /// Adds the next sample of a group.
-    pub fn sample(&mut self, group: usize, mut set: TexelSet) {
+    /// The number of groups.
+    pub fn groups(&self) -> usize {
+        self.groups.len()
+    }
+
+    /// The size and the samples of a group.
+    pub fn shape(&self, group: usize) -> ([u32; 2], u32) {
+        let group = &self.groups[group];
+        (group.size, group.samples)
+    }
+
+    /// Returns the number of a set in a group.
+    pub fn set(&mut self, group: usize, mut set: TexelSet) -> u32 {
         set.worlds.sort_unstable();
         set.worlds.dedup();
         let target = &mut self.groups[group];
         let next = target.palette.len() as u32;
-        let at = *self.interned[group].entry(set).or_insert_with_key(|set| {
+        *self.interned[group].entry(set).or_insert_with_key(|set| {
             target.palette.push(set.clone());
             next
-        });
-        target.index.push(at);
+        })
     }
 
-    /// Adds the next samples of a group, so many, of which nothing is asserted.
-    pub fn open(&mut self, group: usize, count: u64) {
-        if count == 0 {
-            return;
-        }
-        self.sample(group, TexelSet::default());
+    /// Adds the next samples of a group, so many, with a set of this number.
+    pub fn samples(&mut self, group: usize, set: u32, count: usize) {
         let index = &mut self.groups[group].index;
-        if let Some(last) = index.last().copied() {
-            index.resize(index.len() + count as usize - 1, last);
-        }
+        index.resize(index.len() + count, set);
     }
 
     /// Adds a counter.
@@ -401,8 +405,10 @@ mod tests {
         let mut builder = LegalSetBuilder::default();
         let unorm = ChannelEncoding::Unorm(8);
         builder.image("c", Aspect::Color, [2, 1], 1, &[unorm], ReadPath::Copy);
-        builder.sample(0, set(&[&[(0, 255)]]));
-        builder.sample(0, set(&[&[(7, 8)]]));
+        for one in [set(&[&[(0, 255)]]), set(&[&[(7, 8)]])] {
+            let number = builder.set(0, one);
+            builder.samples(0, number, 1);
+        }
         let (_, figures) = builder.build().statistics()[0];
         assert_eq!((figures.channels, figures.asserted), (2, 1));
         assert_eq!((figures.exact, figures.codes), (0, 2));

@@ -41,11 +41,11 @@ pub(crate) fn depth_bias(
             }
         }
     };
-    let by_constant = unit.corners(Interval::exact(f64::from(state.constant)), |a, b| a * b);
+    let by_constant = unit.times(Interval::exact(f64::from(state.constant)));
     let by_slope =
-        slopes(context, boxes, z).corners(Interval::exact(f64::from(state.slope)), |a, b| a * b);
+        slopes(context, boxes, z).times(Interval::exact(f64::from(state.slope)));
     let sum = by_constant
-        .corners(by_slope, |a, b| a + b)
+        .plus(by_slope)
         .widen_relative(context.rules.float_error.value);
     let clamp = f64::from(state.clamp);
     if clamp > 0.0 {

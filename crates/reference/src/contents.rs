@@ -9,7 +9,6 @@ use crate::world::{Cell, World};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, StoryLine};
 use etalon_pipeline::Arithmetic;
 use etalon_scene::Contents;
-use smallvec::SmallVec;
 
 impl Walk<'_> {
     /// Returns the values that a texel can be resolved to after the first passes; `None` if a sample is
@@ -46,7 +45,7 @@ impl Walk<'_> {
                 };
                 hull[c] = Some(hull[c].map_or(one, |h| h.hull(one)));
                 let value = Judging::new(self.rules).decode(*encoding, one).float;
-                sum[c] = sum[c].corners(value, |a, b| a + b);
+                sum[c] = sum[c].plus(value);
                 codes[c].low += one.low as f64;
                 codes[c].high += one.high as f64;
             }
@@ -215,8 +214,8 @@ impl Walk<'_> {
             .collect();
         World {
             cells,
-            decisions: SmallVec::new(),
-            events: SmallVec::new(),
+            decisions: Vec::new(),
+            events: Vec::new(),
         }
     }
 }

@@ -56,8 +56,18 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Adds the worlds of the next sample of the texel; `None` if it is open.
-    pub(crate) fn sample(&mut self, worlds: Option<&[World]>) {
+    /// Adds so many texels, by the worlds of their samples; `None` for a sample that is open.
+    pub(crate) fn texel<'w>(
+        &mut self,
+        samples: impl ExactSizeIterator<Item = Option<&'w [World]>>,
+        times: u64,
+    ) {
+        let count = samples.len() as u32;
+        samples.for_each(|worlds| self.sample(worlds));
+        self.end_texel(count, times);
+    }
+
+    fn sample(&mut self, worlds: Option<&[World]>) {
         for (index, count) in self.counts.iter_mut().enumerate() {
             let Some(worlds) = worlds else {
                 count.possible = None;
@@ -94,8 +104,8 @@ impl<'a> Tally<'a> {
         }
     }
 
-    /// Ends a texel of `samples` samples.
-    pub(crate) fn texel(&mut self, samples: u32) {
+    /// Ends a texel of `samples` samples, and all that are like it.
+    fn end_texel(&mut self, samples: u32, times: u64) {
         for (counter, count) in self.scene.counters.iter().zip(&mut self.counts) {
             let (low, high) = match counter.kind {
                 CounterKind::SamplesPassed | CounterKind::AnySamplesPassed => {
@@ -127,8 +137,8 @@ impl<'a> Tally<'a> {
                 // Queries).
                 CounterKind::FragmentInvocations => (0, None),
             };
-            count.low += low;
-            count.high = count.high.zip(high).map(|(a, b)| a + b);
+            count.low += low * times;
+            count.high = count.high.zip(high).map(|(a, b)| a + b * times);
             (count.certain, count.possible) = (0, Some(0));
             count.must.clear();
             count.may.clear();

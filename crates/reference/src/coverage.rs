@@ -2,47 +2,15 @@
 
 use crate::clause::Rejection;
 use crate::notes::{Effect, Notes};
-use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, inside_of, is_outside};
+use crate::primitive::{Shape, Side, Triangle, inside_of, is_outside};
 use crate::rules::SharedEdge;
-use crate::walk::{Place, Walk, Worlds};
-use crate::world::{Decision, World};
-use etalon_pipeline::{Point, front_facing, is_top_left};
+use crate::walk::{Place, Walk};
+use crate::world::{Decision, World, Worlds};
+use etalon_pipeline::{front_facing, is_top_left};
 use etalon_scene::Draw;
 use smallvec::SmallVec;
 
 impl Walk<'_> {
-    /// Returns whether a sample can lie inside a draw's viewport, and whether it must. The viewport's edges
-    /// are clip planes and may be snapped. Points and lines are clipped before they have a width
-    /// (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): the rest may reach a texel beyond, and a
-    /// clipped end or a point outside may be missing.
-    pub(crate) fn in_viewport(
-        &self,
-        draw: &Draw,
-        primitive: &SnappedPrimitive,
-        point: Point,
-    ) -> (bool, bool) {
-        let rect = draw.viewport.area().map(f64::from);
-        let units = self.units as f64;
-        let slack = units / f64::from(1_u32 << self.limits.sub_pixel_bits)
-            + units * self.rules.float_error.value * 16.0;
-        let wide = !matches!(primitive.shape, Shape::Triangle(_));
-        if wide && primitive.inside_rect(rect.map(|v| v * units)) {
-            return (true, true);
-        }
-        let slack = if wide { slack + units } else { slack };
-        let [x, y, w, h] = rect;
-        let axis = |start: f64, length: f64, at: i64| {
-            let (low, high) = (start * units, (start + length) * units);
-            let at = at as f64;
-            (
-                at > low - slack && at < high + slack,
-                at > low + slack && at < high - slack,
-            )
-        };
-        let (x, y) = (axis(x, w, point.x), axis(y, h, point.y));
-        (x.0 && y.0, x.1 && y.1)
-    }
-
     /// Carries worlds through one primitive.
     pub(crate) fn primitive(
         &self,

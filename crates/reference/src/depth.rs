@@ -3,13 +3,14 @@
 use crate::interval::Interval;
 use crate::snap::{SnapBox, area};
 use etalon_pipeline::{DepthPlane, Point};
+use smallvec::SmallVec;
 
 /// A depth over a primitive.
 #[derive(Clone, Debug)]
 pub(crate) struct Depth {
     /// The extreme planes through the vertices that legal snapping allows; none if the depth is constant
     /// or nothing but the vertices' depths is known.
-    planes: Vec<DepthPlane>,
+    planes: SmallVec<[DepthPlane; 1]>,
     /// The largest distance of a depth from its plane.
     pub(crate) error: f64,
     /// The range of the vertices' depths, with the error of interpolating between them.
@@ -20,10 +21,15 @@ impl Depth {
     pub(crate) fn flat(z: &[Interval]) -> Self {
         let hull = z.iter().copied().reduce(Interval::hull);
         Self {
-            planes: Vec::new(),
+            planes: SmallVec::new(),
             error: 0.0,
             hull: hull.unwrap_or(Interval::exact(0.0)),
         }
+    }
+
+    /// True if it is the same all over the primitive.
+    pub(crate) fn is_flat(&self) -> bool {
+        self.planes.is_empty()
     }
 
     /// Adds the error of interpolating: a weighted sum, which need not be what all vertices have.

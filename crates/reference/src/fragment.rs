@@ -7,7 +7,7 @@ use crate::notes::{Effect, Notes};
 use crate::primitive::Shape;
 use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, SameDepth};
 use crate::walk::{Place, Walk};
-use crate::world::{Cell, Event, World};
+use crate::world::{Cell, Event, World, Worlds};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
 use etalon_pipeline::{
@@ -23,7 +23,7 @@ impl Walk<'_> {
         place: Place<'_>,
         world: World,
         positive_area: bool,
-        result: &mut SmallVec<[World; 2]>,
+        result: &mut Worlds,
         notes: &mut Notes<'_>,
     ) {
         let draw = place.draw;
@@ -57,7 +57,7 @@ impl Walk<'_> {
         world: World,
         front: bool,
         drawn: bool,
-        result: &mut SmallVec<[World; 2]>,
+        result: &mut Worlds,
         notes: &mut Notes<'_>,
     ) {
         let draw = place.draw;
@@ -285,7 +285,7 @@ impl Walk<'_> {
         output: &FragmentOutput<Range>,
         incoming: Incoming,
         covered: Covered,
-        result: &mut SmallVec<[World; 2]>,
+        result: &mut Worlds,
         notes: &mut Notes<'_>,
     ) {
         let mut passed = tested.clone();
@@ -459,7 +459,7 @@ impl Walk<'_> {
         };
         Incoming {
             depth: Range::same(depth),
-            origin: (same && place.at.samples == 1).then_some(place.primitive.geometry),
+            origin: (place.primitive.geometry).filter(|_| same && place.at.samples == 1),
         }
     }
 

@@ -96,6 +96,36 @@ impl Interval {
         }
     }
 
+    /// Returns the sums.
+    #[inline]
+    pub fn plus(self, other: Self) -> Self {
+        Self::of_ends(self.low + other.low, self.high + other.high)
+    }
+
+    /// Returns the differences.
+    #[inline]
+    pub fn minus(self, other: Self) -> Self {
+        Self::of_ends(self.low - other.high, self.high - other.low)
+    }
+
+    /// Returns the products.
+    #[inline]
+    pub fn times(self, other: Self) -> Self {
+        if self.low >= 0.0 && other.low >= 0.0 {
+            return Self::of_ends(self.low * other.low, self.high * other.high);
+        }
+        self.corners(other, |a, b| a * b)
+    }
+
+    /// Returns the interval of two ends, of which NaN makes it all values.
+    #[inline]
+    fn of_ends(low: f64, high: f64) -> Self {
+        if low.is_nan() || high.is_nan() {
+            return Self::EVERYTHING;
+        }
+        Self { low, high }
+    }
+
     /// Widens each end by a share of its magnitude; zero stays zero.
     pub fn widen_relative(self, share: f64) -> Self {
         Self {

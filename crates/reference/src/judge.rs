@@ -1,15 +1,18 @@
-//! Legal sets and stories: the walk, over all samples in both bands or over one.
+//! Legal sets and stories: whole pictures in both bands, or one sample.
 
 use crate::counting::Tally;
 use crate::notes::{Note, Notes};
 use crate::rules::Rules;
 use crate::texels::Texels;
 use crate::verdict::verdict;
+use crate::picture::{OPEN, Shape, State};
 use crate::walk::{Sample, Walk};
 use etalon_frame::{
     CountRange, Frame, LegalSet, LegalSetBuilder, Limits, Story, StoryLine, TexelSet,
 };
 use etalon_scene::{Draw, Scene};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 
 /// Both bands of one scene for one possible set of limits.
 #[derive(Clone, Debug)]
@@ -84,63 +87,43 @@ pub fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels)
             );
         }
     }
-    let mut shapes: Vec<([u32; 2], u32)> = Vec::new();
-    let add = |shapes: &mut Vec<([u32; 2], u32)>, shape| {
-        if !shapes.contains(&shape) {
-            shapes.push(shape);
-        }
-    };
-    for index in &scene.read {
-        let attachment = &scene.attachments[*index];
-        add(&mut shapes, (attachment.size, attachment.samples));
-    }
-    let read = shapes.len();
-    let counted = if texels.is_all() {
-        &scene.passes[..]
-    } else {
-        &[]
-    };
-    for pass in counted {
-        if pass.draws.iter().any(|d| !d.counters.is_empty()) {
-            let shape = (scene.pass_size(pass), scene.pass_samples(pass));
-            add(&mut shapes, shape);
+    walk.paint(&shapes(scene));
+    let pictures = walk.pictures.borrow();
+    for group in 0..builder.groups() {
+        let (size, samples) = builder.shape(group);
+        // Of each state, the number of its set.
+        let mut sets: Vec<Option<u32>> = Vec::new();
+        let mut open = None;
+        let states = pictures.of_shape((size, samples));
+        let mut start = 0;
+        while let Some(state) = states.get(start).copied() {
+            let same = states[start..].iter().take_while(|s| **s == state).count();
+            let known = match sets.get_mut(state as usize) {
+                _ if state == OPEN => &mut open,
+                Some(known) => known,
+                None => {
+                    sets.resize(state as usize + 1, None);
+                    &mut sets[state as usize]
+                }
+            };
+            let set = *known.get_or_insert_with(|| {
+                let shape = (size, samples);
+                builder.set(group, walk.set(pictures.states.worlds(state), shape))
+            });
+            builder.samples(group, set, same);
+            start += same;
         }
     }
     let mut tally = Tally::new(scene, rules);
-    for (group, shape) in shapes.iter().enumerate() {
-        let (size, lattice) = (shape.0, texels.lattice(shape.0));
-        for y in 0..size[1] {
-            let mut next = 0;
-            while next < size[0] {
-                let x = lattice.first(next, y).map_or(size[0], |x| x.min(size[0]));
-                builder.open(group, u64::from(x - next) * u64::from(shape.1));
-                next = x + 1;
-                if x == size[0] {
-                    break;
-                }
-                walk.forget();
-                for sample in 0..shape.1 {
-                    let at = Sample {
-                        size: shape.0,
-                        samples: shape.1,
-                        x,
-                        y,
-                        sample,
-                    };
-                    let mut notes = Notes(None);
-                    let worlds = walk.worlds(at, scene.passes.len(), &mut notes);
-                    tally.sample(worlds.as_deref());
-                    if group < read {
-                        builder.sample(
-                            group,
-                            match worlds {
-                                Some(worlds) => walk.finish(&worlds, at, &mut notes),
-                                None => TexelSet::default(),
-                            },
-                        );
-                    }
-                }
-                tally.texel(shape.1);
+    if texels.is_all() && !scene.counters.is_empty() {
+        for shape in counted(scene) {
+            let mut texels: FxHashMap<&[State], u64> = FxHashMap::default();
+            for texel in pictures.of_shape(shape).chunks_exact(shape.1 as usize) {
+                *texels.entry(texel).or_default() += 1;
+            }
+            for (texel, times) in texels {
+                let worlds = texel.iter().map(|state| pictures.states.worlds(*state));
+                tally.texel(worlds.map(|w| w.map(|w| &w[..])), times);
             }
         }
     }
@@ -151,6 +134,23 @@ pub fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels)
         builder.counter(counter);
     }
     builder.build()
+}
+
+/// Returns the shapes of all attachments that are drawn to or read back.
+fn shapes(scene: &Scene) -> Vec<Shape> {
+    let drawn = scene.passes.iter().flat_map(|pass| {
+        let resolved = pass.resolve.iter().flatten();
+        pass.color.iter().chain(&pass.depth_stencil).chain(resolved)
+    });
+    let attachments = scene.read.iter().chain(drawn).map(|index| &scene.attachments[*index]);
+    let shapes: BTreeSet<Shape> = attachments.map(|a| (a.size, a.samples)).collect();
+    shapes.into_iter().collect()
+}
+
+/// Returns the shapes whose texels count: those read back, and those of passes that count.
+fn counted(scene: &Scene) -> BTreeSet<Shape> {
+    let counts = scene.passes.iter().filter(|pass| pass.draws.iter().any(|d| !d.counters.is_empty()));
+    counts.map(|pass| (scene.pass_size(pass), scene.pass_samples(pass))).collect()
 }
 
 /// Returns the story of one sample: the verdict in one sentence, then every operation on it with its
@@ -191,6 +191,8 @@ fn told(
     (set, vec![verdict], notes)
 }
 
+#[cfg(test)]
+mod pictures;
 #[cfg(test)]
 mod stories;
 #[cfg(test)]

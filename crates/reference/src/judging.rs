@@ -275,15 +275,15 @@ impl Arithmetic for Judging<'_> {
     }
 
     fn add(&mut self, a: Range, b: Range) -> Range {
-        a.zip(b, |a, b| a.corners(b, |a, b| a + b))
+        a.zip(b, Interval::plus)
     }
 
     fn sub(&mut self, a: Range, b: Range) -> Range {
-        a.zip(b, |a, b| a.corners(b, |a, b| a - b))
+        a.zip(b, Interval::minus)
     }
 
     fn mul(&mut self, a: Range, b: Range) -> Range {
-        a.zip(b, |a, b| a.corners(b, |a, b| a * b))
+        a.zip(b, Interval::times)
     }
 
     fn div(&mut self, a: Range, b: Range) -> Range {
@@ -400,7 +400,7 @@ impl Arithmetic for Judging<'_> {
 
     fn blend_complement(&mut self, _encoding: ChannelEncoding, value: Range) -> Range {
         let one = Range::exact(1.0);
-        let exact = one.zip(value, |a, b| a.corners(b, |a, b| a - b));
+        let exact = one.zip(value, Interval::minus);
         let float = if value.float.is(0.0) || value.float.is(1.0) {
             exact.float
         } else {
@@ -427,7 +427,7 @@ impl Arithmetic for Judging<'_> {
     }
 
     fn blend_product(&mut self, encoding: ChannelEncoding, operand: Range, factor: Range) -> Range {
-        let product = operand.zip(factor, |a, b| a.corners(b, |a, b| a * b));
+        let product = operand.zip(factor, Interval::times);
         let plain = |v: Interval| v.is(0.0) || v.is(1.0);
         let float = if plain(operand.float) || plain(factor.float) {
             product.float
@@ -448,7 +448,7 @@ impl Arithmetic for Judging<'_> {
         subtract: bool,
     ) -> Range {
         let sum = a.zip(b, |a, b| {
-            a.corners(b, |a, b| if subtract { a - b } else { a + b })
+            if subtract { a.minus(b) } else { a.plus(b) }
         });
         let float = if a.float.is(0.0) || b.float.is(0.0) {
             sum.float

@@ -6,7 +6,9 @@
 //! between is legal. The permissions are data in [`rules`], with their citations.
 
 mod bias;
+mod bins;
 mod clause;
+mod clip;
 mod contents;
 mod context;
 mod counting;
@@ -19,12 +21,14 @@ mod judge;
 mod judging;
 mod notes;
 mod pass_operations;
+mod picture;
 mod primitive;
 mod rejections;
 pub mod rules;
 mod sample_state;
 mod sampling;
 mod setup;
+mod signature;
 mod snap;
 mod store;
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use crate::depth::Depth;
 use crate::interval::Interval;
 use crate::judging::Range;
-use crate::snap::SnapBox;
+use crate::snap::{SnapBox, area};
 use etalon_pipeline::{Point, edge_value};
 
 /// The shape of a primitive.
@@ -21,7 +21,7 @@ pub(crate) enum Shape {
 
 /// The identity of a vertex's place in the picture: its clip-space x, y and w, bit for bit. Edges are the
 /// same if both ends are; x and y alone would join vertices that the perspective division parts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct VertexId([u32; 3]);
 
 impl VertexId {
@@ -38,6 +38,8 @@ pub(crate) struct Triangle {
     pub(crate) ids: [VertexId; 3],
     /// Least and greatest signed area, y up.
     pub(crate) area: (i64, i64),
+    /// The most by which legal snapping changes an edge function near the triangle.
+    moved: i64,
 }
 
 /// A primitive with snapped vertices.
@@ -58,15 +60,15 @@ pub(crate) struct SnappedPrimitive {
     pub(crate) all: SnapBox,
     /// Texture coordinates, where the shader reads them.
     pub(crate) uv: Option<[Depth; 2]>,
-    /// A number that is equal for the same vertices under the same viewport; 0 if the draw tests no
-    /// depth.
-    pub(crate) geometry: u64,
+    /// A number that is equal for the same vertices under the same viewport; none if the draw tests no
+    /// depth, or no other fragment of the scene can have the same.
+    pub(crate) geometry: Option<u64>,
     /// Its place in the draw.
     pub(crate) index: u32,
 }
 
 /// The side of one edge on which a sample lies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Side {
     /// On the side where the edge function is positive, whatever the snapping.
     Positive,
@@ -79,17 +81,28 @@ pub(crate) enum Side {
 }
 
 impl Triangle {
+    pub(crate) fn new(vertices: [SnapBox; 3], ids: [VertexId; 3], units: i64) -> Self {
+        let size = |b: SnapBox| (b.high.x - b.low.x).max(b.high.y - b.low.y);
+        let moved = vertices.map(size).into_iter().max().unwrap_or(0);
+        let [a, b, c] = vertices;
+        let all = a.hull(b).hull(c);
+        // A sample of a texel that it may touch is no farther from any vertex.
+        let reach = (all.high.x - all.low.x) + (all.high.y - all.low.y) + 4 * units;
+        Self {
+            vertices,
+            ids,
+            area: area(vertices),
+            moved: 2 * moved * reach + 2 * moved * moved,
+        }
+    }
+
     /// Returns the side of the edge from vertex `i` to the next one on which a point lies.
     pub(crate) fn side(&self, i: usize, at: Point) -> Side {
         let (p, q) = (self.vertices[i], self.vertices[(i + 1) % 3]);
-        // One corner decides most samples: the boxes bound the distance of the others.
-        let size = |b: SnapBox| (b.high.x - b.low.x).max(b.high.y - b.low.y);
-        let moved = size(p).max(size(q));
-        let reach = |v: Point| (v.x - at.x).abs() + (v.y - at.y).abs();
-        let bound = moved * (reach(p.low) + reach(q.low)) + 2 * moved * moved;
+        // One corner decides most samples.
         match edge_value(p.low, q.low, at) {
-            value if value > bound => return Side::Positive,
-            value if value < -bound => return Side::Negative,
+            value if value > self.moved => return Side::Positive,
+            value if value < -self.moved => return Side::Negative,
             _ => {}
         }
         // The edge function is linear in each coordinate alone, so its extremes lie at corners.
@@ -143,7 +156,7 @@ impl SnappedPrimitive {
     /// Returns the window depth at a sample that the primitive covers, with its bias.
     pub(crate) fn depth_at(&self, at: Point) -> Range {
         let depth = self.window_depth.at(at);
-        Range::same(depth.corners(self.bias, |a, b| a + b))
+        Range::same(depth.plus(self.bias))
     }
 
     /// Returns the depth that a shader reads. With several samples it may be that of any point of the
@@ -153,7 +166,7 @@ impl SnappedPrimitive {
         if samples > 1 {
             depth = depth.hull(self.window_depth.over_texel(at, units));
         }
-        let biased = depth.corners(self.bias, |a, b| a + b);
+        let biased = depth.plus(self.bias);
         Range::same(depth.hull(biased))
     }
 

@@ -58,7 +58,7 @@ impl Walk<'_> {
     }
 
     /// True if a pass before this one draws or resolves to an attachment.
-    fn is_drawn_before(&self, index: usize, pass: usize) -> bool {
+    pub(crate) fn is_drawn_before(&self, index: usize, pass: usize) -> bool {
         self.scene.passes[..pass]
             .iter()
             .any(|pass| pass.color.contains(&index) || pass.resolve.contains(&Some(index)))
@@ -226,7 +226,7 @@ impl Walk<'_> {
             for (sum, tap) in sum.iter_mut().zip(self.tap(texture, sampler, position)?) {
                 largest = largest.max(tap.low.abs()).max(tap.high.abs());
                 let scaled = tap.map_increasing(|v| v * share);
-                *sum = sum.corners(scaled, |a, b| a + b);
+                *sum = sum.plus(scaled);
             }
         }
         Some(sum.map(|sum| sum.widen(largest * self.rules.float_error.value * 4.0)))

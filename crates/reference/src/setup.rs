@@ -1,4 +1,4 @@
-//! Primitive setup, once per draw: snapped positions, depth, and the rows of texels that they can reach.
+//! Primitive setup, once per draw: snapped positions and depths.
 
 use crate::bias::depth_bias;
 use crate::context::PassContext;
@@ -7,18 +7,12 @@ use crate::interval::Interval;
 use crate::judging::{Judging, Range};
 use crate::primitive::{Shape, SnappedPrimitive, Triangle, VertexId};
 use crate::rules::Snap;
-use crate::snap::{SnapBox, area, units_per_texel};
+use crate::snap::{SnapBox, units_per_texel};
 use crate::texels::Lattice;
 use etalon_pipeline::{Arithmetic, Plain, Point, window_position};
 use etalon_scene::{Draw, PolygonMode, PrimitiveVertices};
+use smallvec::{SmallVec, smallvec};
 use std::hash::{DefaultHasher, Hash, Hasher};
-
-/// A draw's primitives and, per row of texels, those that may touch it, in drawing order.
-#[derive(Clone, Debug)]
-pub(crate) struct DrawSetup {
-    pub(crate) primitives: Vec<SnappedPrimitive>,
-    pub(crate) rows: Vec<Vec<u32>>,
-}
 
 #[derive(Clone, Copy)]
 struct Vertex {
@@ -28,21 +22,20 @@ struct Vertex {
     id: VertexId,
 }
 
-pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> DrawSetup {
-    let height = i64::from(context.size[1]);
-    let mut rows = vec![Vec::new(); context.size[1] as usize];
+/// Returns a draw's primitives in drawing order, without those that are far from all judged texels.
+pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimitive> {
     let mut primitives = Vec::new();
     if draw.rasterizer_discard {
-        return DrawSetup { primitives, rows };
+        return primitives;
     }
     for (index, one) in draw.mesh.primitives(draw.topology).into_iter().enumerate() {
         if is_far(context, draw, one) {
             continue;
         }
-        let own: Vec<usize> = match one {
-            PrimitiveVertices::Point(i) => vec![i],
-            PrimitiveVertices::Line(line) => line.to_vec(),
-            PrimitiveVertices::Triangle(triangle) => triangle.to_vec(),
+        let own: SmallVec<[usize; 3]> = match one {
+            PrimitiveVertices::Point(i) => smallvec![i],
+            PrimitiveVertices::Line(line) => SmallVec::from_slice(&line),
+            PrimitiveVertices::Triangle(triangle) => SmallVec::from_slice(&triangle),
         };
         let color = std::array::from_fn(|c| {
             let value = |i: &usize| Interval::exact(f64::from(draw.mesh.vertices[*i].color[c]));
@@ -51,14 +44,9 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> DrawSetup {
         });
         let mut primitive = primitive(context, draw, one, color, index as u32);
         primitive.uv = texture_coordinates(context, draw, &primitive.shape, one);
-        let first = primitive.bounds[1].clamp(0, height) as usize;
-        let last = primitive.bounds[3].clamp(0, height) as usize;
-        for row in &mut rows[first..last.max(first)] {
-            row.push(primitives.len() as u32);
-        }
         primitives.push(primitive);
     }
-    DrawSetup { primitives, rows }
+    primitives
 }
 
 /// True if no judged texel is near a primitive, by a rough estimate: it is the whole cost of most of a
@@ -130,11 +118,7 @@ fn primitive(
         PrimitiveVertices::Triangle(triangle) => {
             let v = triangle.map(of);
             let boxes = v.map(|v| v.snapped);
-            let triangle = Triangle {
-                vertices: boxes,
-                ids: v.map(|v| v.id),
-                area: area(boxes),
-            };
+            let triangle = Triangle::new(boxes, v.map(|v| v.id), units);
             let window = Depth::over(boxes, v.map(|v| v.window_z), grid, error);
             bias = depth_bias(context, draw, boxes, v.map(|v| v.window_z));
             let shape = match draw.polygon_mode {
@@ -178,8 +162,8 @@ fn primitive(
         all,
         uv: None,
         geometry: match (context.depth, draw.depth) {
-            (Some(_), Some(_)) => geometry(draw, one),
-            _ => 0,
+            (Some(_), Some(_)) => Some(geometry(draw, one)),
+            _ => None,
         },
         index,
     }

@@ -1,20 +1,22 @@
 //! The walk of one sample through its worlds. Samples are walked one by one, so that a story needs no walk
 //! over the others.
 
+use crate::bins::PassSetup;
 use crate::clause::Rejection;
 use crate::context::PassContext;
 use crate::judging::{Judging, Range, all_codes};
 use crate::notes::{Note, Notes, Skipped};
+use crate::picture::{Pictures, Shape as PictureShape};
 use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
 use crate::rules::{Copies, Rules};
-use crate::setup::{self, DrawSetup};
 use crate::snap::units_per_texel;
 use crate::texels::Texels;
 use crate::undefined::Undefined;
-use crate::world::{Cell, Decision, World, merge};
+use crate::world::{Cell, Decision, World, Worlds, merge};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Limits, ReadPath, TexelSet, WorldBox};
 use etalon_pipeline::{Arithmetic, Point};
 use etalon_scene::{Draw, Scene};
+use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::borrow::Cow;
 use std::cell::RefCell;
@@ -36,8 +38,6 @@ pub struct Sample {
     pub sample: u32,
 }
 
-pub(crate) type Worlds = SmallVec<[World; 2]>;
-
 /// Worlds by sample and passes; `None` if the sample is open.
 type Known = HashMap<(Sample, usize), Option<Rc<Worlds>>>;
 
@@ -51,15 +51,36 @@ pub(crate) struct Walk<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) limits: &'a Limits,
     pub(crate) rules: &'a Rules,
-    /// Per pass and draw.
-    setups: Vec<Vec<DrawSetup>>,
+    /// Per pass.
+    pub(crate) setups: Vec<PassSetup>,
+    /// Per pass, the number of its first draw, counted over the scene from 1.
+    pub(crate) draw_ids: Vec<u32>,
     pub(crate) units: i64,
     /// The judged texels.
     pub(crate) texels: Texels,
     /// The results that depend on discarded contents.
     pub(crate) undefined: Undefined,
-    /// The samples after some passes that the current texel needed.
+    /// The samples after some passes that a story needed.
     known: RefCell<Known>,
+    pub(crate) pictures: RefCell<Pictures>,
+}
+
+/// How a primitive meets a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Hit {
+    /// The sample's sides of a triangle's edges.
+    pub(crate) sides: [Side; 3],
+    /// True if the sample lies inside the viewport for certain.
+    pub(crate) in_viewport: bool,
+    /// True if it is not clipped by the near and far planes for certain.
+    pub(crate) in_depth: bool,
+}
+
+impl Hit {
+    /// True if the fragment is not clipped away for certain.
+    pub(crate) fn is_certain(self) -> bool {
+        self.in_viewport && self.in_depth
+    }
 }
 
 /// The origin of a fragment in the scene.
@@ -101,39 +122,46 @@ impl<'a> Walk<'a> {
         rules: &'a Rules,
         texels: Texels,
     ) -> Self {
-        let setups = scene
-            .passes
-            .iter()
-            .map(|pass| {
-                let context = PassContext {
-                    rules,
-                    limits,
-                    size: scene.pass_size(pass),
-                    lattice: texels.lattice(scene.pass_size(pass)),
-                    depth: pass
-                        .depth_stencil
-                        .filter(|i| scene.attachments[*i].format.has_depth())
-                        .map(|i| depth_encoding(scene, limits, i)),
-                };
-                let draws = pass.draws.iter();
-                draws.map(|draw| setup::draw(&context, draw)).collect()
-            })
-            .collect();
+        let contexts = scene.passes.iter().map(|pass| PassContext {
+            rules,
+            limits,
+            size: scene.pass_size(pass),
+            lattice: texels.lattice(scene.pass_size(pass)),
+            depth: pass
+                .depth_stencil
+                .filter(|i| scene.attachments[*i].format.has_depth())
+                .map(|i| depth_encoding(scene, limits, i)),
+        });
+        let passes = contexts.zip(&scene.passes);
+        let setups = passes.map(|(context, pass)| PassSetup::new(&context, pass));
+        let mut draws = 1;
+        let draw_ids = scene.passes.iter().map(|pass| {
+            let first = draws;
+            draws += pass.draws.len() as u32;
+            first
+        });
         Self {
             scene,
             limits,
             rules,
-            setups,
+            setups: without_lone_geometry(setups.collect()),
+            draw_ids: draw_ids.collect(),
             units: units_per_texel(limits),
             texels,
             undefined: Undefined::of(scene),
             known: RefCell::default(),
+            pictures: RefCell::default(),
         }
     }
 
-    /// Returns another sample after the first passes; `None` if it is open. Cached, since passes that read
-    /// or resolve earlier ones need the same repeatedly.
+    /// Returns another sample after the first passes; `None` if it is open: from its picture where that is
+    /// painted, which has come as far as the pass that asks.
     pub(crate) fn earlier(&self, at: Sample, passes: usize) -> Option<Rc<Worlds>> {
+        let pictures = self.pictures.borrow();
+        if pictures.has(at) {
+            return pictures.states.worlds(pictures.state(at)).cloned();
+        }
+        drop(pictures);
         let key = (at, passes);
         if let Some(known) = self.known.borrow().get(&key) {
             return known.clone();
@@ -143,7 +171,8 @@ impl<'a> Walk<'a> {
         worlds
     }
 
-    /// Clears the cache before another texel.
+    /// Takes away what was kept of other samples.
+    #[cfg(test)]
     pub(crate) fn forget(&self) {
         self.known.borrow_mut().clear();
     }
@@ -193,134 +222,151 @@ impl<'a> Walk<'a> {
     ) -> Option<Worlds> {
         let mut worlds: Worlds = SmallVec::new();
         worlds.push(self.initial(at, notes));
-        let mut draw_id = 0;
         for (p, pass) in self.scene.passes[..passes].iter().enumerate() {
             let shape = (self.scene.pass_size(pass), self.scene.pass_samples(pass));
-            if shape != (at.size, at.samples) && !pass.draws.is_empty() {
+            let is_own = shape == (at.size, at.samples);
+            if !is_own && !pass.draws.is_empty() {
                 note_other_attachments(notes, p, shape);
             }
-            let own = shape == (at.size, at.samples);
-            if own {
+            if is_own {
                 self.load(p, &mut worlds, notes);
             }
-            for (d, draw) in pass.draws.iter().enumerate() {
-                draw_id += 1;
-                if !own {
-                    continue;
-                }
+            for (d, draw) in pass.draws.iter().enumerate().filter(|_| is_own) {
                 self.clear((p, d), at, &mut worlds, notes);
                 if draw.rasterizer_discard || !in_scissor(draw, at) {
                     self.note_draw(notes, (p, d, draw));
                     continue;
                 }
-                let mut skipped = Skipped::new(notes);
-                let point = self.sample_point(at);
-                let setup = &self.setups[p][d];
-                for i in &setup.rows[at.y as usize] {
-                    let primitive = &setup.primitives[*i as usize];
-                    let x = i64::from(at.x);
-                    if x < primitive.bounds[0] || x >= primitive.bounds[2] {
-                        continue;
-                    }
-                    let (can, must) = self.in_viewport(draw, primitive, point);
-                    if !can {
-                        let reached = self.reaches(primitive, at, point);
-                        let reason = if reached {
-                            Rejection::Viewport
-                        } else {
-                            Rejection::Coverage
-                        };
-                        skipped.add(primitive.index, Some(reason));
-                        continue;
-                    }
-                    let sides = match &primitive.shape {
-                        Shape::Triangle(triangle) => {
-                            let sides = self.sides(triangle, at, point);
-                            if misses(triangle, sides) {
-                                continue;
-                            }
-                            sides
-                        }
-                        _ => [Side::Unknown; 3],
-                    };
-                    let place = Place {
-                        at,
-                        point,
-                        sides,
-                        pass: p,
-                        draw_index: d,
-                        draw,
-                        primitive_index: primitive.index as usize,
-                        primitive,
-                        draw_id,
-                        world: (0, 1),
-                    };
-                    let (inside_can, inside_must) = primitive.inside_depth(point);
-                    if !draw.depth_clamp && !inside_can {
-                        skipped.add(primitive.index, Some(Rejection::NearFar));
-                        continue;
-                    }
-                    skipped.add(primitive.index, None);
-                    let certain = must && (draw.depth_clamp || inside_must);
-                    if !certain {
-                        self.note_clipping(notes, place, !must);
-                    }
-                    let before = (!certain).then(|| worlds.clone());
-                    worlds = self.primitive(place, worlds, notes);
-                    // A sample that may be clipped away also keeps what it was.
-                    worlds.extend(before.into_iter().flatten());
-                    if !merge(&mut worlds) {
-                        notes.add(
-                            || place.name(),
-                            "give up",
-                            || format!("{} worlds: the sample is open", worlds.len()),
-                            None,
-                        );
-                        return None;
-                    }
-                }
-                self.note_skipped(notes, (p, d, draw), skipped);
-                // No later draw refers to this one's edges.
-                let outlives = |(decision, _): &mut (Decision, bool)| decision.outlives_its_draw();
-                worlds.iter_mut().for_each(|w| w.decisions.retain(outlives));
-                merge(&mut worlds);
+                let primitives = self.setups[p].at(d, at.x, at.y);
+                worlds = self.draw(at, (p, d), primitives, worlds, notes)?;
             }
-            if own {
+            if is_own {
                 self.clear((p, pass.draws.len()), at, &mut worlds, notes);
             }
-            worlds.iter_mut().for_each(|w| w.decisions.clear());
-            merge(&mut worlds);
-            for (source, target) in pass.color.iter().zip(&pass.resolve) {
-                let Some(target) = *target else { continue };
-                let attachment = &self.scene.attachments[target];
-                if (attachment.size, attachment.samples) == (at.size, at.samples) {
-                    let outcomes = self.resolve(*source, target, at, p + 1, notes)?;
-                    worlds = worlds
-                        .iter()
-                        .flat_map(|world| {
-                            outcomes.iter().map(|channels| {
-                                let mut world = world.clone();
-                                world.cells[target].channels = *channels;
-                                world
-                            })
-                        })
-                        .collect();
-                    if !merge(&mut worlds) {
-                        return None;
-                    }
-                }
+            self.end_pass(&mut worlds);
+            for (source, target) in self.resolves_into(p, at) {
+                let outcomes = self.resolve(source, target, at, p + 1, notes)?;
+                worlds = resolved(&worlds, target, &outcomes)?;
             }
             self.store(p, notes);
         }
         Some(worlds)
     }
 
-    /// True if a primitive may cover a sample, were it not for the viewport.
-    fn reaches(&self, primitive: &SnappedPrimitive, at: Sample, point: Point) -> bool {
-        match &primitive.shape {
-            Shape::Triangle(triangle) => !misses(triangle, self.sides(triangle, at, point)),
-            _ => primitive.times(point, self.units).1 > 0,
+    /// Carries worlds through the primitives of one draw; `None` if the sample is open after it.
+    pub(crate) fn draw<'s>(
+        &self,
+        at: Sample,
+        (p, d): (usize, usize),
+        primitives: impl Iterator<Item = &'s SnappedPrimitive>,
+        mut worlds: Worlds,
+        notes: &mut Notes<'_>,
+    ) -> Option<Worlds> {
+        let draw = &self.scene.passes[p].draws[d];
+        let mut skipped = Skipped::new(notes);
+        let point = self.sample_point(at);
+        for primitive in primitives {
+            let sides = self.sides_of(primitive, at, point);
+            let hit = match self.hit((p, d), primitive, sides, point) {
+                Ok(hit) => hit,
+                Err(reason) => {
+                    skipped.add(primitive.index, Some(reason));
+                    continue;
+                }
+            };
+            let place = Place {
+                at,
+                point,
+                sides: hit.sides,
+                pass: p,
+                draw_index: d,
+                draw,
+                primitive_index: primitive.index as usize,
+                primitive,
+                draw_id: self.draw_ids[p] + d as u32,
+                world: (0, 1),
+            };
+            skipped.add(primitive.index, None);
+            if !hit.is_certain() {
+                self.note_clipping(notes, place, !hit.in_viewport);
+            }
+            let before = (!hit.is_certain()).then(|| worlds.clone());
+            worlds = self.primitive(place, worlds, notes);
+            // A sample that may be clipped away also keeps what it was.
+            worlds.extend(before.into_iter().flatten());
+            if !merge(&mut worlds) {
+                notes.add(
+                    || place.name(),
+                    "give up",
+                    || format!("{} worlds: the sample is open", worlds.len()),
+                    None,
+                );
+                return None;
+            }
         }
+        self.note_skipped(notes, (p, d, draw), skipped);
+        // No later draw refers to this one's edges.
+        let outlives = |(decision, _): &(Decision, bool)| decision.outlives_its_draw();
+        worlds.iter_mut().for_each(|w| w.decisions.retain(outlives));
+        merge(&mut worlds);
+        Some(worlds)
+    }
+
+    /// Returns how a primitive meets a sample on these sides of its edges, or why it does not.
+    pub(crate) fn hit(
+        &self,
+        (p, d): (usize, usize),
+        primitive: &SnappedPrimitive,
+        sides: [Side; 3],
+        point: Point,
+    ) -> Result<Hit, Rejection> {
+        let draw = &self.scene.passes[p].draws[d];
+        let missed = match &primitive.shape {
+            Shape::Triangle(triangle) => misses(triangle, sides),
+            _ => false,
+        };
+        let (can, in_viewport) = self.setups[p].clip(d).holds(primitive, point);
+        if !can {
+            let reached = match &primitive.shape {
+                Shape::Triangle(_) => !missed,
+                _ => primitive.times(point, self.units).1 > 0,
+            };
+            return Err(match reached {
+                true => Rejection::Viewport,
+                false => Rejection::Coverage,
+            });
+        }
+        if missed {
+            return Err(Rejection::Coverage);
+        }
+        let (can, must) = primitive.inside_depth(point);
+        if !draw.depth_clamp && !can {
+            return Err(Rejection::NearFar);
+        }
+        Ok(Hit {
+            sides,
+            in_viewport,
+            in_depth: draw.depth_clamp || must,
+        })
+    }
+
+    /// Takes away the choices of a pass that ends.
+    pub(crate) fn end_pass(&self, worlds: &mut Worlds) {
+        worlds.iter_mut().for_each(|w| w.decisions.clear());
+        merge(worlds);
+    }
+
+    /// Returns the resolves at the end of a pass whose targets have the shape of a sample's attachments,
+    /// as source and target.
+    pub(crate) fn resolves_into(&self, pass: usize, at: Sample) -> Vec<(usize, usize)> {
+        let pass = &self.scene.passes[pass];
+        let both = pass.color.iter().zip(&pass.resolve);
+        let both = both.filter_map(|(source, target)| Some((*source, (*target)?)));
+        both.filter(|(_, target)| {
+            let attachment = &self.scene.attachments[*target];
+            (attachment.size, attachment.samples) == (at.size, at.samples)
+        })
+        .collect()
     }
 
     pub(crate) fn cell_text(&self, attachment: usize, cell: &Cell) -> String {
@@ -339,7 +385,19 @@ impl<'a> Walk<'a> {
         parts.join(", ")
     }
 
-    /// Returns the sides of a triangle's edges on which a sample lies.
+    /// Returns the sides of a triangle's edges on which a sample lies; of other shapes, nothing is known.
+    pub(crate) fn sides_of(
+        &self,
+        primitive: &SnappedPrimitive,
+        at: Sample,
+        point: Point,
+    ) -> [Side; 3] {
+        match &primitive.shape {
+            Shape::Triangle(triangle) => self.sides(triangle, at, point),
+            _ => [Side::Unknown; 3],
+        }
+    }
+
     fn sides(&self, triangle: &Triangle, at: Sample, point: Point) -> [Side; 3] {
         if at.samples == 1 || self.rules.covers_at_positions.value {
             return [0, 1, 2].map(|i| triangle.side(i, point));
@@ -374,6 +432,20 @@ impl<'a> Walk<'a> {
             x: axis(at.x, position[0]),
             y: axis(at.y, position[1]),
         }
+    }
+
+    /// Returns the set of a sample of a picture; of an open one, nothing is asserted.
+    pub(crate) fn set(&self, worlds: Option<&Rc<Worlds>>, (size, samples): PictureShape) -> TexelSet {
+        let at = Sample {
+            size,
+            samples,
+            x: 0,
+            y: 0,
+            sample: 0,
+        };
+        worlds.map_or_else(TexelSet::default, |worlds| {
+            self.finish(worlds, at, &mut Notes(None))
+        })
     }
 
     /// Returns the boxes of the attachments that are read back.
@@ -468,6 +540,40 @@ impl<'a> Walk<'a> {
         let value = judging.decode(encoding, stored);
         judging.encode(read[0], Range::same(value.float))
     }
+}
+
+/// Takes the geometry from triangles that no other primitive of the scene repeats: with nothing to be the
+/// same as, it would only part what is equal otherwise.
+fn without_lone_geometry(mut setups: Vec<PassSetup>) -> Vec<PassSetup> {
+    let mut times: FxHashMap<u64, u32> = FxHashMap::default();
+    let all = setups.iter_mut().flat_map(PassSetup::primitives_mut);
+    for geometry in all.filter_map(|primitive| primitive.geometry) {
+        *times.entry(geometry).or_default() += 1;
+    }
+    for primitive in setups.iter_mut().flat_map(PassSetup::primitives_mut) {
+        let lone = |geometry: &u64| times[geometry] == 1;
+        if matches!(primitive.shape, Shape::Triangle(_)) {
+            primitive.geometry = primitive.geometry.filter(|g| !lone(g));
+        }
+    }
+    setups
+}
+
+/// Returns worlds with the outcomes of a resolve; `None` if there are too many.
+pub(crate) fn resolved(
+    worlds: &Worlds,
+    target: usize,
+    outcomes: &[[CodeInterval; 4]],
+) -> Option<Worlds> {
+    let each = worlds.iter().flat_map(|world| {
+        outcomes.iter().map(|channels| {
+            let mut world = world.clone();
+            world.cells[target].channels = *channels;
+            world
+        })
+    });
+    let mut worlds: Worlds = each.collect();
+    merge(&mut worlds).then_some(worlds)
 }
 
 /// Notes that no draw of a pass concerns the sample.

@@ -8,7 +8,7 @@ use smallvec::SmallVec;
 pub(crate) const WORLD_CAP: usize = 16;
 
 /// The contents of one attachment at a sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Cell {
     /// Colour channels; of a depth attachment the first is the depth.
     pub(crate) channels: [CodeInterval; 4],
@@ -18,8 +18,21 @@ pub(crate) struct Cell {
     pub(crate) origin: Option<u64>,
 }
 
+impl Default for Cell {
+    fn default() -> Self {
+        Self {
+            channels: [CodeInterval::exact(0); 4],
+            stencil: 0,
+            origin: None,
+        }
+    }
+}
+
+/// The worlds of one sample: mostly one.
+pub(crate) type Worlds = SmallVec<[World; 1]>;
+
 /// An event that a counter counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Event {
     /// The counter, by its place in the scene.
     pub(crate) counter: u16,
@@ -30,7 +43,7 @@ pub(crate) struct Event {
 }
 
 /// A choice that the rules leave open, taken once per world.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Decision {
     /// The side of the edge between two positions of a draw on which the sample lies.
     Edge {
@@ -55,12 +68,12 @@ impl Decision {
 }
 
 /// One consistent story: the contents of every attachment, and the choices that led there.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct World {
     pub(crate) cells: SmallVec<[Cell; 2]>,
-    pub(crate) decisions: SmallVec<[(Decision, bool); 2]>,
+    pub(crate) decisions: Vec<(Decision, bool)>,
     /// The events so far, in order.
-    pub(crate) events: SmallVec<[Event; 1]>,
+    pub(crate) events: Vec<Event>,
 }
 
 impl World {
@@ -81,7 +94,7 @@ impl World {
 }
 
 /// Merges equal worlds; returns `false` if more than [`WORLD_CAP`] remain.
-pub(crate) fn merge(worlds: &mut SmallVec<[World; 2]>) -> bool {
+pub(crate) fn merge(worlds: &mut Worlds) -> bool {
     if worlds.len() > 1 {
         worlds.sort_unstable();
         worlds.dedup();

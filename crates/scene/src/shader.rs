@@ -37,6 +37,10 @@ struct Facts {
     counter: bool,
     /// True if it runs once per sample.
     per_sample: bool,
+    /// True if it reads the fragment's coordinates in the picture.
+    coordinates: bool,
+    /// True if it reads the fragment's depth.
+    reads_depth: bool,
 }
 
 /// The depth that a shader writes.
@@ -66,6 +70,8 @@ impl Facts {
         discards: false,
         counter: false,
         per_sample: false,
+        coordinates: false,
+        reads_depth: false,
     };
 }
 
@@ -175,6 +181,17 @@ impl Shader {
         self.facts().per_sample
     }
 
+    /// True if the shader computes with the fragment's coordinates in the picture. Those by which it
+    /// fetches a texel do not count.
+    pub fn reads_coordinates(self) -> bool {
+        self.facts().coordinates
+    }
+
+    /// True if the shader reads the fragment's own depth.
+    pub fn reads_depth(self) -> bool {
+        self.facts().reads_depth
+    }
+
     /// True if the shader reads the parameter block.
     pub fn uses_params(self) -> bool {
         self.facts().params
@@ -192,14 +209,14 @@ shaders! {
     /// As `texel_discard`; counts its runs.
     CountedDiscard = "counted_discard" { params: true, textures: 1, discards: true, counter: true },
     /// The fragment's own window depth as grey.
-    DepthGrey = "depth_grey" {},
+    DepthGrey = "depth_grey" { reads_depth: true },
     /// The distance behind the window depth of a perspective projection as grey, between the near
     /// and far planes in `params.color`'s red and green.
-    DepthLinearized = "depth_linearized" { params: true },
+    DepthLinearized = "depth_linearized" { params: true, reads_depth: true },
     /// Minus the fragment's depth, its depth, 0 and 1.
-    DepthRange = "depth_range" {},
+    DepthRange = "depth_range" { reads_depth: true },
     /// One step of dual depth peeling: depths, front and back to locations 0 to 2.
-    DualPeel = "dual_peel" { textures: 2, outputs: 3 },
+    DualPeel = "dual_peel" { textures: 2, outputs: 3, reads_depth: true },
     /// The vertex colour with its alpha weighted by the first texture coordinate, the distance from
     /// an edge in texels, plus a half, held to 0 and 1.
     EdgeAlpha = "edge_alpha" { uv: true },
@@ -215,11 +232,11 @@ shaders! {
     FlatColorDepth = "flat_color_depth" { params: true, depth: Depth::VertexRed },
     /// The vertex colour, faded to `params.back_color` with the distance between the near and far
     /// planes in `params.color`'s red and green.
-    Fog = "fog" { params: true },
+    Fog = "fog" { params: true, reads_depth: true },
     /// The fragment's window coordinates times `params.color`'s red and green; its blue and alpha.
-    FragCoordColor = "frag_coord_color" { params: true },
+    FragCoordColor = "frag_coord_color" { params: true, coordinates: true },
     /// The vertex colour, flat; writes the fragment's own window depth as depth.
-    FragCoordDepth = "frag_coord_depth" { depth: Depth::Computed },
+    FragCoordDepth = "frag_coord_depth" { depth: Depth::Computed, reads_depth: true },
     /// `params.color` on front faces, `params.back_color` on back faces.
     FrontFacing = "front_facing" { params: true },
     /// The vertex colour; writes a depth that grows linearly with the distance, 1 over the first
@@ -230,7 +247,7 @@ shaders! {
     LogarithmicDepth = "logarithmic_depth" { params: true, uv: true, depth: Depth::Computed },
     /// One step of depth peeling: the vertex colour and, to location 1, the depth of fragments behind
     /// the depth in texture 0; discards all others.
-    Peel = "peel" { textures: 1, outputs: 2, discards: true },
+    Peel = "peel" { textures: 1, outputs: 2, discards: true, reads_depth: true },
     /// `params.color`; writes the number of the sample being shaded plus 1, in 32nds, as depth. Runs
     /// once per sample.
     SampleDepth = "sample_depth" { params: true, depth: Depth::Computed, per_sample: true },
@@ -258,7 +275,7 @@ shaders! {
     /// `params.color`.
     UniformColor = "uniform_color" { params: true },
     /// Weighted blended transparency: weighted colour to location 0, alpha to location 1.
-    WeightedAccumulate = "weighted_accumulate" { outputs: 2 },
+    WeightedAccumulate = "weighted_accumulate" { outputs: 2, reads_depth: true },
     /// Weighted blended transparency: the mean of texture 0's sums, and texture 1's red as alpha.
     WeightedResolve = "weighted_resolve" { textures: 2 },
 }

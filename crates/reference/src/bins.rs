@@ -1,0 +1,210 @@
+//! The primitives of a pass, binned: by row for a picture, which is walked from top to bottom, and by one
+//! texel for a story. Scissor rectangles are part of the bins, so that of thousands of draws a row meets
+//! those only that reach it.
+
+use crate::clip::Clip;
+use crate::context::PassContext;
+use crate::primitive::{Shape, SnappedPrimitive};
+use crate::setup;
+use etalon_scene::{Draw, Pass};
+use std::ops::Range;
+
+/// The texels beyond a viewport that a primitive clipped by it may still touch.
+const BEYOND_VIEWPORT: i64 = 4;
+
+/// One primitive of a pass and the texels that it may touch.
+#[derive(Clone, Debug)]
+struct Reach {
+    /// The draw within the pass.
+    draw: u32,
+    /// The primitive within the draw's setup.
+    primitive: u32,
+    /// Columns.
+    columns: Range<u32>,
+    /// Rows.
+    rows: Range<u32>,
+}
+
+/// The primitives of all draws of a pass, in drawing order.
+#[derive(Clone, Debug)]
+pub(crate) struct PassSetup {
+    draws: Vec<Vec<SnappedPrimitive>>,
+    clips: Vec<Clip>,
+    reaches: Vec<Reach>,
+}
+
+impl PassSetup {
+    pub(crate) fn new(context: &PassContext<'_>, pass: &Pass) -> Self {
+        let mut setup = Self {
+            draws: Vec::new(),
+            clips: Vec::new(),
+            reaches: Vec::new(),
+        };
+        for (d, draw) in pass.draws.iter().enumerate() {
+            let primitives = setup::draw(context, draw);
+            for (i, primitive) in primitives.iter().enumerate() {
+                let [columns, rows] = texels(context.size, draw, primitive);
+                if !columns.is_empty() && !rows.is_empty() {
+                    setup.reaches.push(Reach {
+                        draw: d as u32,
+                        primitive: i as u32,
+                        columns,
+                        rows,
+                    });
+                }
+            }
+            setup.draws.push(primitives);
+            let clip = Clip::new(context.rules, context.limits, &draw.viewport);
+            setup.clips.push(clip);
+        }
+        setup
+    }
+
+    pub(crate) fn primitives_of(&self, draw: usize) -> &[SnappedPrimitive] {
+        &self.draws[draw]
+    }
+
+    /// Returns the edges of a draw's viewport.
+    pub(crate) fn clip(&self, draw: usize) -> &Clip {
+        &self.clips[draw]
+    }
+
+    pub(crate) fn primitives_mut(&mut self) -> impl Iterator<Item = &mut SnappedPrimitive> {
+        self.draws.iter_mut().flatten()
+    }
+
+    /// Returns a primitive's draw and its place in the draw's setup.
+    pub(crate) fn member(&self, number: u32) -> (u32, u32) {
+        let reach = &self.reaches[number as usize];
+        (reach.draw, reach.primitive)
+    }
+
+    /// Returns the primitives of a draw whose bounds hold a texel, inside of its viewport or not.
+    pub(crate) fn at(
+        &self,
+        draw: usize,
+        x: u32,
+        y: u32,
+    ) -> impl Iterator<Item = &SnappedPrimitive> {
+        let (x, y) = (i64::from(x), i64::from(y));
+        let holds = move |p: &&SnappedPrimitive| {
+            let [left, top, right, bottom] = p.bounds;
+            x >= left && x < right && y >= top && y < bottom
+        };
+        self.draws[draw].iter().filter(holds)
+    }
+
+    /// Returns the rows of the pass's attachments, from the top, with the primitives of some draws.
+    pub(crate) fn rows(&self, draws: Range<usize>) -> Rows<'_> {
+        let first = |draw: usize| {
+            let before = |reach: &Reach| (reach.draw as usize) < draw;
+            self.reaches.partition_point(before) as u32
+        };
+        let mut coming: Vec<u32> = (first(draws.start)..first(draws.end)).collect();
+        coming.sort_by_key(|number| self.reaches[*number as usize].rows.start);
+        Rows {
+            setup: self,
+            coming,
+            begun: 0,
+            active: Vec::new(),
+        }
+    }
+}
+
+/// Returns the columns and rows of the texels that a primitive may touch.
+fn texels(size: [u32; 2], draw: &Draw, primitive: &SnappedPrimitive) -> [Range<u32>; 2] {
+    let viewport = draw.viewport.area();
+    [0, 1].map(|axis| {
+        let most = i64::from(size[axis]);
+        let (mut low, mut high) = (primitive.bounds[axis], primitive.bounds[axis + 2]);
+        if let Shape::Triangle(_) = primitive.shape {
+            let (start, length) = (viewport[axis], viewport[axis + 2]);
+            // `as` saturates.
+            low = low.max((start.floor() as i64).saturating_sub(BEYOND_VIEWPORT));
+            high = high.min(((start + length).ceil() as i64).saturating_add(BEYOND_VIEWPORT));
+        }
+        if let Some(scissor) = draw.scissor {
+            let (start, length) = (i64::from(scissor[axis]), i64::from(scissor[axis + 2]));
+            low = low.max(start);
+            high = high.min(start + length);
+        }
+        low.clamp(0, most) as u32..high.clamp(0, most) as u32
+    })
+}
+
+/// The rows of a pass, one after the other, and the primitives that may touch each.
+pub(crate) struct Rows<'s> {
+    setup: &'s PassSetup,
+    /// All primitives, by their first row.
+    coming: Vec<u32>,
+    /// The number of them whose first row is reached.
+    begun: usize,
+    active: Vec<u32>,
+}
+
+impl Rows<'_> {
+    /// Returns the primitives of a row below all that were asked for, in drawing order.
+    pub(crate) fn row(&mut self, row: u32) -> &[u32] {
+        let rows = |number: &u32| &self.setup.reaches[*number as usize].rows;
+        self.active.retain(|number| rows(number).end > row);
+        let before = self.active.len();
+        let coming = self.coming[self.begun..].iter();
+        let begun = coming.take_while(|number| rows(number).start <= row);
+        self.active.extend(begun.copied());
+        self.begun += self.active.len() - before;
+        if before > 0 && self.active.len() > before {
+            self.active.sort_unstable();
+        }
+        &self.active
+    }
+}
+
+/// The parts of a row between which the primitives that may touch it change.
+#[derive(Default)]
+pub(crate) struct Segments {
+    /// Primitives by their first column.
+    starts: Vec<(u32, u32)>,
+    members: Vec<u32>,
+}
+
+impl Segments {
+    /// Calls `found` with the columns and primitives of each part of a row that any may touch.
+    pub(crate) fn of_row(
+        &mut self,
+        setup: &PassSetup,
+        active: &[u32],
+        mut found: impl FnMut(Range<u32>, &[u32]),
+    ) {
+        let columns = |number: u32| &setup.reaches[number as usize].columns;
+        self.starts.clear();
+        self.starts
+            .extend(active.iter().map(|n| (columns(*n).start, *n)));
+        self.starts.sort_unstable();
+        self.members.clear();
+        let mut next = 0;
+        let mut at = 0;
+        loop {
+            if self.members.is_empty() {
+                let Some((start, _)) = self.starts.get(next) else {
+                    return;
+                };
+                at = *start;
+            }
+            while let Some((start, number)) = self.starts.get(next)
+                && *start <= at
+            {
+                let place = self.members.partition_point(|m| m < number);
+                self.members.insert(place, *number);
+                next += 1;
+            }
+            let ends = self.members.iter().map(|n| columns(*n).end);
+            let begins = self.starts.get(next).map(|(start, _)| *start);
+            let Some(end) = ends.chain(begins).min() else {
+                return;
+            };
+            found(at..end, &self.members);
+            at = end;
+            self.members.retain(|n| columns(*n).end > at);
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Clipping by a viewport's edges, as far as legal snapping leaves it open.
+
+use crate::primitive::{Shape, SnappedPrimitive};
+use crate::rules::Rules;
+use crate::snap::units_per_texel;
+use etalon_frame::Limits;
+use etalon_pipeline::Point;
+use etalon_scene::Viewport;
+use std::ops::RangeInclusive;
+
+/// The edges of a draw's viewport. They are clip planes and may be snapped. Points and lines are clipped
+/// before they have a width (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): the rest may reach a texel
+/// beyond, and a clipped end or a point outside may be missing.
+#[derive(Clone, Debug)]
+pub(crate) struct Clip {
+    /// Left, top, width and height in sub-texel units.
+    rect: [f64; 4],
+    triangles: Reach,
+    wide: Reach,
+}
+
+/// Along each axis, the samples that can lie inside, and those that must.
+#[derive(Clone, Debug)]
+struct Reach {
+    can: [RangeInclusive<i64>; 2],
+    must: [RangeInclusive<i64>; 2],
+}
+
+impl Clip {
+    pub(crate) fn new(rules: &Rules, limits: &Limits, viewport: &Viewport) -> Self {
+        let units = units_per_texel(limits) as f64;
+        let rect = viewport.area().map(|v| f64::from(v) * units);
+        let slack = units / f64::from(1_u32 << limits.sub_pixel_bits)
+            + units * rules.float_error.value * 16.0;
+        Self {
+            rect,
+            triangles: Reach::new(rect, slack),
+            wide: Reach::new(rect, slack + units),
+        }
+    }
+
+    /// Returns whether a sample can lie inside, and whether it must.
+    pub(crate) fn holds(&self, primitive: &SnappedPrimitive, point: Point) -> (bool, bool) {
+        let reach = match primitive.shape {
+            Shape::Triangle(_) => &self.triangles,
+            _ if primitive.inside_rect(self.rect) => return (true, true),
+            _ => &self.wide,
+        };
+        let inside = |[x, y]: &[RangeInclusive<i64>; 2]| x.contains(&point.x) && y.contains(&point.y);
+        (inside(&reach.can), inside(&reach.must))
+    }
+}
+
+impl Reach {
+    fn new(rect: [f64; 4], slack: f64) -> Self {
+        // The integers between two numbers, both excluded; `as` saturates.
+        let between =
+            |low: f64, high: f64| (low.floor() as i64).saturating_add(1)..=(high.ceil() as i64).saturating_sub(1);
+        let along = |axis: usize, slack: f64| {
+            between(rect[axis] - slack, rect[axis] + rect[axis + 2] + slack)
+        };
+        Self {
+            can: [0, 1].map(|axis| along(axis, slack)),
+            must: [0, 1].map(|axis| along(axis, -slack)),
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! Pictures against samples: what is judged once for all samples of a state is what each of them has when
+//! it is walked alone.
+
+use super::judge_some;
+use crate::notes::Notes;
+use crate::rules::Rules;
+use crate::test_limits::limits;
+use crate::texels::Texels;
+use crate::walk::{Sample, Walk};
+use etalon_case::{Library, Profile};
+use etalon_frame::{Api, Limits, TexelSet};
+use etalon_scene::Scene;
+
+/// The samples of one scene that are walked alone, at most.
+const MOST: usize = 600;
+
+fn alone(walk: &Walk<'_>, at: Sample) -> TexelSet {
+    let worlds = walk.worlds(at, walk.scene.passes.len(), &mut Notes(None));
+    let mut set = worlds.map_or_else(TexelSet::default, |worlds| {
+        walk.finish(&worlds, at, &mut Notes(None))
+    });
+    set.worlds.sort_unstable();
+    set.worlds.dedup();
+    set
+}
+
+fn check(id: &str, scene: &Scene, limits: &Limits, rules: &Rules) {
+    let set = judge_some(scene, limits, rules, Texels::All);
+    let walk = Walk::new(scene, limits, rules, Texels::All);
+    for group in &set.groups {
+        let ([width, height], samples) = (group.size, group.samples);
+        let all = (width * height * samples) as usize;
+        // A step that is prime to the sizes meets all columns, rows and samples.
+        let step = if all > MOST { (all / MOST) | 1 } else { 1 };
+        for i in (0..all as u32).step_by(step) {
+            let (texel, sample) = (i / samples, i % samples);
+            let at = Sample {
+                size: group.size,
+                samples,
+                x: texel % width,
+                y: texel / width,
+                sample,
+            };
+            walk.forget();
+            let own = alone(&walk, at);
+            let shared = group.sample(at.x, at.y, sample);
+            assert_eq!(*shared, own, "{id} under {}: {at:?}", limits.api);
+        }
+    }
+}
+
+/// A case of each file, another one for each API; with `ETALON_TESTS=all` every case of the quick
+/// profile.
+#[test]
+fn samples_of_a_picture_are_what_each_of_them_is_alone() {
+    let everything = std::env::var_os("ETALON_TESTS").is_some_and(|v| v == "all");
+    let library = Library::built_in().expect("built-in files parse");
+    let apis = [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu];
+    let mut checked = 0;
+    for file in library.files() {
+        let area = file.name().split('/').next().unwrap_or_default();
+        if ["methods", "perf"].contains(&area) {
+            continue;
+        }
+        let cases: Vec<_> = file.cases(Profile::Quick).collect();
+        for (i, case) in cases.iter().enumerate() {
+            for (a, api) in apis.iter().enumerate() {
+                if !everything && i != (cases.len() * a / apis.len()) {
+                    continue;
+                }
+                let case = case.build().expect("a built-in case builds");
+                let limits = limits(*api);
+                for rules in [Rules::of(&limits), Rules::yardstick(&limits)] {
+                    check(&case.id, &case.scene, &limits, &rules);
+                }
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked > 400, "{checked}");
+}

@@ -1,0 +1,563 @@
+//! Whole pictures. Every sample is in a *state*: the worlds that it may be in, shared by all samples that
+//! have the same. A draw takes a state and a signature to another state, which is computed once, for the
+//! first sample that needs it. The cost grows with the number of texels, by little, and with the number of
+//! different things that happen to texels.
+
+use crate::bins::Segments;
+use crate::notes::Notes;
+use crate::signature::{Inputs, Signature};
+use crate::texels::Lattice;
+use crate::walk::{Sample, Walk, resolved};
+use crate::world::{Cell, World, Worlds};
+use etalon_scene::{Contents, Scene};
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+use std::ops::Range;
+use std::rc::Rc;
+
+/// The size and the samples of attachments.
+pub(crate) type Shape = ([u32; 2], u32);
+
+/// The number of a state; [`OPEN`] if the sample is open.
+pub(crate) type State = u32;
+
+/// The state of samples of which nothing is asserted.
+pub(crate) const OPEN: State = u32::MAX;
+
+/// All states, each once.
+#[derive(Debug, Default)]
+pub(crate) struct States {
+    all: Vec<Rc<Worlds>>,
+    numbers: FxHashMap<Rc<Worlds>, State>,
+}
+
+impl States {
+    fn number(&mut self, worlds: Option<Worlds>) -> State {
+        let Some(worlds) = worlds else { return OPEN };
+        if let Some(state) = self.numbers.get(&worlds) {
+            return *state;
+        }
+        let state = self.all.len() as State;
+        let worlds = Rc::new(worlds);
+        self.all.push(Rc::clone(&worlds));
+        self.numbers.insert(worlds, state);
+        state
+    }
+
+    /// The worlds of a state; `None` if the sample is open.
+    pub(crate) fn worlds(&self, state: State) -> Option<&Rc<Worlds>> {
+        self.all.get(state as usize)
+    }
+}
+
+/// The states of all samples, one picture per shape, as far as they are walked.
+#[derive(Debug, Default)]
+pub(crate) struct Pictures {
+    shapes: Vec<Shape>,
+    /// Of each shape, sample by sample.
+    samples: Vec<Vec<State>>,
+    pub(crate) states: States,
+}
+
+impl Pictures {
+    fn shape(&self, shape: Shape) -> Option<usize> {
+        self.shapes.iter().position(|s| *s == shape)
+    }
+
+    /// True if a sample is in one of the pictures.
+    pub(crate) fn has(&self, at: Sample) -> bool {
+        self.shape((at.size, at.samples)).is_some()
+    }
+
+    /// The state of a sample.
+    pub(crate) fn state(&self, at: Sample) -> State {
+        let shape = self.shape((at.size, at.samples));
+        shape.map_or(OPEN, |s| self.samples[s][place(at)])
+    }
+
+    /// The states of a shape's samples.
+    pub(crate) fn of_shape(&self, shape: Shape) -> &[State] {
+        self.shape(shape).map_or(&[], |s| &self.samples[s])
+    }
+}
+
+fn place(at: Sample) -> usize {
+    let texel = at.y as usize * at.size[0] as usize + at.x as usize;
+    texel * at.samples as usize + at.sample as usize
+}
+
+/// Outcomes of single draws, by state, draw and signature.
+#[derive(Debug, Default)]
+struct Known {
+    by_words: FxHashMap<SmallVec<[u64; 6]>, State>,
+    key: SmallVec<[u64; 6]>,
+}
+
+impl Walk<'_> {
+    /// Walks the pictures of some shapes through all passes; [`Walk::earlier`] then tells of every judged
+    /// sample.
+    pub(crate) fn paint(&self, shapes: &[Shape]) {
+        {
+            let mut pictures = self.pictures.borrow_mut();
+            for shape in shapes {
+                pictures.shapes.push(*shape);
+                let samples = self.first_states(*shape, &mut pictures.states);
+                pictures.samples.push(samples);
+            }
+        }
+        for p in 0..self.scene.passes.len() {
+            self.paint_pass(p);
+            self.paint_resolves(p);
+        }
+    }
+
+    /// Returns the states before the first pass.
+    fn first_states(&self, (size, samples): Shape, states: &mut States) -> Vec<State> {
+        let count = size[0] as usize * size[1] as usize * samples as usize;
+        let lattice = self.texels.lattice(size);
+        let attachments = || self.scene.attachments.iter().enumerate();
+        // Textures that nothing is drawn to are not part of the state.
+        let held = held(self.scene, (size, samples));
+        let uploaded = attachments().filter(|(index, _)| held[*index]);
+        let uploaded: Vec<(usize, usize)> = uploaded
+            .filter(|(_, a)| matches!(a.contents, Contents::Texels(_)))
+            .map(|(index, a)| (index, a.format.color_channels().len()))
+            .collect();
+        let at = |x: u32, y: u32| Sample {
+            size,
+            samples,
+            x,
+            y,
+            sample: 0,
+        };
+        let alone = |at: Sample| -> Option<Worlds> {
+            let cells = attachments().map(|(index, _)| match held[index] {
+                true => self.first_contents(index, [at.x as usize, at.y as usize]),
+                false => Cell::default(),
+            });
+            let mut worlds: Worlds = SmallVec::new();
+            worlds.push(World {
+                cells: cells.collect(),
+                ..World::default()
+            });
+            Some(worlds)
+        };
+        if uploaded.is_empty() {
+            let state = states.number(alone(at(0, 0)));
+            if lattice == Lattice::ALL {
+                return vec![state; count];
+            }
+            let mut all = vec![OPEN; count];
+            for_each_judged(lattice, size, |x, y| {
+                let start = place(at(x, y));
+                all[start..start + samples as usize].fill(state);
+            });
+            return all;
+        }
+        let mut all = vec![OPEN; count];
+        let mut known: FxHashMap<SmallVec<[u32; 8]>, State> = FxHashMap::default();
+        let mut key: SmallVec<[u32; 8]> = SmallVec::new();
+        for_each_judged(lattice, size, |x, y| {
+            key.clear();
+            let texel = y as usize * size[0] as usize + x as usize;
+            for (index, channels) in &uploaded {
+                if let Contents::Texels(codes) = &self.scene.attachments[*index].contents {
+                    key.extend_from_slice(&codes[texel * channels..(texel + 1) * channels]);
+                }
+            }
+            let state = match known.get(&key) {
+                Some(state) => *state,
+                None => {
+                    let state = states.number(alone(at(x, y)));
+                    known.insert(key.clone(), state);
+                    state
+                }
+            };
+            let start = place(at(x, y));
+            all[start..start + samples as usize].fill(state);
+        });
+        all
+    }
+
+    fn paint_pass(&self, p: usize) {
+        let pass = &self.scene.passes[p];
+        let shape = (self.scene.pass_size(pass), self.scene.pass_samples(pass));
+        let Some(index) = self.pictures.borrow().shape(shape) else {
+            return;
+        };
+        // Draws that sample the picture see it as it was before the pass.
+        let mut picture = self.pictures.borrow().samples[index].clone();
+        if !pass.cleared().is_empty() {
+            self.each_state(&mut picture, |worlds| {
+                self.load(p, worlds, &mut Notes(None));
+            });
+        }
+        let inputs: Vec<Inputs> = (0..pass.draws.len()).map(|d| self.inputs(p, d)).collect();
+        let mut stops: Vec<usize> = pass.clears.iter().map(|clear| clear.before).collect();
+        stops.push(pass.draws.len());
+        stops.dedup();
+        let mut next = 0;
+        for stop in stops {
+            if next < stop {
+                self.paint_draws((p, next..stop), &inputs, shape, &mut picture);
+            }
+            self.paint_clears((p, stop), shape, &mut picture);
+            next = stop;
+        }
+        if pass.draws.iter().any(|d| d.multisample.sample_coverage.is_some()) {
+            self.each_state(&mut picture, |worlds| self.end_pass(worlds));
+        }
+        self.pictures.borrow_mut().samples[index] = picture;
+    }
+
+    fn paint_draws(
+        &self,
+        (p, draws): (usize, Range<usize>),
+        inputs: &[Inputs],
+        (size, samples): Shape,
+        picture: &mut [State],
+    ) {
+        let mut brush = Brush {
+            walk: self,
+            pass: p,
+            inputs,
+            size,
+            samples,
+            known: Known::default(),
+            ends: [Signature::default(), Signature::default()],
+            spare: Vec::new(),
+        };
+        let lattice = self.texels.lattice(size);
+        let setup = &self.setups[p];
+        let mut rows = setup.rows(draws);
+        let mut segments = Segments::default();
+        for y in 0..size[1] {
+            let active = rows.row(y);
+            if active.is_empty() || lattice.first(0, y).is_none_or(|x| x >= size[0]) {
+                continue;
+            }
+            segments.of_row(setup, active, |columns, members| {
+                brush.segment(picture, y, columns, members, lattice);
+            });
+        }
+    }
+
+    /// Executes the clear commands before a draw, or at the end of the pass.
+    fn paint_clears(
+        &self,
+        (p, draw): (usize, usize),
+        (size, samples): Shape,
+        picture: &mut [State],
+    ) {
+        let clears = self.scene.passes[p].clears_before(draw);
+        if clears.is_empty() {
+            return;
+        }
+        let clear = |at: Sample, worlds: &mut Worlds| {
+            self.clear((p, draw), at, worlds, &mut Notes(None));
+        };
+        if clears.iter().all(|clear| clear.rect.is_none()) {
+            let anywhere = Sample {
+                size,
+                samples,
+                x: 0,
+                y: 0,
+                sample: 0,
+            };
+            self.each_state(picture, |worlds| clear(anywhere, worlds));
+            return;
+        }
+        let mut known: FxHashMap<(State, SmallVec<[bool; 8]>), State> = FxHashMap::default();
+        for_each_judged(self.texels.lattice(size), size, |x, y| {
+            let inside = |rect: Option<[u32; 4]>| {
+                rect.is_none_or(|[left, top, w, h]| {
+                    x >= left && y >= top && x - left < w && y - top < h
+                })
+            };
+            let inside: SmallVec<[bool; 8]> = clears.iter().map(|c| inside(c.rect)).collect();
+            if !inside.contains(&true) {
+                return;
+            }
+            for sample in 0..samples {
+                let at = Sample {
+                    size,
+                    samples,
+                    x,
+                    y,
+                    sample,
+                };
+                let own = &mut picture[place(at)];
+                let known = known.entry((*own, inside.clone()));
+                *own = *known.or_insert_with(|| self.changed(*own, |worlds| clear(at, worlds)));
+            }
+        });
+    }
+
+    /// Changes the worlds of all samples in the same way.
+    fn each_state(&self, picture: &mut [State], change: impl Fn(&mut Worlds)) {
+        let mut known: FxHashMap<State, State> = FxHashMap::default();
+        for state in picture {
+            let known = known.entry(*state);
+            *state = *known.or_insert_with(|| self.changed(*state, &change));
+        }
+    }
+
+    /// Returns a state after a change of its worlds.
+    fn changed(&self, state: State, change: impl Fn(&mut Worlds)) -> State {
+        let worlds = self.pictures.borrow().states.worlds(state).cloned();
+        let changed = worlds.map(|worlds| {
+            let mut worlds = Worlds::clone(&worlds);
+            change(&mut worlds);
+            worlds
+        });
+        self.pictures.borrow_mut().states.number(changed)
+    }
+
+    fn paint_resolves(&self, p: usize) {
+        let pass = &self.scene.passes[p];
+        let both = pass.color.iter().zip(&pass.resolve);
+        let mut shapes: Vec<Shape> = Vec::new();
+        for (_, target) in both.filter(|(_, target)| target.is_some()) {
+            let Some(target) = *target else { continue };
+            let attachment = &self.scene.attachments[target];
+            let shape = (attachment.size, attachment.samples);
+            if !shapes.contains(&shape) && self.pictures.borrow().shape(shape).is_some() {
+                shapes.push(shape);
+            }
+        }
+        for shape in shapes {
+            self.paint_resolves_into(p, shape);
+        }
+    }
+
+    /// Resolves into the attachments of one shape.
+    fn paint_resolves_into(&self, p: usize, (size, samples): Shape) {
+        let pass = &self.scene.passes[p];
+        let source_samples = self.scene.pass_samples(pass);
+        let mut picture = self.pictures.borrow().of_shape((size, samples)).to_vec();
+        let mut known: FxHashMap<SmallVec<[State; 9]>, State> = FxHashMap::default();
+        for_each_judged(self.texels.lattice(size), size, |x, y| {
+            let at = Sample {
+                size,
+                samples,
+                x,
+                y,
+                sample: 0,
+            };
+            let own = place(at);
+            if picture[own] == OPEN {
+                return;
+            }
+            let sources = (0..source_samples).map(|sample| Sample {
+                samples: source_samples,
+                sample,
+                ..at
+            });
+            let mut key: SmallVec<[State; 9]> = SmallVec::new();
+            key.push(picture[own]);
+            key.extend(sources.map(|at| self.pictures.borrow().state(at)));
+            picture[own] = match known.get(&key) {
+                Some(state) => *state,
+                None => {
+                    let before = self.pictures.borrow().states.worlds(picture[own]).cloned();
+                    let after = before.and_then(|worlds| {
+                        let mut worlds = Worlds::clone(&worlds);
+                        for (source, target) in self.resolves_into(p, at) {
+                            let outcomes =
+                                self.resolve(source, target, at, p + 1, &mut Notes(None))?;
+                            worlds = resolved(&worlds, target, &outcomes)?;
+                        }
+                        Some(worlds)
+                    });
+                    let state = self.pictures.borrow_mut().states.number(after);
+                    known.insert(key, state);
+                    state
+                }
+            };
+        });
+        let mut pictures = self.pictures.borrow_mut();
+        if let Some(shape) = pictures.shape((size, samples)) {
+            pictures.samples[shape] = picture;
+        }
+    }
+}
+
+/// Returns, of each attachment, true if it is of a shape and drawn to or read back.
+fn held(scene: &Scene, (size, samples): Shape) -> Vec<bool> {
+    let mut held = vec![false; scene.attachments.len()];
+    let drawn = scene.passes.iter().flat_map(|pass| {
+        let resolved = pass.resolve.iter().flatten();
+        pass.color.iter().chain(&pass.depth_stencil).chain(resolved)
+    });
+    for index in scene.read.iter().chain(drawn) {
+        let attachment = &scene.attachments[*index];
+        held[*index] = (attachment.size, attachment.samples) == (size, samples);
+    }
+    held
+}
+
+/// Calls `found` with every judged texel, row by row.
+fn for_each_judged(lattice: Lattice, [width, height]: [u32; 2], mut found: impl FnMut(u32, u32)) {
+    for y in 0..height {
+        let mut next = 0;
+        while let Some(x) = lattice.first(next, y)
+            && x < width
+        {
+            found(x, y);
+            next = x + 1;
+        }
+    }
+}
+
+/// The draws of one pass, as they go over a picture.
+struct Brush<'b, 'a> {
+    walk: &'b Walk<'a>,
+    pass: usize,
+    inputs: &'b [Inputs],
+    size: [u32; 2],
+    samples: u32,
+    known: Known,
+    /// The signatures of the first and the last texel of a run.
+    ends: [Signature; 2],
+    /// Signatures whose room is used again.
+    spare: Vec<Signature>,
+}
+
+impl Brush<'_, '_> {
+    fn at(&self, x: u32, y: u32, sample: u32) -> Sample {
+        Sample {
+            size: self.size,
+            samples: self.samples,
+            x,
+            y,
+            sample,
+        }
+    }
+
+    fn sign(&self, at: Sample, members: &[u32], signature: &mut Signature) {
+        let setup = &self.walk.setups[self.pass];
+        let members = members.iter().map(|number| setup.member(*number));
+        self.walk.sign(self.pass, self.inputs, at, members, signature);
+    }
+
+    /// Draws over the judged texels of a part of a row.
+    fn segment(
+        &mut self,
+        picture: &mut [State],
+        y: u32,
+        columns: Range<u32>,
+        members: &[u32],
+        lattice: Lattice,
+    ) {
+        let [mut first, mut last] = std::mem::take(&mut self.ends);
+        for sample in 0..self.samples {
+            if lattice == Lattice::ALL {
+                let (left, right) = (columns.start, columns.end - 1);
+                self.sign(self.at(left, y, sample), members, &mut first);
+                if left == right {
+                    self.texel(picture, self.at(left, y, sample), &first, members);
+                    continue;
+                }
+                self.sign(self.at(right, y, sample), members, &mut last);
+                self.texel(picture, self.at(left, y, sample), &first, members);
+                self.texel(picture, self.at(right, y, sample), &last, members);
+                self.between(picture, [left, right], (y, sample), [&first, &last], members);
+            } else {
+                let mut next = columns.start;
+                while let Some(x) = lattice.first(next, y)
+                    && x < columns.end
+                {
+                    self.sign(self.at(x, y, sample), members, &mut first);
+                    self.texel(picture, self.at(x, y, sample), &first, members);
+                    next = x + 1;
+                }
+            }
+        }
+        self.ends = [first, last];
+    }
+
+    /// Draws over the texels between two whose signatures are known.
+    fn between(
+        &mut self,
+        picture: &mut [State],
+        [left, right]: [u32; 2],
+        (y, sample): (u32, u32),
+        [first, last]: [&Signature; 2],
+        members: &[u32],
+    ) {
+        if right - left < 2 {
+            return;
+        }
+        if first.spans(last) {
+            let mut before = None;
+            let step = self.samples as usize;
+            let start = place(self.at(left + 1, y, sample));
+            let end = place(self.at(right, y, sample));
+            for (i, own) in (start..end).step_by(step).enumerate() {
+                let old = picture[own];
+                match before {
+                    Some((state, after)) if state == old => picture[own] = after,
+                    _ => {
+                        let at = self.at(left + 1 + i as u32, y, sample);
+                        self.texel(picture, at, first, members);
+                        before = Some((old, picture[own]));
+                    }
+                }
+            }
+            return;
+        }
+        let middle = left + (right - left) / 2;
+        let mut signature = self.spare.pop().unwrap_or_default();
+        self.sign(self.at(middle, y, sample), members, &mut signature);
+        self.texel(picture, self.at(middle, y, sample), &signature, members);
+        self.between(picture, [left, middle], (y, sample), [first, &signature], members);
+        self.between(picture, [middle, right], (y, sample), [&signature, last], members);
+        self.spare.push(signature);
+    }
+
+    /// Draws over one sample.
+    fn texel(
+        &mut self,
+        picture: &mut [State],
+        at: Sample,
+        signature: &Signature,
+        members: &[u32],
+    ) {
+        let own = place(at);
+        let mut state = picture[own];
+        for (i, part) in signature.parts.iter().enumerate() {
+            if state == OPEN {
+                break;
+            }
+            let known = &mut self.known;
+            known.key.clear();
+            known.key.push(u64::from(state) | u64::from(part.draw) << 32);
+            known.key.extend_from_slice(signature.words_of(i));
+            state = match known.by_words.get(&known.key) {
+                Some(state) => *state,
+                None => {
+                    let key = known.key.clone();
+                    let after = self.draw(at, state, part.draw, members);
+                    self.known.by_words.insert(key, after);
+                    after
+                }
+            };
+        }
+        picture[own] = state;
+    }
+
+    /// Returns the state of a sample after one draw.
+    fn draw(&self, at: Sample, before: State, draw: u32, members: &[u32]) -> State {
+        let setup = &self.walk.setups[self.pass];
+        let primitives = members.iter().map(|number| setup.member(*number));
+        let primitives = primitives.filter(|(d, _)| *d == draw);
+        let primitives = primitives.map(|(d, i)| &setup.primitives_of(d as usize)[i as usize]);
+        let before = self.walk.pictures.borrow().states.worlds(before).cloned();
+        let after = before.and_then(|worlds| {
+            let worlds = Worlds::clone(&worlds);
+            let draw = (self.pass, draw as usize);
+            self.walk.draw(at, draw, primitives, worlds, &mut Notes(None))
+        });
+        self.walk.pictures.borrow_mut().states.number(after)
+    }
+}

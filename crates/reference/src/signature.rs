@@ -1,0 +1,314 @@
+//! Signatures: all that one draw's outcome at a sample depends on, besides what the sample held before.
+//! Samples of equal signature that held the same hold the same afterwards, so that one of them is judged
+//! for all.
+
+use crate::clause::Rejection;
+use crate::depth::Depth;
+use crate::interval::Interval;
+use crate::judging::Range;
+use crate::primitive::{Shape, Side, SnappedPrimitive};
+use crate::walk::{Hit, Place, Sample, Walk};
+use crate::world::World;
+use etalon_scene::{Contents, Draw, EarlyTests, Multisample};
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+
+/// The inputs of a draw's fragments that its signatures must tell apart.
+#[derive(Clone, Debug)]
+pub(crate) struct Inputs {
+    /// The fragment's own depth is tested, stored or both.
+    depth: bool,
+    /// The shader reads the fragment's depth.
+    depth_seen: bool,
+    coordinates: bool,
+    /// The number of the sample, or its position among others.
+    sample: bool,
+    /// The primitives themselves: counters name them.
+    primitives: bool,
+    textures: SmallVec<[Texture; 2]>,
+    /// Of each primitive, what is the same all over it.
+    kinds: Vec<u32>,
+}
+
+/// How a texture that a draw reads enters its signatures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Texture {
+    /// By nothing but what the sample held, and the coordinates.
+    Known,
+    /// By the texel under the sample, as uploaded.
+    Uploaded(usize),
+    /// By the value that the shader reads.
+    Value(usize),
+}
+
+/// One draw of a signature: the words from `start` on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Part {
+    pub(crate) draw: u32,
+    pub(crate) start: u32,
+}
+
+/// The signature of a sample over all draws of a pass that may touch it.
+#[derive(Debug, Default)]
+pub(crate) struct Signature {
+    pub(crate) words: Vec<u64>,
+    /// The draws that touch the sample, in order.
+    pub(crate) parts: Vec<Part>,
+    /// The sides of all primitives, those that miss the sample too.
+    sides: Vec<[Side; 3]>,
+    /// True if samples between this one and one of equal signature and sides in the same row have the
+    /// same.
+    constant: bool,
+}
+
+impl Signature {
+    /// Returns the words of one of its draws.
+    pub(crate) fn words_of(&self, part: usize) -> &[u64] {
+        let end = self.parts.get(part + 1).map(|next| next.start as usize);
+        &self.words[self.parts[part].start as usize..end.unwrap_or(self.words.len())]
+    }
+
+    /// True if all samples of a row between two with these signatures have the same one. The sides of
+    /// an edge on which a sample certainly lies are half-planes, whose points in a row are an interval.
+    pub(crate) fn spans(&self, other: &Self) -> bool {
+        self.constant
+            && other.constant
+            && self.words == other.words
+            && self.parts == other.parts
+            && self.sides == other.sides
+    }
+}
+
+fn bits(value: Interval) -> [u64; 2] {
+    [value.low.to_bits(), value.high.to_bits()]
+}
+
+fn range_bits(value: Range) -> [u64; 4] {
+    let ([a, b], [c, d]) = (bits(value.float), bits(value.coarse));
+    [a, b, c, d]
+}
+
+impl Walk<'_> {
+    /// Returns the inputs of a draw.
+    pub(crate) fn inputs(&self, pass: usize, index: usize) -> Inputs {
+        let draw = &self.scene.passes[pass].draws[index];
+        let tests_depth = self.scene.passes[pass].depth_stencil.is_some() && draw.depth.is_some();
+        let forced = draw.early_tests == EarlyTests::Forced;
+        let state = &draw.multisample;
+        let samples = self.scene.pass_samples(&self.scene.passes[pass]);
+        let all = (1_u64 << samples) - 1;
+        let plain = Multisample {
+            mask: state.mask,
+            ..Multisample::default()
+        };
+        let masked = u64::from(state.mask) & all != all;
+        let mut inputs = Inputs {
+            depth: tests_depth && (forced || !draw.shader.writes_depth()),
+            depth_seen: draw.shader.reads_depth(),
+            coordinates: draw.shader.reads_coordinates(),
+            sample: masked
+                || *state != plain
+                || draw.shader.runs_per_sample()
+                || draw.shader.interpolates_at_centroid(),
+            primitives: !draw.counters.is_empty(),
+            textures: draw.textures.iter().map(|i| self.texture(pass, draw, *i)).collect(),
+            kinds: Vec::new(),
+        };
+        let mut known = FxHashMap::default();
+        let primitives = self.setups[pass].primitives_of(index);
+        inputs.kinds = primitives
+            .iter()
+            .map(|primitive| {
+                let next = known.len() as u32;
+                *known.entry(inputs.kind(primitive)).or_insert(next)
+            })
+            .collect();
+        inputs
+    }
+
+    fn texture(&self, pass: usize, draw: &Draw, index: usize) -> Texture {
+        let attachment = &self.scene.attachments[index];
+        let drawn = self.is_drawn_before(index, pass);
+        let own = &self.scene.passes[pass];
+        let same_size = attachment.size == self.scene.pass_size(own);
+        let same_shape = same_size && attachment.samples == self.scene.pass_samples(own);
+        match (draw.sampler.filter(|_| draw.shader.uses_uv()), drawn) {
+            // The coordinates tell which texels, and these are the same for all.
+            (Some(_), false) => Texture::Known,
+            (Some(_), true) => Texture::Value(index),
+            (None, true) if same_shape || !same_size => Texture::Known,
+            (None, true) => Texture::Value(index),
+            (None, false) => match &attachment.contents {
+                Contents::Texels(_) => Texture::Uploaded(index),
+                _ => Texture::Known,
+            },
+        }
+    }
+
+    /// Returns the signature of a sample; `members` are the primitives of the pass that may touch it, as draw
+    /// and place in the draw's setup, in drawing order.
+    pub(crate) fn sign(
+        &self,
+        pass: usize,
+        inputs: &[Inputs],
+        at: Sample,
+        members: impl Iterator<Item = (u32, u32)>,
+        signature: &mut Signature,
+    ) {
+        signature.words.clear();
+        signature.parts.clear();
+        signature.sides.clear();
+        signature.constant = true;
+        let point = self.sample_point(at);
+        let setup = &self.setups[pass];
+        for (d, i) in members {
+            let draw = &self.scene.passes[pass].draws[d as usize];
+            let primitive = &setup.primitives_of(d as usize)[i as usize];
+            let inputs = &inputs[d as usize];
+            let sides = self.sides_of(primitive, at, point);
+            signature.sides.push(sides);
+            let hit = match self.hit((pass, d as usize), primitive, sides, point) {
+                Ok(hit) => hit,
+                Err(reason) => {
+                    // Clipped at both ends of a row, it may still lie between them.
+                    signature.constant &= reason == Rejection::Coverage;
+                    continue;
+                }
+            };
+            if signature.parts.last().is_none_or(|part| part.draw != d) {
+                let start = signature.words.len() as u32;
+                signature.parts.push(Part { draw: d, start });
+                self.sign_draw(inputs, at, signature);
+            }
+            let place = Place {
+                at,
+                point,
+                sides: hit.sides,
+                pass,
+                draw_index: d as usize,
+                draw,
+                primitive_index: primitive.index as usize,
+                primitive,
+                draw_id: self.draw_ids[pass] + d,
+                world: (0, 1),
+            };
+            self.sign_primitive(place, hit, inputs.kinds[i as usize], inputs, signature);
+        }
+    }
+
+    /// Adds the words that all primitives of a draw share.
+    fn sign_draw(&self, inputs: &Inputs, at: Sample, signature: &mut Signature) {
+        if inputs.sample {
+            signature.words.push(u64::from(at.sample));
+        }
+        for texture in &inputs.textures {
+            let Texture::Uploaded(index) = texture else {
+                continue;
+            };
+            signature.constant = false;
+            let attachment = &self.scene.attachments[*index];
+            if let Contents::Texels(codes) = &attachment.contents {
+                let channels = attachment.format.color_channels().len();
+                let start = (at.y as usize * attachment.size[0] as usize + at.x as usize) * channels;
+                let own = codes.get(start..start + channels).unwrap_or_default();
+                signature.words.extend(own.iter().map(|code| u64::from(*code)));
+            }
+        }
+    }
+
+    fn sign_primitive(
+        &self,
+        place: Place<'_>,
+        hit: Hit,
+        kind: u32,
+        inputs: &Inputs,
+        signature: &mut Signature,
+    ) {
+        let primitive = place.primitive;
+        let flags = u64::from(hit.in_viewport) | u64::from(hit.in_depth) << 1;
+        let mut word = u64::from(kind) | flags << 32;
+        let mut names_itself = inputs.primitives;
+        signature.constant &= hit.is_certain();
+        if let Shape::Triangle(triangle) = &primitive.shape {
+            for (i, side) in hit.sides.into_iter().enumerate() {
+                word |= (side as u64) << (34 + 2 * i);
+            }
+            let (least, most) = triangle.area;
+            let certain = |side: Side| matches!(side, Side::Positive | Side::Negative);
+            let certain = (least > 0 || most < 0) && hit.sides.into_iter().all(certain);
+            names_itself |= !certain;
+            signature.constant &= certain;
+        } else {
+            let (least, most) = primitive.times(place.point, self.units);
+            word |= u64::from(least) << 34 | u64::from(most) << 36;
+            signature.constant = false;
+        }
+        signature.words.push(word);
+        if names_itself {
+            signature.words.push(u64::from(primitive.index));
+        }
+        if inputs.depth && !primitive.window_depth.is_flat() {
+            signature.constant = false;
+            let depth = primitive.depth_at(place.point);
+            signature.words.extend(bits(depth.float));
+        }
+        if inputs.depth_seen && !primitive.window_depth.is_flat() {
+            signature.constant = false;
+            let samples = self.samples_shaded(place);
+            let depth = primitive.depth_seen(place.point, self.units, samples);
+            signature.words.extend(bits(depth.float));
+        }
+        if primitive.uv.as_ref().is_some_and(|uv| !uv.iter().all(Depth::is_flat)) {
+            signature.constant = false;
+            for axis in self.uv(place) {
+                signature.words.extend(bits(axis.float));
+            }
+        }
+        if inputs.coordinates {
+            signature.constant = false;
+            for axis in self.frag_coord(place) {
+                signature.words.extend(bits(axis.float));
+            }
+        }
+        for (t, texture) in inputs.textures.iter().enumerate() {
+            if let Texture::Value(_) = texture {
+                signature.constant = false;
+                let nowhere = World::default();
+                for channel in self.texel(place, &nowhere, t) {
+                    signature.words.extend(range_bits(channel));
+                }
+            }
+        }
+    }
+}
+
+impl Inputs {
+    /// Returns what is the same all over a primitive.
+    fn kind(&self, primitive: &SnappedPrimitive) -> SmallVec<[u64; 24]> {
+        let mut words: SmallVec<[u64; 24]> = SmallVec::new();
+        words.push(match &primitive.shape {
+            Shape::Point(_) => 0,
+            Shape::Line(_) => 1,
+            Shape::Triangle(triangle) => 2 + facings(triangle.area),
+            Shape::Outline(triangle) => 6 + facings(triangle.area),
+        });
+        for channel in primitive.color {
+            words.extend(bits(channel.float));
+        }
+        words.extend(bits(primitive.bias));
+        words.push(u64::from(primitive.geometry.is_some()));
+        words.extend(primitive.geometry);
+        if (self.depth || self.depth_seen) && primitive.window_depth.is_flat() {
+            words.extend(bits(primitive.window_depth.hull));
+        }
+        for axis in primitive.uv.iter().flatten().filter(|axis| axis.is_flat()) {
+            words.extend(bits(axis.hull));
+        }
+        words
+    }
+}
+
+/// Returns a number below 4 for the ways in which a triangle of such areas may face.
+fn facings((least, most): (i64, i64)) -> u64 {
+    u64::from(least < 0) | u64::from(most > 0) << 1
+}
