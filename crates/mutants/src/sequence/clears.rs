@@ -289,9 +289,9 @@ fn between(list: &mut List) {
             about,
             commands(move |_, clear| {
                 if let ClearTarget::DepthStencil { depth, stencil, .. } = &mut clear.target {
-                    match (&depth, &stencil) {
-                        (Some(_), None) if swap => *stencil = Some(0),
-                        (None, Some(_)) if !swap => *depth = Some(1.0),
+                    match (depth.is_some(), stencil.is_some()) {
+                        (true, false) if swap => *stencil = Some(0),
+                        (false, true) if !swap => *depth = Some(1.0),
                         _ => {}
                     }
                 }
