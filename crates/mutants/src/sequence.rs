@@ -3,6 +3,7 @@
 //!
 //! A state stays by itself, not with its neighbours: a driver that tracks changes forgets one of them.
 
+mod clears;
 mod passes;
 
 use super::list::List;
@@ -30,6 +31,7 @@ pub(super) fn add(list: &mut List) {
         );
     }
     passes::add(list);
+    clears::add(list);
 }
 
 /// The place where a state stays.
