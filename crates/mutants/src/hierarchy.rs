@@ -5,8 +5,8 @@
 
 use super::hooks::code;
 use super::list::{CONFUSION, List};
-use super::memory::{Area, Memory, copy, memory};
-use super::plant::Plant;
+use super::memory::{Area, Memory, copy};
+use super::plant::{Plant, memory};
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{Moment, Stored};
 use etalon_frame::{Aspect, ChannelEncoding};

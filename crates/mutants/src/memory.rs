@@ -3,7 +3,6 @@
 //! A driver's memory of an attachment is more than its texels: caches, cleared tiles, coarse depths. A bug
 //! there shows when something else is done first, so such a bug remembers what it has seen.
 
-use super::plant::Plant;
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{Moment, Steps, Stored};
 use etalon_scene::Scene;
@@ -32,18 +31,6 @@ impl Steps for Memory {
     fn reached(&self, moment: Moment, scene: &Scene, stored: Stored<'_>) {
         (self.0.borrow_mut())(moment, scene, stored);
     }
-}
-
-/// Plants a bug of which each prepared scene makes its own.
-pub(super) fn memory(bug: impl Fn() -> Memory + Send + Sync + 'static) -> Plant {
-    Plant::Memory(Box::new(bug))
-}
-
-/// Changes what is stored at some moments.
-pub(super) fn stored(
-    bug: impl Fn(Moment, &Scene, Stored<'_>) + Clone + Send + Sync + 'static,
-) -> Plant {
-    memory(move || Memory::new(bug.clone()))
 }
 
 /// Left, top, right and bottom of texels; the last two are exclusive.

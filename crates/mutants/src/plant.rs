@@ -2,6 +2,7 @@
 
 use super::hooks::Hooks;
 use super::memory::Memory;
+use etalon_cpu::steps::{Moment, Stored};
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, TextureFormat};
 use etalon_scene::{BlendComponent, Draw, Scene, StencilFace};
 use std::fmt;
@@ -45,6 +46,18 @@ impl From<Hooks> for Plant {
     fn from(hooks: Hooks) -> Self {
         Self::Steps(Box::new(hooks))
     }
+}
+
+/// Plants a bug of which each prepared scene makes its own.
+pub(super) fn memory(bug: impl Fn() -> Memory + Send + Sync + 'static) -> Plant {
+    Plant::Memory(Box::new(bug))
+}
+
+/// Changes what is stored at some moments.
+pub(super) fn stored(
+    bug: impl Fn(Moment, &Scene, Stored<'_>) + Clone + Send + Sync + 'static,
+) -> Plant {
+    memory(move || Memory::new(bug.clone()))
 }
 
 /// Changes the scene.

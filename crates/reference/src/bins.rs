@@ -220,7 +220,8 @@ impl Segments {
         self.coming.sort_unstable();
         self.breaks.sort_unstable();
         self.members.clear();
-        let (mut coming, mut breaks) = (self.coming.iter().peekable(), self.breaks.iter().peekable());
+        let (mut coming, mut breaks) =
+            (self.coming.iter().peekable(), self.breaks.iter().peekable());
         let mut at = 0;
         loop {
             if self.members.is_empty() {

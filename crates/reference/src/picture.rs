@@ -204,7 +204,11 @@ impl Walk<'_> {
             self.paint_clears((p, stop), shape, &mut picture);
             next = stop;
         }
-        if pass.draws.iter().any(|d| d.multisample.sample_coverage.is_some()) {
+        if pass
+            .draws
+            .iter()
+            .any(|d| d.multisample.sample_coverage.is_some())
+        {
             self.each_state(&mut picture, |worlds| self.end_pass(worlds));
         }
         self.pictures.borrow_mut().samples[index] = picture;
@@ -437,7 +441,8 @@ impl Brush<'_, '_> {
     fn sign(&self, at: Sample, members: &[u32], signature: &mut Signature) {
         let setup = &self.walk.setups[self.pass];
         let members = members.iter().map(|number| setup.member(*number));
-        self.walk.sign(self.pass, self.inputs, at, members, signature);
+        self.walk
+            .sign(self.pass, self.inputs, at, members, signature);
     }
 
     /// Draws over the judged texels of a part of a row.
@@ -461,7 +466,13 @@ impl Brush<'_, '_> {
                 self.sign(self.at(right, y, sample), members, &mut last);
                 self.texel(picture, self.at(left, y, sample), &first, members);
                 self.texel(picture, self.at(right, y, sample), &last, members);
-                self.between(picture, [left, right], (y, sample), [&first, &last], members);
+                self.between(
+                    picture,
+                    [left, right],
+                    (y, sample),
+                    [&first, &last],
+                    members,
+                );
             } else {
                 let mut next = columns.start;
                 while let Some(x) = lattice.first(next, y)
@@ -510,19 +521,25 @@ impl Brush<'_, '_> {
         let mut signature = self.spare.pop().unwrap_or_default();
         self.sign(self.at(middle, y, sample), members, &mut signature);
         self.texel(picture, self.at(middle, y, sample), &signature, members);
-        self.between(picture, [left, middle], (y, sample), [first, &signature], members);
-        self.between(picture, [middle, right], (y, sample), [&signature, last], members);
+        self.between(
+            picture,
+            [left, middle],
+            (y, sample),
+            [first, &signature],
+            members,
+        );
+        self.between(
+            picture,
+            [middle, right],
+            (y, sample),
+            [&signature, last],
+            members,
+        );
         self.spare.push(signature);
     }
 
     /// Draws over one sample.
-    fn texel(
-        &mut self,
-        picture: &mut [State],
-        at: Sample,
-        signature: &Signature,
-        members: &[u32],
-    ) {
+    fn texel(&mut self, picture: &mut [State], at: Sample, signature: &Signature, members: &[u32]) {
         let own = place(at);
         let mut state = picture[own];
         for (i, part) in signature.parts.iter().enumerate() {
@@ -531,7 +548,9 @@ impl Brush<'_, '_> {
             }
             let known = &mut self.known;
             known.key.clear();
-            known.key.push(u64::from(state) | u64::from(part.draw) << 32);
+            known
+                .key
+                .push(u64::from(state) | u64::from(part.draw) << 32);
             known.key.extend_from_slice(signature.words_of(i));
             state = match known.by_words.get(&known.key) {
                 Some(state) => *state,
@@ -556,7 +575,8 @@ impl Brush<'_, '_> {
         let after = before.and_then(|worlds| {
             let worlds = Worlds::clone(&worlds);
             let draw = (self.pass, draw as usize);
-            self.walk.draw(at, draw, primitives, worlds, &mut Notes(None))
+            self.walk
+                .draw(at, draw, primitives, worlds, &mut Notes(None))
         });
         self.walk.pictures.borrow_mut().states.number(after)
     }

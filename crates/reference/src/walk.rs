@@ -435,7 +435,11 @@ impl<'a> Walk<'a> {
     }
 
     /// Returns the set of a sample of a picture; of an open one, nothing is asserted.
-    pub(crate) fn set(&self, worlds: Option<&Rc<Worlds>>, (size, samples): PictureShape) -> TexelSet {
+    pub(crate) fn set(
+        &self,
+        worlds: Option<&Rc<Worlds>>,
+        (size, samples): PictureShape,
+    ) -> TexelSet {
         let at = Sample {
             size,
             samples,

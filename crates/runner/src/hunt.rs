@@ -1,8 +1,7 @@
 //! The hunt for planted bugs: every case drawn by every mutant, in this process, on all cores.
 
-use crate::drawing::draw_frames;
 use crate::judge::Judge;
-use etalon_backend::Backend;
+use etalon_backend::{Backend, BackendError};
 use etalon_case::Case;
 use etalon_frame::{Frame, WrongTexel};
 use etalon_record::{AreaTally, Catch, MutantInfo, MutantRecord, Sighting, Verdict};
@@ -21,22 +20,6 @@ pub struct HuntPlan<'a> {
     pub full: bool,
     /// The number of threads.
     pub jobs: usize,
-}
-
-/// The areas whose bugs show in large cases.
-const LATE_AREAS: [&str; 2] = ["size", "sequence"];
-/// The longest side of a small case's attachments in texels, the most draws, and the most vertices.
-const SMALL: (u32, usize, usize) = (64, 500, 5_000);
-
-/// True if a case is hunted with the bugs of [`LATE_AREAS`] only.
-fn is_large(case: &Case) -> bool {
-    let (side, most, corners) = SMALL;
-    case.scenes().any(|scene| {
-        let draws = || scene.passes.iter().flat_map(|p| &p.draws);
-        let vertices: usize = draws().map(|d| d.mesh.vertices.len()).sum();
-        let sizes = scene.attachments.iter().flat_map(|a| a.size);
-        sizes.into_iter().any(|s| s > side) || draws().count() > most || vertices > corners
-    })
 }
 
 /// Draws and judges the cases with every bug planted. Returns a record of each bug, in the order of the
@@ -66,8 +49,7 @@ pub fn hunt(
                     .collect();
                 for (number, case) in plan.cases.iter().enumerate() {
                     if case.judged_as.is_none() {
-                        let share = share.iter_mut().filter(|m| m.meets(case));
-                        try_case(judge, number, case, share, plan.full);
+                        try_case(judge, number, case, &mut share, plan.full);
                     }
                     drawn();
                 }
@@ -86,13 +68,7 @@ pub fn hunt(
 
 /// Draws one case with each of a thread's bugs. Most of them give the same few frames, which are
 /// judged once.
-fn try_case<'a>(
-    judge: &Judge,
-    number: usize,
-    case: &Case,
-    share: impl Iterator<Item = &'a mut Mutant>,
-    full: bool,
-) {
+fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], full: bool) {
     let mut seen: Vec<(Vec<Frame>, Sighting)> = Vec::new();
     for mutant in share {
         let area = mutant.area(case.area());
@@ -138,9 +114,17 @@ fn broken(case: &Case, message: String) -> Sighting {
     }
 }
 
-/// Draws the frames of a case. A panic is a broken mutant, not the end of the hunt.
+/// Draws a case's scenes once each. A panic is a broken mutant, not the end of the hunt.
 fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
-    match catch_unwind(AssertUnwindSafe(|| draw_frames(backend, case))) {
+    let attempt = || -> Result<Vec<Frame>, BackendError> {
+        let draw = |scene| {
+            let mut prepared = backend.prepare(scene)?;
+            prepared.submit()?;
+            prepared.read_back()
+        };
+        case.scenes().map(draw).collect()
+    };
+    match catch_unwind(AssertUnwindSafe(attempt)) {
         Ok(outcome) => outcome.map_err(|e| e.to_string()),
         Err(_) => Err("it panicked".to_owned()),
     }
@@ -169,12 +153,6 @@ impl Mutant {
             },
             backend,
         }
-    }
-
-    /// True if the bug is tried on a case: any on a small one, and on a large one those that need it, since
-    /// a large case takes as long as hundreds of others.
-    fn meets(&self, case: &Case) -> bool {
-        LATE_AREAS.contains(&self.record.mutant.area.as_str()) || !is_large(case)
     }
 
     /// The place of an area's tally.

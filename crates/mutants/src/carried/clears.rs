@@ -41,30 +41,7 @@ pub(super) fn add(list: &mut List) {
 
 fn loads(list: &mut List) {
     type Bug = (&'static str, &'static str, fn(usize, &mut Pass));
-    let bugs: [Bug; 14] = [
-        (
-            "color-load-clear-skipped",
-            "Load operations do not clear colour.",
-            |_, pass| {
-                for own in &mut pass.operations.color {
-                    own.load = LoadOperation::Load;
-                }
-            },
-        ),
-        (
-            "depth-load-clear-skipped",
-            "Load operations do not clear depth.",
-            |_, pass| {
-                pass.operations.depth.load = LoadOperation::Load;
-            },
-        ),
-        (
-            "stencil-load-clear-skipped",
-            "Load operations do not clear stencil.",
-            |_, pass| {
-                pass.operations.stencil.load = LoadOperation::Load;
-            },
-        ),
+    let bugs: [Bug; 9] = [
         (
             "color-load-clears",
             "Passes after the first clear colour instead of loading it.",
@@ -93,28 +70,6 @@ fn loads(list: &mut List) {
             |n, pass| {
                 if n > 0 && !pass.depth_stencil_read_only {
                     pass.operations.stencil.load = LoadOperation::Clear(0);
-                }
-            },
-        ),
-        (
-            "stencil-cleared-with-depth",
-            "A load operation that clears depth sets stencil to 0.",
-            |_, pass| {
-                if pass.operations.depth.load != LoadOperation::Load
-                    && pass.operations.stencil.load == LoadOperation::Load
-                {
-                    pass.operations.stencil.load = LoadOperation::Clear(0);
-                }
-            },
-        ),
-        (
-            "depth-cleared-with-stencil",
-            "A load operation that clears stencil sets depth to 1.",
-            |_, pass| {
-                if pass.operations.stencil.load != LoadOperation::Load
-                    && pass.operations.depth.load == LoadOperation::Load
-                {
-                    pass.operations.depth.load = LoadOperation::Clear(1.0);
                 }
             },
         ),
@@ -260,12 +215,7 @@ fn loads(list: &mut List) {
 
 fn commands(list: &mut List) {
     type Bug = (&'static str, &'static str, fn(&mut Clear));
-    let bugs: [Bug; 9] = [
-        (
-            "clear-ignores-rectangle",
-            "A clear command ignores its rectangle.",
-            |clear| clear.rect = None,
-        ),
+    let bugs: [Bug; 4] = [
         (
             "clear-ignores-left-of-rectangle",
             "The rectangle of a clear command begins at column 0.",
@@ -273,24 +223,6 @@ fn commands(list: &mut List) {
                 if let Some([x, _, w, _]) = &mut clear.rect {
                     *w += *x;
                     *x = 0;
-                }
-            },
-        ),
-        (
-            "clear-loses-last-row",
-            "The rectangle of a clear command is a row too small.",
-            |clear| {
-                if let Some([_, _, _, h]) = &mut clear.rect {
-                    *h = h.saturating_sub(1);
-                }
-            },
-        ),
-        (
-            "clear-loses-last-column",
-            "The rectangle of a clear command is a column too small.",
-            |clear| {
-                if let Some([_, _, w, _]) = &mut clear.rect {
-                    *w = w.saturating_sub(1);
                 }
             },
         ),
@@ -321,34 +253,6 @@ fn commands(list: &mut List) {
                 } = &mut clear.target
                 {
                     *stencil_write_mask = 0xff;
-                }
-            },
-        ),
-        (
-            "clear-command-of-depth-takes-stencil",
-            "A clear command of depth sets stencil to 0.",
-            |clear| {
-                if let ClearTarget::DepthStencil {
-                    depth: Some(_),
-                    stencil,
-                    ..
-                } = &mut clear.target
-                {
-                    *stencil = stencil.or(Some(0));
-                }
-            },
-        ),
-        (
-            "clear-command-of-stencil-takes-depth",
-            "A clear command of stencil sets depth to 1.",
-            |clear| {
-                if let ClearTarget::DepthStencil {
-                    stencil: Some(_),
-                    depth,
-                    ..
-                } = &mut clear.target
-                {
-                    *depth = depth.or(Some(1.0));
                 }
             },
         ),
@@ -395,29 +299,9 @@ fn commands(list: &mut List) {
     for (name, about, keep) in keeps {
         list.add(name, CONFUSION, about, kept(keep));
     }
-    list.add(
-        "second-equal-clear-skipped",
-        CONFUSION,
-        "A clear command that equals an earlier one of its pass is skipped.",
-        passes(|_, pass| {
-            let mut seen: Vec<(ClearTarget, Option<[u32; 4]>)> = Vec::new();
-            pass.clears.retain(|clear| {
-                let new = (clear.target, clear.rect);
-                let again = seen.contains(&new);
-                seen.push(new);
-                !again
-            });
-        }),
-    );
 }
 
 fn moved(list: &mut List) {
-    list.add(
-        "clears-before-all-draws",
-        CONFUSION,
-        "Clear commands of a pass are executed before its draws.",
-        passes(|_, pass| pass.clears.iter_mut().for_each(|c| c.before = 0)),
-    );
     list.add(
         "clears-after-all-draws",
         CONFUSION,
@@ -436,20 +320,6 @@ fn moved(list: &mut List) {
             pass.clears
                 .iter_mut()
                 .for_each(|c| c.before = (c.before + 1).min(end));
-        }),
-    );
-    list.add(
-        "clear-within-scissor",
-        CONFUSION,
-        "A clear command is cut off by the scissor rectangle of the draw before.",
-        passes(|_, pass| {
-            let draws = &pass.draws;
-            for clear in &mut pass.clears {
-                let before = clear.before.checked_sub(1).and_then(|at| draws.get(at));
-                if let Some(scissor) = before.and_then(|draw| draw.scissor) {
-                    clear.rect = clear.rect.or(Some(scissor));
-                }
-            }
         }),
     );
     list.add(

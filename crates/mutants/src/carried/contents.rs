@@ -1,8 +1,8 @@
 //! Contents that a pass change or a submission loses or keeps.
 
 use super::super::list::{CONFUSION, List};
-use super::super::memory::{Memory, memory};
-use super::super::plant::Plant;
+use super::super::memory::Memory;
+use super::super::plant::{Plant, memory};
 use etalon_cpu::Surface;
 use etalon_cpu::steps::Moment;
 use etalon_frame::Aspect;

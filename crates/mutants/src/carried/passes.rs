@@ -1,8 +1,7 @@
 //! Passes that lose draws, attachments or resolves, or what they promise.
 
 use super::super::list::{CONFUSION, List};
-use super::super::memory::stored;
-use super::super::plant::{Plant, scene};
+use super::super::plant::{Plant, scene, stored};
 use etalon_cpu::steps::Moment;
 use etalon_pipeline::{Arithmetic, Plain};
 use etalon_scene::{Draw, Pass, Scene, StencilOperation};

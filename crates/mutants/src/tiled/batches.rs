@@ -63,16 +63,6 @@ pub(super) fn add(list: &mut List) {
 }
 
 fn numbers_of_draws(list: &mut List) {
-    for n in [256, 1000, 1024, 4096] {
-        list.add(
-            &format!("draw-{n}-lost"),
-            CONFUSION,
-            format!("Draw number {n} of a pass is lost."),
-            calls(n, move |all| {
-                all.remove(n - 1);
-            }),
-        );
-    }
     for n in [256, 1024, 4096] {
         list.add(
             &format!("draws-past-{n}-lost"),
@@ -103,7 +93,7 @@ fn numbers_of_draws(list: &mut List) {
             }),
         );
     }
-    for n in [256, 1000, 1024] {
+    for n in [255, 1000, 1024] {
         list.add(
             &format!("draws-swapped-at-{n}"),
             CONFUSION,
@@ -125,18 +115,6 @@ fn numbers_of_draws(list: &mut List) {
 fn numbers_of_primitives(list: &mut List) {
     for n in [100, 256, 1000, 4096] {
         list.add(
-            &format!("last-of-{n}-lost"),
-            CONFUSION,
-            format!("Batches of {n} primitives lose their last."),
-            primitives(n, any, move |all| {
-                let mut number = 0;
-                all.retain(|_| {
-                    number += 1;
-                    number % n != 0
-                });
-            }),
-        );
-        list.add(
             &format!("order-swapped-at-{n}"),
             CONFUSION,
             format!("The primitives on both sides of the end of a batch of {n} change places."),
@@ -148,14 +126,6 @@ fn numbers_of_primitives(list: &mut List) {
         );
     }
     for n in [1_usize << 16, 100_000] {
-        list.add(
-            &format!("primitive-{n}-lost"),
-            CONFUSION,
-            format!("Primitive number {n} is lost."),
-            primitives(n, any, move |all| {
-                all.remove(n - 1);
-            }),
-        );
         list.add(
             &format!("primitive-{n}-doubled"),
             CONFUSION,
@@ -200,18 +170,6 @@ fn numbers_of_primitives(list: &mut List) {
 fn indices(list: &mut List) {
     const WRAP: u32 = 1 << 16;
     list.add(
-        "indices-in-16-bits",
-        CONFUSION,
-        "Indices wrap at 65,536.",
-        draws(|draw| {
-            for index in draw.mesh.indices.iter_mut().flatten() {
-                if *index != etalon_scene::RESTART {
-                    *index %= WRAP;
-                }
-            }
-        }),
-    );
-    list.add(
         "vertices-in-16-bits",
         CONFUSION,
         "Vertices past 65,536 are the first ones again.",
@@ -220,28 +178,6 @@ fn indices(list: &mut List) {
             let n = WRAP as usize;
             for at in n..mesh.vertices.len() {
                 mesh.vertices[at] = mesh.vertices[at % n];
-            }
-        }),
-    );
-    list.add(
-        "index-65535-ends-a-strip",
-        CONFUSION,
-        "Index 65,535 restarts primitives.",
-        draws(|draw| {
-            for index in draw.mesh.indices.iter_mut().flatten() {
-                if *index == WRAP - 1 {
-                    *index = etalon_scene::RESTART;
-                }
-            }
-        }),
-    );
-    list.add(
-        "index-count-at-65535",
-        CONFUSION,
-        "Indices past 65,535 are not drawn.",
-        draws(|draw| {
-            if let Some(indices) = &mut draw.mesh.indices {
-                indices.truncate(WRAP as usize - 1);
             }
         }),
     );

@@ -2,9 +2,9 @@
 
 use super::super::hooks::code;
 use super::super::list::{CONFUSION, List};
-use super::super::memory::{Area, stored};
-use super::super::plant::Plant;
-use super::TILES;
+use super::super::memory::Area;
+use super::super::plant::{Plant, stored};
+use super::tiles::TILES;
 use etalon_cpu::Surface;
 use etalon_cpu::steps::Moment;
 use etalon_frame::{Aspect, ChannelEncoding};

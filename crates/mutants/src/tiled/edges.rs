@@ -2,7 +2,7 @@
 
 use super::super::list::{CONFUSION, List};
 use super::super::plant::sized;
-use super::TILES;
+use super::tiles::TILES;
 
 /// The names of the edges, with the axis, and true for the far one.
 const EDGES: [(&str, usize, bool); 4] = [

@@ -2,8 +2,8 @@
 
 use super::super::hooks::fetch;
 use super::super::list::{CONFUSION, List};
-use super::super::memory::{Area, stored};
-use super::super::plant::{Plant, moved};
+use super::super::memory::Area;
+use super::super::plant::{Plant, moved, stored};
 use super::clears::spoil;
 use etalon_cpu::steps::Moment;
 use etalon_frame::{Aspect, CounterKind};

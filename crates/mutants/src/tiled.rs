@@ -1,4 +1,5 @@
-//! Bugs of size: tiles, edges, batches and counts that small pictures do not reach.
+//! Bugs of large pictures: tiles that draws, clears and resolves leave out, edges where tiles end, and numbers
+//! of draws and primitives where batches end.
 
 use super::list::List;
 
@@ -7,9 +8,7 @@ mod clears;
 mod copies;
 mod edges;
 mod extent;
-
-/// The sides of tiles, in texels.
-const TILES: [u32; 4] = [8, 16, 32, 64];
+mod tiles;
 
 pub(super) fn add(list: &mut List) {
     list.class("size", "size");
