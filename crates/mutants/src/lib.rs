@@ -42,6 +42,7 @@ mod sample_shading;
 mod samples;
 mod scissor;
 mod sequence;
+mod size;
 mod stencil;
 mod sticky;
 mod tables;

@@ -5,7 +5,7 @@ use crate::mutant::Mutant;
 use crate::{
     bias, blend, bounds, capability, carried, clear, counter, cull, depth, depth_range, discard,
     dual_source, early, fetch, formats, geometry, hierarchy, invariance, logic, mask, read_only,
-    readback, resolve, sample_coverage, sample_shading, samples, scissor, sequence, stencil,
+    readback, resolve, sample_coverage, sample_shading, samples, scissor, sequence, size, stencil,
     sticky, targets, texture, tiled, topology, upload, viewport,
 };
 use std::sync::LazyLock;
@@ -51,6 +51,7 @@ pub fn mutants() -> &'static [Mutant] {
         hierarchy::add(&mut list);
         carried::add(&mut list);
         sequence::add(&mut list);
+        size::add(&mut list);
         list.mutants
     });
     &ALL

@@ -12,6 +12,7 @@ use crate::world::{Cell, World, Worlds};
 use etalon_scene::{Contents, Scene};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -319,11 +320,11 @@ impl Walk<'_> {
 
     fn paint_resolves(&self, p: usize) {
         let pass = &self.scene.passes[p];
-        let both = pass.color.iter().zip(&pass.resolve);
+        let depth = pass.depth_stencil_resolve.iter().map(|resolve| &resolve.to);
+        let targets = pass.resolve.iter().flatten().chain(depth);
         let mut shapes: Vec<Shape> = Vec::new();
-        for (_, target) in both.filter(|(_, target)| target.is_some()) {
-            let Some(target) = *target else { continue };
-            let attachment = &self.scene.attachments[target];
+        for target in targets {
+            let attachment = &self.scene.attachments[*target];
             let shape = (attachment.size, attachment.samples);
             if !shapes.contains(&shape) && self.pictures.borrow().shape(shape).is_some() {
                 shapes.push(shape);
@@ -371,6 +372,7 @@ impl Walk<'_> {
                                 self.resolve(source, target, at, p + 1, &mut Notes(None))?;
                             worlds = resolved(&worlds, target, &outcomes)?;
                         }
+                        self.resolve_depth_stencil(p, at, &mut worlds, &mut Notes(None))?;
                         Some(worlds)
                     });
                     let state = self.pictures.borrow_mut().states.number(after);
@@ -389,15 +391,33 @@ impl Walk<'_> {
 /// Returns, of each attachment, true if it is of a shape and drawn to or read back.
 fn held(scene: &Scene, (size, samples): Shape) -> Vec<bool> {
     let mut held = vec![false; scene.attachments.len()];
-    let drawn = scene.passes.iter().flat_map(|pass| {
-        let resolved = pass.resolve.iter().flatten();
-        pass.color.iter().chain(&pass.depth_stencil).chain(resolved)
-    });
-    for index in scene.read.iter().chain(drawn) {
-        let attachment = &scene.attachments[*index];
-        held[*index] = (attachment.size, attachment.samples) == (size, samples);
+    for index in drawn_or_read(scene) {
+        let attachment = &scene.attachments[index];
+        held[index] = (attachment.size, attachment.samples) == (size, samples);
     }
     held
+}
+
+/// Returns the attachments that a scene draws to, clears, resolves to or reads back.
+fn drawn_or_read(scene: &Scene) -> impl Iterator<Item = usize> {
+    let of_passes = scene.passes.iter().flat_map(|pass| {
+        let depth = pass.depth_stencil_resolve.iter().map(|resolve| &resolve.to);
+        let resolved = pass.resolve.iter().flatten().chain(depth);
+        pass.color.iter().chain(&pass.depth_stencil).chain(resolved)
+    });
+    scene.read.iter().chain(of_passes).copied()
+}
+
+/// Returns the shapes of all attachments that a scene draws to or reads back.
+pub(crate) fn shapes(scene: &Scene) -> Vec<Shape> {
+    let shape = |index: usize| {
+        (
+            scene.attachments[index].size,
+            scene.attachments[index].samples,
+        )
+    };
+    let shapes: BTreeSet<Shape> = drawn_or_read(scene).map(shape).collect();
+    shapes.into_iter().collect()
 }
 
 /// Calls `found` with every judged texel, row by row.

@@ -248,6 +248,7 @@ impl<'a> Walk<'a> {
                 let outcomes = self.resolve(source, target, at, p + 1, notes)?;
                 worlds = resolved(&worlds, target, &outcomes)?;
             }
+            self.resolve_depth_stencil(p, at, &mut worlds, notes)?;
             self.store(p, notes);
         }
         Some(worlds)

@@ -70,7 +70,11 @@ pub fn hunt(
 /// judged once.
 fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], full: bool) {
     let mut seen: Vec<(Vec<Frame>, Sighting)> = Vec::new();
+    let large = is_large(case);
     for mutant in share {
+        if large && !mutant.needs_size {
+            continue;
+        }
         let area = mutant.area(case.area());
         let tally = &mutant.record.areas[area];
         if !full && tally.fail > 0 {
@@ -96,6 +100,17 @@ fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], ful
         };
         mutant.note(area, sighting);
     }
+}
+
+/// The classes of bugs that only large pictures, or many passes, meet.
+const NEED_SIZE: [&str; 3] = ["hierarchy", "sequence", "size"];
+
+/// True if a case draws to more than 64 by 64 texels: such cases are held against bugs that need the
+/// size alone, since one takes as long as hundreds of others.
+fn is_large(case: &Case) -> bool {
+    let texels = |size: [u32; 2]| u64::from(size[0]) * u64::from(size[1]);
+    let sizes = case.scene.attachments.iter().map(|a| texels(a.size));
+    sizes.max().is_some_and(|most| most > 64 * 64)
 }
 
 fn sighting(case: &Case, verdict: Verdict, texel: Option<WrongTexel>) -> Sighting {
@@ -134,6 +149,8 @@ fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
 struct Mutant {
     at: usize,
     backend: Option<Box<dyn Backend>>,
+    /// True if the bug may need a large picture to show.
+    needs_size: bool,
     record: MutantRecord,
 }
 
@@ -141,6 +158,7 @@ impl Mutant {
     fn new(at: usize, info: &MutantInfo, backend: Option<Box<dyn Backend>>) -> Self {
         Self {
             at,
+            needs_size: NEED_SIZE.contains(&info.name.split('/').next().unwrap_or_default()),
             record: MutantRecord {
                 mutant: info.clone(),
                 outcome: if backend.is_some() {

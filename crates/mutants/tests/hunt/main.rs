@@ -146,8 +146,9 @@ impl Cases {
 fn hunt(class: &str) {
     let own: Vec<&Mutant> = mutants().iter().filter(|m| class_of(m) == class).collect();
     let areas: BTreeSet<&str> = own.iter().map(|m| catching_area(m)).collect();
-    let measured = ["methods", "perf"];
-    let all = LazyCell::new(|| Cases::new(Profile::Quick, |a| !measured.contains(&a)));
+    // Pictures are small elsewhere.
+    let left_out = ["methods", "perf", "size"];
+    let all = LazyCell::new(|| Cases::new(Profile::Quick, |a| !left_out.contains(&a)));
     let mut survivors = Vec::new();
     for area in areas {
         let mut cases = Cases::new(Profile::Quick, |a| a == area);
