@@ -212,14 +212,16 @@ fn rect(wire: &ClearCommandWire, size: [u32; 2]) -> Result<Option<[u32; 4]>, At>
 mod tests {
     use super::*;
     use crate::{CaseFile, Profile};
-    use etalon_scene::Scene;
+    use etalon_scene::{ResolveMode, Scene};
 
     fn build(pass: &str) -> Result<Scene, String> {
         let text = format!(
             r#"{{"about":"t","spec":["t"],"scene":{{
             "attachments":{{"color":{{"format":"rgba8unorm","size":[4,4]}},
                 "integer":{{"format":"rgba8uint"}},
-                "depth":{{"format":"depth24plus-stencil8"}},"d16":{{"format":"depth16unorm"}}}},
+                "depth":{{"format":"depth24plus-stencil8"}},"d16":{{"format":"depth16unorm"}},
+                "many":{{"format":"depth24plus-stencil8","samples":4}},
+                "many16":{{"format":"depth16unorm","samples":4}}}},
             "passes":[{{{pass}}}],"read":["color"]}}}}"#
         );
         let file = CaseFile::parse("t.json", &text).unwrap();
@@ -323,6 +325,56 @@ mod tests {
         refused(&read_only(r#""clears":[{"before":0,"depth":1}]"#), due);
         let color = r#""clears":[{"before":0,"color":0,"value":[0,0,0,0]}]"#;
         assert!(build(&read_only(color)).is_ok());
+    }
+
+    #[test]
+    fn a_resolve_of_depth_and_stencil_fits_its_attachment() {
+        let resolve = |from: &str, keys: &str| {
+            format!(r#""depth_stencil":"{from}","draws":[],"depth_stencil_resolve":{{{keys}}}"#)
+        };
+        let scene = build(&resolve("many", r#""to":"depth","depth":"min""#)).unwrap();
+        let made = scene.passes[0].depth_stencil_resolve.unwrap();
+        assert_eq!(scene.attachments[made.to].name, "depth");
+        assert_eq!(
+            (made.depth, made.stencil),
+            (ResolveMode::Min, ResolveMode::None)
+        );
+        for (from, keys, due) in [
+            (
+                "many",
+                r#""to":"d16","depth":"min""#,
+                "to: `d16` differs in format or size",
+            ),
+            (
+                "many",
+                r#""to":"many","depth":"min""#,
+                "to: several samples are resolved to one",
+            ),
+            (
+                "depth",
+                r#""to":"depth","depth":"min""#,
+                "to: several samples are resolved",
+            ),
+            (
+                "many",
+                r#""to":"depth","stencil":"average""#,
+                "stencil: stencil has no average",
+            ),
+            ("many", r#""to":"depth""#, "a mode for `depth` or `stencil`"),
+            (
+                "many16",
+                r#""to":"d16","stencil":"min""#,
+                "stencil: the pass has no stencil",
+            ),
+        ] {
+            refused(&resolve(from, keys), due);
+        }
+        let none =
+            r#""color":["color"],"draws":[],"depth_stencil_resolve":{"to":"depth","depth":"min"}"#;
+        refused(
+            none,
+            "depth_stencil_resolve: the pass has neither depth nor stencil",
+        );
     }
 
     #[test]

@@ -5,8 +5,8 @@ use crate::draw::{Target, draw, writes_depth_stencil};
 use crate::error::At;
 use crate::pass_operations::{PassTarget, clears, operations};
 use crate::values::typed;
-use crate::wire::{PassWire, SceneWire};
-use etalon_scene::{Attachment, Counter, Pass, Scene};
+use crate::wire::{DepthStencilResolveWire, PassWire, SceneWire};
+use etalon_scene::{Attachment, Counter, DepthStencilResolve, Pass, ResolveMode, Scene};
 use serde_json::Value;
 
 /// The most counters of a scene.
@@ -90,6 +90,13 @@ fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Re
         }
     };
     let resolve = resolve_targets(wire, &color, attachments)?;
+    let depth_stencil_resolve = match &wire.depth_stencil_resolve {
+        None => None,
+        Some(resolve) => {
+            let made = depth_stencil_target(resolve, depth_stencil, attachments);
+            Some(made.map_err(|e| e.key("depth_stencil_resolve"))?)
+        }
+    };
     let all: Vec<&Attachment> = color
         .iter()
         .chain(&depth_stencil)
@@ -111,6 +118,7 @@ fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Re
         .iter()
         .chain(&depth_stencil)
         .chain(resolved)
+        .chain(depth_stencil_resolve.as_ref().map(|r| &r.to))
         .copied()
         .collect();
     let mut draws = Vec::new();
@@ -141,6 +149,7 @@ fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Re
         draws: draws.len(),
     };
     Ok(Pass {
+        depth_stencil_resolve,
         operations: operations(wire, &target).map_err(|e| e.key("operations"))?,
         clears: clears(wire, &target).map_err(|e| e.key("clears"))?,
         color,
@@ -148,6 +157,49 @@ fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Re
         depth_stencil,
         depth_stencil_read_only: wire.depth_stencil_read_only,
         draws,
+    })
+}
+
+/// The resolve of depth and stencil, with modes that the format has.
+fn depth_stencil_target(
+    wire: &DepthStencilResolveWire,
+    depth_stencil: Option<usize>,
+    attachments: &[Attachment],
+) -> Result<DepthStencilResolve, At> {
+    let Some(source) = depth_stencil.map(|i| &attachments[i]) else {
+        return Err(At::new("the pass has neither depth nor stencil"));
+    };
+    let to = find(&wire.to, attachments).map_err(|e| e.key("to"))?;
+    let target = &attachments[to];
+    if source.samples < 2 || target.samples != 1 {
+        return Err(At::new("several samples are resolved to one").key("to"));
+    }
+    if (source.format, source.size) != (target.format, target.size) {
+        return Err(At::new(format!(
+            "`{}` differs in format or size from `{}`",
+            wire.to, source.name
+        ))
+        .key("to"));
+    }
+    let modes = [
+        ("depth", wire.depth, source.format.has_depth()),
+        ("stencil", wire.stencil, source.format.has_stencil()),
+    ];
+    for (name, mode, has) in modes {
+        if mode != ResolveMode::None && !has {
+            return Err(At::new(format!("the pass has no {name}")).key(name));
+        }
+    }
+    if wire.stencil == ResolveMode::Average {
+        return Err(At::new("stencil has no average").key("stencil"));
+    }
+    if [wire.depth, wire.stencil] == [ResolveMode::None; 2] {
+        return Err(At::new("a resolve has a mode for `depth` or `stencil`"));
+    }
+    Ok(DepthStencilResolve {
+        to,
+        depth: wire.depth,
+        stencil: wire.stencil,
     })
 }
 

@@ -26,6 +26,8 @@ pub(crate) fn substitute(value: &Value, values: &BTreeMap<&str, &Value>) -> Resu
                 }
             },
         },
+        // Texels are long lists of numbers.
+        Value::Array(list) if list.iter().all(Value::is_number) => value.clone(),
         Value::Array(list) => Value::Array(
             list.iter()
                 .enumerate()

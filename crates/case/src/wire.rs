@@ -13,6 +13,6 @@ pub(crate) use file::{
     VariantWire,
 };
 pub(crate) use scene::{
-    AttachmentWire, ClearCommandWire, ClearMaskWire, ClearWire, DrawWire, PassWire, SceneWire,
-    StencilFaceWire, StencilWire, TexelsWire,
+    AttachmentWire, ClearCommandWire, ClearMaskWire, ClearWire, DepthStencilResolveWire, DrawWire,
+    PassWire, SceneWire, StencilFaceWire, StencilWire, TexelsWire,
 };

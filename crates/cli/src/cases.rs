@@ -2,8 +2,11 @@
 
 use crate::failure::Failure;
 use crate::flags::CaseArguments;
-use etalon_case::{Case, Library, Profile};
+use etalon_case::{Case, CaseError, CaseRef, Library, Profile};
+use std::num::NonZero;
+use std::panic::resume_unwind;
 use std::path::PathBuf;
+use std::thread;
 
 /// The areas that runs and hunts leave out unless they are selected: they measure, on pictures so large that one takes
 /// as long as hundreds of cases.
@@ -22,9 +25,26 @@ pub(crate) fn is_measuring_area(area: &str) -> bool {
 /// Returns the selected cases, built, so that errors of case files show before anything is drawn.
 pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
     let library = library(arguments.cases.as_ref())?;
-    let globs = &arguments.globs;
-    let cases = build(&library, arguments.profile.into(), globs)?;
-    if cases.is_empty() {
+    let cases = build(&library, arguments.profile.into(), &arguments.globs)?;
+    some(cases, &arguments.globs)
+}
+
+/// Returns the ids of the selected cases. Those of a folder are built all the same, so that errors show.
+pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<String>, Failure> {
+    if arguments.cases.is_some() {
+        let cases = chosen(arguments)?;
+        return Ok(cases.into_iter().map(|case| case.id).collect());
+    }
+    let library = library(None)?;
+    let selection = etalon_runner::select(&library, arguments.profile.into(), &arguments.globs);
+    let selection = selection.map_err(Failure::usage)?;
+    let ids = selection.cases.iter().map(|case| case.id()).collect();
+    some(ids, &arguments.globs)
+}
+
+/// Returns what was selected, unless it is nothing.
+fn some<T>(selected: Vec<T>, globs: &[String]) -> Result<Vec<T>, Failure> {
+    if selected.is_empty() {
         return Err(Failure::nothing(if globs.is_empty() {
             "there are no cases".to_owned()
         } else {
@@ -34,7 +54,7 @@ pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
             )
         }));
     }
-    Ok(cases)
+    Ok(selected)
 }
 
 /// Returns the cases of a folder, or the built-in ones.
@@ -46,17 +66,30 @@ pub(crate) fn library(folder: Option<&PathBuf>) -> Result<Library, Failure> {
     .map_err(Failure::usage)
 }
 
-/// Returns the cases of a library whose ids match, built.
+/// Returns the cases of a library whose ids match, built: on all cores, since a full run would wait a second
+/// for it.
 pub(crate) fn build(
     library: &Library,
     profile: Profile,
     globs: &[String],
 ) -> Result<Vec<Case>, Failure> {
     let selection = etalon_runner::select(library, profile, globs).map_err(Failure::usage)?;
-    let cases = selection.cases.iter();
-    cases
-        .map(|case| case.build().map_err(Failure::usage))
-        .collect()
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let share = selection.cases.len().div_ceil(threads).max(1);
+    let parts: Vec<Result<Vec<Case>, CaseError>> = thread::scope(|scope| {
+        let parts = selection.cases.chunks(share);
+        let started: Vec<_> = parts
+            .map(|cases| scope.spawn(|| cases.iter().map(CaseRef::build).collect()))
+            .collect();
+        let done = started.into_iter();
+        done.map(|part| part.join().unwrap_or_else(|panic| resume_unwind(panic)))
+            .collect()
+    });
+    let mut cases = Vec::new();
+    for part in parts {
+        cases.extend(part.map_err(Failure::usage)?);
+    }
+    Ok(cases)
 }
 
 /// Returns the round trips that cases lean on: those of the folder, and built-in ones where it holds none.

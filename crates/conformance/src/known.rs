@@ -114,10 +114,15 @@ const VULKAN: Lacks = Lacks {
     ..NOTHING
 };
 
+/// No blit of OpenGL says which sample it takes, and WebGPU resolves neither depth nor stencil.
+const RESOLVES: &str = "depth-resolve-average depth-resolve-max depth-resolve-min \
+    depth-stencil-resolve independent-resolve independent-resolve-none stencil-resolve-max \
+    stencil-resolve-min";
+
 /// The core profile of llvmpipe and zink. No driver of OpenGL stores blue first. No fetch
 /// tells 24 bits for certain.
 const GL: Lacks = Lacks {
-    features: &["depth-bounds mirrored-viewport"],
+    features: &["depth-bounds mirrored-viewport", RESOLVES],
     formats: &["bgra8unorm"],
     samples: &["depth24plus depth24plus-stencil8"],
     ..NOTHING
@@ -126,6 +131,7 @@ const GL_SOFTPIPE: Lacks = Lacks {
     features: &[
         "depth-bias-clamp min-sample-shading mirrored-viewport sample-shading \
         storage-counters",
+        RESOLVES,
     ],
     samples: &[EVERY_FORMAT],
     ..GL
@@ -135,13 +141,14 @@ const ES_FEATURES: &str = "alpha-to-one conservative-depth depth-bounds fragment
     logic-operations mirrored-viewport polygon-mode-line precise-occlusion";
 /// OpenGL ES of llvmpipe and zink.
 const ES: Lacks = Lacks {
-    features: &[ES_FEATURES],
+    features: &[ES_FEATURES, RESOLVES],
     formats: &["bgra8unorm"],
     ..NOTHING
 };
 const ES_SOFTPIPE: Lacks = Lacks {
     features: &[
         ES_FEATURES,
+        RESOLVES,
         "depth-bias-clamp independent-blend min-sample-shading sample-shading",
     ],
     samples: &[EVERY_FORMAT],
@@ -154,7 +161,7 @@ const WGPU_FEATURES: &str = "alpha-to-one clear-commands constant-alpha-blend-fa
     sample-coverage scissor-outside separate-stencil-masks triangle-fans";
 /// Codes of two formats' samples could not be told for certain; WebGPU does not resolve integers.
 const WGPU_VULKAN: Lacks = Lacks {
-    features: &[WGPU_FEATURES],
+    features: &[WGPU_FEATURES, RESOLVES],
     formats: &["b5g6r5unorm bgr5a1unorm bgra4unorm"],
     blending: &["rgba8snorm"],
     samples: &["rgba8snorm rgba8uint depth16unorm"],
@@ -163,7 +170,11 @@ const WGPU_VULKAN: Lacks = Lacks {
 /// wgpu 30 over OpenGL asks for extensions that core contexts have no need of. It has no views of other
 /// formats, and all depths are read by a shader.
 const WGPU_GL: Lacks = Lacks {
-    features: &[WGPU_FEATURES, "depth-bias-clamp fragment-invocations"],
+    features: &[
+        WGPU_FEATURES,
+        RESOLVES,
+        "depth-bias-clamp fragment-invocations",
+    ],
     drawing: &["rgba8snorm rg11b10ufloat rgba32float"],
     blending: &[],
     samples: &["rgba8snorm rgba8unorm-srgb rgba8uint"],
@@ -172,6 +183,7 @@ const WGPU_GL: Lacks = Lacks {
 const WGPU_SOFTPIPE: Lacks = Lacks {
     features: &[
         WGPU_FEATURES,
+        RESOLVES,
         "depth-bias-clamp fragment-invocations independent-blend sample-shading",
     ],
     drawing: &["rgba8snorm"],

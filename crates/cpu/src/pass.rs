@@ -38,6 +38,18 @@ pub(crate) fn run<S: Steps>(
             target.resolve_from(source, |encoding, codes| steps.resolve(encoding, codes));
         }
     }
+    if let (Some(source), Some(resolve)) = (pass.depth_stencil, &pass.depth_stencil_resolve) {
+        let format = scene.attachments[source].format;
+        let both = surfaces.get_disjoint_mut([source, resolve.to]);
+        let [source, target] =
+            both.map_err(|_| BackendError::Internal("depth is resolved to itself".to_owned()))?;
+        if let Some(encoding) = depth_encoding(format) {
+            let depth = |codes: &[u32]| steps.resolve_depth(resolve.depth, encoding, codes);
+            target.resolve_depth_from(source, resolve.depth, depth);
+        }
+        let stencil = |values: &[u8]| steps.resolve_stencil(resolve.stencil, values);
+        target.resolve_stencil_from(source, resolve.stencil, stencil);
+    }
     for (index, aspect) in pass.discarded() {
         discard(scene, index, aspect, &mut surfaces[index]);
     }

@@ -13,8 +13,8 @@ use etalon_pipeline::{
     Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
 };
 use etalon_scene::{
-    BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Sampler, Shader,
-    StencilFace, StencilOperation,
+    BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, ResolveMode, Sampler,
+    Shader, StencilFace, StencilOperation,
 };
 
 /// The outcome of a fragment's stencil and depth test.
@@ -317,6 +317,27 @@ pub trait Steps {
     #[inline(always)]
     fn depth_sample(&self, sample: usize, _samples: usize) -> usize {
         sample
+    }
+
+    /// Returns the depth of a resolved texel. Codes of depths have the order of the depths.
+    #[inline(always)]
+    fn resolve_depth(&self, mode: ResolveMode, encoding: ChannelEncoding, codes: &[u32]) -> u32 {
+        match mode {
+            ResolveMode::Average => self.resolve(encoding, codes),
+            ResolveMode::Min => codes.iter().copied().min().unwrap_or_default(),
+            ResolveMode::Max => codes.iter().copied().max().unwrap_or_default(),
+            ResolveMode::None | ResolveMode::SampleZero => codes[0],
+        }
+    }
+
+    /// Returns the stencil value of a resolved texel.
+    #[inline(always)]
+    fn resolve_stencil(&self, mode: ResolveMode, values: &[u8]) -> u8 {
+        match mode {
+            ResolveMode::Min => values.iter().copied().min().unwrap_or_default(),
+            ResolveMode::Max => values.iter().copied().max().unwrap_or_default(),
+            ResolveMode::None | ResolveMode::SampleZero | ResolveMode::Average => values[0],
+        }
     }
 
     /// Returns one channel of a resolved texel: the average of its samples, rounded to the nearest

@@ -3,7 +3,7 @@
 
 use crate::lanes::LANES;
 use etalon_frame::{Aspect, ChannelEncoding, TextureFormat};
-use etalon_scene::{Attachment, Contents};
+use etalon_scene::{Attachment, Contents, ResolveMode};
 use std::ops::Range;
 
 /// An attachment in memory.
@@ -141,6 +141,33 @@ impl Surface {
         }
     }
 
+    /// Resolves the depths of another surface into this one. `resolve` returns one code for those of all
+    /// samples.
+    pub(crate) fn resolve_depth_from(
+        &mut self,
+        source: &Self,
+        mode: ResolveMode,
+        resolve: impl Fn(&[u32]) -> u32,
+    ) {
+        if mode != ResolveMode::None {
+            fold(&source.planes, &mut self.planes[0], resolve);
+        }
+    }
+
+    /// Resolves the stencil values of another surface into this one.
+    pub(crate) fn resolve_stencil_from(
+        &mut self,
+        source: &Self,
+        mode: ResolveMode,
+        resolve: impl Fn(&[u8]) -> u8,
+    ) {
+        if let Some(target) = self.stencil.first_mut()
+            && mode != ResolveMode::None
+        {
+            fold(&source.stencil, target, resolve);
+        }
+    }
+
     /// Returns the codes of one aspect in the order of [`etalon_frame::Image`].
     pub(crate) fn codes(&self, aspect: Aspect) -> Vec<u32> {
         let channels = match aspect {
@@ -162,6 +189,16 @@ impl Surface {
             }
         }
         codes
+    }
+}
+
+/// Makes one plane of those of all samples.
+fn fold<T: Copy>(samples: &[Vec<T>], target: &mut [T], resolve: impl Fn(&[T]) -> T) {
+    let mut values = Vec::with_capacity(samples.len());
+    for (at, one) in target.iter_mut().enumerate() {
+        values.clear();
+        values.extend(samples.iter().map(|plane| plane[at]));
+        *one = resolve(&values);
     }
 }
 

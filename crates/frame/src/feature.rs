@@ -23,6 +23,14 @@ state_enum! {
         DepthBounds = "depth-bounds",
         /// Depths beyond the viewport's range moved to its ends.
         DepthClamp = "depth-clamp",
+        /// Resolving depth to the average of its samples.
+        DepthResolveAverage = "depth-resolve-average",
+        /// Resolving depth to its greatest sample.
+        DepthResolveMax = "depth-resolve-max",
+        /// Resolving depth to its least sample.
+        DepthResolveMin = "depth-resolve-min",
+        /// Resolving depth and stencil, to the first of their samples.
+        DepthStencilResolve = "depth-stencil-resolve",
         /// Blending with two sources.
         DualSourceBlending = "dual-source-blending",
         /// Shaders that run after the depth and stencil tests, whatever they do.
@@ -33,6 +41,10 @@ state_enum! {
         FrontAndBackCulling = "front-and-back-culling",
         /// Blending and write masks that differ between colour attachments.
         IndependentBlend = "independent-blend",
+        /// Resolving depth in one way and stencil in another.
+        IndependentResolve = "independent-resolve",
+        /// Resolving one of depth and stencil, and not the other.
+        IndependentResolveNone = "independent-resolve-none",
         /// Logic operations.
         LogicOperations = "logic-operations",
         /// Clear commands that leave masked channels and bits.
@@ -59,6 +71,10 @@ state_enum! {
         ScissorOutside = "scissor-outside",
         /// Stencil masks or references that differ between front and back faces.
         SeparateStencilMasks = "separate-stencil-masks",
+        /// Resolving stencil to its greatest sample.
+        StencilResolveMax = "stencil-resolve-max",
+        /// Resolving stencil to its least sample.
+        StencilResolveMin = "stencil-resolve-min",
         /// Fragment shaders that count in storage buffers.
         StorageCounters = "storage-counters",
         /// Triangle fans.

@@ -35,6 +35,15 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         Feature::MinSampleShading => entry_points.min_sample_shading.is_some(),
         // Viewport heights are positive.
         Feature::MirroredViewport => false,
+        // A blit leaves the sample open (OpenGL 4.6, 18.3.1; ES 3.2, 16.2.1).
+        Feature::DepthResolveAverage
+        | Feature::DepthResolveMax
+        | Feature::DepthResolveMin
+        | Feature::DepthStencilResolve
+        | Feature::IndependentResolve
+        | Feature::IndependentResolveNone
+        | Feature::StencilResolveMax
+        | Feature::StencilResolveMin => false,
         // ES has no `glPolygonMode`.
         Feature::PolygonModeLine => !caps.es,
         Feature::PreciseOcclusion => caps.samples_passed,

@@ -42,8 +42,7 @@ pub(crate) fn depth_bias(
         }
     };
     let by_constant = unit.times(Interval::exact(f64::from(state.constant)));
-    let by_slope =
-        slopes(context, boxes, z).times(Interval::exact(f64::from(state.slope)));
+    let by_slope = slopes(context, boxes, z).times(Interval::exact(f64::from(state.slope)));
     let sum = by_constant
         .plus(by_slope)
         .widen_relative(context.rules.float_error.value);

@@ -6,6 +6,7 @@ use crate::clip::Clip;
 use crate::context::PassContext;
 use crate::primitive::{Shape, SnappedPrimitive};
 use crate::setup;
+use crate::snap::units_per_texel;
 use etalon_scene::{Draw, Pass};
 use std::ops::Range;
 
@@ -31,6 +32,8 @@ pub(crate) struct PassSetup {
     draws: Vec<Vec<SnappedPrimitive>>,
     clips: Vec<Clip>,
     reaches: Vec<Reach>,
+    /// Sub-texel units per texel.
+    units: i64,
 }
 
 impl PassSetup {
@@ -39,6 +42,7 @@ impl PassSetup {
             draws: Vec::new(),
             clips: Vec::new(),
             reaches: Vec::new(),
+            units: units_per_texel(context.limits),
         };
         for (d, draw) in pass.draws.iter().enumerate() {
             let primitives = setup::draw(context, draw);
@@ -71,6 +75,10 @@ impl PassSetup {
 
     pub(crate) fn primitives_mut(&mut self) -> impl Iterator<Item = &mut SnappedPrimitive> {
         self.draws.iter_mut().flatten()
+    }
+
+    fn primitive(&self, reach: &Reach) -> &SnappedPrimitive {
+        &self.draws[reach.draw as usize][reach.primitive as usize]
     }
 
     /// Returns a primitive's draw and its place in the draw's setup.
@@ -162,9 +170,20 @@ impl Rows<'_> {
 /// The parts of a row between which the primitives that may touch it change.
 #[derive(Default)]
 pub(crate) struct Segments {
-    /// Primitives by their first column.
-    starts: Vec<(u32, u32)>,
-    members: Vec<u32>,
+    /// Primitives with their columns in the row, by the first.
+    coming: Vec<Member>,
+    members: Vec<Member>,
+    numbers: Vec<u32>,
+    /// Columns at which a triangle begins or ends to cover texels for certain.
+    breaks: Vec<u32>,
+}
+
+/// A primitive in a row.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Member {
+    start: u32,
+    number: u32,
+    end: u32,
 }
 
 impl Segments {
@@ -172,39 +191,59 @@ impl Segments {
     pub(crate) fn of_row(
         &mut self,
         setup: &PassSetup,
+        row: u32,
         active: &[u32],
         mut found: impl FnMut(Range<u32>, &[u32]),
     ) {
-        let columns = |number: u32| &setup.reaches[number as usize].columns;
-        self.starts.clear();
-        self.starts
-            .extend(active.iter().map(|n| (columns(*n).start, *n)));
-        self.starts.sort_unstable();
+        self.coming.clear();
+        self.breaks.clear();
+        for number in active {
+            let reach = &setup.reaches[*number as usize];
+            let mut columns = reach.columns.clone();
+            if columns.len() > 2
+                && let Shape::Triangle(triangle) = &setup.primitive(reach).shape
+            {
+                let [outer, inner] = triangle.columns(row, columns, setup.units);
+                columns = outer;
+                if !inner.is_empty() {
+                    self.breaks.extend([inner.start, inner.end]);
+                }
+            }
+            if !columns.is_empty() {
+                self.coming.push(Member {
+                    start: columns.start,
+                    number: *number,
+                    end: columns.end,
+                });
+            }
+        }
+        self.coming.sort_unstable();
+        self.breaks.sort_unstable();
         self.members.clear();
-        let mut next = 0;
+        let (mut coming, mut breaks) =
+            (self.coming.iter().peekable(), self.breaks.iter().peekable());
         let mut at = 0;
         loop {
             if self.members.is_empty() {
-                let Some((start, _)) = self.starts.get(next) else {
-                    return;
-                };
-                at = *start;
+                let Some(next) = coming.peek() else { return };
+                at = next.start;
             }
-            while let Some((start, number)) = self.starts.get(next)
-                && *start <= at
-            {
-                let place = self.members.partition_point(|m| m < number);
-                self.members.insert(place, *number);
-                next += 1;
+            while let Some(next) = coming.next_if(|next| next.start <= at) {
+                let place = self.members.partition_point(|m| m.number < next.number);
+                self.members.insert(place, *next);
             }
-            let ends = self.members.iter().map(|n| columns(*n).end);
-            let begins = self.starts.get(next).map(|(start, _)| *start);
-            let Some(end) = ends.chain(begins).min() else {
+            while breaks.next_if(|b| **b <= at).is_some() {}
+            let ends = self.members.iter().map(|member| member.end);
+            let begins = coming.peek().map(|next| next.start);
+            let stops = begins.into_iter().chain(breaks.peek().map(|b| **b));
+            let Some(end) = ends.chain(stops).min() else {
                 return;
             };
-            found(at..end, &self.members);
+            self.numbers.clear();
+            self.numbers.extend(self.members.iter().map(|m| m.number));
+            found(at..end, &self.numbers);
             at = end;
-            self.members.retain(|n| columns(*n).end > at);
+            self.members.retain(|member| member.end > at);
         }
     }
 }

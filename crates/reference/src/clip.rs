@@ -46,7 +46,8 @@ impl Clip {
             _ if primitive.inside_rect(self.rect) => return (true, true),
             _ => &self.wide,
         };
-        let inside = |[x, y]: &[RangeInclusive<i64>; 2]| x.contains(&point.x) && y.contains(&point.y);
+        let inside =
+            |[x, y]: &[RangeInclusive<i64>; 2]| x.contains(&point.x) && y.contains(&point.y);
         (inside(&reach.can), inside(&reach.must))
     }
 }
@@ -54,8 +55,9 @@ impl Clip {
 impl Reach {
     fn new(rect: [f64; 4], slack: f64) -> Self {
         // The integers between two numbers, both excluded; `as` saturates.
-        let between =
-            |low: f64, high: f64| (low.floor() as i64).saturating_add(1)..=(high.ceil() as i64).saturating_sub(1);
+        let between = |low: f64, high: f64| {
+            (low.floor() as i64).saturating_add(1)..=(high.ceil() as i64).saturating_sub(1)
+        };
         let along = |axis: usize, slack: f64| {
             between(rect[axis] - slack, rect[axis] + rect[axis + 2] + slack)
         };

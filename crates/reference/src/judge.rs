@@ -2,10 +2,10 @@
 
 use crate::counting::Tally;
 use crate::notes::{Note, Notes};
+use crate::picture::{OPEN, Shape, State, shapes};
 use crate::rules::Rules;
 use crate::texels::Texels;
 use crate::verdict::verdict;
-use crate::picture::{OPEN, Shape, State};
 use crate::walk::{Sample, Walk};
 use etalon_frame::{
     CountRange, Frame, LegalSet, LegalSetBuilder, Limits, Story, StoryLine, TexelSet,
@@ -136,21 +136,15 @@ pub fn judge_some(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels)
     builder.build()
 }
 
-/// Returns the shapes of all attachments that are drawn to or read back.
-fn shapes(scene: &Scene) -> Vec<Shape> {
-    let drawn = scene.passes.iter().flat_map(|pass| {
-        let resolved = pass.resolve.iter().flatten();
-        pass.color.iter().chain(&pass.depth_stencil).chain(resolved)
-    });
-    let attachments = scene.read.iter().chain(drawn).map(|index| &scene.attachments[*index]);
-    let shapes: BTreeSet<Shape> = attachments.map(|a| (a.size, a.samples)).collect();
-    shapes.into_iter().collect()
-}
-
-/// Returns the shapes whose texels count: those read back, and those of passes that count.
+/// Returns the shapes of passes that count.
 fn counted(scene: &Scene) -> BTreeSet<Shape> {
-    let counts = scene.passes.iter().filter(|pass| pass.draws.iter().any(|d| !d.counters.is_empty()));
-    counts.map(|pass| (scene.pass_size(pass), scene.pass_samples(pass))).collect()
+    let counts = scene
+        .passes
+        .iter()
+        .filter(|pass| pass.draws.iter().any(|d| !d.counters.is_empty()));
+    counts
+        .map(|pass| (scene.pass_size(pass), scene.pass_samples(pass)))
+        .collect()
 }
 
 /// Returns the story of one sample: the verdict in one sentence, then every operation on it with its

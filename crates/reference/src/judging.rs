@@ -447,9 +447,7 @@ impl Arithmetic for Judging<'_> {
         b: Range,
         subtract: bool,
     ) -> Range {
-        let sum = a.zip(b, |a, b| {
-            if subtract { a.minus(b) } else { a.plus(b) }
-        });
+        let sum = a.zip(b, |a, b| if subtract { a.minus(b) } else { a.plus(b) });
         let float = if a.float.is(0.0) || b.float.is(0.0) {
             sum.float
         } else {

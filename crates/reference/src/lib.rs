@@ -14,6 +14,7 @@ mod context;
 mod counting;
 mod coverage;
 mod depth;
+mod depth_resolve;
 mod fit;
 mod fragment;
 mod interval;

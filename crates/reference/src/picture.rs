@@ -12,6 +12,7 @@ use crate::world::{Cell, World, Worlds};
 use etalon_scene::{Contents, Scene};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -204,7 +205,11 @@ impl Walk<'_> {
             self.paint_clears((p, stop), shape, &mut picture);
             next = stop;
         }
-        if pass.draws.iter().any(|d| d.multisample.sample_coverage.is_some()) {
+        if pass
+            .draws
+            .iter()
+            .any(|d| d.multisample.sample_coverage.is_some())
+        {
             self.each_state(&mut picture, |worlds| self.end_pass(worlds));
         }
         self.pictures.borrow_mut().samples[index] = picture;
@@ -236,7 +241,7 @@ impl Walk<'_> {
             if active.is_empty() || lattice.first(0, y).is_none_or(|x| x >= size[0]) {
                 continue;
             }
-            segments.of_row(setup, active, |columns, members| {
+            segments.of_row(setup, y, active, |columns, members| {
                 brush.segment(picture, y, columns, members, lattice);
             });
         }
@@ -315,11 +320,11 @@ impl Walk<'_> {
 
     fn paint_resolves(&self, p: usize) {
         let pass = &self.scene.passes[p];
-        let both = pass.color.iter().zip(&pass.resolve);
+        let depth = pass.depth_stencil_resolve.iter().map(|resolve| &resolve.to);
+        let targets = pass.resolve.iter().flatten().chain(depth);
         let mut shapes: Vec<Shape> = Vec::new();
-        for (_, target) in both.filter(|(_, target)| target.is_some()) {
-            let Some(target) = *target else { continue };
-            let attachment = &self.scene.attachments[target];
+        for target in targets {
+            let attachment = &self.scene.attachments[*target];
             let shape = (attachment.size, attachment.samples);
             if !shapes.contains(&shape) && self.pictures.borrow().shape(shape).is_some() {
                 shapes.push(shape);
@@ -367,6 +372,7 @@ impl Walk<'_> {
                                 self.resolve(source, target, at, p + 1, &mut Notes(None))?;
                             worlds = resolved(&worlds, target, &outcomes)?;
                         }
+                        self.resolve_depth_stencil(p, at, &mut worlds, &mut Notes(None))?;
                         Some(worlds)
                     });
                     let state = self.pictures.borrow_mut().states.number(after);
@@ -385,15 +391,33 @@ impl Walk<'_> {
 /// Returns, of each attachment, true if it is of a shape and drawn to or read back.
 fn held(scene: &Scene, (size, samples): Shape) -> Vec<bool> {
     let mut held = vec![false; scene.attachments.len()];
-    let drawn = scene.passes.iter().flat_map(|pass| {
-        let resolved = pass.resolve.iter().flatten();
-        pass.color.iter().chain(&pass.depth_stencil).chain(resolved)
-    });
-    for index in scene.read.iter().chain(drawn) {
-        let attachment = &scene.attachments[*index];
-        held[*index] = (attachment.size, attachment.samples) == (size, samples);
+    for index in drawn_or_read(scene) {
+        let attachment = &scene.attachments[index];
+        held[index] = (attachment.size, attachment.samples) == (size, samples);
     }
     held
+}
+
+/// Returns the attachments that a scene draws to, clears, resolves to or reads back.
+fn drawn_or_read(scene: &Scene) -> impl Iterator<Item = usize> {
+    let of_passes = scene.passes.iter().flat_map(|pass| {
+        let depth = pass.depth_stencil_resolve.iter().map(|resolve| &resolve.to);
+        let resolved = pass.resolve.iter().flatten().chain(depth);
+        pass.color.iter().chain(&pass.depth_stencil).chain(resolved)
+    });
+    scene.read.iter().chain(of_passes).copied()
+}
+
+/// Returns the shapes of all attachments that a scene draws to or reads back.
+pub(crate) fn shapes(scene: &Scene) -> Vec<Shape> {
+    let shape = |index: usize| {
+        (
+            scene.attachments[index].size,
+            scene.attachments[index].samples,
+        )
+    };
+    let shapes: BTreeSet<Shape> = drawn_or_read(scene).map(shape).collect();
+    shapes.into_iter().collect()
 }
 
 /// Calls `found` with every judged texel, row by row.
@@ -437,7 +461,8 @@ impl Brush<'_, '_> {
     fn sign(&self, at: Sample, members: &[u32], signature: &mut Signature) {
         let setup = &self.walk.setups[self.pass];
         let members = members.iter().map(|number| setup.member(*number));
-        self.walk.sign(self.pass, self.inputs, at, members, signature);
+        self.walk
+            .sign(self.pass, self.inputs, at, members, signature);
     }
 
     /// Draws over the judged texels of a part of a row.
@@ -461,7 +486,13 @@ impl Brush<'_, '_> {
                 self.sign(self.at(right, y, sample), members, &mut last);
                 self.texel(picture, self.at(left, y, sample), &first, members);
                 self.texel(picture, self.at(right, y, sample), &last, members);
-                self.between(picture, [left, right], (y, sample), [&first, &last], members);
+                self.between(
+                    picture,
+                    [left, right],
+                    (y, sample),
+                    [&first, &last],
+                    members,
+                );
             } else {
                 let mut next = columns.start;
                 while let Some(x) = lattice.first(next, y)
@@ -510,19 +541,25 @@ impl Brush<'_, '_> {
         let mut signature = self.spare.pop().unwrap_or_default();
         self.sign(self.at(middle, y, sample), members, &mut signature);
         self.texel(picture, self.at(middle, y, sample), &signature, members);
-        self.between(picture, [left, middle], (y, sample), [first, &signature], members);
-        self.between(picture, [middle, right], (y, sample), [&signature, last], members);
+        self.between(
+            picture,
+            [left, middle],
+            (y, sample),
+            [first, &signature],
+            members,
+        );
+        self.between(
+            picture,
+            [middle, right],
+            (y, sample),
+            [&signature, last],
+            members,
+        );
         self.spare.push(signature);
     }
 
     /// Draws over one sample.
-    fn texel(
-        &mut self,
-        picture: &mut [State],
-        at: Sample,
-        signature: &Signature,
-        members: &[u32],
-    ) {
+    fn texel(&mut self, picture: &mut [State], at: Sample, signature: &Signature, members: &[u32]) {
         let own = place(at);
         let mut state = picture[own];
         for (i, part) in signature.parts.iter().enumerate() {
@@ -531,7 +568,9 @@ impl Brush<'_, '_> {
             }
             let known = &mut self.known;
             known.key.clear();
-            known.key.push(u64::from(state) | u64::from(part.draw) << 32);
+            known
+                .key
+                .push(u64::from(state) | u64::from(part.draw) << 32);
             known.key.extend_from_slice(signature.words_of(i));
             state = match known.by_words.get(&known.key) {
                 Some(state) => *state,
@@ -556,7 +595,8 @@ impl Brush<'_, '_> {
         let after = before.and_then(|worlds| {
             let worlds = Worlds::clone(&worlds);
             let draw = (self.pass, draw as usize);
-            self.walk.draw(at, draw, primitives, worlds, &mut Notes(None))
+            self.walk
+                .draw(at, draw, primitives, worlds, &mut Notes(None))
         });
         self.walk.pictures.borrow_mut().states.number(after)
     }

@@ -2,9 +2,10 @@
 
 use crate::depth::Depth;
 use crate::interval::Interval;
-use crate::judging::Range;
+use crate::judging::Range as Values;
 use crate::snap::{SnapBox, area};
 use etalon_pipeline::{Point, edge_value};
+use std::ops::Range;
 
 /// The shape of a primitive.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +48,7 @@ pub(crate) struct Triangle {
 pub(crate) struct SnappedPrimitive {
     pub(crate) shape: Shape,
     /// The flat vertex colour.
-    pub(crate) color: [Range; 4],
+    pub(crate) color: [Values; 4],
     /// Texels it may touch: left, top, right, bottom, the last two excluded.
     pub(crate) bounds: [i64; 4],
     /// Window depth, before any bias.
@@ -125,9 +126,57 @@ impl Triangle {
         }
     }
 
+    /// Returns the columns of a row whose texels a triangle may touch, and those that it covers for
+    /// certain, among some columns.
+    pub(crate) fn columns(&self, row: u32, among: Range<u32>, units: i64) -> [Range<u32>; 2] {
+        let (least, most) = self.area;
+        let mut outer = i64::from(among.start)..i64::from(among.end);
+        let mut inner = outer.clone();
+        let sign = match (least > 0, most < 0) {
+            // Edge functions are negative inside.
+            (true, _) => 1,
+            (_, true) => -1,
+            _ => return [among, 0..0],
+        };
+        let (top, bottom) = (i64::from(row) * units, (i64::from(row) + 1) * units);
+        for i in 0..3 {
+            let (p, q) = (self.vertices[i].low, self.vertices[(i + 1) % 3].low);
+            let (dx, dy) = (sign * (q.x - p.x), sign * (q.y - p.y));
+            let (one, other) = (dx * (top - p.y), dx * (bottom - p.y));
+            let growth = -dy * units;
+            // The edge function over the texel of column x is at least start + growth * x, and at most
+            // as much more as one texel adds.
+            let start = dy * p.x;
+            let lowest = start + one.min(other) + growth.min(0);
+            let highest = start + one.max(other) + growth.max(0);
+            keep_below(&mut outer, lowest, growth, self.moved);
+            keep_below(&mut inner, highest, growth, -self.moved - 1);
+        }
+        let range = |r: Range<i64>| match r.is_empty() {
+            true => 0..0,
+            false => r.start as u32..r.end as u32,
+        };
+        [range(outer), range(inner)]
+    }
+
     /// Returns the end points of an edge that lies on its sample exactly.
     pub(crate) fn edge(&self, i: usize) -> (Point, Point) {
         (self.vertices[i].low, self.vertices[(i + 1) % 3].low)
+    }
+}
+
+/// Restricts columns to those at which a linear function is at most a number.
+fn keep_below(columns: &mut Range<i64>, start: i64, growth: i64, most: i64) {
+    let room = most - start;
+    match growth {
+        0 if room < 0 => columns.end = columns.start,
+        0 => {}
+        1.. => columns.end = columns.end.min(room.div_euclid(growth) + 1),
+        _ => {
+            // x * growth <= room, so x is at least room / growth, rounded up.
+            let least = -room.div_euclid(-growth);
+            columns.start = columns.start.max(least);
+        }
     }
 }
 
@@ -154,20 +203,20 @@ impl SnappedPrimitive {
     }
 
     /// Returns the window depth at a sample that the primitive covers, with its bias.
-    pub(crate) fn depth_at(&self, at: Point) -> Range {
+    pub(crate) fn depth_at(&self, at: Point) -> Values {
         let depth = self.window_depth.at(at);
-        Range::same(depth.plus(self.bias))
+        Values::same(depth.plus(self.bias))
     }
 
     /// Returns the depth that a shader reads. With several samples it may be that of any point of the
     /// texel; with or without the bias.
-    pub(crate) fn depth_seen(&self, at: Point, units: i64, samples: u32) -> Range {
+    pub(crate) fn depth_seen(&self, at: Point, units: i64, samples: u32) -> Values {
         let mut depth = self.window_depth.at(at);
         if samples > 1 {
             depth = depth.hull(self.window_depth.over_texel(at, units));
         }
         let biased = depth.plus(self.bias);
-        Range::same(depth.hull(biased))
+        Values::same(depth.hull(biased))
     }
 
     /// Returns the texture coordinates at a sample that the primitive covers, if the shader reads any. With

@@ -111,7 +111,11 @@ impl Walk<'_> {
                 || draw.shader.runs_per_sample()
                 || draw.shader.interpolates_at_centroid(),
             primitives: !draw.counters.is_empty(),
-            textures: draw.textures.iter().map(|i| self.texture(pass, draw, *i)).collect(),
+            textures: draw
+                .textures
+                .iter()
+                .map(|i| self.texture(pass, draw, *i))
+                .collect(),
             kinds: Vec::new(),
         };
         let mut known = FxHashMap::default();
@@ -209,9 +213,12 @@ impl Walk<'_> {
             let attachment = &self.scene.attachments[*index];
             if let Contents::Texels(codes) = &attachment.contents {
                 let channels = attachment.format.color_channels().len();
-                let start = (at.y as usize * attachment.size[0] as usize + at.x as usize) * channels;
+                let start =
+                    (at.y as usize * attachment.size[0] as usize + at.x as usize) * channels;
                 let own = codes.get(start..start + channels).unwrap_or_default();
-                signature.words.extend(own.iter().map(|code| u64::from(*code)));
+                signature
+                    .words
+                    .extend(own.iter().map(|code| u64::from(*code)));
             }
         }
     }
@@ -258,7 +265,11 @@ impl Walk<'_> {
             let depth = primitive.depth_seen(place.point, self.units, samples);
             signature.words.extend(bits(depth.float));
         }
-        if primitive.uv.as_ref().is_some_and(|uv| !uv.iter().all(Depth::is_flat)) {
+        if primitive
+            .uv
+            .as_ref()
+            .is_some_and(|uv| !uv.iter().all(Depth::is_flat))
+        {
             signature.constant = false;
             for axis in self.uv(place) {
                 signature.words.extend(bits(axis.float));

@@ -5,7 +5,7 @@
 //! sample, and no world carries it.
 
 use etalon_frame::Aspect;
-use etalon_scene::{Clear, ClearTarget, CompareFunction, Draw, Pass, Scene};
+use etalon_scene::{Clear, ClearTarget, CompareFunction, Draw, Pass, ResolveMode, Scene};
 use std::collections::BTreeSet;
 
 /// The parts of a scene's results that depend on discarded contents.
@@ -54,6 +54,21 @@ impl Undefined {
                 self.aspects.insert((*target, Aspect::Color));
             } else {
                 self.aspects.remove(&(*target, Aspect::Color));
+            }
+        }
+        if let (Some(source), Some(resolve)) = (pass.depth_stencil, &pass.depth_stencil_resolve) {
+            for (mode, aspect) in [
+                (resolve.depth, Aspect::Depth),
+                (resolve.stencil, Aspect::Stencil),
+            ] {
+                if mode == ResolveMode::None {
+                    continue;
+                }
+                if self.aspect(source, aspect) {
+                    self.aspects.insert((resolve.to, aspect));
+                } else {
+                    self.aspects.remove(&(resolve.to, aspect));
+                }
             }
         }
         self.aspects.extend(pass.discarded());

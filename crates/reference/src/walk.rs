@@ -248,6 +248,7 @@ impl<'a> Walk<'a> {
                 let outcomes = self.resolve(source, target, at, p + 1, notes)?;
                 worlds = resolved(&worlds, target, &outcomes)?;
             }
+            self.resolve_depth_stencil(p, at, &mut worlds, notes)?;
             self.store(p, notes);
         }
         Some(worlds)
@@ -435,7 +436,11 @@ impl<'a> Walk<'a> {
     }
 
     /// Returns the set of a sample of a picture; of an open one, nothing is asserted.
-    pub(crate) fn set(&self, worlds: Option<&Rc<Worlds>>, (size, samples): PictureShape) -> TexelSet {
+    pub(crate) fn set(
+        &self,
+        worlds: Option<&Rc<Worlds>>,
+        (size, samples): PictureShape,
+    ) -> TexelSet {
         let at = Sample {
             size,
             samples,

@@ -3,7 +3,7 @@
 use crate::expected_values::expected_values;
 use crate::frame_file::frame_file;
 use crate::grade::Grades;
-use crate::judgement_cache::{JUDGED, JudgementCache, judged_scene};
+use crate::judgement_cache::{JudgementCache, judged_scene, judged_texels};
 use crate::relation::{self, Differences};
 use crate::story;
 use etalon_case::{Case, Relation};
@@ -96,7 +96,7 @@ impl Judge {
         let mut comparison = comparison;
         let mut worst = comparison.worst();
         if worst == Some(Band::Fail)
-            && let Some(grades) = Grades::of(judged_scene(case, index), limits, JUDGED, frame)
+            && let Some(grades) = Grades::of(scene, limits, judged_texels(case), frame)
         {
             worst = Some(grades.frame());
             regrade(&mut comparison, &grades);
@@ -121,6 +121,8 @@ impl Judge {
         };
         if let Some(message) = counter_message(&record.counters) {
             record.message = message;
+        } else if judgement.looked_at < record.texels.total {
+            record.message = share_message(judgement.looked_at, record.texels.total);
         }
         if index == 0 {
             expected_values(case, frame, &judgement.legal, &mut record);
@@ -272,6 +274,12 @@ fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
         }
     }
     kept
+}
+
+/// Returns the share of a picture that was judged, for people.
+fn share_message(judged: u64, all: u64) -> String {
+    let share = judged as f64 / all as f64 * 100.0;
+    format!("{share:.1} % of the picture is judged: {judged} of {all} samples, on a lattice")
 }
 
 /// The message about counters outside their legal range.

@@ -11,10 +11,15 @@ use std::sync::{Arc, Mutex, OnceLock};
 /// The most bytes of cached legal sets.
 const CACHE_BYTES: usize = 512 << 20;
 
-/// The most texels of an image that are judged, on a lattice that meets every row and column. Large
-/// frames exist to be measured, and judging all their texels would take longer than drawing them. The
-/// texels left out count as not asserted.
-pub(crate) const JUDGED: Texels = Texels::AtMost(4096);
+/// The texels of a case's images that are judged: all, but for the large pictures that exist to be
+/// measured. Of these a lattice that meets every row and column; the texels left out count as not asserted.
+pub(crate) fn judged_texels(case: &Case) -> Texels {
+    if case.method.is_some() || case.area() == "perf" {
+        Texels::AtMost(4096)
+    } else {
+        Texels::All
+    }
+}
 
 /// A case, one of its scenes, the limits it is judged by, and the values of the permissions.
 type Key = (usize, usize, Limits, String);
@@ -58,7 +63,7 @@ impl JudgementCache {
         let sets = Arc::clone(entry.get_or_init(|| {
             fresh = true;
             let scene = judged_scene(case, index);
-            Arc::new(judgements_of(scene, limits, JUDGED))
+            Arc::new(judgements_of(scene, limits, judged_texels(case)))
         }));
         if fresh {
             let weight = |all: &[Judgement]| -> usize {

@@ -33,7 +33,8 @@ pub use invariance::Invariance;
 pub use mesh::{MAX_VERTICES, Mesh, PrimitiveVertices, RESTART, Vertex};
 pub use mesh_source::{MeshSource, Splat, Units};
 pub use pass::{
-    Clear, ClearTarget, LoadOperation, Operations, Pass, PassOperations, StoreOperation,
+    Clear, ClearTarget, DepthStencilResolve, LoadOperation, Operations, Pass, PassOperations,
+    ResolveMode, StoreOperation,
 };
 pub use rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, SampleCoverage, Viewport,

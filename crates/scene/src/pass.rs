@@ -22,6 +22,9 @@ pub struct Pass {
     pub depth_stencil: Option<usize>,
     /// True if the pass promises to write neither depth nor stencil.
     pub depth_stencil_read_only: bool,
+    /// The resolve of depth and stencil at the end of the pass.
+    #[serde(default)]
+    pub depth_stencil_resolve: Option<DepthStencilResolve>,
     /// Load and store operations.
     #[serde(default)]
     pub operations: PassOperations,
@@ -30,6 +33,33 @@ pub struct Pass {
     pub clears: Vec<Clear>,
     /// Draws, in order.
     pub draws: Vec<Draw>,
+}
+
+/// A resolve of the samples of depth and stencil.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct DepthStencilResolve {
+    /// Index of the attachment that it writes: single-sample, of the same format and size.
+    pub to: usize,
+    /// The mode of depth; [`ResolveMode::None`] where the format has none.
+    pub depth: ResolveMode,
+    /// The mode of stencil, never an average; [`ResolveMode::None`] where the format has none.
+    pub stencil: ResolveMode,
+}
+
+state_enum! {
+    /// The value of a texel that its samples are resolved to.
+    ResolveMode {
+        /// What it was: the aspect is not resolved.
+        None = "none",
+        /// That of the first sample.
+        SampleZero = "sample-zero",
+        /// Their average.
+        Average = "average",
+        /// The least of them.
+        Min = "min",
+        /// The greatest of them.
+        Max = "max",
+    }
 }
 
 /// The load and store operations of a pass, per aspect.

@@ -4,6 +4,7 @@ use crate::blend::{BlendFactor, BlendOperation};
 use crate::depth_stencil::StencilFace;
 use crate::draw::Draw;
 use crate::early_tests::EarlyTests;
+use crate::pass::{DepthStencilResolve, ResolveMode};
 use crate::rasterization::{CullMode, PolygonMode, PrimitiveTopology};
 use crate::scene::Scene;
 use etalon_frame::{CounterKind, Feature, Requirement};
@@ -37,6 +38,12 @@ impl Scene {
             if !pass.clears.is_empty() {
                 needed.insert(Requirement::Feature(Feature::ClearCommands));
             }
+            if let (Some(resolve), Some(index)) = (&pass.depth_stencil_resolve, pass.depth_stencil)
+            {
+                let both = self.attachments[index].format.aspects().len() == 2;
+                let needs = resolve_features(resolve, both).into_iter();
+                needed.extend(needs.map(Requirement::Feature));
+            }
             if pass.clears.iter().any(|c| c.target.is_masked()) {
                 needed.insert(Requirement::Feature(Feature::MaskedClears));
             }
@@ -54,6 +61,30 @@ impl Scene {
         }
         needed.into_iter().collect()
     }
+}
+
+/// The features that a resolve of depth and stencil needs; `both` is true if the format has both.
+fn resolve_features(resolve: &DepthStencilResolve, both: bool) -> Vec<Feature> {
+    let mut needed = vec![Feature::DepthStencilResolve];
+    needed.extend(match resolve.depth {
+        ResolveMode::Average => Some(Feature::DepthResolveAverage),
+        ResolveMode::Min => Some(Feature::DepthResolveMin),
+        ResolveMode::Max => Some(Feature::DepthResolveMax),
+        ResolveMode::None | ResolveMode::SampleZero => None,
+    });
+    needed.extend(match resolve.stencil {
+        ResolveMode::Min => Some(Feature::StencilResolveMin),
+        ResolveMode::Max => Some(Feature::StencilResolveMax),
+        ResolveMode::None | ResolveMode::SampleZero | ResolveMode::Average => None,
+    });
+    if both && resolve.depth != resolve.stencil {
+        let modes = [resolve.depth, resolve.stencil];
+        needed.push(match modes.contains(&ResolveMode::None) {
+            true => Feature::IndependentResolveNone,
+            false => Feature::IndependentResolve,
+        });
+    }
+    needed
 }
 
 /// The features that a draw needs over attachments of a size.

@@ -28,6 +28,8 @@ pub(crate) struct Device {
     /// The promises of the device that narrow the text.
     pub(crate) properties: BTreeSet<Property>,
     pub(crate) memory: vk::PhysicalDeviceMemoryProperties,
+    /// The modes in which depth and stencil are resolved.
+    pub(crate) resolves: Resolves,
     /// True if the queue supports compute shaders.
     pub(crate) compute: bool,
     /// The enabled optional features: those that the suite uses and the device has.
@@ -155,6 +157,31 @@ fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Prope
     kept.map(|(property, _)| property).collect()
 }
 
+/// The modes in which a device resolves depth and stencil.
+pub(crate) struct Resolves {
+    pub(crate) depth: vk::ResolveModeFlags,
+    pub(crate) stencil: vk::ResolveModeFlags,
+    /// True if depth and stencil may have different modes.
+    pub(crate) independent: bool,
+    /// True if one of them need not be resolved.
+    pub(crate) independent_none: bool,
+}
+
+impl Resolves {
+    fn of(api: &ash::Instance, physical: vk::PhysicalDevice) -> Self {
+        let mut raw = vk::PhysicalDeviceDepthStencilResolveProperties::default();
+        let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut raw);
+        // SAFETY: the chained structure is part of Vulkan 1.2, and devices have 1.3.
+        unsafe { api.get_physical_device_properties2(physical, &mut both) };
+        Self {
+            depth: raw.supported_depth_resolve_modes,
+            stencil: raw.supported_stencil_resolve_modes,
+            independent: raw.independent_resolve != vk::FALSE,
+            independent_none: raw.independent_resolve_none != vk::FALSE,
+        }
+    }
+}
+
 /// Returns the features of a device that the suite uses.
 fn used_features(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures {
     vk::PhysicalDeviceFeatures {
@@ -243,6 +270,7 @@ impl Device {
             version: bound_version(properties.api_version),
             properties: promises,
             memory,
+            resolves: Resolves::of(api, physical),
             compute: family.queue_flags.contains(compute),
             features: enabled,
             timestamp_bits: if properties.limits.timestamp_period > 0.0 {

@@ -66,11 +66,23 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
 /// True if the device has a feature. Mandatory features of Vulkan 1.3 are always present.
 fn has(device: &Device, feature: Feature) -> bool {
     let features = &device.features;
+    let resolves = &device.resolves;
+    let depth = |mode| vk::Bool32::from(resolves.depth.contains(mode));
+    let stencil = |mode| vk::Bool32::from(resolves.stencil.contains(mode));
+    let first = vk::ResolveModeFlags::SAMPLE_ZERO;
     let flag = match feature {
         Feature::AlphaToOne => features.alpha_to_one,
         Feature::DepthBiasClamp => features.depth_bias_clamp,
         Feature::DepthBounds => features.depth_bounds,
         Feature::DepthClamp => features.depth_clamp,
+        Feature::DepthResolveAverage => depth(vk::ResolveModeFlags::AVERAGE),
+        Feature::DepthResolveMax => depth(vk::ResolveModeFlags::MAX),
+        Feature::DepthResolveMin => depth(vk::ResolveModeFlags::MIN),
+        Feature::DepthStencilResolve => depth(first) & stencil(first),
+        Feature::IndependentResolve => resolves.independent.into(),
+        Feature::IndependentResolveNone => resolves.independent_none.into(),
+        Feature::StencilResolveMax => stencil(vk::ResolveModeFlags::MAX),
+        Feature::StencilResolveMin => stencil(vk::ResolveModeFlags::MIN),
         Feature::DualSourceBlending if device.limits.max_fragment_dual_src_attachments == 0 => {
             vk::FALSE
         }

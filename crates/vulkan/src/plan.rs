@@ -11,6 +11,7 @@ use crate::inputs::DrawInputs;
 use crate::limits::attachment_usage;
 use crate::pipeline::{Pipeline, Targets};
 use crate::read::ReadPlan;
+use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::Requirement;
@@ -57,6 +58,8 @@ pub(crate) enum Role {
     DepthStencil,
     /// A read-only depth-stencil attachment.
     DepthStencilReadOnly,
+    /// The target of a resolve of depth and stencil.
+    DepthStencilResolve,
     Fetched,
     /// Not used by any pass. It may still be read back.
     Idle,
@@ -90,6 +93,8 @@ pub(crate) struct DepthStencilPlan {
     /// The operations of stencil, if the format has it.
     pub(crate) stencil: Option<Ends>,
     pub(crate) read_only: bool,
+    /// The view of the resolve with the modes of depth and stencil, if the pass resolves them.
+    pub(crate) resolve: Option<(vk::ImageView, [vk::ResolveModeFlags; 2])>,
 }
 
 /// The plan of a draw.
@@ -115,7 +120,9 @@ impl Role {
         for (_, role) in scene.passes.iter().filter_map(of) {
             match role {
                 Self::Color => return Self::Color,
-                Self::DepthStencil | Self::DepthStencilReadOnly => return Self::DepthStencil,
+                Self::DepthStencil | Self::DepthStencilReadOnly | Self::DepthStencilResolve => {
+                    return Self::DepthStencil;
+                }
                 Self::Fetched | Self::Idle => all = role,
             }
         }
@@ -133,6 +140,8 @@ fn roles(pass: &Pass) -> Vec<(usize, Role)> {
         Role::DepthStencil
     };
     roles.extend(pass.depth_stencil.map(|index| (index, tested)));
+    let resolve = pass.depth_stencil_resolve.as_ref();
+    roles.extend(resolve.map(|r| (r.to, Role::DepthStencilResolve)));
     for texture in pass.draws.iter().flat_map(|d| &d.textures) {
         if roles.iter().all(|(index, _)| index != texture) {
             roles.push((*texture, Role::Fetched));
@@ -228,6 +237,13 @@ impl PassPlan {
                     .is_some_and(|f| f.has_stencil())
                     .then(|| Ends::new(pass.operations.stencil, |v| depth_stencil_value(0.0, v))),
                 read_only: pass.depth_stencil_read_only,
+                resolve: match &pass.depth_stencil_resolve {
+                    None => None,
+                    Some(resolve) => {
+                        let modes = [resolve.depth, resolve.stencil].map(state::resolve_mode);
+                        Some((image(resolve.to)?.whole()?, modes))
+                    }
+                },
             });
         }
         Ok(plan)
@@ -268,12 +284,18 @@ pub(crate) fn image_key(
     let native = format::native(&gpu.natives, format)?;
     let mut usage = vk::ImageUsageFlags::TRANSFER_DST;
     match role {
-        Role::Color | Role::DepthStencil | Role::DepthStencilReadOnly if !native.attachment => {
+        Role::Color
+        | Role::DepthStencil
+        | Role::DepthStencilReadOnly
+        | Role::DepthStencilResolve
+            if !native.attachment =>
+        {
             return Err(BackendError::NotSupported(Requirement::Drawing(format)));
         }
-        Role::Color | Role::DepthStencil | Role::DepthStencilReadOnly => {
-            usage |= attachment_usage(format)
-        }
+        Role::Color
+        | Role::DepthStencil
+        | Role::DepthStencilReadOnly
+        | Role::DepthStencilResolve => usage |= attachment_usage(format),
         Role::Fetched | Role::Idle => {}
     }
     if fetched {

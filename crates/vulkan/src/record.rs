@@ -55,6 +55,17 @@ const DEPTH_STENCIL: ImageState = ImageState {
     ),
 };
 
+/// Targets of resolves of depth and stencil, which the colour stage writes (Vulkan, Render Pass Multisample
+/// Resolve Operations).
+const DEPTH_STENCIL_RESOLVE: ImageState = ImageState {
+    layout: DEPTH_STENCIL.layout,
+    stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
+    access: vk::AccessFlags2::from_raw(
+        vk::AccessFlags2::COLOR_ATTACHMENT_READ.as_raw()
+            | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE.as_raw(),
+    ),
+};
+
 /// Any earlier use; the contents are discarded.
 const UNDEFINED: ImageState = ImageState {
     layout: vk::ImageLayout::UNDEFINED,
@@ -87,6 +98,7 @@ impl Role {
             Self::Color => COLOR,
             Self::DepthStencil => DEPTH_STENCIL,
             Self::DepthStencilReadOnly => DEPTH_STENCIL_READ_ONLY,
+            Self::DepthStencilResolve => DEPTH_STENCIL_RESOLVE,
             Self::Fetched => FETCHED,
             Self::Idle => TRANSFER_DST,
         }
@@ -277,19 +289,26 @@ fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk
         }
         color.push(info);
     }
-    let aspect = |ends: fn(&DepthStencilPlan) -> Option<&Ends>| {
+    let aspect = |ends: fn(&DepthStencilPlan) -> Option<&Ends>, place: usize| {
         let plan = pass.depth_stencil.as_ref()?;
         let ends = ends(plan)?;
-        Some(if plan.read_only {
+        let info = if plan.read_only {
             // A store operation would count as a write.
             attachment(plan.view, DEPTH_STENCIL_READ_ONLY.layout, ends)
                 .store_op(vk::AttachmentStoreOp::NONE)
         } else {
             attachment(plan.view, DEPTH_STENCIL.layout, ends)
+        };
+        Some(match plan.resolve {
+            None => info,
+            Some((view, modes)) => info
+                .resolve_mode(modes[place])
+                .resolve_image_view(view)
+                .resolve_image_layout(DEPTH_STENCIL_RESOLVE.layout),
         })
     };
-    let depth = aspect(|plan| plan.depth.as_ref());
-    let stencil = aspect(|plan| plan.stencil.as_ref());
+    let depth = aspect(|plan| plan.depth.as_ref(), 0);
+    let stencil = aspect(|plan| plan.stencil.as_ref(), 1);
     let [width, height] = pass.size;
     let area = vk::Rect2D {
         offset: vk::Offset2D::default(),

@@ -3,7 +3,7 @@
 use ash::vk;
 use etalon_scene::{
     BlendFactor, BlendOperation, CompareFunction, CullMode, FrontFace, LogicOperation, PolygonMode,
-    PrimitiveTopology, StencilOperation,
+    PrimitiveTopology, ResolveMode, StencilOperation,
 };
 
 pub(crate) fn compare(function: CompareFunction) -> vk::CompareOp {
@@ -131,4 +131,15 @@ pub(crate) fn write_mask(mask: u8) -> vk::ColorComponentFlags {
 /// The flag of a sample count up to 64 is the count itself.
 pub(crate) fn samples(count: u32) -> vk::SampleCountFlags {
     vk::SampleCountFlags::from_raw(count)
+}
+
+/// Returns Vulkan's mode of a resolve.
+pub(crate) fn resolve_mode(mode: ResolveMode) -> vk::ResolveModeFlags {
+    match mode {
+        ResolveMode::None => vk::ResolveModeFlags::NONE,
+        ResolveMode::SampleZero => vk::ResolveModeFlags::SAMPLE_ZERO,
+        ResolveMode::Average => vk::ResolveModeFlags::AVERAGE,
+        ResolveMode::Min => vk::ResolveModeFlags::MIN,
+        ResolveMode::Max => vk::ResolveModeFlags::MAX,
+    }
 }

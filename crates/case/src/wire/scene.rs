@@ -4,7 +4,7 @@ use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
     BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace,
     LogicOperation, MeshSource, Multisample, PassOperations, PolygonMode, PrimitiveTopology,
-    Sampler, Shader, Splat, StencilOperation, Viewport,
+    ResolveMode, Sampler, Shader, Splat, StencilOperation, Viewport,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -129,6 +129,8 @@ pub(crate) struct PassWire {
     /// True if the pass promises to write neither depth nor stencil.
     #[serde(default)]
     pub(crate) depth_stencil_read_only: bool,
+    /// The resolve of depth and stencil at the end of the pass.
+    pub(crate) depth_stencil_resolve: Option<DepthStencilResolveWire>,
     /// Load and store operations; without them, everything is loaded and stored.
     #[serde(default)]
     pub(crate) operations: PassOperations,
@@ -137,6 +139,22 @@ pub(crate) struct PassWire {
     pub(crate) clears: Vec<ClearCommandWire>,
     /// Draws, in order.
     pub(crate) draws: Vec<DrawWire>,
+}
+
+/// A resolve of depth and stencil.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct DepthStencilResolveWire {
+    /// Name of the attachment that it writes.
+    pub(crate) to: String,
+    #[serde(default = "no_resolve")]
+    pub(crate) depth: ResolveMode,
+    #[serde(default = "no_resolve")]
+    pub(crate) stencil: ResolveMode,
+}
+
+fn no_resolve() -> ResolveMode {
+    ResolveMode::None
 }
 
 /// A clear command: of one colour attachment, of depth, of stencil or of the last two together.

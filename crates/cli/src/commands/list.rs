@@ -1,6 +1,6 @@
 //! `etalon list`.
 
-use crate::cases::chosen;
+use crate::cases::chosen_ids;
 use crate::failure::Failure;
 use crate::flags::CaseArguments;
 use crate::output::print;
@@ -14,10 +14,9 @@ pub(crate) struct Arguments {
 
 /// Prints the ids of the selected cases.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let cases = chosen(&arguments.selection)?;
     let mut text = String::new();
-    for case in &cases {
-        text.push_str(&case.id);
+    for id in chosen_ids(&arguments.selection)? {
+        text.push_str(&id);
         text.push('\n');
     }
     print(&text)?;

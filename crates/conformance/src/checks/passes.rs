@@ -2,7 +2,7 @@
 
 use super::Checked;
 use crate::frames::{BLUE, Expect, GREEN, RED};
-use crate::scenes::{blue, everywhere, filled, full, green, rect, red, test, with};
+use crate::scenes::{blue, corners, everywhere, filled, full, green, rect, red, test, with};
 use crate::subject::Subject;
 use etalon_frame::Feature;
 use serde_json::{Value, json};
@@ -293,5 +293,100 @@ pub(crate) fn masked_clears_keep_the_rest(s: &Subject) -> Checked {
     });
     frame.depth_is("depth", |x, _| if x < 8 { 0.0 } else { 1.0 });
     frame.stencil_is("depth", |x, y| if x >= 8 && y < 8 { 0x25 } else { 0xa5 });
+    Ok(())
+}
+
+/// The depths and stencil values of four samples, of which none is the first in order.
+const DEPTHS: [u32; 4] = [1, 0, 1, 0];
+const STENCILS: [u32; 4] = [7, 3, 9, 5];
+
+/// Draws that give each sample its own depth and stencil value.
+fn sample_by_sample(depth: bool, stencil: bool) -> Value {
+    let draws = (0..4).map(|sample| {
+        let mut draw = json!({ "mesh": everywhere(json!(DEPTHS[sample])), "shader": "flat_color_depth",
+            "multisample": { "mask": 1 << sample } });
+        if depth {
+            draw["depth"] = test("always", true);
+        }
+        if stencil {
+            draw["stencil"] = json!({ "front": { "compare": "always", "pass_op": "replace" },
+                                      "reference": STENCILS[sample] });
+        }
+        draw
+    });
+    draws.collect()
+}
+
+/// The first of the samples, the least, the greatest, or the average.
+pub(crate) fn depth_and_stencil_are_resolved_by_their_modes(s: &Subject) -> Checked {
+    let depths = [
+        ("sample-zero", 1.0),
+        ("min", 0.0),
+        ("max", 1.0),
+        ("average", 0.5),
+    ];
+    let stencils = [("sample-zero", 7), ("min", 3), ("max", 9), ("none", 100)];
+    for format in ["depth32float", "depth32float-stencil8", "stencil8"] {
+        for (by, depth) in depths {
+            for (stencil_by, stencil) in stencils {
+                let format_has = |name: &str| format.contains(name);
+                let [has_depth, has_stencil] = [format_has("depth"), format_has("stencil")];
+                let mut resolve = json!({ "to": "one" });
+                if has_depth {
+                    resolve["depth"] = json!(by);
+                }
+                if has_stencil {
+                    resolve["stencil"] = json!(stencil_by);
+                }
+                if !has_depth && (by != "min" || stencil_by == "none")
+                    || !has_stencil && stencil_by != "min"
+                {
+                    continue;
+                }
+                let clear = match (has_depth, has_stencil) {
+                    (true, true) => json!({ "depth": 0.25, "stencil": 100 }),
+                    (true, false) => json!(0.25),
+                    _ => json!(100),
+                };
+                let shown = s.show(json!({
+                    "attachments": {
+                        "many": { "format": format, "size": [5, 3], "samples": 4, "clear": clear },
+                        "one": { "format": format, "clear": clear } },
+                    "passes": [{ "depth_stencil": "many", "depth_stencil_resolve": resolve,
+                                 "draws": sample_by_sample(has_depth, has_stencil) }],
+                    "read": ["one"],
+                }));
+                let Ok(frame) = shown else { continue };
+                if has_depth {
+                    frame.depth_is("one", |_, _| depth);
+                }
+                if has_stencil {
+                    frame.stencil_is("one", |_, _| stencil);
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A pass that tests by what the one before resolved and then discarded.
+pub(crate) fn what_was_resolved_is_tested(s: &Subject) -> Checked {
+    let frame = s.show(json!({
+        "attachments": {
+            "color": blue(),
+            "many": { "format": "depth32float", "samples": 4, "clear": 1 },
+            "one": { "format": "depth32float", "clear": 1 } },
+        "passes": [
+            { "depth_stencil": "many", "depth_stencil_resolve": { "to": "one", "depth": "sample-zero" },
+              "operations": { "depth": { "store": "discard" } },
+              "draws": [{ "mesh": corners([0, 0, 9, 16]), "topology": "triangle-strip",
+                          "shader": "flat_color_depth", "depth": test("always", true) }] },
+            { "color": ["color"], "depth_stencil": "one",
+              "draws": [{ "mesh": { "kind": "rows", "values": [0.5, 0.5] }, "shader": "flat_color_depth",
+                          "params": red(), "depth": test("less", false) }] }],
+        "read": ["color", "one"],
+    }))?;
+    frame.is_red(|x, _| x >= 9);
+    frame.depth_is("one", |x, _| if x < 9 { 0.0 } else { 1.0 });
     Ok(())
 }

@@ -270,3 +270,64 @@ fn nothing_is_asserted_of_what_depends_on_discarded_contents() {
     );
     assert_eq!(shares(discard, &cleared), (vec![64, 16, 16], 16, Some(16)));
 }
+
+/// The set of `one`, to which four samples of depth and stencil are resolved: 0, 1, 0.5, 1 and 7, 3, 9, 3.
+fn resolved(format: &str, depth: &str, stencil: &str) -> etalon_frame::LegalSet {
+    let values = [(0.0, 7), (1.0, 3), (0.5, 9), (1.0, 3)]
+        .into_iter()
+        .enumerate();
+    let draws: Vec<String> = values
+        .map(|(sample, (depth, stencil))| {
+            format!(
+                r#"{{"mesh":{{"kind":"cover","value":{depth}}},"shader":"flat_color_depth",
+                   "depth":{{"compare":"always","write":true}},
+                   "stencil":{{"front":{{"compare":"always","pass_op":"replace"}},"reference":{stencil}}},
+                   "multisample":{{"mask":{}}}}}"#,
+                1 << sample
+            )
+        })
+        .collect();
+    let text = format!(
+        r#"{{"about":"t","spec":["t"],"scene":{{"attachments":{{
+           "many":{{"format":"{format}","size":[2,2],"samples":4}},
+           "one":{{"format":"{format}","clear":{{"depth":0.25,"stencil":100}}}}}},
+           "passes":[{{"depth_stencil":"many","draws":[{}],"depth_stencil_resolve":
+           {{"to":"one","depth":"{depth}","stencil":"{stencil}"}}}}],"read":["one"]}}}}"#,
+        draws.join(",")
+    );
+    let limits = limits(Api::Vulkan);
+    judge(&case(&text).scene, &limits, &Rules::of(&limits))
+}
+
+#[test]
+fn depth_and_stencil_are_resolved_each_by_its_mode() {
+    let code = |value: f32| i64::from(value.to_bits());
+    for (depth, stencil, due) in [
+        ("sample-zero", "sample-zero", [code(0.0), 7]),
+        ("max", "min", [code(1.0), 3]),
+        ("min", "max", [code(0.0), 9]),
+        ("none", "max", [code(0.25), 9]),
+        ("max", "none", [code(1.0), 100]),
+    ] {
+        let set = resolved("depth32float-stencil8", depth, stencil);
+        let all = &set.groups[0].sample(1, 1, 0).worlds;
+        assert_eq!(all.len(), 1, "{depth}, {stencil}");
+        let found: Vec<_> = all[0].channels.iter().map(|c| (c.low, c.high)).collect();
+        assert_eq!(found, due.map(|d| (d, d)), "{depth}, {stencil}");
+    }
+}
+
+#[test]
+fn an_average_depth_may_be_a_little_off_and_no_more() {
+    let set = resolved("depth32float-stencil8", "average", "min");
+    let sample = set.groups[0].sample(0, 0, 0);
+    let code = |value: f32| i64::from(value.to_bits());
+    for (value, allowed) in [
+        (0.625, true),
+        (0.625_001, true),
+        (0.624, false),
+        (0.63, false),
+    ] {
+        assert_eq!(sample.allows(&[code(value), 3]), allowed, "{value}");
+    }
+}

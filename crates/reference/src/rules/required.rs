@@ -143,6 +143,12 @@ fn vulkan(rows: &mut Vec<Required>) {
     add(rows, since, limits, [Size(4096), ColorAttachments(4)]);
     add(
         rows,
+        (Api::Vulkan, ApiVersion::new(1, 2)),
+        "Vulkan 1.2: VkPhysicalDeviceDepthStencilResolveProperties: both sets hold sample zero",
+        [Has(Feature::DepthStencilResolve)],
+    );
+    add(
+        rows,
         (Api::Vulkan, ApiVersion::new(1, 4)),
         "Vulkan 1.4: Feature Requirements",
         [

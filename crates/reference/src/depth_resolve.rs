@@ -1,0 +1,246 @@
+//! Resolves of depth and stencil.
+//!
+//! The first sample is taken with its worlds, depth and stencil together. A least or greatest depth is the
+//! hull over the worlds of all samples, and a stencil value each that some choice of worlds gives: both
+//! contain every outcome, as an average does.
+
+use crate::interval::Interval;
+use crate::judging::{Judging, Range};
+use crate::notes::{Effect, Note, Notes};
+use crate::rules::Resolve;
+use crate::walk::{Sample, Walk, codes_text};
+use crate::world::{Cell, Worlds, merge};
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, StoryLine};
+use etalon_pipeline::Arithmetic;
+use etalon_scene::{DepthStencilResolve, ResolveMode};
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+/// What a texel is resolved to; `None` leaves an aspect.
+type Outcome = (Option<CodeInterval>, Option<u8>);
+
+impl Walk<'_> {
+    /// Resolves depth and stencil at the end of a pass, at a sample of any attachment; `None` if the sample
+    /// is open.
+    pub(crate) fn resolve_depth_stencil(
+        &self,
+        p: usize,
+        at: Sample,
+        worlds: &mut Worlds,
+        notes: &mut Notes<'_>,
+    ) -> Option<()> {
+        let pass = &self.scene.passes[p];
+        let (Some(source), Some(resolve)) = (pass.depth_stencil, &pass.depth_stencil_resolve)
+        else {
+            return Some(());
+        };
+        let target = &self.scene.attachments[resolve.to];
+        if (target.size, target.samples) != (at.size, at.samples) {
+            return Some(());
+        }
+        let samples = self.scene.attachments[source].samples;
+        let each = (0..samples).map(|sample| {
+            let at = Sample {
+                samples,
+                sample,
+                ..at
+            };
+            self.earlier(at, p + 1)
+        });
+        let each: Vec<Rc<Worlds>> = each.collect::<Option<_>>()?;
+        let outcomes = self.outcomes(source, resolve, &each);
+        *worlds = worlds
+            .iter()
+            .flat_map(|world| {
+                outcomes.iter().map(|(depth, stencil)| {
+                    let mut world = world.clone();
+                    let cell = &mut world.cells[resolve.to];
+                    if let Some(codes) = depth {
+                        cell.channels[0] = *codes;
+                        cell.origin = None;
+                    }
+                    cell.stencil = stencil.unwrap_or(cell.stencil);
+                    world
+                })
+            })
+            .collect();
+        let cell = worlds.first()?.cells[resolve.to];
+        self.note_depth_resolve(notes, p, (source, resolve), cell);
+        merge(worlds).then_some(())
+    }
+
+    fn outcomes(
+        &self,
+        source: usize,
+        resolve: &DepthStencilResolve,
+        each: &[Rc<Worlds>],
+    ) -> BTreeSet<Outcome> {
+        let first = |mode| mode == ResolveMode::SampleZero;
+        let cells = each.first().into_iter().flat_map(|worlds| worlds.iter());
+        let cells = cells.map(|world| world.cells[source]);
+        if first(resolve.depth) && first(resolve.stencil) {
+            return cells
+                .map(|c| (Some(c.channels[0]), Some(c.stencil)))
+                .collect();
+        }
+        let depths: BTreeSet<Option<CodeInterval>> = match resolve.depth {
+            ResolveMode::None => [None].into(),
+            ResolveMode::SampleZero => cells.clone().map(|c| Some(c.channels[0])).collect(),
+            mode => {
+                let hulls = each.iter().filter_map(|worlds| {
+                    let all = worlds.iter().map(|w| w.cells[source].channels[0]);
+                    all.reduce(CodeInterval::hull)
+                });
+                [self.depth_of(
+                    mode,
+                    self.depth_encoding(source),
+                    &hulls.collect::<Vec<_>>(),
+                )]
+                .into()
+            }
+        };
+        let stencils: BTreeSet<Option<u8>> = match resolve.stencil {
+            ResolveMode::None | ResolveMode::Average => [None].into(),
+            ResolveMode::SampleZero => cells.map(|c| Some(c.stencil)).collect(),
+            mode => {
+                let values = each.iter().map(|worlds| {
+                    let all = worlds.iter().map(|w| w.cells[source].stencil);
+                    all.collect::<BTreeSet<u8>>()
+                });
+                let values: Vec<BTreeSet<u8>> = values.collect();
+                extremes(mode, &values).into_iter().map(Some).collect()
+            }
+        };
+        let pairs = depths.iter();
+        pairs
+            .flat_map(|depth| stencils.iter().map(|stencil| (*depth, *stencil)))
+            .collect()
+    }
+
+    /// Returns the depth that samples in these intervals are resolved to.
+    fn depth_of(
+        &self,
+        mode: ResolveMode,
+        encoding: ChannelEncoding,
+        samples: &[CodeInterval],
+    ) -> Option<CodeInterval> {
+        let ends = |pick: fn(i64, i64) -> i64| {
+            let each = samples.iter().copied();
+            each.reduce(|a, b| CodeInterval::new(pick(a.low, b.low), pick(a.high, b.high)))
+        };
+        match mode {
+            ResolveMode::None | ResolveMode::SampleZero => samples.first().copied(),
+            ResolveMode::Min => ends(i64::min),
+            ResolveMode::Max => ends(i64::max),
+            ResolveMode::Average => {
+                let between = samples.iter().copied().reduce(CodeInterval::hull)?;
+                Some(self.average(encoding, samples, between))
+            }
+        }
+    }
+
+    /// Returns the average of depths, as exact as that of colours.
+    fn average(
+        &self,
+        encoding: ChannelEncoding,
+        samples: &[CodeInterval],
+        between: CodeInterval,
+    ) -> CodeInterval {
+        if between.is_exact() && !encoding.is_float() {
+            return between;
+        }
+        let mut judging = Judging::new(self.rules);
+        let values = samples.iter().map(|s| judging.decode(encoding, *s).float);
+        let zero = Interval::exact(0.0);
+        let sum = values.fold(zero, |sum, value| sum.plus(value));
+        let count = samples.len() as f64;
+        let largest = encoding.value_of_order(between.high).abs();
+        let error = largest * count * self.rules.float_error.value;
+        let exact = sum.map_increasing(|v| v / count).widen(error);
+        let halvings = count.log2();
+        let average = judging.encode(encoding, Range::same(exact));
+        match self.rules.resolve.value {
+            Resolve::Average => average,
+            Resolve::Between => between.hull(average),
+            Resolve::CoarseAverage if encoding.is_float() => {
+                let next = (between.high + 1).min(encoding.max_order());
+                let [at, past] = [between.high, next].map(|o| encoding.value_of_order(o));
+                let off = exact.widen((past - at) * halvings);
+                judging.encode(encoding, Range::same(off))
+            }
+            Resolve::CoarseAverage => {
+                let off = |code: i64, by: f64| {
+                    (code as f64 + by).clamp(between.low as f64, between.high as f64)
+                };
+                CodeInterval::new(
+                    off(average.low, -halvings).floor() as i64,
+                    off(average.high, halvings).ceil() as i64,
+                )
+            }
+        }
+    }
+
+    fn note_depth_resolve(
+        &self,
+        notes: &mut Notes<'_>,
+        p: usize,
+        (source, resolve): (usize, &DepthStencilResolve),
+        contents: Cell,
+    ) {
+        for (aspect, mode) in [
+            (Aspect::Depth, resolve.depth),
+            (Aspect::Stencil, resolve.stencil),
+        ] {
+            if mode == ResolveMode::None {
+                continue;
+            }
+            notes.push(|| {
+                let [from, to] = [source, resolve.to].map(|i| &self.scene.attachments[i].name);
+                let value = match aspect {
+                    Aspect::Stencil => contents.stencil.to_string(),
+                    _ => codes_text(self.depth_encoding(resolve.to), contents.channels[0]),
+                };
+                Note {
+                    line: StoryLine {
+                        at: format!("after pass {p}"),
+                        operation: "resolve".to_owned(),
+                        detail: format!("{from} into {to}, {aspect} by {mode}: {value}"),
+                        citation: Some(self.rules.resolve.citation.to_owned()),
+                    },
+                    origin: None,
+                    effect: Effect::Stores {
+                        attachment: resolve.to,
+                        aspect,
+                        contents,
+                    },
+                }
+            });
+        }
+    }
+}
+
+/// Returns the least or greatest values that choosing one value of each sample can give.
+fn extremes(mode: ResolveMode, samples: &[BTreeSet<u8>]) -> BTreeSet<u8> {
+    let beyond = |value: u8, other: u8| match mode {
+        ResolveMode::Min => other >= value,
+        _ => other <= value,
+    };
+    let all = samples.iter().flatten().copied();
+    all.filter(|value| {
+        let mut each = samples.iter();
+        each.all(|one| one.iter().any(|other| beyond(*value, *other)))
+    })
+    .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_extreme_is_one_that_all_samples_leave_possible() {
+        let samples = [[1, 7].into(), [3, 4].into(), [4].into()];
+        assert_eq!(extremes(ResolveMode::Min, &samples), [1, 3, 4].into());
+        assert_eq!(extremes(ResolveMode::Max, &samples), [4, 7].into());
+    }
+}
