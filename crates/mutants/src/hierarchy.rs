@@ -396,12 +396,9 @@ pub(super) fn add(list: &mut List) {
 
 fn missed(list: &mut List) {
     type Row = (&'static str, &'static str, fn(&Scene, usize, &Draw) -> bool);
-    let rows: [Row; 14] = [
+    let rows: [Row; 6] = [
         ("shader-depth", "depths that shaders write", |_, _, d| {
             d.shader.writes_depth()
-        }),
-        ("discard", "draws whose shader discards", |_, _, d| {
-            d.shader.discards()
         }),
         ("always", "draws that always pass", |_, _, d| {
             compares(d, &[CompareFunction::Always])
@@ -413,38 +410,11 @@ fn missed(list: &mut List) {
         ("less", "draws that compare with less", |_, _, d| {
             compares(d, &[CompareFunction::Less, CompareFunction::LessEqual])
         }),
-        (
-            "not-equal",
-            "draws that compare with not-equal",
-            |_, _, d| compares(d, &[CompareFunction::NotEqual]),
-        ),
-        ("depth-only", "draws that write no colour", |_, _, d| {
-            d.targets.iter().all(|t| t.write_mask == 0)
-        }),
         ("stencil", "draws with a stencil test", |_, _, d| {
             d.stencil.is_some()
         }),
-        ("scissor", "draws with a scissor rectangle", |_, _, d| {
-            d.scissor.is_some()
-        }),
-        (
-            "range",
-            "draws with a depth range of their own",
-            |_, _, d| !is_whole(&d.viewport),
-        ),
         ("later-passes", "passes after the first", |_, pass, _| {
             pass > 0
-        }),
-        (
-            "after-read-only",
-            "a pass after one that does not write depth",
-            |scene, pass, _| pass > 0 && scene.passes[pass - 1].depth_stencil_read_only,
-        ),
-        ("bias", "draws with a depth bias", |_, _, d| {
-            d.depth_bias != DepthBias::default()
-        }),
-        ("blended", "draws that blend", |_, _, d| {
-            d.targets.iter().any(|t| t.blend.is_some())
         }),
     ];
     for (name, what, of) in rows {
@@ -476,7 +446,7 @@ fn missed(list: &mut List) {
 
 fn overrated(list: &mut List) {
     type Row = (&'static str, &'static str, fn(&Pass, &Draw) -> bool);
-    let rows: [Row; 7] = [
+    let rows: [Row; 4] = [
         ("write-off", "a draw that writes no depth", |_, d| {
             d.depth.is_some_and(|depth| !depth.write)
         }),
@@ -488,17 +458,8 @@ fn overrated(list: &mut List) {
             "a draw that covers a part of a tile",
             |_, d| d.depth.is_some_and(|depth| depth.write) && d.scissor.is_none(),
         ),
-        ("scissor", "a draw with a scissor rectangle", |_, d| {
-            d.scissor.is_some()
-        }),
         ("stencil", "a draw whose stencil test may fail", |_, d| {
             d.stencil.is_some()
-        }),
-        ("sample-mask", "a draw of some samples", |_, d| {
-            d.multisample.mask != Multisample::default().mask
-        }),
-        ("culled", "a draw of which faces are culled", |_, d| {
-            d.cull != CullMode::None
         }),
     ];
     for (name, what, of) in rows {
@@ -513,7 +474,7 @@ fn overrated(list: &mut List) {
 
 fn tested(list: &mut List) {
     type Test = (&'static str, &'static str, fn(&Draw, &mut Draw));
-    let tests: [Test; 6] = [
+    let tests: [Test; 2] = [
         (
             "compare-kept",
             "The coarse depth is tested with the comparison of the draw before.",
@@ -534,38 +495,6 @@ fn tested(list: &mut List) {
                 }
             },
         ),
-        (
-            "less-equal-as-less",
-            "The coarse test of less-equal is that of less.",
-            |_, draw| {
-                if let Some(depth) = &mut draw.depth
-                    && depth.compare == CompareFunction::LessEqual
-                {
-                    depth.compare = CompareFunction::Less;
-                }
-            },
-        ),
-        (
-            "greater-equal-as-greater",
-            "The coarse test of greater-equal is that of greater.",
-            |_, draw| {
-                if let Some(depth) = &mut draw.depth
-                    && depth.compare == CompareFunction::GreaterEqual
-                {
-                    depth.compare = CompareFunction::Greater;
-                }
-            },
-        ),
-        (
-            "range-ignored",
-            "The coarse test ignores the viewport's depth range.",
-            |_, draw| draw.viewport.depth = [0.0, 1.0],
-        ),
-        (
-            "range-kept",
-            "The coarse test uses the depth range of the draw before.",
-            |before, draw| draw.viewport.depth = before.viewport.depth,
-        ),
     ];
     for (name, about, change) in tests {
         list.add(name, CONFUSION, about, plant(SIDE, Bug::TestedAs(change)));
@@ -576,21 +505,12 @@ fn tested(list: &mut List) {
         "Draws whose shader writes depth are rejected by the depth of their vertices.",
         plant(SIDE, Bug::Trusted(|draw| draw.shader.writes_depth())),
     );
-    list.add(
-        "bias-ignored",
-        CONFUSION,
-        "Draws with a depth bias are rejected by the depth of their vertices.",
-        plant(
-            SIDE,
-            Bug::Trusted(|draw| draw.depth_bias != DepthBias::default()),
-        ),
-    );
     type Reject = (
         &'static str,
         &'static str,
         fn(CompareFunction, [u32; 2], [u32; 2]) -> bool,
     );
-    let rejects: [Reject; 4] = [
+    let rejects: [Reject; 2] = [
         (
             "greatest-used-for-greater",
             "Greater is tested against the greatest depth of a tile.",
@@ -600,20 +520,6 @@ fn tested(list: &mut List) {
             "least-used-for-less",
             "Less is tested against the least depth of a tile.",
             |compare, [lo, _], [min, _]| compare == CompareFunction::Less && lo >= min,
-        ),
-        (
-            "equal-rejected-at-the-ends",
-            "Equal rejects a tile whose least or greatest depth is the draw's.",
-            |compare, [lo, hi], [min, max]| {
-                compare == CompareFunction::Equal && (lo >= max || hi <= min)
-            },
-        ),
-        (
-            "not-equal-rejected",
-            "Not-equal rejects a tile whose least depth is the draw's.",
-            |compare, [lo, hi], [min, _]| {
-                compare == CompareFunction::NotEqual && lo == hi && lo == min
-            },
         ),
     ];
     for (name, about, of) in rejects {
@@ -636,18 +542,6 @@ fn kept(list: &mut List) {
         "In the next pass, the coarse depth is that of the clear.",
         plant(SIDE, Bug::Forgets),
     );
-    list.add(
-        "first-attachment",
-        CONFUSION,
-        "Every depth attachment has the coarse depth of the first.",
-        plant(SIDE, Bug::FirstAttachment),
-    );
-    list.add(
-        "first-sample",
-        CONFUSION,
-        "The coarse depth is that of the first sample.",
-        plant(SIDE, Bug::FirstSample),
-    );
     for n in [4, 8, 16] {
         list.add(
             &format!("columns-wrap-at-{n}"),
@@ -656,38 +550,11 @@ fn kept(list: &mut List) {
             plant(SIDE, Bug::Wraps(n)),
         );
     }
-    let clears = [
-        (
-            "load-missed",
-            "The coarse depth misses the clear of a load operation.",
-            Bug::LoadMissed,
-        ),
-        (
-            "clear-command-missed",
-            "The coarse depth misses clear commands.",
-            Bug::ClearMissed,
-        ),
-        (
-            "partial-clear-missed",
-            "The coarse depth misses clear commands with a rectangle.",
-            Bug::PartialClearMissed,
-        ),
-        (
-            "partial-clear-noted-everywhere",
-            "The coarse depth notes the clear of a rectangle everywhere.",
-            Bug::ClearUnbounded,
-        ),
-        (
-            "masked-clear-noted",
-            "The coarse depth notes a clear of depth that a mask keeps from acting.",
-            Bug::MaskIgnored,
-        ),
-        (
-            "stencil-clear-noted",
-            "A clear command of stencil alone sets the coarse depth to 1.",
-            Bug::StencilClear,
-        ),
-    ];
+    let clears = [(
+        "load-missed",
+        "The coarse depth misses the clear of a load operation.",
+        Bug::LoadMissed,
+    )];
     for (name, about, bug) in clears {
         list.add(name, CONFUSION, about, plant(SIDE, bug));
     }
@@ -717,15 +584,6 @@ fn kept(list: &mut List) {
                         | PrimitiveTopology::LineStrip
                 )
             }),
-        ),
-    );
-    list.add(
-        "forced-early-missed",
-        CONFUSION,
-        "The coarse depth misses what is written by draws with forced early tests.",
-        plant(
-            SIDE,
-            Bug::Missed(|_, _, draw| draw.early_tests == EarlyTests::Forced),
         ),
     );
 }

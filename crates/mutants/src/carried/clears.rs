@@ -41,7 +41,7 @@ pub(super) fn add(list: &mut List) {
 
 fn loads(list: &mut List) {
     type Bug = (&'static str, &'static str, fn(usize, &mut Pass));
-    let bugs: [Bug; 9] = [
+    let bugs: [Bug; 6] = [
         (
             "color-load-clears",
             "Passes after the first clear colour instead of loading it.",
@@ -70,47 +70,6 @@ fn loads(list: &mut List) {
             |n, pass| {
                 if n > 0 && !pass.depth_stencil_read_only {
                     pass.operations.stencil.load = LoadOperation::Clear(0);
-                }
-            },
-        ),
-        (
-            "clear-value-of-first-target",
-            "Load operations clear all targets with the value of the first.",
-            |_, pass| {
-                if let Some(LoadOperation::Clear(first)) =
-                    pass.operations.color.first().map(|o| o.load)
-                {
-                    for own in &mut pass.operations.color {
-                        if own.load != LoadOperation::Load {
-                            own.load = LoadOperation::Clear(first);
-                        }
-                    }
-                }
-            },
-        ),
-        (
-            "only-first-target-cleared",
-            "Load operations clear the first target only.",
-            |_, pass| {
-                for own in pass.operations.color.iter_mut().skip(1) {
-                    own.load = LoadOperation::Load;
-                }
-            },
-        ),
-        (
-            "every-target-cleared",
-            "A load operation that clears the first target clears all.",
-            |_, pass| {
-                let count = pass.color.len();
-                if let Some(LoadOperation::Clear(first)) =
-                    pass.operations.color.first().map(|o| o.load)
-                {
-                    pass.operations.color.resize_with(count, Default::default);
-                    for own in &mut pass.operations.color {
-                        if own.load == LoadOperation::Load {
-                            own.load = LoadOperation::Clear(first);
-                        }
-                    }
                 }
             },
         ),
@@ -148,22 +107,6 @@ fn loads(list: &mut List) {
         list.add(name, CONFUSION, about, passes(bug));
     }
     list.add(
-        "clear-value-of-the-pass-before",
-        CONFUSION,
-        "A load operation clears with the value of the pass before that cleared.",
-        scene(|scene| {
-            let mut before = None;
-            for pass in &mut scene.passes {
-                if let Some(own) = pass.operations.color.first_mut()
-                    && let LoadOperation::Clear(value) = own.load
-                {
-                    own.load = LoadOperation::Clear(before.unwrap_or(value));
-                    before = Some(value);
-                }
-            }
-        }),
-    );
-    list.add(
         "depth-clear-value-of-the-pass-before",
         CONFUSION,
         "A load operation clears depth with the value of the pass before that cleared.",
@@ -177,86 +120,20 @@ fn loads(list: &mut List) {
             }
         }),
     );
-    list.add(
-        "second-equal-load-clear-skipped",
-        CONFUSION,
-        "A load operation that clears colour with the value of an earlier clear is skipped.",
-        scene(|scene| {
-            let mut seen = Vec::new();
-            for pass in &mut scene.passes {
-                for (index, own) in pass.color.iter().zip(&mut pass.operations.color) {
-                    if let LoadOperation::Clear(value) = own.load {
-                        if seen.contains(&(*index, value)) {
-                            own.load = LoadOperation::Load;
-                        }
-                        seen.push((*index, value));
-                    }
-                }
-            }
-        }),
-    );
-    list.add(
-        "second-equal-depth-load-clear-skipped",
-        CONFUSION,
-        "A load operation that clears depth with the value of an earlier clear is skipped.",
-        scene(|scene| {
-            let mut seen = Vec::new();
-            for pass in &mut scene.passes {
-                if let LoadOperation::Clear(value) = pass.operations.depth.load {
-                    if seen.contains(&(pass.depth_stencil, value)) {
-                        pass.operations.depth.load = LoadOperation::Load;
-                    }
-                    seen.push((pass.depth_stencil, value));
-                }
-            }
-        }),
-    );
 }
 
 fn commands(list: &mut List) {
     type Bug = (&'static str, &'static str, fn(&mut Clear));
-    let bugs: [Bug; 4] = [
-        (
-            "clear-ignores-left-of-rectangle",
-            "The rectangle of a clear command begins at column 0.",
-            |clear| {
-                if let Some([x, _, w, _]) = &mut clear.rect {
-                    *w += *x;
-                    *x = 0;
-                }
-            },
-        ),
-        (
-            "clear-ignores-color-mask",
-            "A clear command ignores the mask of colour.",
-            |clear| {
-                if let ClearTarget::Color { write_mask, .. } = &mut clear.target {
-                    *write_mask = 0b1111;
-                }
-            },
-        ),
-        (
-            "clear-ignores-depth-mask",
-            "A clear command ignores the mask of depth.",
-            |clear| {
-                if let ClearTarget::DepthStencil { depth_write, .. } = &mut clear.target {
-                    *depth_write = true;
-                }
-            },
-        ),
-        (
-            "clear-ignores-stencil-mask",
-            "A clear command ignores the mask of stencil.",
-            |clear| {
-                if let ClearTarget::DepthStencil {
-                    stencil_write_mask, ..
-                } = &mut clear.target
-                {
-                    *stencil_write_mask = 0xff;
-                }
-            },
-        ),
-    ];
+    let bugs: [Bug; 1] = [(
+        "clear-ignores-left-of-rectangle",
+        "The rectangle of a clear command begins at column 0.",
+        |clear| {
+            if let Some([x, _, w, _]) = &mut clear.rect {
+                *w += *x;
+                *x = 0;
+            }
+        },
+    )];
     for (name, about, bug) in bugs {
         list.add(name, CONFUSION, about, clears(bug));
     }
@@ -320,29 +197,6 @@ fn moved(list: &mut List) {
             pass.clears
                 .iter_mut()
                 .for_each(|c| c.before = (c.before + 1).min(end));
-        }),
-    );
-    list.add(
-        "clear-within-write-mask",
-        CONFUSION,
-        "A clear command obeys the write mask of the draw before.",
-        passes(|_, pass| {
-            let draws = &pass.draws;
-            for clear in &mut pass.clears {
-                let before = clear.before.checked_sub(1).and_then(|at| draws.get(at));
-                if let (
-                    Some(draw),
-                    ClearTarget::Color {
-                        location,
-                        write_mask,
-                        ..
-                    },
-                ) = (before, &mut clear.target)
-                    && let Some(target) = draw.targets.get(*location)
-                {
-                    *write_mask &= target.write_mask;
-                }
-            }
         }),
     );
 }

@@ -100,16 +100,6 @@ fn lost(list: &mut List) {
         }),
     );
     list.add(
-        "equal-draw-skipped",
-        CONFUSION,
-        "A draw that equals the one before is skipped.",
-        scene(|scene| {
-            for pass in &mut scene.passes {
-                pass.draws.dedup();
-            }
-        }),
-    );
-    list.add(
         "equal-state-draw-skipped-in-the-next-pass",
         CONFUSION,
         "The first draw of a pass is skipped if it equals the last one of the pass before.",
@@ -195,38 +185,6 @@ fn read_only(list: &mut List) {
 }
 
 fn resolves(list: &mut List) {
-    list.add(
-        "second-resolve-in-format-of-first",
-        CONFUSION,
-        "All targets are resolved in the format of the first.",
-        stored(|moment, scene, stored| {
-            let Moment::End { pass } = moment else { return };
-            let targets: Vec<usize> = scene.passes[pass]
-                .resolve
-                .iter()
-                .flatten()
-                .copied()
-                .collect();
-            let Some((first, others)) = targets.split_first() else {
-                return;
-            };
-            let through = stored.surfaces[*first].encodings;
-            for target in others {
-                let surface = &mut stored.surfaces[*target];
-                for (plane, own) in surface.planes.iter_mut().zip(surface.encodings) {
-                    let Some(through) = through.first() else {
-                        return;
-                    };
-                    for code in plane {
-                        let value = Plain::<1>.decode(*own, [*code]);
-                        let [narrow] = Plain::<1>.encode(*through, value);
-                        let value = Plain::<1>.decode(*through, [narrow]);
-                        [*code] = Plain::<1>.encode(*own, value);
-                    }
-                }
-            }
-        }),
-    );
     list.add(
         "later-resolves-lost",
         CONFUSION,

@@ -7,8 +7,16 @@ use etalon_scene::{ColorTarget, Draw, Viewport};
 
 pub(super) fn add(list: &mut List) {
     for (what, _, take) in LEFTOVERS {
-        // What is off by default cannot be left on.
-        if what.ends_with("-when-off") {
+        // What is off by default cannot be left on, and its parameters do not act.
+        let parameter = matches!(
+            what,
+            "depth-compare"
+                | "depth-write"
+                | "stencil-reference"
+                | "stencil-write-mask"
+                | "stencil-operations"
+        );
+        if parameter || what.ends_with("-when-off") {
             continue;
         }
         list.add(
