@@ -13,9 +13,11 @@
 //!   its top row.
 //! - Front faces: `ccw` is counter-clockwise as seen on the framebuffer.
 
+mod call_fault;
 pub mod codes;
 mod read_fault;
 
+pub use call_fault::CallFault;
 pub use read_fault::ReadFault;
 
 use etalon_frame::{Frame, Limits, Requirement};

@@ -7,9 +7,10 @@ use crate::file::{CaseRef, METHOD};
 use crate::random;
 use crate::relation::relation;
 use crate::resolve::parse_scene;
+use crate::sequence;
 use crate::states;
 use crate::values::{substitute, typed};
-use crate::variants::{patch, variant_scene};
+use crate::variants::{patch, read_again, variant_scene};
 use crate::wire::{ExpectWire, RandomWire};
 use etalon_methods::{Method, MethodScene, MethodWire, Parameter};
 use etalon_scene::Scene;
@@ -37,7 +38,8 @@ impl CaseRef<'_> {
         }
         let scene_value = self.scene_value(&values)?;
         let scene = parse_scene(&scene_value).map_err(|e| e.key("scene"))?;
-        let variants = wire
+        let again = read_again(&scene, &wire.submissions).map_err(|e| e.key("submissions"))?;
+        let changed = wire
             .variants
             .iter()
             .enumerate()
@@ -46,6 +48,7 @@ impl CaseRef<'_> {
                     .map_err(|e| e.index(i).key("variants"))
             })
             .collect::<Result<Vec<_>, At>>()?;
+        let variants = [again, changed].concat();
         let relation =
             relation(&wire.relation, &values, &scene, &variants).map_err(|e| e.key("relation"))?;
         let judged_as = if wire.judged_as.is_empty() {
@@ -76,11 +79,13 @@ impl CaseRef<'_> {
             &wire.scene,
             &wire.random,
             &wire.states,
+            &wire.sequence,
             &wire.relation,
             &wire.expect,
         ];
         let alone = others.into_iter().all(Value::is_null)
             && wire.variants.is_empty()
+            && wire.submissions.is_empty()
             && wire.judged_as.is_empty();
         if !alone {
             return Err(
@@ -135,27 +140,32 @@ impl CaseRef<'_> {
     /// The scene with all values in their places.
     fn scene_value(&self, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
         let wire = &self.file.wire;
-        match (
-            wire.scene.is_null(),
-            wire.random.is_null(),
-            wire.states.is_null(),
-        ) {
-            (false, true, true) => substitute(&wire.scene, values).map_err(|e| e.key("scene")),
-            (true, true, false) => {
-                let made = || states::scene(&typed(&substitute(&wire.states, values)?)?);
-                made().map_err(|e| e.key("states"))
-            }
-            (true, false, true) => {
-                let made = || -> Result<Value, At> {
-                    let random: RandomWire = typed(&substitute(&wire.random, values)?)?;
-                    Ok(random::scene(random.flavor, random.seed))
-                };
-                made().map_err(|e| e.key("random"))
-            }
-            (true, true, true) => Err(At::new("a case file needs a scene").key("scene")),
-            (_, false, _) => Err(At::new("`random` stands instead of `scene`").key("random")),
-            _ => Err(At::new("`states` stands instead of `scene`").key("states")),
+        let made = [
+            ("scene", &wire.scene),
+            ("random", &wire.random),
+            ("states", &wire.states),
+            ("sequence", &wire.sequence),
+        ];
+        let mut given = made.into_iter().filter(|(_, value)| !value.is_null());
+        let Some((key, value)) = given.next() else {
+            return Err(At::new("a case file needs a scene").key("scene"));
+        };
+        if let Some((other, _)) = given.next() {
+            return Err(At::new(format!("`{other}` stands instead of `{key}`")).key(other));
         }
+        let make = || -> Result<Value, At> {
+            let value = substitute(value, values)?;
+            match key {
+                "random" => {
+                    let random: RandomWire = typed(&value)?;
+                    Ok(random::scene(random.flavor, random.seed))
+                }
+                "states" => states::scene(&typed(&value)?),
+                "sequence" => sequence::scene(&typed(&value)?),
+                _ => Ok(value),
+            }
+        };
+        make().map_err(|e| e.key(key))
     }
 
     fn expect(&self, scene: &Scene, values: &BTreeMap<&str, &Value>) -> Result<Vec<Expect>, At> {

@@ -6,6 +6,7 @@ use etalon_frame::Requirement;
 use etalon_methods::Method;
 use etalon_scene::Scene;
 use std::collections::BTreeSet;
+use std::num::NonZeroU32;
 
 /// One fully expanded unit of work.
 #[derive(Clone, Debug)]
@@ -53,9 +54,23 @@ impl Case {
         std::iter::once(&self.scene).chain(variants)
     }
 
-    /// Returns the number of scenes.
-    pub fn scene_count(&self) -> usize {
-        1 + self.variants.len()
+    /// Returns the scenes that are prepared, each with the submissions before each reading of its frame. The
+    /// frames that are read stand in the order of [`Case::scenes`].
+    pub fn preparations(&self) -> impl Iterator<Item = (&Scene, Vec<u32>)> {
+        let again = self.variants.iter().filter_map(|v| v.submissions);
+        let own = std::iter::once(1).chain(again.map(NonZeroU32::get));
+        let others = self.variants.iter().filter(|v| v.submissions.is_none());
+        std::iter::once((&self.scene, own.collect())).chain(others.map(|v| (&v.scene, vec![1])))
+    }
+
+    /// Returns the number by which a frame's scene is judged: 0 for the case's own, also where it is read
+    /// again, else the variant's number plus 1.
+    pub fn judged_index(&self, frame: usize) -> usize {
+        let variant = frame.checked_sub(1).and_then(|v| self.variants.get(v));
+        match variant {
+            Some(variant) if variant.submissions.is_none() => frame,
+            _ => 0,
+        }
     }
 
     /// Returns the requirements of the case, without repetition, in ascending order.

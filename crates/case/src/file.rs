@@ -18,7 +18,8 @@ pub(crate) const METHOD: &str = "method";
 pub enum Profile {
     /// Of files that say `"quick": "pairwise"` so many cases that every two values of every two axes
     /// meet, of those that say `"quick": { "each": 2 }` so many that every value stands in two, of those
-    /// that say `"quick": { "where": … }` the cases with these values; of all others everything.
+    /// that say `"quick": { "where": … }` the cases with these values, of those that say `"quick": { "any": [ … ] }`
+    /// the cases with the values of any row; of all others everything.
     #[default]
     Quick,
     /// Everything.
@@ -119,18 +120,24 @@ impl CaseFile {
                 ));
             }
         }
-        if let Some(QuickWire::Where(due)) = &wire.quick {
-            for (axis, name) in due {
+        let unknown = |due: &BTreeMap<String, String>| -> Option<At> {
+            due.iter().find_map(|(axis, name)| {
                 let values = wire.axes.get(axis).map_or(&[][..], |axis| axis);
-                if !values.iter().any(|v| v.name == *name) {
-                    return Err(fail(
-                        At::new(format!("no axis `{axis}` has a value `{name}`"))
-                            .key(axis)
-                            .key("where")
-                            .key("quick"),
-                    ));
-                }
+                let known = values.iter().any(|v| v.name == *name);
+                let message = format!("no axis `{axis}` has a value `{name}`");
+                (!known).then(|| At::new(message).key(axis))
+            })
+        };
+        let wrong = match &wire.quick {
+            Some(QuickWire::Where(due)) => unknown(due).map(|at| at.key("where")),
+            Some(QuickWire::Any(rows)) => {
+                let mut rows = rows.iter().enumerate();
+                rows.find_map(|(i, due)| Some(unknown(due)?.index(i).key("any")))
             }
+            _ => None,
+        };
+        if let Some(at) = wrong {
+            return Err(fail(at.key("quick")));
         }
         Ok(Self {
             name: name.to_owned(),
@@ -157,19 +164,23 @@ impl CaseFile {
             (Profile::Quick, Some(QuickWire::Pairwise)) => self.covering(Cover::Pairs),
             (Profile::Quick, Some(QuickWire::Each(n))) => self.covering(Cover::Each(n.get())),
             (Profile::Quick, Some(QuickWire::First(n))) => (0..self.count.min(n.get())).collect(),
-            (Profile::Quick, Some(QuickWire::Where(due))) => (0..self.count)
-                .filter(|index| {
-                    let at = self.positions(*index);
-                    let is = |(axis, name): (&String, &String)| {
-                        self.wire.axes[axis][at[axis.as_str()]].name == *name
-                    };
-                    due.iter().all(is)
-                })
+            (Profile::Quick, Some(QuickWire::Where(due))) => {
+                (0..self.count).filter(|i| self.has(*i, due)).collect()
+            }
+            (Profile::Quick, Some(QuickWire::Any(rows))) => (0..self.count)
+                .filter(|i| rows.iter().any(|due| self.has(*i, due)))
                 .collect(),
             _ => (0..self.count).collect(),
         };
         let one = move |index| CaseRef { file: self, index };
         indices.into_iter().map(one)
+    }
+
+    /// True if the case at a place of the product has these values.
+    fn has(&self, index: usize, due: &BTreeMap<String, String>) -> bool {
+        let at = self.positions(index);
+        due.iter()
+            .all(|(axis, name)| self.wire.axes[axis][at[axis.as_str()]].name == *name)
     }
 
     /// Places in the product of a covering array's rows, ascending.

@@ -18,6 +18,7 @@ mod random;
 mod relation;
 mod resolve;
 mod schema;
+mod sequence;
 mod states;
 mod tiles;
 mod values;

@@ -128,6 +128,11 @@ mod tests {
         let good = file(good).expect("parses");
         let quick: Vec<String> = good.cases(Profile::Quick).map(|c| c.id()).collect();
         assert_eq!(quick, ["t/a=1/side=large", "t/a=2/side=large"]);
+        let rows = r#""quick":{"any":[{"a":"1","side":"large"},{"a":"2","side":"small"}]},
+            "derived":{"rect":{"axis":"side","values":[[0,0,2,2],[0,0,4,4]]}}"#;
+        let rows = file(rows).expect("parses");
+        let quick: Vec<String> = rows.cases(Profile::Quick).map(|c| c.id()).collect();
+        assert_eq!(quick, ["t/a=1/side=large", "t/a=2/side=small"]);
         for case in good.cases(Profile::Full) {
             let scene = case.build().expect("builds").scene;
             let due = scene.attachments[0].size[0] / 2;
@@ -147,6 +152,11 @@ mod tests {
             (
                 r#""quick":{"where":{"side":"tiny"}}"#,
                 "quick.where.side",
+                "no axis `side` has a value `tiny`",
+            ),
+            (
+                r#""quick":{"any":[{"a":"1"},{"side":"tiny"}]}"#,
+                "quick.any[1].side",
                 "no axis `side` has a value `tiny`",
             ),
             (

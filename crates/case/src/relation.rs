@@ -26,6 +26,15 @@ pub struct Relation {
     pub attachments: Vec<usize>,
 }
 
+/// The relation of the frames of a scene that is submitted again.
+const REPEATED: Relation = Relation {
+    invariance: Invariance::Repeat,
+    within: None,
+    channels: 0b1111,
+    offset: [0, 0],
+    attachments: Vec::new(),
+};
+
 /// Parses a relation and checks it against the scenes.
 pub(crate) fn relation(
     value: &Value,
@@ -34,14 +43,21 @@ pub(crate) fn relation(
     variants: &[Variant],
 ) -> Result<Option<Relation>, At> {
     if value.is_null() {
+        // The same scene again gives the same frame by itself.
+        let is_again = |variant: &Variant| variant.submissions.is_some();
         return match variants {
             [] => Ok(None),
+            again if again.iter().all(is_again) => Ok(Some(REPEATED)),
             _ => Err(At::new(
                 "variants need a relation, or nothing is asserted of them",
             )),
         };
     }
     let wire: RelationWire = typed(&substitute(value, values)?)?;
+    if wire.same != Invariance::Repeat && variants.iter().any(|v| v.submissions.is_some()) {
+        let message = "a scene that is submitted again stays the same by `repeat`";
+        return Err(At::new(message).key("same"));
+    }
     let mut attachments = Vec::new();
     for (i, name) in wire.attachments.iter().enumerate() {
         let index = read_back(scene, name).map_err(|e| e.index(i).key("attachments"))?;

@@ -7,15 +7,43 @@ use crate::wire::VariantWire;
 use etalon_scene::Scene;
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::num::NonZeroU32;
 
-/// A scene with changes.
+/// A scene with changes, or the case's own scene read again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variant {
     /// Its name in records.
     pub name: String,
     /// The scene that adapters draw.
     pub scene: Scene,
+    /// The number of further submissions of the case's own prepared scene behind which this frame is read;
+    /// `None` for a scene that is prepared by itself.
+    pub submissions: Option<NonZeroU32>,
 }
+
+/// The frames of a scene that is submitted again and again.
+pub(crate) fn read_again(scene: &Scene, submissions: &[NonZeroU32]) -> Result<Vec<Variant>, At> {
+    let mut all: Vec<Variant> = Vec::new();
+    for (i, number) in submissions.iter().enumerate() {
+        let name = format!("{number}-more");
+        if all.iter().any(|v| v.name == name) {
+            return Err(At::new(format!("{number} stands twice")).index(i));
+        }
+        if number.get() > MOST_SUBMISSIONS {
+            let message = format!("a scene is submitted {MOST_SUBMISSIONS} times more at most");
+            return Err(At::new(message).index(i));
+        }
+        all.push(Variant {
+            name,
+            scene: scene.clone(),
+            submissions: Some(*number),
+        });
+    }
+    Ok(all)
+}
+
+/// The most submissions between two readings.
+const MOST_SUBMISSIONS: u32 = 1024;
 
 /// The value of a scene at a JSON pointer.
 fn value_at<'v>(scene: &'v mut Value, pointer: &str) -> Result<&'v mut Value, At> {
@@ -69,5 +97,54 @@ pub(crate) fn variant_scene(
     Ok(Variant {
         name: wire.name.clone(),
         scene: parse_scene(&changed)?,
+        submissions: None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Case, CaseError, CaseFile, Profile};
+    use etalon_scene::Invariance;
+
+    fn case(more: &str) -> Result<Case, CaseError> {
+        let text = format!(
+            r#"{{"about":"t","spec":["t"],"scene":{{"attachments":{{"c":{{"format":"rgba8unorm"}}}},
+            "passes":[{{"color":["c"],"draws":[]}}],"read":["c"]}},{more}}}"#
+        );
+        let file = CaseFile::parse("t.json", &text)?;
+        file.cases(Profile::Full).next().expect("a case").build()
+    }
+
+    #[test]
+    fn submissions_read_the_same_prepared_scene_again() {
+        let again = case(
+            r#""submissions":[1,64],"variants":[{"name":"anew"}],"relation":{"same":"repeat"}"#,
+        )
+        .expect("builds");
+        let names: Vec<_> = again.variants.iter().map(|v| v.name.as_str()).collect();
+        assert_eq!(names, ["1-more", "64-more", "anew"]);
+        let readings: Vec<_> = again.preparations().map(|(_, times)| times).collect();
+        assert_eq!(readings, [vec![1, 1, 64], vec![1]]);
+        let judged: Vec<_> = (0..4).map(|frame| again.judged_index(frame)).collect();
+        assert_eq!(judged, [0, 0, 0, 3]);
+        let alone = case(r#""submissions":[2]"#).expect("builds");
+        let relation = alone.relation.expect("the frames are compared");
+        assert_eq!(relation.invariance, Invariance::Repeat);
+    }
+
+    #[test]
+    fn submissions_that_make_no_sense_are_refused() {
+        for (more, words) in [
+            (r#""submissions":[1,1]"#, "1 stands twice"),
+            (r#""submissions":[5000]"#, "1024 times"),
+            (r#""submissions":[0]"#, "nonzero"),
+            (
+                r#""submissions":[1],"relation":{"same":"contents"}"#,
+                "by `repeat`",
+            ),
+        ] {
+            let error = case(more).expect_err(more);
+            assert!(error.message.contains(words), "{error}");
+        }
+    }
 }

@@ -11,6 +11,7 @@ mod hidden;
 mod names;
 mod open;
 mod origin;
+mod planted_fault;
 mod query;
 mod runtime_folder;
 mod slower;

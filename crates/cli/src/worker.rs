@@ -66,6 +66,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
             library: what.egl.clone(),
             debug: what.validate,
             read_fault: what.read_fault,
+            call_fault: what.call_fault,
         };
         etalon_gl::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
@@ -88,6 +89,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
                 device,
                 validate: what.validate,
                 read_fault: what.read_fault,
+                call_fault: what.call_fault,
             };
             etalon_vulkan::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
         }

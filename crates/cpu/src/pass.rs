@@ -2,7 +2,7 @@
 
 use crate::raster;
 use crate::span::Counted;
-use crate::steps::Steps;
+use crate::steps::{Moment, Steps, Stored};
 use crate::surface::{Surface, depth_encoding};
 use etalon_backend::BackendError;
 use etalon_frame::{Aspect, ChannelEncoding};
@@ -14,21 +14,53 @@ const DISCARDED: f64 = 0.6;
 /// Runs a pass on its attachments.
 pub(crate) fn run<S: Steps>(
     scene: &Scene,
-    pass: &Pass,
+    number: usize,
     surfaces: &mut [Surface],
     counters: &mut [Counted],
     steps: &S,
 ) -> Result<(), BackendError> {
-    load(scene, pass, surfaces, steps);
-    for (index, draw) in pass.draws.iter().enumerate() {
-        for command in pass.clears_before(index) {
+    let pass = &scene.passes[number];
+    let reached = |moment, surfaces: &mut [Surface], counters: &mut [Counted]| {
+        steps.reached(moment, scene, Stored { surfaces, counters });
+    };
+    let clears = |draw: usize, surfaces: &mut [Surface], counters: &mut [Counted]| {
+        for command in pass.clears_before(draw) {
             clear(scene, pass, command, surfaces, steps);
+            let clear = *command;
+            reached(
+                Moment::Cleared {
+                    pass: number,
+                    clear,
+                },
+                surfaces,
+                counters,
+            );
         }
+    };
+    reached(Moment::Begin { pass: number }, surfaces, counters);
+    load(scene, pass, surfaces, steps);
+    reached(Moment::Loaded { pass: number }, surfaces, counters);
+    for (index, draw) in pass.draws.iter().enumerate() {
+        clears(index, surfaces, counters);
+        reached(
+            Moment::Draw {
+                pass: number,
+                draw: index,
+            },
+            surfaces,
+            counters,
+        );
         raster::draw(scene, pass, draw, surfaces, counters, steps);
+        reached(
+            Moment::Drawn {
+                pass: number,
+                draw: index,
+            },
+            surfaces,
+            counters,
+        );
     }
-    for command in pass.clears_before(pass.draws.len()) {
-        clear(scene, pass, command, surfaces, steps);
-    }
+    clears(pass.draws.len(), surfaces, counters);
     for (source, target) in pass.color.iter().zip(&pass.resolve) {
         if let Some(target) = target {
             let both = surfaces.get_disjoint_mut([*source, *target]);
@@ -50,6 +82,7 @@ pub(crate) fn run<S: Steps>(
         let stencil = |values: &[u8]| steps.resolve_stencil(resolve.stencil, values);
         target.resolve_stencil_from(source, resolve.stencil, stencil);
     }
+    reached(Moment::End { pass: number }, surfaces, counters);
     for (index, aspect) in pass.discarded() {
         discard(scene, index, aspect, &mut surfaces[index]);
     }

@@ -2,7 +2,7 @@
 
 use crate::pass;
 use crate::span::Counted;
-use crate::steps::Steps;
+use crate::steps::{Moment, Steps, Stored};
 use crate::surface::{Surface, depth_encoding};
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind, Frame, Image, ReadPath};
@@ -41,7 +41,12 @@ impl<S: Steps> Prepared for PreparedScene<S> {
             .collect();
         let counters = self.scene.counters.iter();
         self.counters = counters.map(|c| (c.kind, 0)).collect();
-        for pass in &self.scene.passes {
+        let stored = Stored {
+            surfaces: &mut self.surfaces,
+            counters: &mut self.counters,
+        };
+        self.steps.reached(Moment::Initial, &self.scene, stored);
+        for pass in 0..self.scene.passes.len() {
             let (surfaces, counters) = (&mut self.surfaces, &mut self.counters);
             pass::run(&self.scene, pass, surfaces, counters, &self.steps)?;
         }

@@ -13,8 +13,8 @@ use etalon_pipeline::{
     Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
 };
 use etalon_scene::{
-    BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, ResolveMode, Sampler,
-    Shader, StencilFace, StencilOperation,
+    BlendState, Clear, CompareFunction, DepthBias, LogicOperation, Multisample, ResolveMode,
+    Sampler, Scene, Shader, StencilFace, StencilOperation,
 };
 
 /// The outcome of a fragment's stencil and depth test.
@@ -60,8 +60,64 @@ pub struct Written {
     pub depth: Mask,
 }
 
+/// A moment of a submission.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Moment {
+    /// The attachments have their initial contents.
+    Initial,
+    /// A pass begins.
+    Begin {
+        /// The index of the pass.
+        pass: usize,
+    },
+    /// The load operations of a pass are done.
+    Loaded {
+        /// The index of the pass.
+        pass: usize,
+    },
+    /// A clear command is done.
+    Cleared {
+        /// The index of the pass.
+        pass: usize,
+        /// The command.
+        clear: Clear,
+    },
+    /// A draw follows.
+    Draw {
+        /// The index of the pass.
+        pass: usize,
+        /// The index of the draw.
+        draw: usize,
+    },
+    /// A draw is done.
+    Drawn {
+        /// The index of the pass.
+        pass: usize,
+        /// The index of the draw.
+        draw: usize,
+    },
+    /// A pass has ended, and its attachments are resolved.
+    End {
+        /// The index of the pass.
+        pass: usize,
+    },
+}
+
+/// What a submission has stored so far: the attachments, and the counters with their kinds.
+#[derive(Debug)]
+pub struct Stored<'a> {
+    /// The attachments, in the scene's order.
+    pub surfaces: &'a mut [Surface],
+    /// The counters, in the scene's order.
+    pub counters: &'a mut [(CounterKind, u64)],
+}
+
 /// The steps that a planted bug may override, with the pipeline's own as defaults.
 pub trait Steps {
+    /// Changes nothing. A planted bug of memory changes what is stored at this moment.
+    #[inline(always)]
+    fn reached(&self, _moment: Moment, _scene: &Scene, _stored: Stored<'_>) {}
+
     /// Returns the covered texels of a span that starts at column `x` of row `y`.
     #[inline(always)]
     fn covered(&self, _x: usize, _y: usize, _size: [u32; 2], mask: Mask) -> Mask {

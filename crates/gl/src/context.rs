@@ -5,6 +5,7 @@ use crate::debug_output::{self, Log};
 use crate::egl::{EglContext, function_at};
 use crate::entry_points::EntryPoints;
 use crate::options::{Options, Profile, Tuning};
+use crate::planted;
 use etalon_backend::{BackendError, ReadFault, Unavailable};
 use glow::HasContext;
 use std::ffi::{CStr, c_char};
@@ -42,6 +43,7 @@ impl Context {
         options: &Options,
         tuning: Tuning,
     ) -> Result<Self, Unavailable> {
+        planted::plant(options.call_fault);
         let names = Names::query(&egl)?;
         let es = options.profile == Profile::Es;
         let version = parse_version(&names.version).ok_or_else(|| unusable("GL_VERSION"))?;

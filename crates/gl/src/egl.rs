@@ -3,6 +3,7 @@
 //! `khronos-egl` loads the entry points. They are called without its wrappers, which panic on
 //! unknown error codes.
 
+use crate::planted;
 use etalon_backend::Unavailable;
 use khronos_egl::api::{EGL1_0 as _, EGL1_2 as _, EGL1_4 as _};
 use khronos_egl::{self as egl, Dynamic, EGL1_4};
@@ -513,7 +514,7 @@ impl EglContext {
 
     /// See [`Egl::proc_address`].
     pub(crate) fn proc_address(&self, name: &CStr) -> *const c_void {
-        self.egl.proc_address(name)
+        planted::address(name, self.egl.proc_address(name))
     }
 }
 

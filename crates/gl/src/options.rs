@@ -1,7 +1,7 @@
 //! The options of an adapter: the API, and the way to its driver.
 
 use crate::egl::Platform;
-use etalon_backend::ReadFault;
+use etalon_backend::{CallFault, ReadFault};
 use std::path::PathBuf;
 
 /// The OpenGL variant of a context.
@@ -26,6 +26,8 @@ pub struct Options {
     pub debug: bool,
     /// A fault that a test of the suite plants in the read path.
     pub read_fault: Option<ReadFault>,
+    /// A fault that a test of the suite plants between the backend and the driver.
+    pub call_fault: Option<CallFault>,
 }
 
 /// Capabilities that tests can disable.

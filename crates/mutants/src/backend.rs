@@ -33,13 +33,13 @@ impl MutantBackend {
     fn believed(&self, scene: &Scene) -> Scene {
         let mut believed = scene.clone();
         match &self.mutant.plant {
-            Plant::Scene(bug) => bug(&mut believed),
+            Plant::Scene(bug) | Plant::Again(_, bug) => bug(&mut believed),
             Plant::Sticky(bug) => {
                 if let Some(before) = &*self.before.borrow() {
                     bug(before, &mut believed);
                 }
             }
-            Plant::Steps(_) | Plant::Frame(_) => return believed,
+            Plant::Steps(_) | Plant::Memory(_) | Plant::Frame(_) => return believed,
         }
         keep_possible(scene, &mut believed);
         believed
@@ -85,15 +85,49 @@ impl Backend for MutantBackend {
         }
         Ok(match &self.mutant.plant {
             Plant::Steps(hooks) => Box::new(PreparedScene::new(believed, hooks.as_ref())),
+            Plant::Memory(bug) => Box::new(PreparedScene::new(believed, bug())),
             Plant::Frame(bug) => Box::new(PreparedMutant {
                 inner: self.inner.prepare(&believed)?,
                 scene: believed,
                 bug,
             }),
+            Plant::Again(from, _) => Box::new(PreparedAgain {
+                right: PreparedScene::new(scene.clone(), etalon_cpu::steps::Faithful),
+                wrong: PreparedScene::new(believed, etalon_cpu::steps::Faithful),
+                from: *from,
+                submissions: 0,
+            }),
             Plant::Scene(_) | Plant::Sticky(_) => {
                 Box::new(PreparedScene::new(believed, etalon_cpu::steps::Faithful))
             }
         })
+    }
+}
+
+/// A scene that is another one from some submission on.
+struct PreparedAgain<P> {
+    right: P,
+    wrong: P,
+    from: u32,
+    submissions: u32,
+}
+
+impl<P: Prepared> Prepared for PreparedAgain<P> {
+    fn submit(&mut self) -> Result<FrameTime, BackendError> {
+        self.submissions += 1;
+        if self.submissions >= self.from {
+            self.wrong.submit()
+        } else {
+            self.right.submit()
+        }
+    }
+
+    fn read_back(&mut self) -> Result<Frame, BackendError> {
+        if self.submissions >= self.from {
+            self.wrong.read_back()
+        } else {
+            self.right.read_back()
+        }
     }
 }
 

@@ -3,10 +3,10 @@
 use crate::list::List;
 use crate::mutant::Mutant;
 use crate::{
-    bias, blend, bounds, capability, clear, counter, cull, depth, depth_range, discard,
-    dual_source, early, fetch, formats, geometry, invariance, logic, mask, read_only, readback,
-    resolve, sample_coverage, sample_shading, samples, scissor, size, stencil, sticky, targets,
-    texture, topology, upload, viewport,
+    bias, blend, bounds, capability, carried, clear, counter, cull, depth, depth_range, discard,
+    dual_source, early, fetch, formats, geometry, hierarchy, invariance, logic, mask, read_only,
+    readback, resolve, sample_coverage, sample_shading, samples, scissor, sequence, size, stencil,
+    sticky, targets, texture, tiled, topology, upload, viewport,
 };
 use std::sync::LazyLock;
 
@@ -47,6 +47,10 @@ pub fn mutants() -> &'static [Mutant] {
         invariance::add(&mut list);
         readback::add(&mut list);
         sticky::add(&mut list);
+        tiled::add(&mut list);
+        hierarchy::add(&mut list);
+        carried::add(&mut list);
+        sequence::add(&mut list);
         size::add(&mut list);
         list.mutants
     });

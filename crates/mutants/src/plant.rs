@@ -1,12 +1,15 @@
 //! Planting a bug: in the scene, in a step, or in the frame.
 
 use super::hooks::Hooks;
+use super::memory::Memory;
+use etalon_cpu::steps::{Moment, Stored};
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, TextureFormat};
 use etalon_scene::{BlendComponent, Draw, Scene, StencilFace};
 use std::fmt;
 
 type SceneBug = dyn Fn(&mut Scene) + Send + Sync;
 type StickyBug = dyn Fn(&Scene, &mut Scene) + Send + Sync;
+type MemoryBug = dyn Fn() -> Memory + Send + Sync;
 type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
 
 /// A planted bug.
@@ -15,8 +18,13 @@ pub(super) enum Plant {
     Scene(Box<SceneBug>),
     /// The driver draws another scene, with state of the previous one.
     Sticky(Box<StickyBug>),
+    /// From this submission of a prepared scene on, counted from 1, the driver draws another scene.
+    Again(u32, Box<SceneBug>),
     /// A step of the rasterizer is replaced.
     Steps(Box<Hooks>),
+    /// What a submission has stored is changed. Each prepared scene has a bug of its own, which may
+    /// remember earlier moments and submissions.
+    Memory(Box<MemoryBug>),
     /// The frame is changed when it is read back.
     Frame(Box<FrameBug>),
 }
@@ -26,7 +34,9 @@ impl fmt::Debug for Plant {
         f.write_str(match self {
             Self::Scene(_) => "Scene",
             Self::Sticky(_) => "Sticky",
+            Self::Again(..) => "Again",
             Self::Steps(_) => "Steps",
+            Self::Memory(_) => "Memory",
             Self::Frame(_) => "Frame",
         })
     }
@@ -38,9 +48,26 @@ impl From<Hooks> for Plant {
     }
 }
 
+/// Plants a bug of which each prepared scene makes its own.
+pub(super) fn memory(bug: impl Fn() -> Memory + Send + Sync + 'static) -> Plant {
+    Plant::Memory(Box::new(bug))
+}
+
+/// Changes what is stored at some moments.
+pub(super) fn stored(
+    bug: impl Fn(Moment, &Scene, Stored<'_>) + Clone + Send + Sync + 'static,
+) -> Plant {
+    memory(move || Memory::new(bug.clone()))
+}
+
 /// Changes the scene.
 pub(super) fn scene(bug: impl Fn(&mut Scene) + Send + Sync + 'static) -> Plant {
     Plant::Scene(Box::new(bug))
+}
+
+/// Changes the scene from a submission on.
+pub(super) fn again(from: u32, bug: impl Fn(&mut Scene) + Send + Sync + 'static) -> Plant {
+    Plant::Again(from, Box::new(bug))
 }
 
 /// Changes every draw.

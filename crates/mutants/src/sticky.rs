@@ -7,7 +7,7 @@ use etalon_scene::{DepthBias, Draw};
 type Leftover = fn(&Draw, &mut Draw);
 
 /// The state that persists, the area that must catch it, and the copy from the previous draw.
-const LEFTOVERS: [(&str, &str, Leftover); 35] = [
+pub(super) const LEFTOVERS: [(&str, &str, Leftover); 35] = [
     ("depth-test", "depth", |before, draw| {
         draw.depth = before.depth
     }),

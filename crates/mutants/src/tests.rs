@@ -1,4 +1,11 @@
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use crate::hierarchy::faithful;
 use crate::mutants;
+use crate::plant::Plant;
+use etalon_backend::Prepared;
+use etalon_cpu::PreparedScene;
+use etalon_cpu::steps::Faithful;
 use std::collections::HashSet;
 
 #[test]
@@ -15,6 +22,7 @@ fn every_mutant_is_named_explained_and_sourced() {
         "order",
         "capabilities",
         "size",
+        "sequence",
     ];
     let mut names = HashSet::new();
     assert!(mutants().len() >= 1000, "{}", mutants().len());
@@ -28,5 +36,29 @@ fn every_mutant_is_named_explained_and_sourced() {
         assert!(areas.contains(&mutant.area), "{}", mutant.name);
         let cites = |why: &str| why.contains(": ");
         assert!(mutant.legal.is_none_or(cites), "{}", mutant.name);
+    }
+}
+
+/// A coarse depth without a bug rejects only what fails the depth test.
+#[test]
+fn a_right_coarse_depth_changes_no_frame() {
+    let library = etalon_case::Library::built_in().unwrap();
+    let areas = ["depth/", "stencil/", "multisample/depth", "size/hierarchy"];
+    let cases: Vec<_> = library
+        .cases(etalon_case::Profile::Quick)
+        .filter(|case| areas.iter().any(|area| case.id().starts_with(area)))
+        .map(|case| case.build().unwrap())
+        .collect();
+    let Plant::Memory(coarse) = faithful(8) else {
+        panic!("a coarse depth is a bug of memory");
+    };
+    let draw = |mut prepared: Box<dyn Prepared>| {
+        prepared.submit().unwrap();
+        prepared.read_back().unwrap()
+    };
+    for scene in cases.iter().flat_map(|case| case.scenes()) {
+        let due = PreparedScene::new(scene.clone(), Faithful);
+        let found = PreparedScene::new(scene.clone(), coarse());
+        assert_eq!(draw(Box::new(due)), draw(Box::new(found)));
     }
 }

@@ -3,7 +3,7 @@
 use crate::loss::{Failure, Loss};
 use crate::process::{Wait, WorkerProcess};
 use crate::protocol::{Payload, Request, Response};
-use etalon_backend::{BackendError, FrameTime};
+use etalon_backend::{Backend, BackendError, FrameTime};
 use etalon_case::Case;
 use etalon_frame::Frame;
 use etalon_scene::Scene;
@@ -22,6 +22,52 @@ pub(crate) struct Drawing {
     pub(crate) since: Duration,
     /// Messages of validation layers and debug output.
     pub(crate) messages: Vec<String>,
+}
+
+/// The answers that are due to the requests of some frames.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Due {
+    answers: usize,
+    frames: usize,
+}
+
+impl Due {
+    /// One frame of one scene.
+    pub(crate) const ONE: Self = Self {
+        answers: 4,
+        frames: 1,
+    };
+
+    /// The frames of a case.
+    pub(crate) fn of(case: &Case) -> Self {
+        let mut due = Self {
+            answers: 0,
+            frames: 0,
+        };
+        for (_, readings) in case.preparations() {
+            due.answers += 2 + 2 * readings.len();
+            due.frames += readings.len();
+        }
+        due
+    }
+}
+
+/// Returns the frames of a case that a backend of this process draws.
+///
+/// # Errors
+/// When the backend fails.
+pub fn draw_frames(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, BackendError> {
+    let mut frames = Vec::new();
+    for (scene, readings) in case.preparations() {
+        let mut prepared = backend.prepare(scene)?;
+        for times in readings {
+            for _ in 0..times {
+                prepared.submit()?;
+            }
+            frames.push(prepared.read_back()?);
+        }
+    }
+    Ok(frames)
 }
 
 impl Drawing {
@@ -72,36 +118,41 @@ impl WorkerProcess {
         }
     }
 
-    /// Draws one frame of each of a case's scenes.
+    /// Draws the frames of a case.
     pub(crate) fn draw_case(&mut self, slot: u32, case: &Case, wait: Wait<'_>) -> Drawing {
         let asked = Instant::now();
         self.request_case(slot, case);
-        self.receive_frames(slot, case.scene_count(), asked, wait)
+        self.receive_frames(slot, Due::of(case), asked, wait)
     }
 
-    /// Requests one frame of each of a case's scenes.
+    /// Requests the frames of a case.
     pub(crate) fn request_case(&mut self, slot: u32, case: &Case) {
-        for scene in case.scenes() {
-            self.request_frame(slot, scene);
+        for (scene, readings) in case.preparations() {
+            self.request_frames(slot, scene, &readings);
         }
     }
 
-    /// Requests one frame of a scene.
-    pub(crate) fn request_frame(&mut self, slot: u32, scene: &Scene) {
+    /// Requests frames of one prepared scene, each behind so many submissions.
+    pub(crate) fn request_frames(&mut self, slot: u32, scene: &Scene, readings: &[u32]) {
         self.request(&Request::Prepare {
             slot,
             scene: Box::new(scene.clone()),
         });
-        self.request(&Request::Submit { slot, times: 1 });
-        self.request(&Request::ReadBack { slot });
+        for times in readings {
+            self.request(&Request::Submit {
+                slot,
+                times: *times,
+            });
+            self.request(&Request::ReadBack { slot });
+        }
         self.request(&Request::Drop { slot });
     }
 
-    /// Receives `count` frames that were requested of a slot at the time `asked`.
+    /// Receives the frames that were requested of a slot at the time `asked`.
     pub(crate) fn receive_frames(
         &mut self,
         slot: u32,
-        count: usize,
+        due: Due,
         asked: Instant,
         wait: Wait<'_>,
     ) -> Drawing {
@@ -111,7 +162,7 @@ impl WorkerProcess {
         let mut drawing = Drawing::failed(Failure::Lost(Loss::Died));
         let mut frames = Vec::new();
         let mut error = None;
-        for _ in 0..4 * count {
+        for _ in 0..due.answers {
             let loss = match self.response_until(until, wait) {
                 Ok(Response::Done {
                     slot: answered,
@@ -140,7 +191,7 @@ impl WorkerProcess {
         }
         drawing.frames = match error {
             Some(error) => Err(Failure::Backend(error)),
-            None if frames.len() == count => Ok(frames),
+            None if frames.len() == due.frames => Ok(frames),
             None => {
                 let error = BackendError::Internal("no frame came back".to_owned());
                 Err(Failure::Backend(error))

@@ -45,6 +45,7 @@ impl JudgementCache {
         index: usize,
         limits: &Limits,
     ) -> Arc<Vec<Judgement>> {
+        let index = case.judged_index(index);
         let permissions = Rules::of(limits).values();
         let key = (number, index, limits_that_matter(limits), permissions);
         let entry = {
@@ -89,7 +90,11 @@ impl JudgementCache {
 
 /// The scene that a frame is judged by: the case's own, or that of a variant.
 pub(crate) fn judged_scene(case: &Case, index: usize) -> &Scene {
-    match index.checked_sub(1).and_then(|v| case.variants.get(v)) {
+    match case
+        .judged_index(index)
+        .checked_sub(1)
+        .and_then(|v| case.variants.get(v))
+    {
         Some(variant) => &variant.scene,
         None => case.judged_scene(),
     }

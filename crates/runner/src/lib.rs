@@ -34,6 +34,7 @@ mod texel;
 mod worker;
 
 pub use bench::{BenchError, BenchEvent, BenchPlan, BenchSummary, bench, ruler};
+pub use drawing::draw_frames;
 pub use event::Event;
 pub use hunt::{HuntPlan, hunt};
 pub use judge::{Judge, Judged};

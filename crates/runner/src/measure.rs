@@ -1,5 +1,6 @@
 //! The measurements of a method case: the distance of its picture from the truth, and its costs.
 
+use crate::drawing::Due;
 use crate::loss::{Failure, Loss};
 use crate::process::{Wait, WorkerProcess};
 use crate::protocol::Request;
@@ -93,9 +94,13 @@ impl WorkerProcess {
             return Ok((times, None));
         }
         let asked = Instant::now();
-        self.request_frame(slot, &scene.counting(CounterKind::FragmentInvocations));
+        self.request_frames(
+            slot,
+            &scene.counting(CounterKind::FragmentInvocations),
+            &[1],
+        );
         match self
-            .receive_frames(slot, 1, asked, Wait::of(timeout))
+            .receive_frames(slot, Due::ONE, asked, Wait::of(timeout))
             .frames
         {
             Ok(frames) => {

@@ -4,8 +4,11 @@ use crate::device::{Device, identify};
 use crate::error::unavailable;
 use crate::gpu::Gpu;
 use crate::instance::Instance;
+use crate::planted;
 use crate::prepared::PreparedScene;
-use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, ReadFault, Unavailable};
+use etalon_backend::{
+    AdapterInfo, Backend, BackendError, CallFault, Prepared, ReadFault, Unavailable,
+};
 use etalon_frame::Limits;
 use etalon_scene::Scene;
 use std::rc::Rc;
@@ -21,6 +24,8 @@ pub struct Options {
     pub validate: bool,
     /// A fault that a test of the suite plants in the read path.
     pub read_fault: Option<ReadFault>,
+    /// A fault that a test of the suite plants between the backend and the driver.
+    pub call_fault: Option<CallFault>,
 }
 
 /// An open Vulkan device. It belongs to one thread.
@@ -61,7 +66,10 @@ pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable>
         ));
     };
     let identity = identify(&instance, physical);
-    let device = Device::new(instance, physical, &identity)?;
+    let mut device = Device::new(instance, physical, &identity)?;
+    if let Some(fault) = options.call_fault {
+        device.raw = planted::plant(&device.raw, fault);
+    }
     Ok(VulkanBackend {
         info: AdapterInfo {
             name: name.to_owned(),
@@ -102,6 +110,7 @@ mod tests {
             device: 0,
             validate: true,
             read_fault: None,
+            call_fault: None,
         };
         let backend = open("vulkan:0", &options).expect("this test needs a Vulkan driver");
         assert_eq!(backend.messages(), Vec::<String>::new());
@@ -127,6 +136,7 @@ mod tests {
             device: 0,
             validate: true,
             read_fault: None,
+            call_fault: None,
         };
         let backend = open("vulkan:0", &options).expect("this test needs a Vulkan driver");
         let library = Library::built_in().expect("built-in files parse");

@@ -25,6 +25,7 @@ mod instance;
 mod limits;
 mod pipeline;
 mod plan;
+mod planted;
 mod pool;
 mod prepared;
 mod queries;

@@ -1,7 +1,7 @@
 //! The keys of a case file.
 
 use super::axis::{Axis, DerivedWire};
-use super::scene::{SceneWire, all_channels};
+use super::scene::{AttachmentWire, DrawWire, SceneWire, all_channels};
 use crate::random::Flavor;
 use etalon_methods::MethodWire;
 use etalon_scene::Invariance;
@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU32, NonZeroUsize};
 
 /// A case file. In `scene`, `judged_as` and `expect`, the string `"$name"` stands for the value of
 /// the axis or derived value of that name.
@@ -40,6 +40,10 @@ pub(crate) struct FileWire {
     #[serde(default)]
     #[schemars(with = "StatesWire")]
     pub(crate) states: Value,
+    /// Instead of `scene`: draws that take turns between two states.
+    #[serde(default)]
+    #[schemars(with = "SequenceWire")]
+    pub(crate) sequence: Value,
     /// Instead of `scene`: a scene that is drawn by a rendering method, whose picture is held against
     /// the truth. The file lies in `methods/<question>/<scene>.json` and has an axis `method`.
     #[serde(default)]
@@ -50,6 +54,10 @@ pub(crate) struct FileWire {
     /// Changes to the scene, each of which is drawn too.
     #[serde(default)]
     pub(crate) variants: Vec<VariantWire>,
+    /// Further submissions of the prepared scene, behind each of which the frame is read again: it must be the
+    /// same every time.
+    #[serde(default)]
+    pub(crate) submissions: Vec<NonZeroU32>,
     /// The relation of the variants' frames to the scene's own.
     #[serde(default)]
     #[schemars(with = "Option<RelationWire>")]
@@ -82,6 +90,50 @@ pub(crate) struct StatesWire {
     pub(crate) count: u32,
     /// Width and height in texels.
     pub(crate) size: [u32; 2],
+}
+
+/// A scene of draws that take turns between two states: the first, the third and so on have one, the others
+/// have the other.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SequenceWire {
+    /// Textures by name, as in a scene.
+    #[schemars(with = "BTreeMap<String, AttachmentWire>")]
+    pub(crate) attachments: BTreeMap<String, Value>,
+    /// The pass without its draws.
+    pub(crate) pass: Value,
+    /// Draws that come first, once on each framebuffer.
+    #[serde(default)]
+    #[schemars(with = "Vec<DrawWire>")]
+    pub(crate) prepare: Vec<Value>,
+    /// The common part of all steps: a draw.
+    pub(crate) draw: Value,
+    /// Each step's own part: changes to the draw, as JSON merge patches.
+    pub(crate) steps: Vec<Value>,
+    /// The state of the first, the third and so on of the steps: a change to the draw.
+    pub(crate) first: Value,
+    /// The state of the others.
+    pub(crate) then: Value,
+    /// The separation of the steps.
+    pub(crate) across: Across,
+    /// Counters by name; all are read back.
+    #[serde(default)]
+    #[schemars(with = "BTreeMap<String, etalon_frame::CounterKind>")]
+    pub(crate) counters: BTreeMap<String, Value>,
+    /// The attachments to read back; those of the second framebuffer follow.
+    pub(crate) read: Vec<String>,
+}
+
+/// The separation of the steps of a sequence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Across {
+    /// Draws of one pass.
+    Draw,
+    /// Passes on the same attachments.
+    Pass,
+    /// Passes that take turns between these attachments and others like them.
+    Framebuffer,
 }
 
 /// The scene again with some changes.
@@ -117,8 +169,8 @@ pub(crate) struct RelationWire {
     pub(crate) attachments: Vec<String>,
 }
 
-/// The cases of a product that the quick profile takes: `"pairwise"`, `{ "each": n }`, `{ "first": n }` or
-/// `{ "where": { axis: value } }`.
+/// The cases of a product that the quick profile takes: `"pairwise"`, `{ "each": n }`, `{ "first": n }`,
+/// `{ "where": { axis: value } }` or `{ "any": [{ axis: value }] }`.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum QuickWire {
@@ -131,6 +183,8 @@ pub(crate) enum QuickWire {
     First(NonZeroUsize),
     /// Those in which these axes have the values of these names: for sizes that only a benchmark wants.
     Where(BTreeMap<String, String>),
+    /// Those that each of these describes by values of some axes: for products of which a few rows stand for all.
+    Any(Vec<BTreeMap<String, String>>),
 }
 
 /// One literal colour that must come back.

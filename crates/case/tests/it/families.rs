@@ -53,6 +53,7 @@ fn every_area_holds_its_cases() {
         ("scissor", 130),
         ("selftest", 86),
         ("capabilities", 250),
+        ("sequence", 3000),
         ("size", 500),
     ];
     for (area, least) in due {
@@ -80,9 +81,9 @@ fn the_quick_profile_takes_some_of_every_file() {
         if measures.iter().any(|area| file.name().starts_with(area)) {
             continue;
         }
-        // One seed is as good as another, the other areas draw every format and feature too, and the
-        // largest sizes take too long.
-        let partly = ["combined/", "capabilities/", "size/"];
+        // One seed is as good as another, the other areas draw every format and feature too, and every
+        // value of each state, and the largest sizes take too long.
+        let partly = ["combined/", "capabilities/", "sequence/", "size/"];
         if partly.iter().any(|area| file.name().starts_with(area)) {
             all += quick.len();
             continue;
@@ -146,7 +147,7 @@ fn a_case_needs_few_pipelines() {
         }
         // Where the order of draws is the question, and where all state differs, a case has more.
         let most = match case.area() {
-            "early-z" | "order" | "combined" => 5,
+            "early-z" | "order" | "combined" | "sequence" => 5,
             _ => 2,
         };
         assert!(pipelines.len() <= most, "{}: {}", case.id, pipelines.len());

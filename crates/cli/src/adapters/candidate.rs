@@ -7,9 +7,10 @@ use super::devices::HardwareDevice;
 use super::hidden::Hidden;
 use super::open::Open;
 use super::origin::Origin;
+use super::planted_fault::PlantedFault;
 use super::query::Query;
 use super::runtime_folder::default_runtime_folder;
-use etalon_backend::{AdapterInfo, ReadFault};
+use etalon_backend::AdapterInfo;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, StartError, Worker};
 use std::path::{Path, PathBuf};
@@ -58,6 +59,7 @@ fn open(name: &str, backend: BackendName) -> Open {
         validate: false,
         hidden: None,
         read_fault: None,
+        call_fault: None,
     }
 }
 
@@ -80,22 +82,24 @@ impl Candidate {
         })
     }
 
-    /// Returns the adapter with a fault planted in its read path, under another name; `None` for the rasterizer, which
-    /// has none to plant it in.
-    pub(super) fn with_read_fault(&self, name: &str, fault: ReadFault) -> Option<Self> {
+    /// Returns the adapter with a planted fault, under another name; `None` if its backend has no place for it, as the
+    /// rasterizer has none for any.
+    pub(super) fn with_fault(&self, name: &str, fault: PlantedFault) -> Option<Self> {
         match self {
-            Self::Described(description, file) if description.backend != BackendName::Cpu => {
+            Self::Described(description, file) if fault.fits(description.backend) => {
                 let mut description = description.clone();
                 name.clone_into(&mut description.name);
-                description.read_fault = Some(fault);
+                description.read_fault = fault.read();
+                description.call_fault = fault.call();
                 Some(Self::Described(description, file.clone()))
             }
-            Self::Enumerated(open) => Some(Self::Enumerated(Open {
+            Self::Enumerated(open) if fault.fits(open.backend) => Some(Self::Enumerated(Open {
                 name: name.to_owned(),
-                read_fault: Some(fault),
+                read_fault: fault.read(),
+                call_fault: fault.call(),
                 ..open.clone()
             })),
-            Self::Described(..) | Self::Hidden(_) => None,
+            _ => None,
         }
     }
 
@@ -203,6 +207,7 @@ impl Candidate {
                 device: description.device,
                 egl: resolved.egl.clone(),
                 read_fault: description.read_fault,
+                call_fault: description.call_fault,
                 ..open(&description.name, description.backend)
             },
             Self::Enumerated(open) | Self::Hidden(open) => open.clone(),

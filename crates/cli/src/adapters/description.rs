@@ -3,7 +3,7 @@
 use super::backend_name::BackendName;
 use super::names::{MAX_NAME, is_name};
 use crate::failure::Failure;
-use etalon_backend::ReadFault;
+use etalon_backend::{CallFault, ReadFault};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
@@ -55,6 +55,9 @@ pub(super) struct Description {
     /// A planted fault of reading back; no file can name one.
     #[serde(skip)]
     pub(super) read_fault: Option<ReadFault>,
+    /// A planted fault of the driver's calls; no file can name one.
+    #[serde(skip)]
+    pub(super) call_fault: Option<CallFault>,
     /// The way to get the driver.
     #[serde(default)]
     pub(super) remedy: String,

@@ -7,10 +7,10 @@ use super::description;
 use super::devices::{self, BACKENDS, HardwareDevice, enumerate};
 use super::hidden::Hidden;
 use super::origin::Origin;
+use super::planted_fault::PlantedFault;
 use super::query::Query;
 use crate::failure::Failure;
 use crate::output::say;
-use etalon_backend::ReadFault;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, Worker};
 use std::collections::{BTreeMap, BTreeSet};
@@ -91,7 +91,7 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
     let all_known = query.names.iter().all(|name| {
         is_known(
             &candidates,
-            planted(name).map_or(name.as_str(), |(driver, _)| driver),
+            PlantedFault::in_name(name).map_or(name.as_str(), |(driver, _)| driver),
         )
     });
     if query.names.is_empty() || !all_known {
@@ -99,9 +99,9 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
         candidates.extend(hardware(&taken, absent));
     }
     for name in query.names {
-        if let Some((driver, fault)) = planted(name)
+        if let Some((driver, fault)) = PlantedFault::in_name(name)
             && let Some(candidate) = candidates.iter().find(|c| c.name() == driver)
-            && let Some(faulty) = candidate.with_read_fault(name, fault)
+            && let Some(faulty) = candidate.with_fault(name, fault)
         {
             candidates.push(faulty);
         }
@@ -121,13 +121,6 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
         candidates.retain(|c| query.names.iter().any(|name| name == c.name()));
     }
     Ok(candidates)
-}
-
-/// Returns the driver and the fault of a name such as `gl:llvmpipe:read-fault=off-by-one`: the driver as it is, whose
-/// read-back a test spoils inside the backend. Such adapters are not listed.
-fn planted(name: &str) -> Option<(&str, ReadFault)> {
-    let (driver, fault) = name.rsplit_once(":read-fault=")?;
-    Some((driver, ReadFault::named(fault)?))
 }
 
 /// Returns the built-in descriptions and those of the user, which replace built-in ones of equal names.

@@ -2,7 +2,7 @@
 
 use super::backend_name::BackendName;
 use super::hidden::Hidden;
-use etalon_backend::ReadFault;
+use etalon_backend::{CallFault, ReadFault};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -26,4 +26,7 @@ pub(crate) struct Open {
     /// The fault planted in the read path of a driver: `gl:llvmpipe:read-fault=off-by-one`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) read_fault: Option<ReadFault>,
+    /// The fault planted in the calls of a driver: `gl:llvmpipe:call-fault=last-row`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) call_fault: Option<CallFault>,
 }

@@ -17,6 +17,7 @@ fn contexts(driver: &str, clip_control: bool) -> [GlBackend; 2] {
             library: None,
             debug: true,
             read_fault: None,
+            call_fault: None,
         };
         let backend = open_with("gl:test", &options, Tuning { clip_control })
             .unwrap_or_else(|e| panic!("{driver} cannot be opened: {e} ({GALLIUM_INSTALL})"));

@@ -33,6 +33,7 @@ fn devices_are_enumerated_and_open() {
             library: None,
             debug: false,
             read_fault: None,
+            call_fault: None,
         };
         let backend = open("gl:device", &options).expect("the software device opens");
         run_all(&backend, &drivers::llvmpipe());

@@ -13,6 +13,7 @@ pub(crate) fn context(profile: Profile, driver: &str) -> GlBackend {
         library: None,
         debug: true,
         read_fault: None,
+        call_fault: None,
     };
     let backend = open("gl:test", &options)
         .unwrap_or_else(|e| panic!("{driver} cannot be opened: {e} ({GALLIUM_INSTALL})"));

@@ -11,7 +11,7 @@ use etalon_cpu::CpuBackend;
 use etalon_frame::Frame;
 use etalon_mutants::{Mutant, MutantBackend, mutants};
 use etalon_record::{Record, Verdict};
-use etalon_runner::Judge;
+use etalon_runner::{Judge, draw_frames};
 use std::cell::{LazyCell, OnceCell};
 use std::collections::BTreeSet;
 
@@ -56,6 +56,7 @@ classes! {
     sample_shading = "sample-shading",
     samples = "samples",
     scissor = "scissor",
+    sequence = "sequence",
     size = "size",
     stencil = "stencil",
     sticky = "sticky",
@@ -84,14 +85,9 @@ fn catching_area(mutant: &Mutant) -> &'static str {
     }
 }
 
-/// Returns the frames of a case's scenes, drawn one after the other.
+/// Returns the frames of a case.
 fn draw(backend: &dyn Backend, case: &Case) -> Vec<Frame> {
-    let draw = |scene| {
-        let mut prepared = backend.prepare(scene).unwrap();
-        prepared.submit().unwrap();
-        prepared.read_back().unwrap()
-    };
-    case.scenes().map(draw).collect()
+    draw_frames(backend, case).unwrap()
 }
 
 /// Cases with the frames that are due, drawn once.

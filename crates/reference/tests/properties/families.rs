@@ -36,6 +36,7 @@ areas! {
     perf = "perf",
     scissor = "scissor",
     selftest = "selftest",
+    sequence = "sequence",
     stencil = "stencil",
     texture = "texture",
 }

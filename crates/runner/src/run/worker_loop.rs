@@ -7,7 +7,7 @@ use super::adapter_run::{AdapterRun, Observation};
 use super::round_trips::RoundTrips;
 use super::second_look::confirm;
 use super::shared::Shared;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Due};
 use crate::event::Event;
 use crate::loss::{Failure, Loss};
 use crate::supervisor::Supervisor;
@@ -183,7 +183,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         let case = self.run.case(number);
         let wait = self.run.wait(case);
         match self.supervisor.running() {
-            Ok(worker) => worker.receive_frames(number as u32, case.scene_count(), asked, wait),
+            Ok(worker) => worker.receive_frames(number as u32, Due::of(case), asked, wait),
             Err(loss) => Drawing::failed(Failure::Lost(loss)),
         }
     }

@@ -29,6 +29,7 @@ pub(crate) fn backend(validate: bool) -> VulkanBackend {
         device,
         validate,
         read_fault: None,
+        call_fault: None,
     };
     open(&name, &options).unwrap_or_else(|e| panic!("{name}: {e}"))
 }

@@ -1,0 +1,208 @@
+//! The states of a draw, each under a name. Every struct is taken apart field by field, so that none can
+//! be left out.
+
+use etalon_scene::{
+    AddressMode, BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget,
+    CompareFunction, DepthBias, DepthState, Draw, FilterMode, LogicOperation, Mesh, Multisample,
+    Params, SampleCoverage, Sampler, Shader, StencilFace, StencilOperation, StencilState, Vertex,
+    Viewport,
+};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Debug;
+
+/// The states of a draw by name. What is off has no parts; vertices are no state.
+pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
+    let mut all = States::default();
+    let Draw {
+        mesh: Mesh {
+            vertices: _,
+            indices,
+        },
+        topology,
+        shader,
+        params: Params { color, back_color },
+        early_tests,
+        textures,
+        sampler,
+        counters,
+        cull,
+        front_face,
+        polygon_mode,
+        rasterizer_discard,
+        viewport: Viewport { rect, depth: range },
+        scissor,
+        depth_bias:
+            DepthBias {
+                constant,
+                slope,
+                clamp,
+            },
+        depth_clamp,
+        depth_bounds,
+        depth,
+        stencil,
+        targets,
+        logic,
+        multisample:
+            Multisample {
+                mask,
+                alpha_to_coverage,
+                alpha_to_one,
+                min_sample_shading,
+                sample_coverage,
+            },
+        blend_constant,
+    } = draw;
+    all.put("indices", indices);
+    all.put("topology", topology);
+    all.put("shader", shader);
+    all.put("params.color", color);
+    all.put("params.back_color", back_color);
+    all.put("early_tests", early_tests);
+    all.put("textures", textures);
+    if let Some(Sampler {
+        filter,
+        address: [across, down],
+    }) = sampler
+    {
+        all.put("sampler.filter", filter);
+        all.put("sampler.address.across", across);
+        all.put("sampler.address.down", down);
+    }
+    all.put("counters", counters);
+    all.put("cull", cull);
+    all.put("front_face", front_face);
+    all.put("polygon_mode", polygon_mode);
+    all.put("rasterizer_discard", rasterizer_discard);
+    all.put("viewport.rect", rect);
+    all.put("viewport.depth", range);
+    all.put("scissor", scissor);
+    all.put("depth_bias.constant", constant);
+    all.put("depth_bias.slope", slope);
+    all.put("depth_bias.clamp", clamp);
+    all.put("depth_clamp", depth_clamp);
+    all.put("depth_bounds", depth_bounds);
+    all.put("depth", &depth.is_some());
+    if let Some(DepthState { compare, write }) = depth {
+        all.put("depth.compare", compare);
+        all.put("depth.write", write);
+    }
+    all.put("stencil", &stencil.is_some());
+    if let Some(StencilState { front, back }) = stencil {
+        all.face("front", front);
+        all.face("back", back);
+    }
+    for (i, ColorTarget { blend, write_mask }) in targets.iter().enumerate() {
+        all.put(&format!("targets.{i}.write_mask"), write_mask);
+        all.put(&format!("targets.{i}.blend"), &blend.is_some());
+        if let Some(BlendState { color, alpha }) = blend {
+            all.component(&format!("targets.{i}.blend.color"), color);
+            all.component(&format!("targets.{i}.blend.alpha"), alpha);
+        }
+    }
+    all.put("logic", logic);
+    all.put("multisample.mask", mask);
+    all.put("multisample.alpha_to_coverage", alpha_to_coverage);
+    all.put("multisample.alpha_to_one", alpha_to_one);
+    all.put("multisample.min_sample_shading", min_sample_shading);
+    all.put("multisample.sample_coverage", &sample_coverage.is_some());
+    if let Some(SampleCoverage { value, invert }) = sample_coverage {
+        all.put("multisample.sample_coverage.value", value);
+        all.put("multisample.sample_coverage.invert", invert);
+    }
+    all.put("blend_constant", blend_constant);
+    all.0
+}
+
+/// The names of all states of a draw with one target.
+pub(super) fn every_state() -> BTreeSet<String> {
+    let face = StencilFace {
+        compare: CompareFunction::Always,
+        fail_op: StencilOperation::Keep,
+        depth_fail_op: StencilOperation::Keep,
+        pass_op: StencilOperation::Keep,
+        read_mask: 0,
+        write_mask: 0,
+        reference: 0,
+    };
+    let component = BlendComponent {
+        operation: BlendOperation::Add,
+        src_factor: BlendFactor::One,
+        dst_factor: BlendFactor::Zero,
+    };
+    let mesh = Mesh {
+        vertices: Vec::<Vertex>::new(),
+        indices: None,
+    };
+    let draw = Draw {
+        sampler: Some(Sampler {
+            filter: FilterMode::Nearest,
+            address: [AddressMode::Repeat; 2],
+        }),
+        depth: Some(DepthState {
+            compare: CompareFunction::Always,
+            write: true,
+        }),
+        stencil: Some(StencilState {
+            front: face,
+            back: face,
+        }),
+        targets: vec![ColorTarget {
+            blend: Some(BlendState {
+                color: component,
+                alpha: component,
+            }),
+            write_mask: 15,
+        }],
+        logic: Some(LogicOperation::Copy),
+        multisample: Multisample {
+            sample_coverage: Some(SampleCoverage {
+                value: 1.0,
+                invert: false,
+            }),
+            ..Multisample::default()
+        },
+        ..Draw::new(Shader::FlatColor, mesh, Viewport::whole([1, 1]))
+    };
+    states(&draw).into_keys().collect()
+}
+
+#[derive(Default)]
+struct States(BTreeMap<String, String>);
+
+impl States {
+    fn put(&mut self, name: &str, value: &impl Debug) {
+        self.0.insert(name.to_owned(), format!("{value:?}"));
+    }
+
+    /// The face stands last: what both faces share is one state.
+    fn face(&mut self, name: &str, face: &StencilFace) {
+        let StencilFace {
+            compare,
+            fail_op,
+            depth_fail_op,
+            pass_op,
+            read_mask,
+            write_mask,
+            reference,
+        } = face;
+        self.put(&format!("stencil.compare.{name}"), compare);
+        self.put(&format!("stencil.fail_op.{name}"), fail_op);
+        self.put(&format!("stencil.depth_fail_op.{name}"), depth_fail_op);
+        self.put(&format!("stencil.pass_op.{name}"), pass_op);
+        self.put(&format!("stencil.read_mask.{name}"), read_mask);
+        self.put(&format!("stencil.write_mask.{name}"), write_mask);
+        self.put(&format!("stencil.reference.{name}"), reference);
+    }
+
+    fn component(&mut self, name: &str, component: &BlendComponent) {
+        let BlendComponent {
+            operation,
+            src_factor,
+            dst_factor,
+        } = component;
+        self.put(&format!("{name}.operation"), operation);
+        self.put(&format!("{name}.src_factor"), src_factor);
+        self.put(&format!("{name}.dst_factor"), dst_factor);
+    }
+}

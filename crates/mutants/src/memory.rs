@@ -1,0 +1,51 @@
+//! Bugs of what is stored: attachments and counters, changed between the draws.
+//!
+//! A driver's memory of an attachment is more than its texels: caches, cleared tiles, coarse depths. A bug
+//! there shows when something else is done first, so such a bug remembers what it has seen.
+
+use etalon_cpu::Surface;
+use etalon_cpu::steps::{Moment, Steps, Stored};
+use etalon_scene::Scene;
+use std::cell::RefCell;
+use std::fmt;
+
+/// A bug of what one prepared scene stores.
+pub(super) struct Memory(RefCell<Box<Bug>>);
+
+type Bug = dyn FnMut(Moment, &Scene, Stored<'_>);
+
+impl Memory {
+    /// Returns a bug that is told of every moment.
+    pub(super) fn new(bug: impl FnMut(Moment, &Scene, Stored<'_>) + 'static) -> Self {
+        Self(RefCell::new(Box::new(bug)))
+    }
+}
+
+impl fmt::Debug for Memory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Memory")
+    }
+}
+
+impl Steps for Memory {
+    fn reached(&self, moment: Moment, scene: &Scene, stored: Stored<'_>) {
+        (self.0.borrow_mut())(moment, scene, stored);
+    }
+}
+
+/// Left, top, right and bottom of texels; the last two are exclusive.
+pub(super) type Area = [usize; 4];
+
+/// Copies the texels of an area, all aspects and samples.
+pub(super) fn copy(from: &Surface, to: &mut Surface, [left, top, right, bottom]: Area) {
+    for y in top..bottom.min(to.height) {
+        let row = y * to.stride;
+        let texels = row + left..row + right.min(to.width);
+        for (to, from) in to.planes.iter_mut().zip(&from.planes) {
+            to[texels.clone()].copy_from_slice(&from[texels.clone()]);
+        }
+        for (to, from) in to.stencil.iter_mut().zip(&from.stencil) {
+            to[texels.clone()].copy_from_slice(&from[texels.clone()]);
+        }
+    }
+}
