@@ -224,8 +224,8 @@ mod tests {
                 "many16":{{"format":"depth16unorm","samples":4}}}},
             "passes":[{{{pass}}}],"read":["color"]}}}}"#
         );
-        let file = CaseFile::parse("t.json", &text).unwrap();
-        let case = file.cases(Profile::Full).next().unwrap();
+        let file = CaseFile::parse("t.json", &text).expect("it builds");
+        let case = file.cases(Profile::Full).next().expect("it builds");
         case.build()
             .map(|case| case.scene)
             .map_err(|e| e.to_string())
@@ -238,7 +238,7 @@ mod tests {
 
     #[track_caller]
     fn refused(pass: &str, due: &str) {
-        let error = build(pass).unwrap_err();
+        let error = build(pass).expect_err("it is refused");
         assert!(error.contains(due), "{error}");
     }
 
@@ -248,7 +248,7 @@ mod tests {
             r#""operations":{"color":[{"load":{"clear":[0,1,0,1]},"store":"discard"},{"load":"load"}],
                "stencil":{"load":{"clear":7}}}"#,
         ))
-        .unwrap();
+        .expect("it builds");
         let pass = &scene.passes[0];
         let first = pass.color_operations(0);
         assert_eq!(first.load.clear_value(), Some([0.0, 1.0, 0.0, 1.0]));
@@ -265,7 +265,7 @@ mod tests {
                {"before":0,"depth":0.5,"stencil":3,"write_mask":{"depth":false,"stencil":15}},
                {"before":0,"depth":0.5}]"#,
         ))
-        .unwrap();
+        .expect("it builds");
         let [color, both, depth] = &scene.passes[0].clears[..] else {
             panic!("{:?}", scene.passes[0].clears);
         };
@@ -332,8 +332,8 @@ mod tests {
         let resolve = |from: &str, keys: &str| {
             format!(r#""depth_stencil":"{from}","draws":[],"depth_stencil_resolve":{{{keys}}}"#)
         };
-        let scene = build(&resolve("many", r#""to":"depth","depth":"min""#)).unwrap();
-        let made = scene.passes[0].depth_stencil_resolve.unwrap();
+        let scene = build(&resolve("many", r#""to":"depth","depth":"min""#)).expect("it builds");
+        let made = scene.passes[0].depth_stencil_resolve.expect("it builds");
         assert_eq!(scene.attachments[made.to].name, "depth");
         assert_eq!(
             (made.depth, made.stencil),

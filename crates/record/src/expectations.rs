@@ -13,6 +13,7 @@ use etalon_frame::shortened;
 use globset::{GlobBuilder, GlobMatcher};
 use semver::VersionReq;
 use serde::{Deserialize, Serialize};
+use std::collections::HashSet;
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -157,7 +158,14 @@ struct Globs {
     adapters: Vec<GlobMatcher>,
     driver: GlobMatcher,
     version: Option<VersionReq>,
+    /// Whole ids, which most findings name.
+    ids: HashSet<String>,
     cases: Vec<GlobMatcher>,
+}
+
+/// True if a glob matches its own text alone.
+fn is_plain(glob: &str) -> bool {
+    !glob.contains(['*', '?', '[', ']', '{', '}', '!', '\\'])
 }
 
 impl Globs {
@@ -170,7 +178,7 @@ impl Globs {
     }
 
     fn match_case(&self, case: &str) -> bool {
-        self.cases.iter().any(|g| g.is_match(case))
+        self.ids.contains(case) || self.cases.iter().any(|g| g.is_match(case))
     }
 }
 
@@ -321,11 +329,14 @@ impl Expectations {
             let each = globs.iter().map(|glob| build(key, glob));
             each.collect::<Result<Vec<_>, _>>()
         };
+        let (plain, globs): (Vec<_>, Vec<_>) =
+            known.cases.iter().cloned().partition(|g| is_plain(g));
         let globs = Globs {
             version,
             adapters: each(keys[0], &known.adapters)?,
             driver: build("driver", &known.driver)?,
-            cases: each(keys[1], &known.cases)?,
+            ids: plain.into_iter().collect(),
+            cases: each(keys[1], &globs)?,
         };
         self.all.push(known);
         self.globs.push(globs);

@@ -320,11 +320,9 @@ impl Walk<'_> {
 
     fn paint_resolves(&self, p: usize) {
         let pass = &self.scene.passes[p];
-        let depth = pass.depth_stencil_resolve.iter().map(|resolve| &resolve.to);
-        let targets = pass.resolve.iter().flatten().chain(depth);
         let mut shapes: Vec<Shape> = Vec::new();
-        for target in targets {
-            let attachment = &self.scene.attachments[*target];
+        for target in pass.resolve_targets() {
+            let attachment = &self.scene.attachments[target];
             let shape = (attachment.size, attachment.samples);
             if !shapes.contains(&shape) && self.pictures.borrow().shape(shape).is_some() {
                 shapes.push(shape);
@@ -401,11 +399,10 @@ fn held(scene: &Scene, (size, samples): Shape) -> Vec<bool> {
 /// Returns the attachments that a scene draws to, clears, resolves to or reads back.
 fn drawn_or_read(scene: &Scene) -> impl Iterator<Item = usize> {
     let of_passes = scene.passes.iter().flat_map(|pass| {
-        let depth = pass.depth_stencil_resolve.iter().map(|resolve| &resolve.to);
-        let resolved = pass.resolve.iter().flatten().chain(depth);
-        pass.color.iter().chain(&pass.depth_stencil).chain(resolved)
+        let all = pass.color.iter().chain(&pass.depth_stencil).copied();
+        all.chain(pass.resolve_targets())
     });
-    scene.read.iter().chain(of_passes).copied()
+    scene.read.iter().copied().chain(of_passes)
 }
 
 /// Returns the shapes of all attachments that a scene draws to or reads back.

@@ -149,9 +149,9 @@ mod tests {
             "counters":{{"passed":"samples-passed"}},
             "passes":[{passes}],"read":["color"]}}}}"#
         );
-        let file = CaseFile::parse("t.json", &text).unwrap();
-        let case = file.cases(Profile::Full).next().unwrap();
-        Undefined::of(&case.build().unwrap().scene)
+        let file = CaseFile::parse("t.json", &text).expect("it builds");
+        let case = file.cases(Profile::Full).next().expect("it builds");
+        Undefined::of(&case.build().expect("it builds").scene)
     }
 
     /// Indices follow the attachments' names.

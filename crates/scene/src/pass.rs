@@ -112,17 +112,13 @@ impl<V: Copy> LoadOperation<V> {
 
 state_enum! {
     /// The fate of an aspect at the end of a pass.
+    #[derive(Default)]
     StoreOperation {
         /// The aspect keeps what the pass left.
+        #[default]
         Store = "store",
         /// The aspect is undefined from here on, until the whole of it is cleared.
         Discard = "discard",
-    }
-}
-
-impl Default for StoreOperation {
-    fn default() -> Self {
-        Self::Store
     }
 }
 
@@ -182,6 +178,12 @@ impl Pass {
     pub fn color_operations(&self, location: usize) -> Operations<[f32; 4]> {
         let given = self.operations.color.get(location);
         given.copied().unwrap_or_default()
+    }
+
+    /// Indices of the attachments that resolves write.
+    pub fn resolve_targets(&self) -> impl Iterator<Item = usize> + '_ {
+        let depth_stencil = self.depth_stencil_resolve.iter().map(|r| r.to);
+        self.resolve.iter().flatten().copied().chain(depth_stencil)
     }
 
     /// The clear commands that are executed before the draw of this index, or at the end.

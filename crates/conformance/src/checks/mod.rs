@@ -149,7 +149,7 @@ registry! {
         samples_are_discarded_after_their_average clears_reach_their_rectangle
         clears_ignore_the_draws_around clears_leave_the_other_aspect clears_know_their_target
         masked_clears_keep_the_rest depth_and_stencil_are_resolved_by_their_modes
-        what_was_resolved_is_tested
+        depths_are_averaged what_was_resolved_is_tested
     }
     layers {
         layers_are_peeled_one_by_one layers_are_peeled_from_both_ends

@@ -317,14 +317,9 @@ fn sample_by_sample(depth: bool, stencil: bool) -> Value {
     draws.collect()
 }
 
-/// The first of the samples, the least, the greatest, or the average.
+/// The first of the samples, the least or the greatest.
 pub(crate) fn depth_and_stencil_are_resolved_by_their_modes(s: &Subject) -> Checked {
-    let depths = [
-        ("sample-zero", 1.0),
-        ("min", 0.0),
-        ("max", 1.0),
-        ("average", 0.5),
-    ];
+    let depths = [("sample-zero", 1.0), ("min", 0.0), ("max", 1.0)];
     let stencils = [("sample-zero", 7), ("min", 3), ("max", 9), ("none", 100)];
     for format in ["depth32float", "depth32float-stencil8", "stencil8"] {
         for (by, depth) in depths {
@@ -364,6 +359,37 @@ pub(crate) fn depth_and_stencil_are_resolved_by_their_modes(s: &Subject) -> Chec
                     frame.stencil_is("one", |_, _| stencil);
                 }
             }
+        }
+    }
+    Ok(())
+}
+
+/// The average of samples that are 0 and 1, beside the first stencil value.
+pub(crate) fn depths_are_averaged(s: &Subject) -> Checked {
+    for (format, clear, stencil) in [
+        ("depth32float", json!(0.25), false),
+        (
+            "depth32float-stencil8",
+            json!({ "depth": 0.25, "stencil": 100 }),
+            true,
+        ),
+    ] {
+        let mut resolve = json!({ "to": "one", "depth": "average" });
+        if stencil {
+            resolve["stencil"] = json!("sample-zero");
+        }
+        let shown = s.show(json!({
+            "attachments": {
+                "many": { "format": format, "size": [5, 3], "samples": 4, "clear": clear },
+                "one": { "format": format, "clear": clear } },
+            "passes": [{ "depth_stencil": "many", "depth_stencil_resolve": resolve,
+                         "draws": sample_by_sample(true, stencil) }],
+            "read": ["one"],
+        }));
+        let Ok(frame) = shown else { continue };
+        frame.depth_is("one", |_, _| 0.5);
+        if stencil {
+            frame.stencil_is("one", |_, _| 7);
         }
     }
     Ok(())
