@@ -12,8 +12,8 @@ use etalon_cpu::steps::{Moment, Stored};
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::{Plain, window_position};
 use etalon_scene::{
-    Clear, ClearTarget, CompareFunction, CullMode, DepthBias, Draw, EarlyTests, Multisample, Pass,
-    PrimitiveTopology, PrimitiveVertices, Scene, StencilFace, StencilOperation, Viewport,
+    Clear, ClearTarget, CompareFunction, DepthBias, Draw, Pass, PrimitiveTopology,
+    PrimitiveVertices, Scene, StencilFace, StencilOperation, Viewport,
 };
 
 /// The bug of a coarse depth.
@@ -380,10 +380,6 @@ const SIDE: usize = 8;
 
 fn compares(draw: &Draw, functions: &[CompareFunction]) -> bool {
     draw.depth.is_some_and(|d| functions.contains(&d.compare))
-}
-
-fn is_whole(viewport: &Viewport) -> bool {
-    viewport.depth == [0.0, 1.0]
 }
 
 pub(super) fn add(list: &mut List) {

@@ -1,5 +1,6 @@
 //! Clipping by a viewport's edges, as far as legal snapping leaves it open.
 
+use crate::possible::Possible;
 use crate::primitive::{Shape, SnappedPrimitive};
 use crate::rules::Rules;
 use crate::snap::units_per_texel;
@@ -39,16 +40,16 @@ impl Clip {
         }
     }
 
-    /// Returns whether a sample can lie inside, and whether it must.
-    pub(crate) fn holds(&self, primitive: &SnappedPrimitive, point: Point) -> (bool, bool) {
+    /// Returns whether a sample lies inside.
+    pub(crate) fn holds(&self, primitive: &SnappedPrimitive, point: Point) -> Possible {
         let reach = match primitive.shape {
             Shape::Triangle(_) => &self.triangles,
-            _ if primitive.inside_rect(self.rect) => return (true, true),
+            _ if primitive.inside_rect(self.rect) => return Possible::Always,
             _ => &self.wide,
         };
         let inside =
             |[x, y]: &[RangeInclusive<i64>; 2]| x.contains(&point.x) && y.contains(&point.y);
-        (inside(&reach.can), inside(&reach.must))
+        Possible::of(inside(&reach.can), inside(&reach.must))
     }
 }
 

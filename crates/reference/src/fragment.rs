@@ -4,6 +4,7 @@ use crate::clause::Rejection;
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
 use crate::notes::{Effect, Notes};
+use crate::possible::Possible;
 use crate::primitive::Shape;
 use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, SameDepth};
 use crate::walk::{Place, Walk};
@@ -66,8 +67,8 @@ impl Walk<'_> {
         let covered = match drawn {
             true => self.covered_after_shading(place, &output, notes),
             false => Covered {
-                kept: (true, true),
-                coverage: (false, false),
+                kept: Possible::Always,
+                coverage: Possible::Never,
             },
         };
         let mut world = world;
@@ -114,12 +115,12 @@ impl Walk<'_> {
         }
         // A fragment that contributes nothing asks for a run only where the rules say so.
         let asks = !masked && self.rules.runs_for_discarded.value;
-        let (can, must) = (covered.can(), covered.must());
-        if !must {
+        let survives = covered.survives();
+        if !survives.must() {
             let mut lost = world.clone();
             self.run(place, &mut lost, asks);
             result.push(lost);
-            if !can {
+            if !survives.can() {
                 return;
             }
         }
@@ -214,32 +215,35 @@ impl Walk<'_> {
         });
     }
 
-    /// Returns whether the shader, the sample mask and alpha to coverage can keep the sample, and whether
-    /// they must.
+    /// Returns whether the shader, the sample mask and alpha to coverage keep the sample.
     fn covered_after_shading(
         &self,
         place: Place<'_>,
         output: &FragmentOutput<Range>,
         notes: &mut Notes<'_>,
     ) -> Covered {
-        let (kept_can, kept_must) = match output.kept {
-            None => (true, true),
+        let kept = match output.kept {
+            None => Possible::Always,
             Some(kept) => {
                 let (value, limit) = (kept.value.hull(), kept.limit.hull());
                 if value.may_be_nan() || limit.may_be_nan() {
-                    (true, false)
+                    Possible::Maybe
                 } else if kept.strict {
-                    (value.high > limit.low, value.low > limit.high)
+                    Possible::of(value.high > limit.low, value.low > limit.high)
                 } else {
-                    (value.high >= limit.low, value.low >= limit.high)
+                    Possible::of(value.high >= limit.low, value.low >= limit.high)
                 }
             }
         };
-        if let (Some(kept), false) = (output.kept, kept_must) {
-            self.note_rejection(notes, place, Rejection::Discard, !kept_can, &|| {
-                let (value, limit) = (kept.value.hull(), kept.limit.hull());
-                let relation = if kept.strict { "above" } else { "at least" };
-                match kept_can {
+        if let (Some(condition), false) = (output.kept, kept.must()) {
+            self.note_rejection(notes, place, Rejection::Discard, !kept.can(), &|| {
+                let (value, limit) = (condition.value.hull(), condition.limit.hull());
+                let relation = if condition.strict {
+                    "above"
+                } else {
+                    "at least"
+                };
+                match kept.can() {
                     true => format!("{value} may or may not be {relation} {limit}: two worlds"),
                     false => format!("{value} is not {relation} {limit}"),
                 }
@@ -247,7 +251,7 @@ impl Walk<'_> {
         }
         let state = place.draw.multisample;
         let (sample, alpha) = (place.at.sample, output.color[3]);
-        let (can, must) = self.sample_passes(place, alpha);
+        let coverage = self.sample_passes(place, alpha);
         if state.mask & (1 << sample) == 0 {
             // Whether forced early tests come before the mask is for the rules to say.
             let forced = place.draw.early_tests == EarlyTests::Forced;
@@ -255,10 +259,11 @@ impl Walk<'_> {
             self.note_rejection(notes, place, Rejection::SampleMask, certain, &|| {
                 format!("the sample mask {:#x} leaves it out", state.mask)
             });
-        } else if !must {
-            self.note_rejection(notes, place, Rejection::AlphaToCoverage, !can, &|| {
+        } else if !coverage.must() {
+            let lost = !coverage.can();
+            self.note_rejection(notes, place, Rejection::AlphaToCoverage, lost, &|| {
                 let alpha = alpha.hull();
-                match can {
+                match coverage.can() {
                     true => {
                         format!("alpha {alpha} may or may not keep the sample: two worlds")
                     }
@@ -266,10 +271,7 @@ impl Walk<'_> {
                 }
             });
         }
-        Covered {
-            kept: (kept_can, kept_must),
-            coverage: (can, must),
-        }
+        Covered { kept, coverage }
     }
 
     /// A fragment that passed forced early tests: one that the shader then discards may still have
@@ -290,7 +292,8 @@ impl Walk<'_> {
     ) {
         let mut passed = tested.clone();
         self.run(place, &mut passed, self.rules.runs_for_discarded.value);
-        if covered.can() {
+        let survives = covered.survives();
+        if survives.can() {
             let mut kept = tested.clone();
             let asks = self.rules.runs_for_discarded.value || self.contributes(place);
             self.run(place, &mut kept, asks);
@@ -299,7 +302,7 @@ impl Walk<'_> {
             self.write_colors(place, &mut kept, output, notes);
             result.push(kept);
         }
-        if covered.must() {
+        if survives.must() {
             return;
         }
         notes.add(
@@ -315,8 +318,8 @@ impl Walk<'_> {
         result.push(updated);
         let may_not_happen =
             |lost: bool, updates: EarlyUpdates| lost && updates == EarlyUpdates::Either;
-        if may_not_happen(!covered.kept.1, self.rules.early_updates.value)
-            || may_not_happen(!covered.coverage.1, self.rules.early_coverage.value)
+        if may_not_happen(!covered.kept.must(), self.rules.early_updates.value)
+            || may_not_happen(!covered.coverage.must(), self.rules.early_coverage.value)
         {
             // As if the fragment had never been tested, but for what it counted.
             let mut untouched = before.clone();
@@ -361,11 +364,11 @@ impl Walk<'_> {
         // Without a depth attachment the test passes.
         let bounded = depth_stencil.filter(|i| self.scene.attachments[*i].format.has_depth());
         if let (Some(bounds), Some(index)) = (draw.depth_bounds, bounded) {
-            let (can, must) = self.depth_bounds(place, &world, bounds, index, notes);
-            if !must {
+            let inside = self.depth_bounds(place, &world, bounds, index, notes);
+            if !inside.must() {
                 result.push((world.clone(), false));
             }
-            if !can {
+            if !inside.can() {
                 return result;
             }
         }
@@ -463,25 +466,24 @@ impl Walk<'_> {
         }
     }
 
-    /// Returns whether mask and alpha to coverage can keep the sample, and whether they must.
-    fn sample_passes(&self, place: Place<'_>, alpha: Range) -> (bool, bool) {
+    /// Returns whether mask and alpha to coverage keep the sample.
+    fn sample_passes(&self, place: Place<'_>, alpha: Range) -> Possible {
         let state = place.draw.multisample;
         if state.mask & (1 << place.at.sample) == 0 {
-            return (false, false);
+            return Possible::Never;
         }
         if !state.alpha_to_coverage {
-            return (true, true);
+            return Possible::Always;
         }
         let alpha = alpha.hull();
         let several = place.at.samples > 1;
         match self.rules.alpha_to_coverage.value {
-            AlphaToCoverage::Ends => (alpha.high > 0.0 || !several, alpha.low >= 1.0),
-            AlphaToCoverage::Any => (true, false),
+            AlphaToCoverage::Ends => Possible::of(alpha.high > 0.0 || !several, alpha.low >= 1.0),
+            AlphaToCoverage::Any => Possible::Maybe,
         }
     }
 
-    /// Returns whether the stored depth can lie within the bounds, and whether it must (Vulkan, Depth
-    /// Bounds Test).
+    /// Returns whether the stored depth lies within the bounds (Vulkan, Depth Bounds Test).
     fn depth_bounds(
         &self,
         place: Place<'_>,
@@ -489,7 +491,7 @@ impl Walk<'_> {
         [low, high]: [f32; 2],
         index: usize,
         notes: &mut Notes<'_>,
-    ) -> (bool, bool) {
+    ) -> Possible {
         let encoding = self.depth_encoding(index);
         let stored = world.cells[index].channels[0];
         let mut judging = Judging::new(self.rules);
@@ -504,19 +506,20 @@ impl Walk<'_> {
         let (low, high) = (bound(low), bound(high));
         let can = stored.high >= low.low && stored.low <= high.high;
         let must = stored.low >= low.high && stored.high <= high.low;
+        let inside = Possible::of(can, must);
         let detail = || {
-            let word = match (can, must) {
-                (_, true) => "inside",
-                (true, false) => "perhaps inside",
-                (false, _) => "outside",
+            let word = match inside {
+                Possible::Always => "inside",
+                Possible::Maybe => "perhaps inside",
+                Possible::Never => "outside",
             };
             format!("stored {stored} is {word} {low} to {high}")
         };
-        match must {
-            true => notes.add(|| place.name(), "depth bounds", detail, None),
-            false => self.note_rejection(notes, place, Rejection::DepthBounds, !can, &detail),
+        match inside {
+            Possible::Always => notes.add(|| place.name(), "depth bounds", detail, None),
+            _ => self.note_rejection(notes, place, Rejection::DepthBounds, !inside.can(), &detail),
         }
-        (can, must)
+        inside
     }
 
     #[expect(
@@ -636,17 +639,13 @@ impl Walk<'_> {
 /// discard, and by sample mask and alpha to coverage.
 #[derive(Clone, Copy, Debug)]
 struct Covered {
-    kept: (bool, bool),
-    coverage: (bool, bool),
+    kept: Possible,
+    coverage: Possible,
 }
 
 impl Covered {
-    fn can(self) -> bool {
-        self.kept.0 && self.coverage.0
-    }
-
-    fn must(self) -> bool {
-        self.kept.1 && self.coverage.1
+    fn survives(self) -> Possible {
+        self.kept.and(self.coverage)
     }
 }
 

@@ -23,6 +23,7 @@ mod judging;
 mod notes;
 mod pass_operations;
 mod picture;
+mod possible;
 mod primitive;
 mod rejections;
 pub mod rules;

@@ -3,6 +3,7 @@
 use crate::depth::Depth;
 use crate::interval::Interval;
 use crate::judging::Range as Values;
+use crate::possible::Possible;
 use crate::snap::{SnapBox, area};
 use etalon_pipeline::{Point, edge_value};
 use std::ops::Range;
@@ -244,10 +245,10 @@ impl SnappedPrimitive {
         low.x as f64 >= x && low.y as f64 >= y && high.x as f64 <= x + w && high.y as f64 <= y + h
     }
 
-    /// Returns whether a covered sample can lie between the near and far planes, and whether it must.
-    pub(crate) fn inside_depth(&self, at: Point) -> (bool, bool) {
+    /// Returns whether a covered sample lies between the near and far planes.
+    pub(crate) fn inside_depth(&self, at: Point) -> Possible {
         let depth = self.clip_depth.at(at);
-        (
+        Possible::of(
             depth.high >= 0.0 && depth.low <= 1.0,
             depth.low >= 0.0 && depth.high <= 1.0,
         )

@@ -7,6 +7,7 @@ use crate::context::PassContext;
 use crate::judging::{Judging, Range, all_codes};
 use crate::notes::{Note, Notes, Skipped};
 use crate::picture::{Pictures, Shape as PictureShape};
+use crate::possible::Possible;
 use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
 use crate::rules::{Copies, Rules};
 use crate::snap::units_per_texel;
@@ -326,8 +327,8 @@ impl<'a> Walk<'a> {
             Shape::Triangle(triangle) => misses(triangle, sides),
             _ => false,
         };
-        let (can, in_viewport) = self.setups[p].clip(d).holds(primitive, point);
-        if !can {
+        let in_viewport = self.setups[p].clip(d).holds(primitive, point);
+        if !in_viewport.can() {
             let reached = match &primitive.shape {
                 Shape::Triangle(_) => !missed,
                 _ => primitive.times(point, self.units).1 > 0,
@@ -340,14 +341,17 @@ impl<'a> Walk<'a> {
         if missed {
             return Err(Rejection::Coverage);
         }
-        let (can, must) = primitive.inside_depth(point);
-        if !draw.depth_clamp && !can {
+        let in_depth = match draw.depth_clamp {
+            true => Possible::Always,
+            false => primitive.inside_depth(point),
+        };
+        if !in_depth.can() {
             return Err(Rejection::NearFar);
         }
         Ok(Hit {
             sides,
-            in_viewport,
-            in_depth: draw.depth_clamp || must,
+            in_viewport: in_viewport.must(),
+            in_depth: in_depth.must(),
         })
     }
 
