@@ -92,7 +92,7 @@ fn growing(c: &mut Criterion) {
     let limits = CpuBackend::new("cpu").limits().clone();
     let mut group = c.benchmark_group("constant cells");
     group.sample_size(10);
-    for [width, height] in [[64, 64], [480, 270], [1920, 1080]] {
+    for [width, height] in [[64_u32, 64], [480, 270], [1920, 1080]] {
         let scene = scene(&format!(
             r#"{{"about":"t","spec":["t"],"scene":{{
                 "attachments":{{"color":{{"format":"rgba8unorm","size":[{width},{height}]}}}},

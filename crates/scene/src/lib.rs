@@ -7,6 +7,7 @@
 
 mod attachment;
 mod blend;
+mod call;
 mod depth_stencil;
 mod draw;
 mod early_tests;
@@ -25,12 +26,13 @@ pub use attachment::{Attachment, Contents};
 pub use blend::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, LogicOperation,
 };
+pub use call::Call;
 pub use depth_stencil::{
     CompareFunction, DepthBias, DepthState, StencilFace, StencilOperation, StencilState,
 };
 pub use draw::{Draw, Params};
 pub use early_tests::EarlyTests;
-pub use fetch::{Call, Fetch, IndexFormat, RESTART_16};
+pub use fetch::{Fetch, IndexFormat, RESTART_16};
 pub use invariance::Invariance;
 pub use mesh::{MAX_VERTICES, Mesh, PrimitiveVertices, RESTART, Vertex};
 pub use mesh_source::{FieldOf, MeshSource, Splat, Units};

@@ -180,6 +180,12 @@ impl Pass {
         given.copied().unwrap_or_default()
     }
 
+    /// Indices of the attachments that resolves write.
+    pub fn resolve_targets(&self) -> impl Iterator<Item = usize> + '_ {
+        let depth_stencil = self.depth_stencil_resolve.iter().map(|r| r.to);
+        self.resolve.iter().flatten().copied().chain(depth_stencil)
+    }
+
     /// The clear commands that are executed before the draw of this index, or at the end.
     pub fn clears_before(&self, draw: usize) -> &[Clear] {
         let start = self.clears.partition_point(|c| c.before < draw);

@@ -1,6 +1,7 @@
 //! Bugs of clears of memory that a driver only notes as cleared.
 
-use super::{CONFUSION, List, Plant, scene};
+use crate::list::{CONFUSION, List};
+use crate::plant::{Plant, scene};
 use etalon_scene::{Clear, ClearTarget, Contents, LoadOperation, Pass, Scene};
 
 /// Changes clear commands in passes over attachments of more than 64 texels, given their size.

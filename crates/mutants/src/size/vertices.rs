@@ -1,8 +1,8 @@
 //! Bugs of indices, offsets and instances: the mesh that a driver fetches which takes one number of a
 //! draw call wrongly.
 
-use super::{CONFUSION, List, Plant, draws};
-use crate::plant::from_draw;
+use crate::list::{CONFUSION, List};
+use crate::plant::{Plant, draws, from_draw};
 use etalon_scene::{Call, Draw, Fetch, IndexFormat, Mesh, PrimitiveTopology, RESTART, Vertex};
 
 /// Draws what is fetched for another call than was asked for. Fetches beyond a buffer give its first
