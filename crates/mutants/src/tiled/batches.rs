@@ -63,50 +63,48 @@ pub(super) fn add(list: &mut List) {
 }
 
 fn numbers_of_draws(list: &mut List) {
-    for n in [256] {
-        list.add(
-            &format!("draws-past-{n}-lost"),
-            CONFUSION,
-            format!("Draws of a pass past {n} are lost."),
-            calls(n, move |all| all.truncate(n)),
-        );
-        list.add(
-            &format!("params-kept-past-{n}"),
-            CONFUSION,
-            format!("Draws of a pass past {n} use the parameters of draw number {n}."),
-            calls(n, move |all| {
-                let params = all[n - 1].params;
-                for draw in &mut all[n..] {
-                    draw.params = params;
-                }
-            }),
-        );
-        list.add(
-            &format!("params-wrap-at-{n}"),
-            CONFUSION,
-            format!("Parameters of draws wrap at {n}."),
-            calls(n, move |all| {
-                let first: Vec<_> = all[..n].iter().map(|d| d.params).collect();
-                for (at, draw) in all.iter_mut().enumerate() {
-                    draw.params = first[at % n];
-                }
-            }),
-        );
-    }
+    let n = 256;
+    list.add(
+        &format!("draws-past-{n}-lost"),
+        CONFUSION,
+        format!("Draws of a pass past {n} are lost."),
+        calls(n, move |all| all.truncate(n)),
+    );
+    list.add(
+        &format!("params-kept-past-{n}"),
+        CONFUSION,
+        format!("Draws of a pass past {n} use the parameters of draw number {n}."),
+        calls(n, move |all| {
+            let params = all[n - 1].params;
+            for draw in &mut all[n..] {
+                draw.params = params;
+            }
+        }),
+    );
+    list.add(
+        &format!("params-wrap-at-{n}"),
+        CONFUSION,
+        format!("Parameters of draws wrap at {n}."),
+        calls(n, move |all| {
+            let first: Vec<_> = all[..n].iter().map(|d| d.params).collect();
+            for (at, draw) in all.iter_mut().enumerate() {
+                draw.params = first[at % n];
+            }
+        }),
+    );
 }
 
 fn numbers_of_primitives(list: &mut List) {
-    for n in [1_usize << 16] {
-        list.add(
-            &format!("primitive-{n}-doubled"),
-            CONFUSION,
-            format!("Primitive number {n} is drawn twice."),
-            primitives(n, any, move |all| {
-                let twice = all[n - 1];
-                all.insert(n, twice);
-            }),
-        );
-    }
+    let n = 1_usize << 16;
+    list.add(
+        &format!("primitive-{n}-doubled"),
+        CONFUSION,
+        format!("Primitive number {n} is drawn twice."),
+        primitives(n, any, move |all| {
+            let twice = all[n - 1];
+            all.insert(n, twice);
+        }),
+    );
     for n in [4096, 16384, 65535] {
         list.add(
             &format!("primitives-past-{n}-lost"),
