@@ -12,8 +12,8 @@ use etalon_cpu::steps::{Moment, Stored};
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::{Plain, window_position};
 use etalon_scene::{
-    Clear, ClearTarget, CompareFunction, CullMode, DepthBias, Draw, EarlyTests, Multisample, Pass,
-    PrimitiveTopology, PrimitiveVertices, Scene, StencilFace, StencilOperation, Viewport,
+    Clear, ClearTarget, CompareFunction, DepthBias, Draw, Pass, PrimitiveTopology,
+    PrimitiveVertices, Scene, StencilFace, StencilOperation,
 };
 
 /// The bug of a coarse depth.
@@ -36,26 +36,12 @@ enum Bug {
     Initial(f32),
     /// A pass change brings back what the initial clear left.
     Forgets,
-    /// A pass is tested by the coarse depth of the first attachment.
-    FirstAttachment,
-    /// Only the first sample is noted.
-    FirstSample,
     /// Tiles beyond this many in a row are those of the row's start.
     Wraps(usize),
     /// Tiles that extend beyond the attachment are not noted after the initial clear.
     Partial,
     /// The clear of a load operation is not noted.
     LoadMissed,
-    /// Clear commands are not noted.
-    ClearMissed,
-    /// Clear commands with a rectangle are not noted.
-    PartialClearMissed,
-    /// Clear commands with a rectangle are noted everywhere.
-    ClearUnbounded,
-    /// Clear commands are noted everywhere, whatever a mask keeps.
-    MaskIgnored,
-    /// A clear command of stencil sets the coarse depth to 1.
-    StencilClear,
     /// Rejected tiles lose their stencil operation.
     StencilLost,
 }
@@ -87,9 +73,9 @@ fn encoding(scene: &Scene, index: usize) -> Option<ChannelEncoding> {
 }
 
 /// Returns the codes of the depths in an area, the least and the greatest.
-fn range(surface: &Surface, [left, top, right, bottom]: Area, samples: usize) -> [u32; 2] {
+fn range(surface: &Surface, [left, top, right, bottom]: Area) -> [u32; 2] {
     let mut found = [u32::MAX, 0];
-    for plane in &surface.planes[..samples] {
+    for plane in &surface.planes {
         for y in top..bottom.min(surface.height) {
             let row = y * surface.stride;
             for code in &plane[row + left..row + right.min(surface.width)] {
@@ -192,10 +178,6 @@ impl Coarse {
         let (surface, side) = (&surfaces[index], self.side);
         let columns = surface.width.div_ceil(side);
         let old = std::mem::take(&mut self.maps[index]);
-        let samples = match self.bug {
-            Bug::FirstSample => 1,
-            _ => surface.samples,
-        };
         let mut map = Map {
             columns,
             ranges: Vec::new(),
@@ -206,7 +188,7 @@ impl Coarse {
                 let known = old.ranges.get(map.ranges.len()).copied();
                 map.ranges.push(match known {
                     Some(known) if partial && matches!(self.bug, Bug::Partial) => known,
-                    _ => range(surface, [x, y, x + side, y + side], samples),
+                    _ => range(surface, [x, y, x + side, y + side]),
                 });
             }
         }
@@ -268,25 +250,11 @@ impl Coarse {
 
     /// Notes a clear command.
     fn cleared(&mut self, scene: &Scene, index: usize, clear: &Clear, surfaces: &[Surface]) {
-        let ClearTarget::DepthStencil { depth, stencil, .. } = clear.target else {
+        let ClearTarget::DepthStencil { depth, .. } = clear.target else {
             return;
         };
-        let missed = match self.bug {
-            Bug::ClearMissed => true,
-            Bug::PartialClearMissed => clear.rect.is_some(),
-            _ => false,
-        };
-        if depth.is_some() && !missed {
+        if depth.is_some() {
             self.note(scene, index, surfaces);
-        }
-        let noted = match self.bug {
-            Bug::ClearUnbounded if clear.rect.is_some() => depth,
-            Bug::MaskIgnored => depth,
-            Bug::StencilClear if stencil.is_some() && depth.is_none() => Some(1.0),
-            _ => None,
-        };
-        if let (Some(depth), Some(encoding)) = (noted, encoding(scene, index)) {
-            self.maps[index].ranges.fill([code(encoding, depth); 2]);
         }
     }
 
@@ -309,10 +277,7 @@ impl Coarse {
         if moves && !trusted || acts || draw.shader.counts_runs() {
             return;
         }
-        let map = match self.bug {
-            Bug::FirstAttachment => self.maps.iter().find(|m| m.columns > 0),
-            _ => self.maps.get(index),
-        };
+        let map = self.maps.get(index);
         let Some(map) = map else { return };
         let columns = self.maps[index].columns.max(1);
         for (tile, codes) in self.touched(scene, index, &draw) {
@@ -380,10 +345,6 @@ const SIDE: usize = 8;
 
 fn compares(draw: &Draw, functions: &[CompareFunction]) -> bool {
     draw.depth.is_some_and(|d| functions.contains(&d.compare))
-}
-
-fn is_whole(viewport: &Viewport) -> bool {
-    viewport.depth == [0.0, 1.0]
 }
 
 pub(super) fn add(list: &mut List) {

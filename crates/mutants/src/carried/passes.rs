@@ -1,9 +1,7 @@
 //! Passes that lose draws, attachments or resolves, or what they promise.
 
 use super::super::list::{CONFUSION, List};
-use super::super::plant::{Plant, scene, stored};
-use etalon_cpu::steps::Moment;
-use etalon_pipeline::{Arithmetic, Plain};
+use super::super::plant::{Plant, scene};
 use etalon_scene::{Draw, Pass, Scene, StencilOperation};
 
 /// Changes each pass but the first, given the unchanged pass before it.

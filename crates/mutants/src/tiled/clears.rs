@@ -11,7 +11,7 @@ use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_scene::{Attachment, Contents};
 
 /// Gives the texels of one aspect other codes.
-pub(super) fn spoil(surface: &mut Surface, attachment: &Attachment, aspect: Aspect, area: Area) {
+fn spoil(surface: &mut Surface, attachment: &Attachment, aspect: Aspect, area: Area) {
     let [left, top, right, bottom] = area;
     let format = attachment.format;
     let depth = format.depth_encodings().first();
