@@ -118,7 +118,7 @@ fn repeatable(
         PrimitiveTopology::TriangleList => Some(3),
         _ => None,
     };
-    let whole = size.is_some_and(|size| mesh.vertices.len() % size == 0);
+    let whole = size.is_some_and(|size| mesh.vertices.len().is_multiple_of(size));
     if mesh.indices.is_none() && !whole {
         return Err(At::new(
             "instances of a strip, and of incomplete primitives, need indices",

@@ -7,6 +7,7 @@
 use crate::error::At;
 use crate::wire::{Across, SequenceWire};
 use serde_json::{Map, Value, json};
+use std::slice::from_ref;
 
 /// The end of the names of the second framebuffer's attachments.
 const OTHER: &str = "-other";
@@ -46,7 +47,7 @@ pub(crate) fn scene(wire: &SequenceWire) -> Result<Value, At> {
         Across::Pass => {
             for (i, step) in steps.iter().enumerate() {
                 let before = if i == 0 { &wire.prepare[..] } else { &[] };
-                passes.push(pass(&[before, &[step.clone()]].concat(), false)?);
+                passes.push(pass(&[before, from_ref(step)].concat(), false)?);
             }
         }
         Across::Framebuffer => {
@@ -65,7 +66,7 @@ pub(crate) fn scene(wire: &SequenceWire) -> Result<Value, At> {
                 passes.push(pass(&wire.prepare, true)?);
             }
             for (i, step) in steps.iter().enumerate() {
-                passes.push(pass(&[step.clone()], i % 2 == 1)?);
+                passes.push(pass(from_ref(step), i % 2 == 1)?);
             }
         }
     }

@@ -71,6 +71,9 @@ fn skip_equal(scene: &mut Scene) {
     }
 }
 
+/// A bug's name, its description, and what it does to a pass.
+type Row = (&'static str, &'static str, fn(&mut Pass));
+
 pub(super) fn add(list: &mut List) {
     loads(list);
     between(list);
@@ -78,7 +81,7 @@ pub(super) fn add(list: &mut List) {
 }
 
 fn loads(list: &mut List) {
-    let rows: [(&str, &str, fn(&mut Pass)); 7] = [
+    let rows: [Row; 7] = [
         (
             "colour-not-cleared-on-load",
             "Colour is loaded where it is to be cleared.",
@@ -301,7 +304,7 @@ fn between(list: &mut List) {
 }
 
 fn discards(list: &mut List) {
-    let rows: [(&str, &str, fn(&mut Pass)); 3] = [
+    let rows: [Row; 3] = [
         (
             "stencil-discarded-with-depth",
             "Where depth is discarded, stencil is too.",

@@ -52,6 +52,7 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
                 sample_coverage,
             },
         blend_constant,
+        fetch,
     } = draw;
     all.put("indices", indices);
     all.put("topology", topology);
@@ -111,6 +112,7 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
         all.put("multisample.sample_coverage.invert", invert);
     }
     all.put("blend_constant", blend_constant);
+    all.put("fetch", fetch);
     all.0
 }
 
