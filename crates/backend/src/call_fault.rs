@@ -60,8 +60,8 @@ faults! {
     Draw256 = "draw-256" in "size";
     /// Indices past 65,535 are lost.
     Indices65535 = "indices-65535" in "size";
-    /// Vertices past 65,535 are lost in draws without indices.
-    Vertices65535 = "vertices-65535" in "size";
+    /// Vertices past 4,096 are lost in draws without indices.
+    Vertices4096 = "vertices-4096" in "size";
     /// Points and lines past the first 500 are lost.
     Lines500 = "lines-500" in "size";
     /// The base vertex is 0.

@@ -217,8 +217,8 @@ impl Planted {
             CallFault::Indices65535 if call.indices.is_some() => {
                 call.count = call.count.min(65_535)
             }
-            CallFault::Vertices65535 if call.indices.is_none() => {
-                call.count = call.count.min(65_535);
+            CallFault::Vertices4096 if call.indices.is_none() => {
+                call.count = call.count.min(4_096);
             }
             CallFault::Lines500 if line => call.count = call.count.min(500),
             CallFault::SecondInstance => call.instances = call.instances.min(1),

@@ -188,7 +188,7 @@ impl Planted {
         );
         match self.fault {
             CallFault::Indices65535 if indexed => count.min(65_535),
-            CallFault::Vertices65535 if !indexed => count.min(65_535),
+            CallFault::Vertices4096 if !indexed => count.min(4_096),
             CallFault::Lines500 if line => count.min(500),
             _ => count,
         }
