@@ -205,7 +205,8 @@ const ZINK_WRONG: &[Defect] = &[
 /// Softpipe's defects through OpenGL and OpenGL ES.
 const SOFTPIPE_DEFECTS: &[&[Defect]] = &[SOFTPIPE_WRONG, SOFTPIPE_CLAMPS, SOFTPIPE_CLEARS];
 #[rustfmt::skip]
-const SOFTPIPE_CLEARS: &[Defect] = &[
+/// Checks that softpipe fails through OpenGL and OpenGL ES.
+pub const SOFTPIPE_CLEARS: &[Defect] = &[
     ("passes::clears_know_their_target", "a clear of integers that is lost to the clear of a rectangle after it"),
 ];
 /// Checks that softpipe fails through every API.

@@ -25,7 +25,9 @@ pub use checks::{CHECKS, Check};
 pub use child::in_child;
 pub use driver::{Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, ZINK};
 pub use driver::{in_driver, run, run_all, variables};
-pub use known::{COUNTING_SHADERS, Defect, FOUR_SAMPLES, KNOWN, Known, SOFTPIPE_WRONG, known};
+pub use known::{
+    COUNTING_SHADERS, Defect, FOUR_SAMPLES, KNOWN, Known, SOFTPIPE_CLEARS, SOFTPIPE_WRONG, known,
+};
 pub use lacks::{Lacks, Names};
 pub use library::{Share, draw_library};
 pub use scenes::{scene, with};

@@ -299,21 +299,7 @@ fn hierarchy(list: &mut List) {
         }),
     );
     type Bug = fn(&mut Draw);
-    let rows: [(&str, &str, Bug); 6] = [
-        (
-            "equal-rejected",
-            "Coarse bounds reject fragments of equal depth.",
-            |draw| {
-                if let Some(depth) = &mut draw.depth {
-                    depth.compare = match depth.compare {
-                        CompareFunction::LessEqual => CompareFunction::Less,
-                        CompareFunction::GreaterEqual => CompareFunction::Greater,
-                        CompareFunction::Equal => CompareFunction::Never,
-                        other => other,
-                    };
-                }
-            },
-        ),
+    let rows: [(&str, &str, Bug); 5] = [
         (
             "not-equal-as-less",
             "Bounds that are kept for smaller depths reject what is not equal.",

@@ -2,11 +2,13 @@
 
 use crate::counting::Tally;
 use crate::notes::{Note, Notes};
-use crate::picture::{OPEN, Shape, State, shapes};
+use crate::picture::shapes;
 use crate::rules::Rules;
+use crate::sample::{Sample, Shape};
+use crate::states::{OPEN, State};
 use crate::texels::Texels;
 use crate::verdict::verdict;
-use crate::walk::{Sample, Walk};
+use crate::walk::Walk;
 use etalon_frame::{
     CountRange, Frame, LegalSet, LegalSetBuilder, Limits, Story, StoryLine, TexelSet,
 };

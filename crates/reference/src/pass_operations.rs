@@ -5,7 +5,8 @@
 
 use crate::judging::{Judging, all_codes};
 use crate::notes::{Effect, Note, Notes};
-use crate::walk::{Sample, Walk, codes_text};
+use crate::sample::Sample;
+use crate::walk::{Walk, codes_text};
 use crate::world::{Cell, World, Worlds, merge};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, StoryLine};
 use etalon_pipeline::Arithmetic;

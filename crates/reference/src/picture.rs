@@ -5,87 +5,17 @@
 
 use crate::bins::Segments;
 use crate::notes::Notes;
+use crate::sample::{Sample, Shape};
 use crate::signature::{Inputs, Signature};
+use crate::states::{OPEN, State, States};
 use crate::texels::Lattice;
-use crate::walk::{Sample, Walk, resolved};
+use crate::walk::{Walk, resolved};
 use crate::world::{Cell, World, Worlds};
 use etalon_scene::{Contents, Scene};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::collections::BTreeSet;
 use std::ops::Range;
-use std::rc::Rc;
-
-/// The size and the samples of attachments.
-pub(crate) type Shape = ([u32; 2], u32);
-
-/// The number of a state; [`OPEN`] if the sample is open.
-pub(crate) type State = u32;
-
-/// The state of samples of which nothing is asserted.
-pub(crate) const OPEN: State = u32::MAX;
-
-/// All states, each once.
-#[derive(Debug, Default)]
-pub(crate) struct States {
-    all: Vec<Rc<Worlds>>,
-    numbers: FxHashMap<Rc<Worlds>, State>,
-}
-
-impl States {
-    fn number(&mut self, worlds: Option<Worlds>) -> State {
-        let Some(worlds) = worlds else { return OPEN };
-        if let Some(state) = self.numbers.get(&worlds) {
-            return *state;
-        }
-        let state = self.all.len() as State;
-        let worlds = Rc::new(worlds);
-        self.all.push(Rc::clone(&worlds));
-        self.numbers.insert(worlds, state);
-        state
-    }
-
-    /// The worlds of a state; `None` if the sample is open.
-    pub(crate) fn worlds(&self, state: State) -> Option<&Rc<Worlds>> {
-        self.all.get(state as usize)
-    }
-}
-
-/// The states of all samples, one picture per shape, as far as they are walked.
-#[derive(Debug, Default)]
-pub(crate) struct Pictures {
-    shapes: Vec<Shape>,
-    /// Of each shape, sample by sample.
-    samples: Vec<Vec<State>>,
-    pub(crate) states: States,
-}
-
-impl Pictures {
-    fn shape(&self, shape: Shape) -> Option<usize> {
-        self.shapes.iter().position(|s| *s == shape)
-    }
-
-    /// True if a sample is in one of the pictures.
-    pub(crate) fn has(&self, at: Sample) -> bool {
-        self.shape((at.size, at.samples)).is_some()
-    }
-
-    /// The state of a sample.
-    pub(crate) fn state(&self, at: Sample) -> State {
-        let shape = self.shape((at.size, at.samples));
-        shape.map_or(OPEN, |s| self.samples[s][place(at)])
-    }
-
-    /// The states of a shape's samples.
-    pub(crate) fn of_shape(&self, shape: Shape) -> &[State] {
-        self.shape(shape).map_or(&[], |s| &self.samples[s])
-    }
-}
-
-fn place(at: Sample) -> usize {
-    let texel = at.y as usize * at.size[0] as usize + at.x as usize;
-    texel * at.samples as usize + at.sample as usize
-}
 
 /// Outcomes of single draws, by state, draw and signature.
 #[derive(Debug, Default)]
@@ -150,7 +80,7 @@ impl Walk<'_> {
             }
             let mut all = vec![OPEN; count];
             for_each_judged(lattice, size, |x, y| {
-                let start = place(at(x, y));
+                let start = at(x, y).place();
                 all[start..start + samples as usize].fill(state);
             });
             return all;
@@ -174,7 +104,7 @@ impl Walk<'_> {
                     state
                 }
             };
-            let start = place(at(x, y));
+            let start = at(x, y).place();
             all[start..start + samples as usize].fill(state);
         });
         all
@@ -291,7 +221,7 @@ impl Walk<'_> {
                     y,
                     sample,
                 };
-                let own = &mut picture[place(at)];
+                let own = &mut picture[at.place()];
                 let known = known.entry((*own, inside.clone()));
                 *own = *known.or_insert_with(|| self.changed(*own, |worlds| clear(at, worlds)));
             }
@@ -347,7 +277,7 @@ impl Walk<'_> {
                 y,
                 sample: 0,
             };
-            let own = place(at);
+            let own = at.place();
             if picture[own] == OPEN {
                 return;
             }
@@ -519,8 +449,8 @@ impl Brush<'_, '_> {
         if first.spans(last) {
             let mut before = None;
             let step = self.samples as usize;
-            let start = place(self.at(left + 1, y, sample));
-            let end = place(self.at(right, y, sample));
+            let start = self.at(left + 1, y, sample).place();
+            let end = self.at(right, y, sample).place();
             for (i, own) in (start..end).step_by(step).enumerate() {
                 let old = picture[own];
                 match before {
@@ -557,7 +487,7 @@ impl Brush<'_, '_> {
 
     /// Draws over one sample.
     fn texel(&mut self, picture: &mut [State], at: Sample, signature: &Signature, members: &[u32]) {
-        let own = place(at);
+        let own = at.place();
         let mut state = picture[own];
         for (i, part) in signature.parts.iter().enumerate() {
             if state == OPEN {

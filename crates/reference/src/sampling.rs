@@ -2,7 +2,8 @@
 
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
-use crate::walk::{Place, Sample, Walk};
+use crate::sample::Sample;
+use crate::walk::{Place, Walk};
 use crate::world::World;
 use etalon_frame::CodeInterval;
 use etalon_pipeline::{Arithmetic, texel_position};

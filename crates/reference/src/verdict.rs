@@ -4,7 +4,8 @@
 
 use crate::clause::Rejection;
 use crate::notes::{Effect, Note};
-use crate::walk::{Sample, Walk, codes_text};
+use crate::sample::Sample;
+use crate::walk::{Walk, codes_text};
 use crate::world::World;
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Frame, StoryLine, TexelSet};
 use etalon_scene::Contents;

@@ -6,11 +6,12 @@ use crate::clause::Rejection;
 use crate::context::PassContext;
 use crate::judging::{Judging, Range, all_codes};
 use crate::notes::{Note, Notes, Skipped};
-use crate::picture::{Pictures, Shape as PictureShape};
 use crate::possible::Possible;
 use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
 use crate::rules::{Copies, Rules};
+use crate::sample::{self, Sample};
 use crate::snap::units_per_texel;
+use crate::states::Pictures;
 use crate::texels::Texels;
 use crate::undefined::Undefined;
 use crate::world::{Cell, Decision, World, Worlds, merge};
@@ -23,21 +24,6 @@ use std::borrow::Cow;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::rc::Rc;
-
-/// One sample of the attachments of one shape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Sample {
-    /// The attachments' width and height.
-    pub size: [u32; 2],
-    /// Their samples per texel.
-    pub samples: u32,
-    /// Column.
-    pub x: u32,
-    /// Row.
-    pub y: u32,
-    /// Sample within the texel.
-    pub sample: u32,
-}
 
 /// Worlds by sample and passes; `None` if the sample is open.
 type Known = HashMap<(Sample, usize), Option<Rc<Worlds>>>;
@@ -443,7 +429,7 @@ impl<'a> Walk<'a> {
     pub(crate) fn set(
         &self,
         worlds: Option<&Rc<Worlds>>,
-        (size, samples): PictureShape,
+        (size, samples): sample::Shape,
     ) -> TexelSet {
         let at = Sample {
             size,

@@ -3,8 +3,8 @@
 use crate::{GlBackend, Options, Platform, Profile, Tuning, open_with};
 use etalon_backend::{Backend, BackendError};
 use etalon_conformance::{
-    Defect, Driver, GALLIUM_INSTALL, Known, LLVMPIPE, SOFTPIPE, SOFTPIPE_WRONG, ZINK, in_child,
-    json, known, run_all, scene, variables,
+    Defect, Driver, GALLIUM_INSTALL, Known, LLVMPIPE, SOFTPIPE, SOFTPIPE_CLEARS, SOFTPIPE_WRONG,
+    ZINK, in_child, json, known, run_all, scene, variables,
 };
 use etalon_frame::Feature;
 
@@ -61,7 +61,7 @@ fn llvmpipe_without_clip_control() {
 fn softpipe_without_clip_control() {
     let test = "tests::softpipe_without_clip_control";
     in_child(test, &variables(SOFTPIPE), || {
-        without_clip_control("softpipe", &[SOFTPIPE_WRONG]);
+        without_clip_control("softpipe", &[SOFTPIPE_WRONG, SOFTPIPE_CLEARS]);
     });
 }
 

@@ -4,9 +4,10 @@
 use super::judge_some;
 use crate::notes::Notes;
 use crate::rules::Rules;
+use crate::sample::Sample;
 use crate::test_limits::limits;
 use crate::texels::Texels;
-use crate::walk::{Sample, Walk};
+use crate::walk::Walk;
 use etalon_case::{Library, Profile};
 use etalon_frame::{Api, Limits, TexelSet};
 use etalon_scene::Scene;

@@ -3,8 +3,8 @@
 use super::told;
 use crate::notes::Effect;
 use crate::rules::Rules;
+use crate::sample::Sample;
 use crate::test_limits;
-use crate::walk::Sample;
 use etalon_case::{CaseFile, Profile};
 use etalon_frame::{Api, Limits, Story};
 use etalon_scene::Scene;

@@ -37,6 +37,7 @@ areas! {
     scissor = "scissor",
     selftest = "selftest",
     sequence = "sequence",
+    size = "size",
     stencil = "stencil",
     texture = "texture",
 }
