@@ -5,6 +5,7 @@
 use crate::etalon::etalon;
 use etalon_backend::CallFault;
 use etalon_record::{Run, Verdict};
+use std::collections::BTreeSet;
 
 /// The quick cases that are made for what a fault breaks: all of an area would take minutes for each.
 fn cases(fault: CallFault) -> &'static str {
@@ -38,10 +39,11 @@ fn cases(fault: CallFault) -> &'static str {
 }
 
 /// Runs cases on an adapter. Returns the names of those that fail.
-fn failed(adapter: &str, cases: &str, code: i32) -> Vec<String> {
+fn failed<'a>(adapter: &str, cases: impl IntoIterator<Item = &'a str>, code: i32) -> Vec<String> {
     let out = tempfile::tempdir().unwrap();
-    let mut command = etalon(&["run", cases, "--adapter", adapter, "--out"]);
-    command.arg(out.path()).assert().code(code);
+    let mut command = etalon(&["run", "--adapter", adapter]);
+    command.args(cases).arg("--out").arg(out.path());
+    command.assert().code(code);
     let records = Run::read(out.path()).unwrap().records;
     let unexpected = |verdict, known: bool| verdict == Verdict::Fail && !known;
     let all = records.into_iter();
@@ -50,13 +52,14 @@ fn failed(adapter: &str, cases: &str, code: i32) -> Vec<String> {
 }
 
 /// Every fault turns the run of a driver red, by a case that the driver passes without it.
-fn faults_are_found(driver: &str, faults: impl Iterator<Item = CallFault>) {
+fn faults_are_found(driver: &str, faults: impl Iterator<Item = CallFault> + Clone) {
+    let all: BTreeSet<&str> = faults.clone().map(cases).collect();
+    assert_eq!(failed(driver, all, 0), [""; 0], "{driver} without a fault");
     for fault in faults {
         let cases = cases(fault);
         let name = fault.name();
         assert!(cases.starts_with(fault.area()), "{name}");
-        assert_eq!(failed(driver, cases, 0), [""; 0], "{driver} without {name}");
-        let with = failed(&format!("{driver}:call-fault={name}"), cases, 1);
+        let with = failed(&format!("{driver}:call-fault={name}"), [cases], 1);
         assert!(
             !with.is_empty(),
             "{driver}: no case of {cases} fails with {name}"
