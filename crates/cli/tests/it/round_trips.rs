@@ -10,9 +10,11 @@ use std::path::{Path, PathBuf};
 const ADAPTER: &str = "cpu:fault=misread";
 const TRIP: &str = "capabilities/round-trip/format=rgb10a2unorm";
 /// Cases on that format and on others, without the round trips.
-const DEPENDENTS: [&str; 3] = [
+const DEPENDENTS: [&str; 5] = [
+    "blend/factors-formats",
     "blend/formats-clear",
     "blend/formats-low-bits",
+    "blend/write-mask-formats",
     "texture/formats",
 ];
 
