@@ -321,15 +321,30 @@ fn start(out: &Path, more: &[&str]) -> Child {
         .unwrap()
 }
 
+/// Returns the number of records in the run that is kept in a folder.
+fn records_in(folder: &Path) -> usize {
+    let text = fs::read_to_string(folder.join("run.jsonl")).unwrap_or_default();
+    text.matches("{\"case\":").count()
+}
+
+/// Waits until a run has written a record more than `before`, or has ended.
+fn wait_for_progress(child: &mut Child, out: &Path, before: usize) {
+    let start = Instant::now();
+    while records_in(out) <= before && child.try_wait().unwrap().is_none() {
+        assert!(start.elapsed() < Duration::from_secs(60), "no records come");
+        sleep(Duration::from_millis(1));
+    }
+}
+
 #[test]
 fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
     let undisturbed = folder();
     let began = Instant::now();
-    assert_eq!(
-        start(undisturbed.path(), &[]).wait().unwrap().code(),
-        Some(1)
-    );
-    let whole = began.elapsed();
+    let mut child = start(undisturbed.path(), &[]);
+    wait_for_progress(&mut child, undisturbed.path(), 0);
+    let first = began.elapsed();
+    assert_eq!(child.wait().unwrap().code(), Some(1));
+    let drawing = began.elapsed() - first;
     let due = plain(undisturbed.path());
     let due_frames: Vec<Vec<u8>> = files(&undisturbed.path().join("frames"))
         .into_values()
@@ -337,20 +352,26 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
     assert!(!due_frames.is_empty());
 
     let planned = sample::count("kills", 32, 200);
-    // On a busy machine more kills come before the first record, and more of them are needed.
-    let enough =
-        |kills: usize, inside: usize| kills >= planned && (inside >= planned / 4 || kills >= 200);
     let mut random = 1_u64;
+    let mut part = |of: Duration| {
+        random = random
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        of.mul_f64((random >> 40) as f64 / (1_u64 << 24) as f64)
+    };
     let (mut kills, mut ended, mut inside) = (0, 0, 0);
-    while !enough(kills, inside) {
+    while kills < planned {
         let out = folder();
         loop {
+            let before = records_in(out.path());
             let mut child = start(out.path(), &["--resume"]);
-            random = random
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            let moment = whole.mul_f64((random >> 40) as f64 / (1_u64 << 24) as f64 * 0.7);
-            sleep(moment);
+            // Every second kill comes after a record of this process, however busy the machine is.
+            if kills % 2 == 0 {
+                sleep(part(first));
+            } else {
+                wait_for_progress(&mut child, out.path(), before);
+                sleep(part(drawing / 2));
+            }
             if let Some(status) = child.try_wait().unwrap() {
                 let mut said = String::new();
                 let mut errors = child.stderr.take().unwrap();
@@ -359,7 +380,7 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
                 ended += 1;
                 break;
             }
-            if enough(kills, inside) {
+            if kills >= planned {
                 assert_eq!(child.wait().unwrap().code(), Some(1));
                 break;
             }
