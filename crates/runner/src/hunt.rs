@@ -1,7 +1,8 @@
 //! The hunt for planted bugs: every case drawn by every mutant, in this process, on all cores.
 
+use crate::drawing::draw_frames;
 use crate::judge::Judge;
-use etalon_backend::{Backend, BackendError};
+use etalon_backend::Backend;
 use etalon_case::Case;
 use etalon_frame::{Frame, WrongTexel};
 use etalon_record::{AreaTally, Catch, MutantInfo, MutantRecord, Sighting, Verdict};
@@ -72,7 +73,7 @@ fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], ful
     let mut seen: Vec<(Vec<Frame>, Sighting)> = Vec::new();
     let large = is_large(case);
     for mutant in share {
-        if large && !mutant.needs_size {
+        if large && mutant.record.mutant.area != case.area() {
             continue;
         }
         let area = mutant.area(case.area());
@@ -102,15 +103,17 @@ fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], ful
     }
 }
 
-/// The classes of bugs that only large pictures, or many passes, meet.
-const NEED_SIZE: [&str; 3] = ["hierarchy", "sequence", "size"];
-
-/// True if a case draws to more than 64 by 64 texels: such cases are held against bugs that need the
-/// size alone, since one takes as long as hundreds of others.
+/// True if a case takes as long as hundreds of others: it draws to more than 64 by 64 texels, by many draws
+/// or vertices, or is submitted often. Such cases are held against the bugs of their own area alone.
 fn is_large(case: &Case) -> bool {
     let texels = |size: [u32; 2]| u64::from(size[0]) * u64::from(size[1]);
     let sizes = case.scene.attachments.iter().map(|a| texels(a.size));
+    let draws = || case.scene.passes.iter().flat_map(|pass| &pass.draws);
+    let submissions: u32 = case.preparations().flat_map(|(_, readings)| readings).sum();
     sizes.max().is_some_and(|most| most > 64 * 64)
+        || draws().count() > 500
+        || draws().map(|draw| draw.mesh.vertices.len()).sum::<usize>() > 5_000
+        || submissions > 20
 }
 
 fn sighting(case: &Case, verdict: Verdict, texel: Option<WrongTexel>) -> Sighting {
@@ -131,15 +134,7 @@ fn broken(case: &Case, message: String) -> Sighting {
 
 /// Draws a case's scenes once each. A panic is a broken mutant, not the end of the hunt.
 fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
-    let attempt = || -> Result<Vec<Frame>, BackendError> {
-        let draw = |scene| {
-            let mut prepared = backend.prepare(scene)?;
-            prepared.submit()?;
-            prepared.read_back()
-        };
-        case.scenes().map(draw).collect()
-    };
-    match catch_unwind(AssertUnwindSafe(attempt)) {
+    match catch_unwind(AssertUnwindSafe(|| draw_frames(backend, case))) {
         Ok(outcome) => outcome.map_err(|e| e.to_string()),
         Err(_) => Err("it panicked".to_owned()),
     }
@@ -149,8 +144,6 @@ fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
 struct Mutant {
     at: usize,
     backend: Option<Box<dyn Backend>>,
-    /// True if the bug may need a large picture to show.
-    needs_size: bool,
     record: MutantRecord,
 }
 
@@ -158,7 +151,6 @@ impl Mutant {
     fn new(at: usize, info: &MutantInfo, backend: Option<Box<dyn Backend>>) -> Self {
         Self {
             at,
-            needs_size: NEED_SIZE.contains(&info.name.split('/').next().unwrap_or_default()),
             record: MutantRecord {
                 mutant: info.clone(),
                 outcome: if backend.is_some() {
