@@ -14,6 +14,7 @@ mod file;
 mod library;
 mod pairwise;
 mod pass_operations;
+mod path;
 mod random;
 mod relation;
 mod resolve;

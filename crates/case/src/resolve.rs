@@ -4,6 +4,7 @@ use crate::attachment::{attachment, default_size, find};
 use crate::draw::{Target, draw, writes_depth_stencil};
 use crate::error::At;
 use crate::pass_operations::{PassTarget, clears, operations};
+use crate::path::check_path;
 use crate::tiles::tiles;
 use crate::values::typed;
 use crate::wire::{DepthStencilResolveWire, PassWire, SceneWire};
@@ -54,12 +55,15 @@ fn scene(wire: &SceneWire) -> Result<Scene, At> {
     if read.is_empty() {
         return Err(At::new("nothing is read back, so nothing could be judged").key("read"));
     }
-    Ok(Scene {
+    let scene = Scene {
         attachments,
         passes,
         read,
         counters,
-    })
+        path: wire.path,
+    };
+    check_path(&scene).map_err(|e| e.key("path"))?;
+    Ok(scene)
 }
 
 fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Result<Pass, At> {

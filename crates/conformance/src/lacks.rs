@@ -41,6 +41,7 @@ impl Lacks {
             max_color_attachments: 4,
             formats: formats.map(|f| (f, self.support(api, f))).collect(),
             features: features.collect(),
+            paths: BTreeSet::new(),
             version: ApiVersion::UNKNOWN,
             properties: BTreeSet::new(),
             exempt: BTreeSet::new(),

@@ -7,7 +7,7 @@ use crate::steps::Faithful;
 use crate::surface::depth_encoding;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
 use etalon_frame::{
-    Api, ApiVersion, Feature, FormatSupport, Limits, Property, ReadPath, TextureFormat,
+    Api, ApiVersion, Feature, FormatSupport, Limits, PathValue, Property, ReadPath, TextureFormat,
     standard_sample_positions,
 };
 use etalon_scene::Scene;
@@ -56,6 +56,8 @@ impl CpuBackend {
                 max_color_attachments: 8,
                 formats,
                 features: Feature::ALL.into_iter().collect(),
+                // A path leaves the picture as it is, so the scene is drawn in the one way there is.
+                paths: PathValue::all().into_iter().collect(),
                 exempt: BTreeSet::new(),
                 sample_positions: SAMPLES
                     .into_iter()

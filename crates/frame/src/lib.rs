@@ -20,6 +20,7 @@ mod legal;
 mod limits;
 mod message;
 mod names;
+mod path;
 mod property;
 mod samples;
 mod story;
@@ -42,6 +43,10 @@ pub use legal::{
 };
 pub use limits::{FormatSupport, Limits, Requirement};
 pub use message::shortened;
+pub use path::{
+    PathArea, PathClip, PathCommands, PathDraws, PathEnd, PathPass, PathStart, PathState,
+    PathTarget, PathValue, PathViewport,
+};
 pub use property::Property;
 pub use samples::standard_sample_positions;
 pub use story::{Story, StoryLine};

@@ -5,6 +5,7 @@ use crate::encoding::ChannelEncoding;
 use crate::feature::Feature;
 use crate::format::TextureFormat;
 use crate::image::ReadPath;
+use crate::path::PathValue;
 use crate::property::Property;
 use crate::version::ApiVersion;
 use serde::{Deserialize, Serialize};
@@ -29,6 +30,8 @@ pub enum Requirement {
     Samples(TextureFormat, u32),
     /// Attachments at least so wide and high.
     Size(u32),
+    /// A way to the driver that is not the default.
+    Path(PathValue),
 }
 
 impl fmt::Display for Requirement {
@@ -41,6 +44,7 @@ impl fmt::Display for Requirement {
             Self::ColorAttachments(n) => write!(f, "{n} colour attachments"),
             Self::Samples(format, n) => write!(f, "{n} samples of {format}"),
             Self::Size(size) => write!(f, "attachments of {size} texels a side"),
+            Self::Path(value) => write!(f, "path {value}"),
         }
     }
 }
@@ -83,6 +87,9 @@ pub struct Limits {
     pub formats: BTreeMap<TextureFormat, FormatSupport>,
     /// Features.
     pub features: BTreeSet<Feature>,
+    /// The ways to the driver besides the defaults; none in older records.
+    #[serde(default)]
+    pub paths: BTreeSet<PathValue>,
     /// Requirements that are not met for a reason other than the driver's word: the backend does not
     /// use what the driver offers, or the driver claims less than the API.
     #[serde(default)]
@@ -115,6 +122,7 @@ impl Limits {
                 .get(&format)
                 .is_some_and(|support| support.samples.contains(&n)),
             Requirement::Size(size) => size <= self.max_size,
+            Requirement::Path(value) => value.is_default() || self.paths.contains(&value),
         }
     }
 

@@ -136,6 +136,7 @@ fn limits(context: &Context, probed: &Probed) -> Limits {
             .map(|(format, support)| (*format, support.limits.clone()))
             .collect(),
         features: probed.features.clone(),
+        paths: Default::default(),
         sample_positions,
     }
 }

@@ -3,7 +3,7 @@
 use etalon_frame::TextureFormat;
 use etalon_scene::{
     Attachment, BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction, Contents,
-    DepthState, Draw, Mesh, Pass, Scene, Shader, Viewport,
+    DepthState, Draw, Mesh, Pass, Path, Scene, Shader, Viewport,
 };
 
 /// Width and height of a method's picture in texels, where a scene does not ask for another.
@@ -147,6 +147,7 @@ impl Stage {
             passes: self.passes,
             read: read.to_vec(),
             counters: Vec::new(),
+            path: Path::default(),
         }
     }
 }

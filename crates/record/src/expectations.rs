@@ -516,6 +516,7 @@ mod tests {
                 max_color_attachments: 8,
                 formats: Default::default(),
                 features: Default::default(),
+                paths: Default::default(),
                 sample_positions: Default::default(),
             },
         }

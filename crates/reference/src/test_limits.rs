@@ -26,6 +26,7 @@ pub(crate) fn limits(api: Api) -> Limits {
         max_color_attachments: 8,
         formats,
         features: Feature::ALL.into_iter().collect(),
+        paths: Default::default(),
         sample_positions: [(1, vec![[128, 128]])].into_iter().collect(),
     }
 }

@@ -15,7 +15,9 @@ mod fetch;
 mod invariance;
 mod mesh;
 mod mesh_source;
+mod on_path;
 mod pass;
+mod path;
 mod rasterization;
 mod requirements;
 mod sampler;
@@ -40,6 +42,7 @@ pub use pass::{
     Clear, ClearTarget, DepthStencilResolve, LoadOperation, Operations, Pass, PassOperations,
     ResolveMode, StoreOperation,
 };
+pub use path::Path;
 pub use rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, SampleCoverage, Viewport,
 };

@@ -13,6 +13,13 @@ use std::collections::BTreeSet;
 impl Scene {
     /// Returns the requirements of the scene, without repetition, in ascending order.
     pub fn requirements(&self) -> Vec<Requirement> {
+        let values = self.path.values().into_iter().map(Requirement::Path);
+        let all: BTreeSet<_> = values.chain(self.on_path().needed()).collect();
+        all.into_iter().collect()
+    }
+
+    /// The requirements of the scene by the default path.
+    fn needed(&self) -> BTreeSet<Requirement> {
         let mut needed = BTreeSet::new();
         for attachment in &self.attachments {
             needed.insert(Requirement::Format(attachment.format));
@@ -59,7 +66,7 @@ impl Scene {
                 needed.insert(Requirement::Drawing(self.attachments[*index].format));
             }
         }
-        needed.into_iter().collect()
+        needed
     }
 }
 

@@ -6,6 +6,7 @@
 use crate::attachment::Attachment;
 use crate::draw::Draw;
 use crate::pass::Pass;
+use crate::path::Path;
 use etalon_frame::{CounterKind, TextureFormat};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -21,6 +22,9 @@ pub struct Scene {
     pub read: Vec<usize>,
     /// The counters, by name in ascending order. All are read back; each starts from 0.
     pub counters: Vec<Counter>,
+    /// The way in which the scene reaches the driver.
+    #[serde(default)]
+    pub path: Path,
 }
 
 /// Something that is counted over one or more draws.

@@ -59,6 +59,7 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
             .into_iter()
             .filter(|f| has(device, *f))
             .collect(),
+        paths: Default::default(),
         sample_positions,
     }
 }

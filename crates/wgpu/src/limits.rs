@@ -264,6 +264,7 @@ pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abi
             .min(of.max_color_attachment_bytes_per_sample / MOST_TEXEL_BYTES),
         formats,
         features: offered(flags, features, &of),
+        paths: Default::default(),
         // WebGPU requires the standard ones of all adapters (Rasterization).
         sample_positions: BTreeMap::from([1, SAMPLES].map(|n| (n, standard_sample_positions(n)))),
     }

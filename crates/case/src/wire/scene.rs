@@ -5,7 +5,7 @@ use super::tiles::TilesWire;
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
     BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace,
-    LogicOperation, MeshSource, Multisample, PassOperations, PolygonMode, PrimitiveTopology,
+    LogicOperation, MeshSource, Multisample, PassOperations, Path, PolygonMode, PrimitiveTopology,
     ResolveMode, Sampler, Shader, Splat, StencilOperation, Viewport,
 };
 use schemars::JsonSchema;
@@ -25,6 +25,9 @@ pub(crate) struct SceneWire {
     /// Counters by name; all are read back.
     #[serde(default)]
     pub(crate) counters: BTreeMap<String, CounterKind>,
+    /// The way in which the scene reaches the driver; it leaves the picture as it is.
+    #[serde(default)]
+    pub(crate) path: Path,
 }
 
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

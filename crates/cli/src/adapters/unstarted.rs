@@ -36,6 +36,7 @@ pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, Str
                 max_color_attachments: 0,
                 formats: BTreeMap::new(),
                 features: BTreeSet::new(),
+                paths: Default::default(),
                 sample_positions: BTreeMap::new(),
             },
         };

@@ -42,6 +42,7 @@ fn header() -> Header {
                 max_color_attachments: 8,
                 formats: Default::default(),
                 features: Default::default(),
+                paths: Default::default(),
                 sample_positions: [(1, vec![[128, 128]])].into(),
             },
         }],

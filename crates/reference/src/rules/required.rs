@@ -316,6 +316,7 @@ mod tests {
             version: ApiVersion::new(major, minor),
             formats: Default::default(),
             features: Default::default(),
+            paths: Default::default(),
             max_size: 1,
             ..limits(api)
         }

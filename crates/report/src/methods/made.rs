@@ -114,6 +114,7 @@ pub(crate) fn run(made: &[Made]) -> Run {
             max_color_attachments: 4,
             formats: [].into(),
             features: [].into(),
+            paths: Default::default(),
             sample_positions: [].into(),
         },
     };

@@ -79,6 +79,7 @@ pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
             ]
             .into(),
             features: [Feature::FrontAndBackCulling].into(),
+            paths: Default::default(),
             sample_positions: [(4, vec![[96, 32], [224, 96], [32, 160], [160, 224]])].into(),
         },
     }

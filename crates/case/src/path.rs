@@ -1,0 +1,147 @@
+//! Paths that a scene cannot take.
+//!
+//! A value applies to those attachments and draws that it can apply to. A scene without any is refused,
+//! since its case would say something that no driver executes.
+
+use crate::error::At;
+use etalon_frame::{PathArea, PathDraws, PathEnd, PathStart, PathTarget, PathValue};
+use etalon_scene::{Attachment, Scene};
+
+/// Checks that every value of a scene's path applies to something.
+pub(crate) fn check_path(scene: &Scene) -> Result<(), At> {
+    for value in scene.path.values() {
+        if let Some(reason) = impossible(scene, value) {
+            return Err(At::new(format!("{value}: {reason}")).key(value.key()));
+        }
+    }
+    Ok(())
+}
+
+/// The reason why a value applies to nothing in the scene.
+fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
+    let any = |holds: &dyn Fn(usize, &Attachment) -> bool| {
+        let mut all = scene.attachments.iter().enumerate();
+        all.any(|(index, attachment)| holds(index, attachment))
+    };
+    let draws = || scene.passes.iter().flat_map(|p| &p.draws);
+    let made = || scene.on_path();
+    let (applies, reason) = match value {
+        PathValue::Start(PathStart::Transfer) => return None,
+        PathValue::Start(_) => (
+            made().attachments != scene.attachments,
+            "no attachment is drawn to first, from a clear value that is kept exactly",
+        ),
+        PathValue::Draws(PathDraws::Direct | PathDraws::Indirect) | PathValue::State(_) => {
+            (draws().next().is_some(), "there is no draw")
+        }
+        PathValue::Draws(_) => {
+            let called = |s: &Scene| -> Vec<_> {
+                let draws = s.passes.iter().flat_map(|p| &p.draws);
+                draws.map(|d| (d.mesh.clone(), d.fetch)).collect()
+            };
+            let mut without = scene.clone();
+            without.path.draws = PathDraws::Direct;
+            (
+                called(&made()) != called(&without.on_path()),
+                "every draw is called so already, or cannot be",
+            )
+        }
+        PathValue::Target(PathTarget::MipLevel) => (
+            any(&|_, a| a.samples == 1),
+            "no attachment has a single sample",
+        ),
+        PathValue::Target(PathTarget::CubeFace) => (
+            any(&|_, a| a.samples == 1 && a.size[0] == a.size[1]),
+            "no attachment is square, with a single sample",
+        ),
+        PathValue::Target(PathTarget::Slice3d) => (
+            any(&|i, a| {
+                a.samples == 1 && a.format.is_color() && !draws().any(|d| d.textures.contains(&i))
+            }),
+            "no attachment is of colour with a single sample, and not fetched from",
+        ),
+        PathValue::End(PathEnd::Blit | PathEnd::ShaderRead) => (
+            any(&|i, a| a.samples == 1 && scene.read.contains(&i)),
+            "no attachment with a single sample is read back",
+        ),
+        PathValue::End(PathEnd::Part) => (
+            any(&|i, a| a.samples == 1 && a.size[0] > 1 && scene.read.contains(&i)),
+            "no attachment that is read back has two columns and a single sample",
+        ),
+        PathValue::Area(PathArea::Part) => (
+            scene.counters.is_empty() && any(&|_, a| a.size[0] > 1),
+            "a draw in two parts counts twice, or nothing has two columns",
+        ),
+        PathValue::Pass(_)
+        | PathValue::Target(_)
+        | PathValue::Commands(_)
+        | PathValue::End(_)
+        | PathValue::Area(_)
+        | PathValue::Clip(_)
+        | PathValue::Viewport(_) => (!scene.passes.is_empty(), "there is no pass"),
+    };
+    (!applies).then_some(reason)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::resolve::parse_scene;
+    use etalon_frame::{PathStart, PathValue};
+    use serde_json::{Value, json};
+
+    fn scene(attachment: Value, path: Value) -> Value {
+        json!({
+            "attachments": { "color": attachment },
+            "passes": [{ "color": ["color"], "draws": [{
+                "mesh": { "kind": "full" }, "shader": "flat_color"
+            }] }],
+            "read": ["color"], "path": path
+        })
+    }
+
+    #[test]
+    fn a_path_is_a_key_of_a_scene() {
+        let attachment = json!({ "format": "rgba8unorm" });
+        let scene = scene(attachment, json!({ "start": "load-operation" }));
+        let parsed = parse_scene(&scene).expect("it is valid");
+        assert_eq!(parsed.path.start, PathStart::LoadOperation);
+        let names: Vec<_> = parsed
+            .requirements()
+            .iter()
+            .map(|r| r.to_string())
+            .collect();
+        assert!(names.contains(&"path start=load-operation".to_owned()));
+        let text = serde_json::to_string(&parsed).expect("it is plain data");
+        assert_eq!(serde_json::from_str(&text).ok(), Some(parsed));
+    }
+
+    #[test]
+    fn every_value_is_taken_by_some_scene() {
+        for value in PathValue::all() {
+            let attachment = json!({ "format": "rgba8unorm" });
+            let path = json!({ value.key(): value.name() });
+            let parsed = parse_scene(&scene(attachment, path));
+            assert!(parsed.is_ok(), "{value}: {parsed:?}");
+        }
+    }
+
+    #[test]
+    fn a_value_that_applies_to_nothing_is_refused() {
+        let several = json!({ "format": "rgba8unorm", "samples": 4 });
+        let texels = json!({ "format": "rgba8unorm", "texels": { "kind": "codes" } });
+        let grey = json!({ "format": "rgba8unorm", "clear": [0.5, 0.5, 0.5, 0.5] });
+        for (attachment, path, words) in [
+            (
+                &texels,
+                json!({ "start": "load-operation" }),
+                "start=load-operation",
+            ),
+            (&grey, json!({ "start": "draw" }), "kept exactly"),
+            (&several, json!({ "target": "mip-level" }), "single sample"),
+            (&several, json!({ "end": "blit" }), "single sample"),
+        ] {
+            let error = parse_scene(&scene(attachment.clone(), path)).expect_err(words);
+            assert!(error.message.contains(words), "{}", error.message);
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! Values of a path: the ways in which a scene reaches the driver, one enumeration per key.
+//!
+//! They stand here, and not beside scenes, because limits name them: an adapter has a value or lacks it.
+//! The first value of each enumeration is the default, which every adapter has.
+
+use crate::state_enum;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// Declares the enumerations of a path, [`PathValue`] over all of them, and `all_values`.
+macro_rules! path_values {
+    ($($(#[$doc:meta])* $kind:ident($name:ident) = $key:literal
+        { $(#[$default_doc:meta])* $default:ident = $default_text:literal, $($(#[$value_doc:meta])* $value:ident = $text:literal),+ $(,)? })+) => {
+        $(state_enum! {
+            $(#[$doc])*
+            #[derive(Default)]
+            $name {
+                $(#[$default_doc])* #[default] $default = $default_text,
+                $($(#[$value_doc])* $value = $text),+
+            }
+        })+
+
+        /// One value of one key of a path.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum PathValue {
+            $($(#[$doc])* $kind($name)),+
+        }
+
+        impl PathValue {
+            /// The key in case files.
+            pub fn key(self) -> &'static str {
+                match self { $(Self::$kind(_) => $key),+ }
+            }
+
+            /// The value's name in case files.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$kind(value) => value.name()),+ }
+            }
+
+            /// True if every adapter has the value.
+            pub fn is_default(self) -> bool {
+                match self { $(Self::$kind(value) => value == $name::default()),+ }
+            }
+
+            /// Every value but the defaults, by key.
+            pub fn all() -> Vec<Self> {
+                let mut all = Vec::new();
+                $(all.extend($name::ALL.iter().copied().map(Self::$kind));)+
+                all.retain(|value| !value.is_default());
+                all
+            }
+        }
+    };
+}
+
+path_values! {
+    /// The way in which attachments receive their initial contents.
+    Start(PathStart) = "start" {
+        /// A transfer before the first pass.
+        Transfer = "transfer",
+        /// The load operation of the first pass.
+        LoadOperation = "load-operation",
+        /// A clear command at the beginning of the first pass.
+        ClearCommand = "clear-command",
+        /// A draw at the beginning of the first pass.
+        Draw = "draw",
+    }
+    /// The object that a pass is.
+    Pass(PathPass) = "pass" {
+        /// Rendering without objects; in APIs that know no other pass, theirs.
+        DynamicRendering = "dynamic-rendering",
+        /// A render pass of one subpass, and its framebuffer.
+        RenderPass = "render-pass",
+        /// The second subpass of a render pass, behind one that draws nothing.
+        SecondSubpass = "second-subpass",
+    }
+    /// The way in which state is set.
+    State(PathState) = "state" {
+        /// Between the draws, as far as the API has it without extensions.
+        Dynamic = "dynamic",
+        /// In the pipeline.
+        Static = "static",
+        /// Between the draws, with extended dynamic state 3 too.
+        ExtendedDynamic3 = "extended-dynamic-3",
+        /// Twice before every draw, to other values first.
+        Overwritten = "overwritten",
+        /// Before another pipeline is bound, and the draw's own again.
+        OtherPipeline = "other-pipeline",
+    }
+    /// The part of a texture that an attachment is.
+    Target(PathTarget) = "target" {
+        /// A texture of one level and layer.
+        Plain = "plain",
+        /// A level above 0.
+        MipLevel = "mip-level",
+        /// A layer above 0.
+        ArrayLayer = "array-layer",
+        /// A slice above 0 of a three-dimensional texture.
+        Slice3d = "slice-3d",
+        /// A face above 0 of a cube.
+        CubeFace = "cube-face",
+        /// A renderbuffer, which has no texture.
+        Renderbuffer = "renderbuffer",
+    }
+    /// The command buffers of a submission.
+    Commands(PathCommands) = "commands" {
+        /// One.
+        One = "one",
+        /// A primary command buffer for each pass.
+        Several = "several",
+        /// A secondary command buffer for the draws of each pass.
+        Secondary = "secondary",
+    }
+    /// The kind of draw calls.
+    Draws(PathDraws) = "draws" {
+        /// The scene's own.
+        Direct = "direct",
+        /// Indexed with 16 bits.
+        Indexed16 = "indexed-16",
+        /// Indexed with 32 bits.
+        Indexed32 = "indexed-32",
+        /// Indexed, with a number that is added to every index, behind unused vertices and indices.
+        BaseVertex = "base-vertex",
+        /// The colour from a buffer that advances once an instance.
+        Instanced = "instanced",
+        /// Arguments from a buffer.
+        Indirect = "indirect",
+        /// Lists as strips that the greatest index ends.
+        Restart = "restart",
+    }
+    /// The way from an attachment to the host.
+    End(PathEnd) = "end" {
+        /// A transfer of the attachment.
+        Store = "store",
+        /// A copy to another texture, which is then read.
+        Copy = "copy",
+        /// A blit of equal size to another texture, which is then read.
+        Blit = "blit",
+        /// A shader.
+        ShaderRead = "shader-read",
+        /// Several transfers, each of a part.
+        Part = "part",
+    }
+    /// The render area.
+    Area(PathArea) = "area" {
+        /// The whole of the attachments.
+        Full = "full",
+        /// A part: every pass is recorded once for each half of its attachments.
+        Part = "part",
+    }
+    /// The clip volume's convention.
+    Clip(PathClip) = "clip" {
+        /// One for all draws.
+        Constant = "constant",
+        /// Another one between the draws.
+        Toggled = "toggled",
+    }
+    /// Viewports and scissor rectangles.
+    Viewport(PathViewport) = "viewport" {
+        /// One, whose number the pipeline states.
+        One = "one",
+        /// One, whose number is set with it.
+        WithCount = "with-count",
+        /// An array of which a shader names the second.
+        Array = "array",
+    }
+}
+
+impl fmt::Display for PathValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.key(), self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn values_are_told_apart() {
+        let all = PathValue::all();
+        let names: BTreeSet<_> = all.iter().map(PathValue::to_string).collect();
+        assert_eq!(names.len(), all.len());
+        assert!(names.contains("start=load-operation"));
+        assert!(!names.contains("start=transfer"));
+    }
+}

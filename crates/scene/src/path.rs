@@ -1,0 +1,87 @@
+//! Paths: the way in which a scene reaches the driver.
+//!
+//! A scene is what is drawn, a path how. A path holds only what leaves the legal set as it is, so neither
+//! the judge nor the rasterizer looks at it: they take every value and draw the scene. A backend says in
+//! its limits which values it has; each value that is not the default is a requirement.
+
+use etalon_frame::{
+    PathArea, PathClip, PathCommands, PathDraws, PathEnd, PathPass, PathStart, PathState,
+    PathTarget, PathValue, PathViewport,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// One value for each key. The default is the way that every adapter has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Path {
+    /// The way in which attachments receive their initial contents.
+    pub start: PathStart,
+    /// The object that a pass is.
+    pub pass: PathPass,
+    /// The way in which state is set.
+    pub state: PathState,
+    /// The part of a texture that an attachment is.
+    pub target: PathTarget,
+    /// The command buffers of a submission.
+    pub commands: PathCommands,
+    /// The kind of draw calls.
+    pub draws: PathDraws,
+    /// The way from an attachment to the host.
+    pub end: PathEnd,
+    /// The render area.
+    pub area: PathArea,
+    /// The clip volume's convention.
+    pub clip: PathClip,
+    /// Viewports and scissor rectangles.
+    pub viewport: PathViewport,
+}
+
+impl Path {
+    /// The values that are not the default.
+    pub fn values(&self) -> Vec<PathValue> {
+        // A key that is added to the structure must be added here.
+        let Self {
+            start,
+            pass,
+            state,
+            target,
+            commands,
+            draws,
+            end,
+            area,
+            clip,
+            viewport,
+        } = *self;
+        let all = [
+            PathValue::Start(start),
+            PathValue::Pass(pass),
+            PathValue::State(state),
+            PathValue::Target(target),
+            PathValue::Commands(commands),
+            PathValue::Draws(draws),
+            PathValue::End(end),
+            PathValue::Area(area),
+            PathValue::Clip(clip),
+            PathValue::Viewport(viewport),
+        ];
+        all.into_iter().filter(|v| !v.is_default()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_names_what_differs_from_the_default() {
+        assert!(Path::default().values().is_empty());
+        let path = Path {
+            start: PathStart::LoadOperation,
+            viewport: PathViewport::Array,
+            ..Path::default()
+        };
+        let names: Vec<_> = path.values().iter().map(PathValue::to_string).collect();
+        assert_eq!(names, ["start=load-operation", "viewport=array"]);
+    }
+}
