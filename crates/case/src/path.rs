@@ -4,7 +4,9 @@
 //! since its case would say something that no driver executes.
 
 use crate::error::At;
-use etalon_frame::{PathArea, PathDraws, PathEnd, PathStart, PathTarget, PathValue};
+use etalon_frame::{
+    ChannelEncoding, PathArea, PathDraws, PathEnd, PathStart, PathTarget, PathValue, TextureFormat,
+};
 use etalon_scene::{Attachment, Scene};
 
 /// Checks that every value of a scene's path applies to something.
@@ -22,6 +24,12 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
     let any = |holds: &dyn Fn(usize, &Attachment) -> bool| {
         let mut all = scene.attachments.iter().enumerate();
         all.any(|(index, attachment)| holds(index, attachment))
+    };
+    let read = |index: usize, a: &Attachment| a.samples == 1 && scene.read.contains(&index);
+    // What a blit might round.
+    let normalized = |a: &Attachment| {
+        let mut channels = a.format.color_channels().iter();
+        channels.any(|e| !e.is_float() && !matches!(e, ChannelEncoding::Uint(_)))
     };
     let draws = || scene.passes.iter().flat_map(|p| &p.draws);
     let made = || scene.on_path();
@@ -60,13 +68,21 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             }),
             "no attachment is of colour with a single sample, and not fetched from",
         ),
-        PathValue::End(PathEnd::Blit | PathEnd::ShaderRead) => (
-            any(&|i, a| a.samples == 1 && scene.read.contains(&i)),
-            "no attachment with a single sample is read back",
+        PathValue::End(PathEnd::Blit) => (
+            any(&|i, a| read(i, a) && !normalized(a)),
+            "no attachment with a single sample is read back, of floats, integers, depth or stencil",
+        ),
+        PathValue::End(PathEnd::ShaderRead) => (
+            any(&|i, a| {
+                read(i, a)
+                    && a.format != TextureFormat::Rgba8Snorm
+                    && a.format != TextureFormat::Rgba8UnormSrgb
+            }),
+            "no attachment with a single sample is read back whose codes a shader sees",
         ),
         PathValue::End(PathEnd::Part) => (
-            any(&|i, a| a.samples == 1 && a.size[0] > 1 && scene.read.contains(&i)),
-            "no attachment that is read back has two columns and a single sample",
+            any(&|i, a| read(i, a) && a.size.iter().any(|side| *side > 11)),
+            "no attachment that is read back has 12 columns or rows and a single sample",
         ),
         PathValue::Area(PathArea::Part) => (
             scene.counters.is_empty() && any(&|_, a| a.size[0] > 1),
@@ -118,7 +134,7 @@ mod tests {
     #[test]
     fn every_value_is_taken_by_some_scene() {
         for value in PathValue::all() {
-            let attachment = json!({ "format": "rgba8unorm" });
+            let attachment = json!({ "format": "rgba16float" });
             let path = json!({ value.key(): value.name() });
             let parsed = parse_scene(&scene(attachment, path));
             assert!(parsed.is_ok(), "{value}: {parsed:?}");

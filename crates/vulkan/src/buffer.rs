@@ -56,6 +56,7 @@ impl Buffer {
             BufferUse::Input => (
                 vk::BufferUsageFlags::VERTEX_BUFFER
                     | vk::BufferUsageFlags::INDEX_BUFFER
+                    | vk::BufferUsageFlags::INDIRECT_BUFFER
                     | vk::BufferUsageFlags::UNIFORM_BUFFER
                     | vk::BufferUsageFlags::TRANSFER_SRC,
                 vk::MemoryPropertyFlags::DEVICE_LOCAL,

@@ -7,6 +7,7 @@ use etalon_backend::BackendError;
 use etalon_scene::{Clear, ClearTarget, LoadOperation, Operations, StoreOperation};
 
 /// The load and store operation of one aspect.
+#[derive(Clone)]
 pub(crate) struct Ends {
     pub(crate) load: vk::AttachmentLoadOp,
     pub(crate) store: vk::AttachmentStoreOp,
@@ -30,6 +31,15 @@ impl Ends {
         };
         Self { load, store, value }
     }
+
+    /// Returns the operations that keep what there is.
+    pub(crate) fn kept() -> Self {
+        Self {
+            load: vk::AttachmentLoadOp::LOAD,
+            store: vk::AttachmentStoreOp::STORE,
+            value: vk::ClearValue::default(),
+        }
+    }
 }
 
 /// A clear command.
@@ -40,7 +50,13 @@ pub(crate) struct ClearPlan {
 
 impl ClearPlan {
     /// Returns the command; `integer` tells the colour attachment's kind.
-    pub(crate) fn new(clear: &Clear, integer: bool, size: [u32; 2]) -> Result<Self, BackendError> {
+    /// `None` if it lies outside the render area.
+    pub(crate) fn new(
+        clear: &Clear,
+        integer: bool,
+        size: [u32; 2],
+        area: vk::Rect2D,
+    ) -> Result<Option<Self>, BackendError> {
         let attachment = match clear.target {
             ClearTarget::Color {
                 location, value, ..
@@ -72,20 +88,21 @@ impl ClearPlan {
         };
         let [x, y, width, height] = clear.rect.unwrap_or([0, 0, size[0], size[1]]);
         let offset = |v: u32| i32::try_from(v).map_err(|_| internal("a rectangle lies outside"));
-        Ok(Self {
+        let rect = vk::Rect2D {
+            offset: vk::Offset2D {
+                x: offset(x)?,
+                y: offset(y)?,
+            },
+            extent: vk::Extent2D { width, height },
+        };
+        Ok(intersection(rect, area).map(|rect| Self {
             attachment,
             rect: vk::ClearRect {
-                rect: vk::Rect2D {
-                    offset: vk::Offset2D {
-                        x: offset(x)?,
-                        y: offset(y)?,
-                    },
-                    extent: vk::Extent2D { width, height },
-                },
+                rect,
                 base_array_layer: 0,
                 layer_count: 1,
             },
-        })
+        }))
     }
 
     /// Records the command.
@@ -100,6 +117,25 @@ impl ClearPlan {
                 .cmd_clear_attachments(commands, &[self.attachment], &[self.rect]);
         }
     }
+}
+
+/// Returns the texels that two rectangles share, if there are any.
+pub(crate) fn intersection(a: vk::Rect2D, b: vk::Rect2D) -> Option<vk::Rect2D> {
+    let shared = |a: (i32, u32), b: (i32, u32)| {
+        let end = |(start, length): (i32, u32)| i64::from(start) + i64::from(length);
+        let start = a.0.max(b.0);
+        let length = end(a).min(end(b)) - i64::from(start);
+        u32::try_from(length)
+            .ok()
+            .filter(|l| *l > 0)
+            .map(|l| (start, l))
+    };
+    let (x, width) = shared((a.offset.x, a.extent.width), (b.offset.x, b.extent.width))?;
+    let (y, height) = shared((a.offset.y, a.extent.height), (b.offset.y, b.extent.height))?;
+    Some(vk::Rect2D {
+        offset: vk::Offset2D { x, y },
+        extent: vk::Extent2D { width, height },
+    })
 }
 
 /// Returns a clear value of a colour attachment, of integers or other numbers.

@@ -34,6 +34,8 @@ pub(crate) struct Device {
     pub(crate) compute: bool,
     /// The enabled optional features: those that the suite uses and the device has.
     pub(crate) features: vk::PhysicalDeviceFeatures,
+    /// True if a vertex shader may choose the second of two viewports.
+    pub(crate) second_viewport: bool,
     /// Valid bits of a timestamp; 0 if timestamps are not supported.
     pub(crate) timestamp_bits: u32,
 }
@@ -127,16 +129,18 @@ fn bound_version(device: u32) -> ApiVersion {
     )
 }
 
-/// Returns the promises of maintenance5, where the device has it.
-fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Property> {
+/// True if a device has an extension.
+fn has_extension(api: &ash::Instance, physical: vk::PhysicalDevice, name: &CStr) -> bool {
     // SAFETY: `physical` is of this instance.
     let extensions = unsafe { api.enumerate_device_extension_properties(physical) };
-    let has = |name: &CStr| {
-        let all = extensions.iter().flatten();
-        all.into_iter()
-            .any(|e| e.extension_name_as_c_str().is_ok_and(|n| n == name))
-    };
-    if !has(ash::khr::maintenance5::NAME) {
+    let all = extensions.iter().flatten();
+    all.into_iter()
+        .any(|e| e.extension_name_as_c_str().is_ok_and(|n| n == name))
+}
+
+/// Returns the promises of maintenance5, where the device has it.
+fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Property> {
+    if !has_extension(api, physical, ash::khr::maintenance5::NAME) {
         return BTreeSet::new();
     }
     let mut raw = vk::PhysicalDeviceMaintenance5PropertiesKHR::default();
@@ -189,11 +193,13 @@ fn used_features(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures
         depth_bias_clamp: has.depth_bias_clamp,
         depth_bounds: has.depth_bounds,
         depth_clamp: has.depth_clamp,
+        draw_indirect_first_instance: has.draw_indirect_first_instance,
         dual_src_blend: has.dual_src_blend,
         fill_mode_non_solid: has.fill_mode_non_solid,
         fragment_stores_and_atomics: has.fragment_stores_and_atomics,
         independent_blend: has.independent_blend,
         logic_op: has.logic_op,
+        multi_viewport: has.multi_viewport,
         occlusion_query_precise: has.occlusion_query_precise,
         pipeline_statistics_query: has.pipeline_statistics_query,
         sample_rate_shading: has.sample_rate_shading,
@@ -241,6 +247,10 @@ impl Device {
             .queue_family_index(index)
             .queue_priorities(&priorities)];
         let enabled = used_features(&features);
+        let second_viewport = features.multi_viewport != 0
+            && properties.limits.max_viewports > 1
+            && has_extension(api, physical, ash::ext::shader_viewport_index_layer::NAME);
+        let extensions = [ash::ext::shader_viewport_index_layer::NAME.as_ptr()];
         // Both are mandatory in Vulkan 1.3.
         let mut enabled13 = vk::PhysicalDeviceVulkan13Features::default()
             .dynamic_rendering(true)
@@ -248,6 +258,7 @@ impl Device {
         let info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .enabled_features(&enabled)
+            .enabled_extension_names(&extensions[..usize::from(second_viewport)])
             .push_next(&mut enabled13);
         // SAFETY: every pointer in `info` outlives the call.
         let raw = unsafe { api.create_device(physical, &info, None) }.map_err(|code| {
@@ -273,6 +284,7 @@ impl Device {
             resolves: Resolves::of(api, physical),
             compute: family.queue_flags.contains(compute),
             features: enabled,
+            second_viewport,
             timestamp_bits: if properties.limits.timestamp_period > 0.0 {
                 family.timestamp_valid_bits
             } else {
@@ -281,6 +293,17 @@ impl Device {
             instance,
             raw,
         })
+    }
+
+    /// True if images of a format can be blitted from and to.
+    pub(crate) fn blits(&self, format: vk::Format) -> bool {
+        let both = vk::FormatFeatureFlags::BLIT_SRC | vk::FormatFeatureFlags::BLIT_DST;
+        // SAFETY: the physical device is of this living instance.
+        let properties = unsafe {
+            let api = self.instance.raw();
+            api.get_physical_device_format_properties(self.physical, format)
+        };
+        properties.optimal_tiling_features.contains(both)
     }
 
     /// Returns the memory types among `allowed` that have the requested flags, in order of

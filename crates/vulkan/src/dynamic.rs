@@ -4,20 +4,20 @@
 //! Vulkan asks for the parameters of tests that are off as well. They may not act, so they are those
 //! that would be seen: a driver that forgets to ask whether a test is enabled must not pass by chance.
 
+use crate::clear::intersection;
 use crate::device::Device;
 use crate::error::internal;
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
+use etalon_frame::PathViewport;
 use etalon_scene::{
     CompareFunction, CullMode, DepthBias, DepthState, Draw, FrontFace, PrimitiveTopology,
     StencilFace, StencilOperation, StencilState, Viewport,
 };
 
-/// The dynamic states of every pipeline. The topology stays in the class of the pipeline's own.
-pub(crate) const STATES: [vk::DynamicState; 20] = [
-    vk::DynamicState::VIEWPORT,
-    vk::DynamicState::SCISSOR,
+/// The dynamic states of a pipeline besides viewports. The topology stays in the class of the pipeline's own.
+const STATES: [vk::DynamicState; 18] = [
     vk::DynamicState::PRIMITIVE_TOPOLOGY,
     vk::DynamicState::PRIMITIVE_RESTART_ENABLE,
     vk::DynamicState::CULL_MODE,
@@ -38,9 +38,34 @@ pub(crate) const STATES: [vk::DynamicState; 20] = [
     vk::DynamicState::BLEND_CONSTANTS,
 ];
 
+/// The way in which the state of a draw is set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Setting {
+    /// True if all of it is in the pipeline.
+    pub(crate) fixed: bool,
+    pub(crate) viewport: PathViewport,
+}
+
+impl Setting {
+    /// Returns the dynamic states.
+    pub(crate) fn states(self) -> Vec<vk::DynamicState> {
+        let viewports: &[_] = match (self.viewport, self.fixed) {
+            (PathViewport::WithCount, _) => &[
+                vk::DynamicState::VIEWPORT_WITH_COUNT,
+                vk::DynamicState::SCISSOR_WITH_COUNT,
+            ],
+            (_, true) => &[],
+            (_, false) => &[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR],
+        };
+        let rest: &[_] = if self.fixed { &[] } else { &STATES };
+        [viewports, rest].concat()
+    }
+}
+
 /// The dynamic state of one draw.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Dynamic {
+    setting: Setting,
     viewport: vk::Viewport,
     scissor: vk::Rect2D,
     topology: PrimitiveTopology,
@@ -56,19 +81,31 @@ pub(crate) struct Dynamic {
 }
 
 impl Dynamic {
-    /// Returns the state of a draw into attachments of this size. `restart` enables primitive
+    /// Returns the state of a draw into this part of its attachments. `restart` enables primitive
     /// restart.
     ///
     /// # Errors
     /// If depth bounds lie outside 0..=1, which Vulkan cannot express (vkCmdSetDepthBounds).
-    pub(crate) fn new(draw: &Draw, size: [u32; 2], restart: bool) -> Result<Self, BackendError> {
+    pub(crate) fn new(
+        draw: &Draw,
+        area: vk::Rect2D,
+        whole: bool,
+        restart: bool,
+        setting: Setting,
+    ) -> Result<Self, BackendError> {
         let bounds = draw.depth_bounds.iter().flatten();
         if bounds.into_iter().any(|b| !(0.0..=1.0).contains(b)) {
             return Err(internal("depth bounds lie outside 0 to 1"));
         }
+        let given = draw.scissor.map(scissor);
         Ok(Self {
+            setting,
             viewport: viewport(&draw.viewport),
-            scissor: scissor(draw.scissor.unwrap_or([0, 0, size[0], size[1]])),
+            scissor: match given {
+                None => area,
+                Some(given) if whole => given,
+                Some(given) => intersection(given, area).unwrap_or_default(),
+            },
             topology: draw.topology,
             restart,
             cull: draw.cull,
@@ -82,20 +119,152 @@ impl Dynamic {
         })
     }
 
-    /// Records all of [`STATES`].
+    /// Returns both viewports and scissor rectangles: of one, or of two of which the second counts.
+    pub(crate) fn viewports(&self) -> ([vk::Viewport; 2], [vk::Rect2D; 2], usize) {
+        let turned = vk::Viewport {
+            y: self.viewport.y + self.viewport.height,
+            height: -self.viewport.height,
+            ..self.viewport
+        };
+        match self.setting.viewport {
+            PathViewport::Array => (
+                [turned, self.viewport],
+                [vk::Rect2D::default(), self.scissor],
+                2,
+            ),
+            PathViewport::One | PathViewport::WithCount => {
+                ([self.viewport; 2], [self.scissor; 2], 1)
+            }
+        }
+    }
+
+    /// Returns the depth bias, and true if it is on.
+    fn bias(&self) -> (DepthBias, bool) {
+        let biased = self.depth_bias.constant != 0 || self.depth_bias.slope != 0.0;
+        (if biased { self.depth_bias } else { IDLE_BIAS }, biased)
+    }
+
+    fn stencil(&self) -> StencilState {
+        self.stencil.unwrap_or(StencilState {
+            front: IDLE_FACE,
+            back: IDLE_FACE,
+        })
+    }
+
+    /// Returns another state than this one in everything: what it draws, if anything, is wrong.
+    pub(crate) fn opposite(&self) -> Self {
+        let mut other = *self;
+        other.viewport.width += 1.0;
+        other.scissor = vk::Rect2D::default();
+        other.restart = false;
+        other.cull = CullMode::FrontAndBack;
+        other.front_face = match self.front_face {
+            FrontFace::Ccw => FrontFace::Cw,
+            FrontFace::Cw => FrontFace::Ccw,
+        };
+        other.rasterizer_discard = !self.rasterizer_discard;
+        other.depth_bias = if self.bias().1 {
+            DepthBias::default()
+        } else {
+            IDLE_BIAS
+        };
+        other.depth = match self.depth {
+            None => Some(IDLE_DEPTH),
+            Some(_) => None,
+        };
+        other.stencil = match self.stencil {
+            None => Some(self.stencil()),
+            Some(_) => None,
+        };
+        other.blend_constant = self.blend_constant.map(|c| 1.0 - c);
+        other
+    }
+
+    /// Returns the state as text, which tells any two states apart.
+    pub(crate) fn text(&self) -> String {
+        format!("{self:?}")
+    }
+
+    /// Returns the state of rasterization for a pipeline.
+    pub(crate) fn rasterization(&self) -> vk::PipelineRasterizationStateCreateInfo<'static> {
+        let (bias, biased) = self.bias();
+        vk::PipelineRasterizationStateCreateInfo::default()
+            .cull_mode(state::cull(self.cull))
+            .front_face(state::front_face(self.front_face))
+            .rasterizer_discard_enable(self.rasterizer_discard)
+            .depth_bias_enable(biased)
+            .depth_bias_constant_factor(bias.constant as f32)
+            .depth_bias_clamp(bias.clamp)
+            .depth_bias_slope_factor(bias.slope)
+    }
+
+    /// Returns the state of input assembly for a pipeline.
+    pub(crate) fn assembly(&self) -> vk::PipelineInputAssemblyStateCreateInfo<'static> {
+        vk::PipelineInputAssemblyStateCreateInfo::default()
+            .topology(state::topology(self.topology))
+            .primitive_restart_enable(self.restart)
+    }
+
+    /// Returns the state of the depth and stencil tests for a pipeline.
+    pub(crate) fn depth_stencil(&self) -> vk::PipelineDepthStencilStateCreateInfo<'static> {
+        let [low, high] = self.depth_bounds.unwrap_or(IDLE_BOUNDS);
+        let depth = self.depth.unwrap_or(IDLE_DEPTH);
+        let face = |side: &StencilFace| vk::StencilOpState {
+            fail_op: state::stencil(side.fail_op),
+            pass_op: state::stencil(side.pass_op),
+            depth_fail_op: state::stencil(side.depth_fail_op),
+            compare_op: state::compare(side.compare),
+            compare_mask: side.read_mask.into(),
+            write_mask: side.write_mask.into(),
+            reference: side.reference.into(),
+        };
+        let stencil = self.stencil();
+        vk::PipelineDepthStencilStateCreateInfo::default()
+            .depth_test_enable(self.depth.is_some())
+            .depth_write_enable(depth.write)
+            .depth_compare_op(state::compare(depth.compare))
+            .depth_bounds_test_enable(self.depth_bounds.is_some())
+            .min_depth_bounds(low)
+            .max_depth_bounds(high)
+            .stencil_test_enable(self.stencil.is_some())
+            .front(face(&stencil.front))
+            .back(face(&stencil.back))
+    }
+
+    /// Returns the blend constant for a pipeline.
+    pub(crate) fn blend_constants(&self) -> [f32; 4] {
+        self.blend_constant
+    }
+
+    /// Records all of [`Setting::states`].
     ///
     /// # Safety
     /// `commands` is recording, and the device has the features that the draw needs.
     pub(crate) unsafe fn set(&self, device: &Device, commands: vk::CommandBuffer) {
         let api = &device.raw;
-        let biased = self.depth_bias.constant != 0 || self.depth_bias.slope != 0.0;
-        let bias = if biased { self.depth_bias } else { IDLE_BIAS };
-        let [low, high] = self.depth_bounds.unwrap_or(IDLE_BOUNDS);
-        let depth = self.depth.unwrap_or(IDLE_DEPTH);
+        let (viewports, scissors, count) = self.viewports();
         // SAFETY: the caller's; no call here takes a pointer that outlives it.
         unsafe {
-            api.cmd_set_viewport(commands, 0, &[self.viewport]);
-            api.cmd_set_scissor(commands, 0, &[self.scissor]);
+            match (self.setting.viewport, self.setting.fixed) {
+                (PathViewport::WithCount, _) => {
+                    api.cmd_set_viewport_with_count(commands, &viewports[..count]);
+                    api.cmd_set_scissor_with_count(commands, &scissors[..count]);
+                }
+                (_, true) => {}
+                (_, false) => {
+                    api.cmd_set_viewport(commands, 0, &viewports[..count]);
+                    api.cmd_set_scissor(commands, 0, &scissors[..count]);
+                }
+            }
+        }
+        if self.setting.fixed {
+            return;
+        }
+        let (bias, biased) = self.bias();
+        let [low, high] = self.depth_bounds.unwrap_or(IDLE_BOUNDS);
+        let depth = self.depth.unwrap_or(IDLE_DEPTH);
+        // SAFETY: as above.
+        unsafe {
             api.cmd_set_primitive_topology(commands, state::topology(self.topology));
             api.cmd_set_primitive_restart_enable(commands, self.restart);
             api.cmd_set_cull_mode(commands, state::cull(self.cull));
@@ -110,10 +279,7 @@ impl Dynamic {
             api.cmd_set_depth_compare_op(commands, state::compare(depth.compare));
             api.cmd_set_blend_constants(commands, &self.blend_constant);
             api.cmd_set_stencil_test_enable(commands, self.stencil.is_some());
-            let stencil = self.stencil.unwrap_or(StencilState {
-                front: IDLE_FACE,
-                back: IDLE_FACE,
-            });
+            let stencil = self.stencil();
             for (face, side) in [
                 (vk::StencilFaceFlags::FRONT, &stencil.front),
                 (vk::StencilFaceFlags::BACK, &stencil.back),

@@ -6,6 +6,7 @@ use crate::format;
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
+use etalon_frame::PathTarget;
 
 /// The properties that interchangeable images share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +15,111 @@ pub(crate) struct ImageKey {
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
     pub(crate) usage: vk::ImageUsageFlags,
+    /// The part of the image that is used.
+    pub(crate) target: PathTarget,
+}
+
+/// The level, layer and slice of an image that is used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Place {
+    level: u32,
+    layer: u32,
+    slice: u32,
+}
+
+/// The form of an image around the part that is used.
+pub(crate) struct Shape {
+    pub(crate) kind: vk::ImageType,
+    pub(crate) extent: vk::Extent3D,
+    pub(crate) levels: u32,
+    pub(crate) layers: u32,
+    pub(crate) flags: vk::ImageCreateFlags,
+    pub(crate) place: Place,
+}
+
+impl ImageKey {
+    /// Returns the form. The part that is used is never the first.
+    pub(crate) fn shape(&self) -> Shape {
+        let [width, height] = self.size;
+        let mut shape = Shape {
+            kind: vk::ImageType::TYPE_2D,
+            extent: vk::Extent3D {
+                width,
+                height,
+                depth: 1,
+            },
+            levels: 1,
+            layers: 1,
+            flags: vk::ImageCreateFlags::empty(),
+            place: Place::default(),
+        };
+        match self.target {
+            PathTarget::Plain | PathTarget::Renderbuffer => {}
+            PathTarget::MipLevel => {
+                // Odd sizes, which are rounded down from level to level.
+                shape.extent.width = 2 * width + 1;
+                shape.extent.height = 2 * height + 1;
+                shape.levels = 2;
+                shape.place.level = 1;
+            }
+            PathTarget::ArrayLayer => {
+                shape.layers = 3;
+                shape.place.layer = 2;
+            }
+            PathTarget::CubeFace => {
+                shape.layers = 6;
+                shape.flags = vk::ImageCreateFlags::CUBE_COMPATIBLE;
+                shape.place.layer = 4;
+            }
+            PathTarget::Slice3d => {
+                shape.kind = vk::ImageType::TYPE_3D;
+                shape.extent.depth = 4;
+                shape.flags = vk::ImageCreateFlags::TYPE_2D_ARRAY_COMPATIBLE;
+                shape.place.slice = 3;
+            }
+        }
+        shape
+    }
+}
+
+impl Place {
+    /// Returns the place as barriers and clears name it: all slices of its level and layer.
+    pub(crate) fn range(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
+        vk::ImageSubresourceRange {
+            aspect_mask: mask,
+            base_mip_level: self.level,
+            level_count: 1,
+            base_array_layer: self.layer,
+            layer_count: 1,
+        }
+    }
+
+    /// Returns the place as views name it: slices are layers.
+    fn viewed(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
+        vk::ImageSubresourceRange {
+            base_array_layer: self.layer + self.slice,
+            ..self.range(mask)
+        }
+    }
+
+    /// Returns the place as copies name it.
+    pub(crate) fn layers(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceLayers {
+        vk::ImageSubresourceLayers {
+            aspect_mask: mask,
+            mip_level: self.level,
+            base_array_layer: self.layer,
+            layer_count: 1,
+        }
+    }
+
+    /// Returns the offset of copies at a texel.
+    pub(crate) fn offset(self, x: u32, y: u32) -> vk::Offset3D {
+        vk::Offset3D {
+            x: x.cast_signed(),
+            y: y.cast_signed(),
+            z: self.slice.cast_signed(),
+        }
+    }
 }
 
 /// An image with its own memory.
@@ -54,22 +160,20 @@ impl Image {
         // The list of both formats keeps a mutable format from changing the image's memory layout.
         let both_formats = [key.format, unconverted.unwrap_or(key.format)];
         let mut list = vk::ImageFormatListCreateInfo::default().view_formats(&both_formats);
+        let shape = key.shape();
         let mut info = vk::ImageCreateInfo::default()
-            .image_type(vk::ImageType::TYPE_2D)
+            .flags(shape.flags)
+            .image_type(shape.kind)
             .format(key.format)
-            .extent(vk::Extent3D {
-                width: key.size[0],
-                height: key.size[1],
-                depth: 1,
-            })
-            .mip_levels(1)
-            .array_layers(1)
+            .extent(shape.extent)
+            .mip_levels(shape.levels)
+            .array_layers(shape.layers)
             .samples(state::samples(key.samples))
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(key.usage);
         if unconverted.is_some() {
             info = info
-                .flags(vk::ImageCreateFlags::MUTABLE_FORMAT)
+                .flags(shape.flags | vk::ImageCreateFlags::MUTABLE_FORMAT)
                 .push_next(&mut list);
         }
         // SAFETY: the device lives, and it supports the format.
@@ -117,7 +221,7 @@ impl Image {
             .image(self.raw)
             .view_type(vk::ImageViewType::TYPE_2D)
             .format(format)
-            .subresource_range(range(mask));
+            .subresource_range(self.place().viewed(mask));
         // SAFETY: the image is bound, lives as long as its views, and was made for this format.
         unsafe { device.raw.create_image_view(&info, None) }.check("an image view")
     }
@@ -143,6 +247,11 @@ impl Image {
         self.view(self.aspects())
     }
 
+    /// Returns the part of the image that is used.
+    pub(crate) fn place(&self) -> Place {
+        self.key.shape().place
+    }
+
     /// Returns all aspects of the image.
     pub(crate) fn aspects(&self) -> vk::ImageAspectFlags {
         format::aspect_mask(self.key.format)
@@ -158,16 +267,5 @@ impl Image {
             device.raw.destroy_image(self.raw, None);
             device.raw.free_memory(self.memory, None);
         }
-    }
-}
-
-/// The only mip level and array layer of an image.
-pub(crate) fn range(mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
-    vk::ImageSubresourceRange {
-        aspect_mask: mask,
-        base_mip_level: 0,
-        level_count: 1,
-        base_array_layer: 0,
-        layer_count: 1,
     }
 }

@@ -6,13 +6,16 @@ use crate::device::Device;
 use crate::format::{self, Native};
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_frame::TextureFormat;
+use etalon_frame::{PathDraws, TextureFormat};
 use etalon_scene::{Call, Contents, Draw, IndexFormat, Params, Scene, Vertex};
 use std::collections::BTreeMap;
 use std::mem::size_of;
 
 /// Bytes of the parameter block.
 pub(crate) const PARAMS_BYTES: u64 = size_of::<Params>() as u64;
+
+/// Bytes of the arguments of an indirect draw, with indices or without.
+const ARGUMENTS_BYTES: u64 = size_of::<vk::DrawIndexedIndirectCommand>() as u64;
 
 /// Assigns consecutive offsets in a buffer.
 #[derive(Default)]
@@ -37,6 +40,8 @@ pub(crate) struct DrawInputs {
     pub(crate) indices: Option<(u64, vk::IndexType)>,
     /// The offset of the colours of instances.
     pub(crate) colors: Option<u64>,
+    /// The offset of the arguments, in an indirect draw.
+    pub(crate) arguments: Option<u64>,
     /// True if an index restarts the primitive.
     pub(crate) restarts: bool,
     pub(crate) call: CallNumbers,
@@ -54,8 +59,21 @@ pub(crate) struct CallNumbers {
     pub(crate) first_instance: u32,
 }
 
+impl CallNumbers {
+    /// Returns the arguments as an indirect draw reads them (VkDrawIndexedIndirectCommand,
+    /// VkDrawIndirectCommand).
+    fn arguments(&self, indexed: bool) -> Vec<u8> {
+        let mut words = vec![self.count, self.instances, self.first];
+        if indexed {
+            words.push(self.base_vertex.cast_unsigned());
+        }
+        words.push(self.first_instance);
+        words.into_iter().flat_map(u32::to_ne_bytes).collect()
+    }
+}
+
 impl DrawInputs {
-    fn place(offsets: &mut OffsetAllocator, uniform: u64, draw: &Draw) -> Self {
+    fn place(offsets: &mut OffsetAllocator, uniform: u64, draw: &Draw, indirect: bool) -> Self {
         let params = offsets.allocate(PARAMS_BYTES, uniform);
         let call = call(draw);
         let bytes = size_of_val(&*call.vertices);
@@ -69,7 +87,9 @@ impl DrawInputs {
             (offsets.allocate(bytes as u64, size as u64), kind)
         });
         let colors = call.color_bytes().len() as u64;
+        let arguments = indirect.then(|| offsets.allocate(ARGUMENTS_BYTES, 4));
         Self {
+            arguments,
             vertices,
             params,
             indices,
@@ -111,7 +131,13 @@ impl Inputs {
         let uniform = device.limits.min_uniform_buffer_offset_alignment;
         let mut draws = Vec::with_capacity(scene.passes.len());
         for pass in &scene.passes {
-            let place = |draw: &Draw| DrawInputs::place(&mut offsets, uniform, draw);
+            // Without the feature, the first instance of an indirect draw is 0.
+            let place = |draw: &Draw| {
+                let first = draw.fetch.first_instance == 0
+                    || device.features.draw_indirect_first_instance != 0;
+                let indirect = scene.path.draws == PathDraws::Indirect && first;
+                DrawInputs::place(&mut offsets, uniform, draw, indirect)
+            };
             draws.push(pass.draws.iter().map(place).collect());
         }
         let mut texels = Vec::with_capacity(scene.attachments.len());
@@ -140,6 +166,9 @@ impl Inputs {
                 let call = call(draw);
                 buffer.write(place.vertices, call.vertex_bytes())?;
                 buffer.write(place.params, &draw.params.to_bytes())?;
+                if let Some(offset) = place.arguments {
+                    buffer.write(offset, &place.call.arguments(place.indices.is_some()))?;
+                }
                 if let Some((offset, _)) = place.indices {
                     buffer.write(offset, &call.index_bytes())?;
                 }

@@ -2,6 +2,7 @@
 
 use crate::device::Device;
 use crate::format::{self, Native};
+use crate::path;
 use crate::samples;
 use ash::vk;
 use etalon_frame::{
@@ -59,7 +60,7 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
             .into_iter()
             .filter(|f| has(device, *f))
             .collect(),
-        paths: Default::default(),
+        paths: path::offered(device),
         sample_positions,
     }
 }

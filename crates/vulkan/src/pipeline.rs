@@ -1,12 +1,14 @@
 //! Graphics pipelines and their layouts, cached by their static state.
 
 use crate::device::Device;
-use crate::dynamic;
+use crate::dynamic::{Dynamic, Setting};
 use crate::error::{Check, internal};
+use crate::render_pass::{Compatible, RenderPass};
 use crate::shader::{Module, Modules};
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
+use etalon_frame::PathViewport;
 use etalon_scene::{
     BlendComponent, ColorTarget, Draw, EarlyTests, LogicOperation, Multisample, PolygonMode,
     PrimitiveTopology, Shader,
@@ -30,7 +32,22 @@ pub(crate) struct Targets {
     pub(crate) samples: u32,
 }
 
-/// The static state of a pipeline; the rest is [`dynamic::STATES`].
+impl Targets {
+    /// Returns the format of the depth-stencil attachment.
+    pub(crate) fn depth_stencil(&self) -> vk::Format {
+        match self.depth {
+            vk::Format::UNDEFINED => self.stencil,
+            depth => depth,
+        }
+    }
+
+    /// Returns the aspects of the depth-stencil attachment.
+    pub(crate) fn aspects(&self) -> vk::ImageAspectFlags {
+        crate::format::aspect_mask(self.depth_stencil())
+    }
+}
+
+/// The static state of a pipeline; the rest is [`Setting::states`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Key {
     targets: Targets,
@@ -45,6 +62,10 @@ struct Key {
     multisample: MultisampleKey,
     logic: Option<LogicOperation>,
     color: Vec<ColorTarget>,
+    pass: Option<Compatible>,
+    setting: Setting,
+    /// The rest of the state, as text, where it is not dynamic.
+    fixed: Option<String>,
 }
 
 /// The multisample state of a pipeline, which is compared bit by bit.
@@ -128,6 +149,16 @@ pub(crate) struct Pipelines {
     pipelines: HashMap<Key, Rc<Pipeline>>,
 }
 
+/// The parts of a pipeline that a path chooses.
+#[derive(Clone, Copy)]
+pub(crate) struct Way<'a> {
+    /// The render pass, if the pass is one.
+    pub(crate) pass: Option<&'a RenderPass>,
+    pub(crate) setting: Setting,
+    /// The state of the draw; a pipeline holds it if the setting says so.
+    pub(crate) state: &'a Dynamic,
+}
+
 impl Pipelines {
     /// Creates the driver's pipeline cache.
     pub(crate) fn create(&mut self, device: &Device) -> Result<(), BackendError> {
@@ -179,6 +210,7 @@ impl Pipelines {
         device: &Device,
         targets: &Targets,
         draw: &Draw,
+        way: Way<'_>,
     ) -> Result<Rc<Pipeline>, BackendError> {
         let key = Key {
             targets: targets.clone(),
@@ -186,6 +218,9 @@ impl Pipelines {
             early_tests: draw.early_tests,
             class: class(draw.topology),
             instanced: draw.fetch.instances > 0,
+            pass: way.pass.map(|p| p.compatible.clone()),
+            setting: way.setting,
+            fixed: way.setting.fixed.then(|| way.state.text()),
             polygon_mode: draw.polygon_mode,
             depth_clamp: draw.depth_clamp,
             multisample: MultisampleKey::of(&draw.multisample),
@@ -198,9 +233,14 @@ impl Pipelines {
         if self.pipelines.len() >= KEPT_PIPELINES {
             self.drop_unused(device);
         }
-        let module = self.modules.get(device, draw.shader, draw.early_tests)?;
+        let module = self.modules.get(
+            device,
+            draw.shader,
+            draw.early_tests,
+            way.setting.viewport == PathViewport::Array,
+        )?;
         let layout = self.layout(device, Bindings::of(draw.shader))?;
-        let raw = create(device, self.cache, &key, &module, layout.pipeline)?;
+        let raw = create(device, self.cache, &key, &module, layout.pipeline, way)?;
         let pipeline = Rc::new(Pipeline {
             raw,
             layout: layout.pipeline,
@@ -262,6 +302,7 @@ fn create(
     key: &Key,
     module: &Module,
     layout: vk::PipelineLayout,
+    way: Way<'_>,
 ) -> Result<vk::Pipeline, BackendError> {
     let stage = |stage, name| {
         vk::PipelineShaderStageCreateInfo::default()
@@ -290,12 +331,23 @@ fn create(
     let vertex_input = vk::PipelineVertexInputStateCreateInfo::default()
         .vertex_binding_descriptions(&bindings[..used])
         .vertex_attribute_descriptions(&attributes);
-    let assembly =
-        vk::PipelineInputAssemblyStateCreateInfo::default().topology(state::topology(key.class));
-    let viewport = vk::PipelineViewportStateCreateInfo::default()
-        .viewport_count(1)
-        .scissor_count(1);
-    let raster = vk::PipelineRasterizationStateCreateInfo::default()
+    let fixed = way.setting.fixed.then_some(way.state);
+    let assembly = match fixed {
+        Some(state) => state.assembly(),
+        None => {
+            vk::PipelineInputAssemblyStateCreateInfo::default().topology(state::topology(key.class))
+        }
+    };
+    let (viewports, scissors, count) = way.state.viewports();
+    let mut viewport = vk::PipelineViewportStateCreateInfo::default();
+    if way.setting.viewport != PathViewport::WithCount {
+        // Read only if they are not dynamic.
+        viewport = viewport
+            .viewports(&viewports[..count])
+            .scissors(&scissors[..count]);
+    }
+    let raster = fixed.map(Dynamic::rasterization).unwrap_or_default();
+    let raster = raster
         .polygon_mode(state::polygon_mode(key.polygon_mode))
         .depth_clamp_enable(key.depth_clamp)
         .line_width(1.0);
@@ -309,18 +361,22 @@ fn create(
         .min_sample_shading(min_sample_shading.unwrap_or(0.0))
         .alpha_to_coverage_enable(key.multisample.alpha_to_coverage)
         .alpha_to_one_enable(key.multisample.alpha_to_one);
-    let depth_stencil = vk::PipelineDepthStencilStateCreateInfo::default();
+    let depth_stencil = fixed.map(Dynamic::depth_stencil).unwrap_or_default();
     let targets: Vec<_> = key.color.iter().map(color_target).collect();
     let mut blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&targets);
     if let Some(logic) = key.logic {
         blend = blend.logic_op_enable(true).logic_op(state::logic(logic));
     }
-    let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic::STATES);
+    if let Some(state) = fixed {
+        blend = blend.blend_constants(state.blend_constants());
+    }
+    let states = way.setting.states();
+    let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&states);
     let mut rendering = vk::PipelineRenderingCreateInfo::default()
         .color_attachment_formats(&key.targets.color)
         .depth_attachment_format(key.targets.depth)
         .stencil_attachment_format(key.targets.stencil);
-    let info = vk::GraphicsPipelineCreateInfo::default()
+    let mut info = vk::GraphicsPipelineCreateInfo::default()
         .stages(&stages)
         .vertex_input_state(&vertex_input)
         .input_assembly_state(&assembly)
@@ -330,8 +386,11 @@ fn create(
         .depth_stencil_state(&depth_stencil)
         .color_blend_state(&blend)
         .dynamic_state(&dynamic)
-        .layout(layout)
-        .push_next(&mut rendering);
+        .layout(layout);
+    info = match way.pass {
+        Some(pass) => info.render_pass(pass.raw).subpass(pass.compatible.subpass),
+        None => info.push_next(&mut rendering),
+    };
     // SAFETY: all parts of `info` live, the device can draw to the formats, and has every feature
     // used.
     let made = unsafe {

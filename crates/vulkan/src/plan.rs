@@ -6,16 +6,18 @@ use crate::dynamic::Dynamic;
 use crate::error::internal;
 use crate::format;
 use crate::gpu::Gpu;
-use crate::image::{Image, ImageKey};
+use crate::image::{Image, ImageKey, Place};
 use crate::inputs::{CallNumbers, DrawInputs};
 use crate::limits::attachment_usage;
+use crate::path;
 use crate::pipeline::{Pipeline, Targets};
 use crate::read::ReadPlan;
+use crate::render_pass::RenderPass;
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_frame::Requirement;
-use etalon_scene::{Attachment, ClearTarget, Contents, Draw, Pass, Scene};
+use etalon_frame::{PathEnd, PathTarget, Requirement};
+use etalon_scene::{Attachment, ClearTarget, Contents, Pass, Scene};
 use std::rc::Rc;
 
 /// The plan of a scene.
@@ -30,6 +32,12 @@ pub(crate) struct Plan {
 /// The initial contents of an attachment and its role in the passes.
 pub(crate) struct AttachmentPlan {
     pub(crate) image: vk::Image,
+    /// The part of the image that is the attachment.
+    pub(crate) place: Place,
+    /// The way to the host.
+    pub(crate) end: PathEnd,
+    /// The image that it is copied to before it is read.
+    pub(crate) copy: Option<vk::Image>,
     pub(crate) aspects: vk::ImageAspectFlags,
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
@@ -68,6 +76,10 @@ pub(crate) enum Role {
 /// The plan of a pass.
 pub(crate) struct PassPlan {
     pub(crate) size: [u32; 2],
+    pub(crate) area: vk::Rect2D,
+    pub(crate) targets: Targets,
+    /// The object that the pass is; `None` for dynamic rendering.
+    pub(crate) object: Option<RenderPass>,
     /// The attachments that the pass uses, each once, with their roles.
     pub(crate) roles: Vec<(usize, Role)>,
     pub(crate) color: Vec<ColorPlan>,
@@ -100,6 +112,12 @@ pub(crate) struct DepthStencilPlan {
 /// The plan of a draw.
 pub(crate) struct DrawPlan {
     pub(crate) pipeline: Rc<Pipeline>,
+    /// The pipeline that is bound between state and draw.
+    pub(crate) other: Option<Rc<Pipeline>>,
+    /// True if the state is set to another before.
+    pub(crate) overwritten: bool,
+    /// The offset of the arguments, in an indirect draw.
+    pub(crate) arguments: Option<u64>,
     pub(crate) set: vk::DescriptorSet,
     pub(crate) params: u32,
     pub(crate) vertices: u64,
@@ -175,8 +193,14 @@ impl InitialContents {
 }
 
 impl PassPlan {
-    /// Returns the plan of a pass, without its draws.
-    pub(crate) fn new(scene: &Scene, pass: &Pass, images: &[Image]) -> Result<Self, BackendError> {
+    /// Returns the plan of a pass over a part of its attachments, without its draws and its object.
+    pub(crate) fn new(
+        scene: &Scene,
+        pass: &Pass,
+        images: &[Image],
+        area: vk::Rect2D,
+        targets: Targets,
+    ) -> Result<Self, BackendError> {
         let image = |index: usize| {
             images
                 .get(index)
@@ -184,6 +208,9 @@ impl PassPlan {
         };
         let mut plan = Self {
             size: scene.pass_size(pass),
+            area,
+            targets,
+            object: None,
             roles: roles(pass),
             color: Vec::with_capacity(pass.color.len()),
             depth_stencil: None,
@@ -198,8 +225,8 @@ impl PassPlan {
         for clear in &pass.clears {
             let integer =
                 matches!(clear.target, ClearTarget::Color { location, .. } if integer(location));
-            let planned = ClearPlan::new(clear, integer, plan.size)?;
-            plan.clears.push((clear.before, planned));
+            let planned = ClearPlan::new(clear, integer, plan.size, area)?;
+            plan.clears.extend(planned.map(|p| (clear.before, p)));
         }
         for (location, index) in pass.color.iter().enumerate() {
             let resolve = match pass.resolve.get(location).copied().flatten() {
@@ -253,22 +280,26 @@ impl PassPlan {
 
 impl DrawPlan {
     pub(crate) fn new(
-        draw: &Draw,
         inputs: &DrawInputs,
-        size: [u32; 2],
+        dynamic: Dynamic,
         pipeline: Rc<Pipeline>,
+        other: Option<Rc<Pipeline>>,
         set: vk::DescriptorSet,
         queries: Vec<Query>,
+        overwritten: bool,
     ) -> Result<Self, BackendError> {
         Ok(Self {
             pipeline,
+            other,
+            overwritten,
             set,
             params: u32::try_from(inputs.params).map_err(|_| internal("inputs too large"))?,
             vertices: inputs.vertices,
             indices: inputs.indices,
             colors: inputs.colors,
+            arguments: inputs.arguments,
             call: inputs.call,
-            dynamic: Dynamic::new(draw, size, inputs.restarts)?,
+            dynamic,
             queries,
         })
     }
@@ -278,10 +309,13 @@ impl DrawPlan {
 /// may be read back.
 pub(crate) fn image_key(
     gpu: &Gpu,
-    attachment: &Attachment,
+    scene: &Scene,
+    index: usize,
     role: Role,
-    (fetched, read): (bool, bool),
+    end: PathEnd,
 ) -> Result<ImageKey, BackendError> {
+    let attachment = &scene.attachments[index];
+    let (fetched, read) = (is_fetched(scene, index), scene.read.contains(&index));
     let format = attachment.format;
     let native = format::native(&gpu.natives, format)?;
     let mut usage = vk::ImageUsageFlags::TRANSFER_DST;
@@ -303,6 +337,12 @@ pub(crate) fn image_key(
     if fetched {
         usage |= vk::ImageUsageFlags::SAMPLED;
     }
+    if read && end == PathEnd::ShaderRead {
+        usage |= vk::ImageUsageFlags::SAMPLED;
+    }
+    if read && matches!(end, PathEnd::Copy | PathEnd::Blit) {
+        usage |= vk::ImageUsageFlags::TRANSFER_SRC;
+    }
     match (read, attachment.samples) {
         (false, _) => {}
         (true, 1) => usage |= vk::ImageUsageFlags::TRANSFER_SRC,
@@ -314,7 +354,24 @@ pub(crate) fn image_key(
         size: attachment.size,
         samples: attachment.samples,
         usage,
+        target: path::target(scene, index, attachment),
     })
+}
+
+/// Returns the key of the image that an attachment is copied to before it is read.
+pub(crate) fn copy_key(key: ImageKey, attachment: &Attachment) -> ImageKey {
+    ImageKey {
+        usage: match attachment.samples {
+            1 => vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::TRANSFER_SRC,
+            _ => {
+                vk::ImageUsageFlags::TRANSFER_DST
+                    | vk::ImageUsageFlags::SAMPLED
+                    | attachment_usage(attachment.format)
+            }
+        },
+        target: PathTarget::Plain,
+        ..key
+    }
 }
 
 /// Returns the formats and sample count of a pass's attachments.

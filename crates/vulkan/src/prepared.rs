@@ -3,19 +3,24 @@
 use crate::buffer::{Buffer, BufferUse};
 use crate::counting::Counting;
 use crate::descriptors::Descriptors;
+use crate::dynamic::{Dynamic, Setting};
 use crate::error::internal;
+use crate::format;
 use crate::gpu::Gpu;
 use crate::image::Image;
 use crate::inputs::Inputs;
+use crate::path;
+use crate::pipeline::Way;
 use crate::plan::{
-    AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role, image_key, is_fetched, targets,
+    AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role, copy_key, image_key, targets,
 };
 use crate::read::ReadPlan;
-use crate::record;
+use crate::record::{self, Recorder};
+use crate::render_pass::RenderPass;
 use crate::slot::{Needs, Slot};
 use etalon_backend::{BackendError, FrameTime, Prepared};
-use etalon_frame::Frame;
-use etalon_scene::{Contents, Scene};
+use etalon_frame::{Frame, PathCommands, PathEnd, PathPass, PathState};
+use etalon_scene::{Contents, Draw, Pass, Scene};
 use std::time::Instant;
 
 /// A scene with all objects that drawing it needs.
@@ -27,8 +32,10 @@ pub(crate) struct PreparedScene<'a> {
     output: Option<Buffer>,
     /// The buffer that shaders count in, if any shader counts.
     counts: Option<Buffer>,
+    /// The attachments' images, then those that they are copied to.
     images: Vec<Image>,
     plan: Plan,
+    kind: PathCommands,
     progress: Progress,
 }
 
@@ -57,9 +64,11 @@ impl<'a> PreparedScene<'a> {
             counts: None,
             images: Vec::new(),
             plan: Plan::default(),
+            kind: PathCommands::One,
             progress: Progress::NotDrawn,
         };
-        prepared.fill(scene)?;
+        prepared.kind = scene.path.commands;
+        prepared.fill(&scene.on_path())?;
         Ok(prepared)
     }
 
@@ -82,11 +91,17 @@ impl<'a> PreparedScene<'a> {
                 }
             }
             let role = Role::of(scene, index);
-            let (fetched, read) = (is_fetched(scene, index), scene.read.contains(&index));
-            let key = image_key(self.gpu, attachment, role, (fetched, read))?;
+            let read = scene.read.contains(&index);
+            let native = format::native(&self.gpu.natives, attachment.format)?;
+            let end = path::end(device, &scene.path, attachment, native)?;
+            let key = image_key(self.gpu, scene, index, role, end)?;
+            path::check_target(device, &key)?;
             let image = pools.memory.image(device, key)?;
             self.plan.attachments.push(AttachmentPlan {
                 image: image.raw,
+                place: image.place(),
+                end,
+                copy: None,
                 aspects: image.aspects(),
                 size: attachment.size,
                 samples: attachment.samples,
@@ -96,8 +111,24 @@ impl<'a> PreparedScene<'a> {
             });
             self.images.push(image);
         }
+        // The images that are read back, by attachment.
+        let mut sources: Vec<usize> = (0..self.images.len()).collect();
+        for index in 0..sources.len() {
+            let plan = &mut self.plan.attachments[index];
+            if plan.read && matches!(plan.end, PathEnd::Copy | PathEnd::Blit) {
+                let key = copy_key(self.images[index].key, &scene.attachments[index]);
+                let image = pools.memory.image(device, key)?;
+                plan.copy = Some(image.raw);
+                sources[index] = self.images.len();
+                self.images.push(image);
+            }
+        }
 
-        let draws = || scene.passes.iter().flat_map(|p| &p.draws);
+        let areas = |pass: &Pass| path::areas(&scene.path, scene.pass_size(pass));
+        let draws = || {
+            let often = |p| areas(p).into_iter().flat_map(move |_| &p.draws);
+            scene.passes.iter().flat_map(often)
+        };
         let textures = draws().map(|d| d.textures.len()).max().unwrap_or(0);
         let reads = scene.read.len() * 2;
         let (Ok(sets), Ok(textures)) = (
@@ -123,10 +154,30 @@ impl<'a> PreparedScene<'a> {
             self.counts = Some(counts);
         }
 
+        let setting = Setting {
+            fixed: scene.path.state == PathState::Static,
+            viewport: scene.path.viewport,
+        };
         let mut sets = Descriptors::new(input, self.counts.as_ref(), &self.images);
-        for (pass, places) in scene.passes.iter().zip(&inputs.draws) {
+        let parts = scene.passes.iter().zip(&inputs.draws);
+        let parts = parts.flat_map(|(pass, places)| {
+            let areas = areas(pass);
+            let whole = areas.len() == 1;
+            areas
+                .into_iter()
+                .map(move |area| (pass, places, area, whole))
+        });
+        for (pass, places, area, whole) in parts {
             let targets = targets(self.gpu, scene, pass)?;
-            let mut planned = PassPlan::new(scene, pass, &self.images)?;
+            let planned = PassPlan::new(scene, pass, &self.images, area, targets.clone())?;
+            self.plan.passes.push(planned);
+            let Some(planned) = self.plan.passes.last_mut() else {
+                continue;
+            };
+            if scene.path.pass != PathPass::DynamicRendering {
+                let second = scene.path.pass == PathPass::SecondSubpass;
+                planned.object = Some(RenderPass::new(device, planned, &targets, second)?);
+            }
             for (draw, place) in pass.draws.iter().zip(places) {
                 if draw.targets.len() != pass.color.len() {
                     return Err(internal("a draw lacks a target for each colour attachment"));
@@ -134,22 +185,34 @@ impl<'a> PreparedScene<'a> {
                 let pipelines = &mut pools.pipelines;
                 let made = (&mut *pipelines, &mut pools.samplers);
                 let set = sets.get(device, made, slot, counting, draw)?;
-                let pipeline = pipelines.get(device, &targets, draw)?;
+                let dynamic = Dynamic::new(draw, area, whole, place.restarts, setting)?;
+                let way = Way {
+                    pass: planned.object.as_ref(),
+                    setting,
+                    state: &dynamic,
+                };
+                let mut get = |draw: &Draw| pipelines.get(device, &targets, draw, way);
+                let pipeline = get(draw)?;
+                let other = match scene.path.state {
+                    PathState::OtherPipeline => Some(get(&path::other(draw))?),
+                    _ => None,
+                };
                 let queries = counting.queries(slot, draw)?;
-                let drawn = DrawPlan::new(draw, place, planned.size, pipeline, set, queries)?;
+                let overwritten = scene.path.state == PathState::Overwritten;
+                let drawn =
+                    DrawPlan::new(place, dynamic, pipeline, other, set, queries, overwritten)?;
                 planned.draws.push(drawn);
             }
-            self.plan.passes.push(planned);
         }
 
-        let (reads, bytes) = ReadPlan::all(self.gpu, scene)?;
+        let (reads, bytes) = ReadPlan::all(self.gpu, scene, &self.plan.attachments)?;
         let output = pools.memory.buffer(device, BufferUse::Output, bytes)?;
         let output = self.output.insert(output);
         self.plan.reads = reads;
         for read in &mut self.plan.reads {
             let image = self
                 .images
-                .get(read.attachment)
+                .get(sources.get(read.attachment).copied().unwrap_or(usize::MAX))
                 .ok_or_else(|| internal("a read names no attachment"))?;
             read.connect(device, &mut pools.readers, slot, image, output)?;
         }
@@ -171,9 +234,10 @@ impl Prepared for PreparedScene<'_> {
         counting.reset(device, commands, slot, self.counts.as_ref())?;
         record::initial_contents(device, commands, &self.plan, input.raw);
         slot.timestamp(device, 0);
-        record::passes(device, commands, &self.plan, input.raw);
+        let kind = self.kind;
+        record::passes(device, &mut Recorder { slot, kind }, &self.plan, input.raw)?;
         slot.timestamp(device, 1);
-        counting.end(device, commands);
+        counting.end(device, slot.commands());
         let (cpu, wall) = slot.submit(device, start)?;
         self.progress = Progress::Drawn;
         let gpu = slot.gpu_time(device)?;
@@ -219,6 +283,9 @@ impl Drop for PreparedScene<'_> {
         // The slot first, since it waits for the device if work is in flight.
         if let Some(slot) = self.slot.take() {
             pools.slots.give_back(device, slot);
+        }
+        for object in self.plan.passes.iter().filter_map(|p| p.object.as_ref()) {
+            object.destroy(device);
         }
         let buffers = [self.input.take(), self.output.take(), self.counts.take()];
         pools

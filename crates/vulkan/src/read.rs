@@ -8,6 +8,7 @@ use crate::format;
 use crate::gpu::Gpu;
 use crate::image::Image;
 use crate::inputs::OffsetAllocator;
+use crate::plan::AttachmentPlan;
 use crate::samples::{self, SampleReader, SampleReaders, SampleType};
 use crate::slot::Slot;
 use ash::vk;
@@ -22,7 +23,9 @@ pub(crate) struct ReadPlan {
     pub(crate) aspect: Aspect,
     /// The offset of its bytes in the output buffer.
     pub(crate) offset: u64,
-    /// The shader that reads a multisampled attachment, and its descriptors.
+    /// True if a shader reads the attachment.
+    by_shader: bool,
+    /// This shader and its descriptors.
     pub(crate) reader: Option<(SampleReader, vk::DescriptorSet)>,
     name: String,
     sample_type: SampleType,
@@ -35,7 +38,11 @@ pub(crate) struct ReadPlan {
 
 impl ReadPlan {
     /// Returns all reads of a scene and the size of the output buffer.
-    pub(crate) fn all(gpu: &Gpu, scene: &Scene) -> Result<(Vec<Self>, u64), BackendError> {
+    pub(crate) fn all(
+        gpu: &Gpu,
+        scene: &Scene,
+        plans: &[AttachmentPlan],
+    ) -> Result<(Vec<Self>, u64), BackendError> {
         let limits = &gpu.device.limits;
         // Offsets of depth and stencil copies are multiples of 4, others of the texel size.
         let alignment = limits.min_storage_buffer_offset_alignment.max(16);
@@ -46,11 +53,14 @@ impl ReadPlan {
                 return Err(internal("a read names no attachment"));
             };
             let format = attachment.format;
+            let by_shader = plans
+                .get(*index)
+                .is_some_and(AttachmentPlan::is_read_by_shader);
             let native = format::native(&gpu.natives, format)?;
             for aspect in format.aspects() {
                 let channels = format::channels(format, native.raw, *aspect);
                 let texels = u64::from(attachment.size[0]) * u64::from(attachment.size[1]);
-                let per_texel = if attachment.samples > 1 {
+                let per_texel = if by_shader {
                     attachment.samples as usize * samples::words(*aspect) * size_of::<u32>()
                 } else {
                     format::texel_bytes(native.raw, *aspect)
@@ -60,6 +70,7 @@ impl ReadPlan {
                     attachment: *index,
                     aspect: *aspect,
                     offset: offsets.allocate(bytes, alignment),
+                    by_shader,
                     reader: None,
                     name: attachment.name.clone(),
                     sample_type: SampleType::of(format, *aspect),
@@ -75,7 +86,7 @@ impl ReadPlan {
         Ok((reads, bytes))
     }
 
-    /// Sets the shader of a multisampled read.
+    /// Sets the shader of a read that no copy does.
     pub(crate) fn connect(
         &mut self,
         device: &Device,
@@ -84,7 +95,7 @@ impl ReadPlan {
         image: &Image,
         output: &Buffer,
     ) -> Result<(), BackendError> {
-        if self.samples == 1 {
+        if !self.by_shader {
             return Ok(());
         }
         if self.bytes > u64::from(device.limits.max_storage_buffer_range) {
@@ -93,7 +104,7 @@ impl ReadPlan {
                 message: "maxStorageBufferRange is smaller".to_owned(),
             });
         }
-        let reader = readers.get(device, self.sample_type)?;
+        let reader = readers.get(device, self.sample_type, self.samples > 1)?;
         let set = slot.descriptor_set(device, reader.layout.set)?;
         let images = [vk::DescriptorImageInfo {
             sampler: vk::Sampler::null(),
@@ -114,6 +125,12 @@ impl ReadPlan {
         unsafe { device.raw.update_descriptor_sets(&writes, &[]) };
         self.reader = Some((reader, set));
         Ok(())
+    }
+
+    /// Returns the bytes of a texel in the output buffer.
+    pub(crate) fn texel_bytes(&self) -> u64 {
+        let texels = u64::from(self.size[0]) * u64::from(self.size[1]);
+        self.bytes / texels.max(1)
     }
 
     /// Returns the image, after the device wrote the output buffer.

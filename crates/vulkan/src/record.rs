@@ -2,19 +2,25 @@
 
 use crate::clear::Ends;
 use crate::device::Device;
-use crate::image::range;
+use crate::error::Check;
+use crate::image::Place;
 use crate::inputs::CallNumbers;
 use crate::pipeline::{INSTANCE_BINDING, Pipeline};
 use crate::plan::{
     AttachmentPlan, DepthStencilPlan, DrawPlan, InitialContents, PassPlan, Plan, Role,
 };
+use crate::read::ReadPlan;
+use crate::render_pass::RenderPass;
 use crate::samples::TILE;
+use crate::slot::Slot;
 use ash::vk;
+use etalon_backend::BackendError;
+use etalon_frame::{PathCommands, PathEnd};
 
 /// The layout of an image with the stages and accesses that use it.
 #[derive(Clone, Copy)]
-struct ImageState {
-    layout: vk::ImageLayout,
+pub(crate) struct ImageState {
+    pub(crate) layout: vk::ImageLayout,
     stages: vk::PipelineStageFlags2,
     access: vk::AccessFlags2,
 }
@@ -38,13 +44,13 @@ const COMPUTE: ImageState = ImageState {
 };
 
 /// Depth and stencil attachments of a read-only pass.
-const DEPTH_STENCIL_READ_ONLY: ImageState = ImageState {
+pub(crate) const DEPTH_STENCIL_READ_ONLY: ImageState = ImageState {
     layout: vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
     stages: DEPTH_STENCIL.stages,
     access: vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_READ,
 };
 
-const DEPTH_STENCIL: ImageState = ImageState {
+pub(crate) const DEPTH_STENCIL: ImageState = ImageState {
     layout: vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
     stages: vk::PipelineStageFlags2::from_raw(
         vk::PipelineStageFlags2::EARLY_FRAGMENT_TESTS.as_raw()
@@ -58,7 +64,7 @@ const DEPTH_STENCIL: ImageState = ImageState {
 
 /// Targets of resolves of depth and stencil, which the colour stage writes (Vulkan, Render Pass Multisample
 /// Resolve Operations).
-const DEPTH_STENCIL_RESOLVE: ImageState = ImageState {
+pub(crate) const DEPTH_STENCIL_RESOLVE: ImageState = ImageState {
     layout: DEPTH_STENCIL.layout,
     stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
     access: vk::AccessFlags2::from_raw(
@@ -74,7 +80,7 @@ const UNDEFINED: ImageState = ImageState {
     access: vk::AccessFlags2::MEMORY_WRITE,
 };
 
-const COLOR: ImageState = ImageState {
+pub(crate) const COLOR: ImageState = ImageState {
     layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
     stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
     access: vk::AccessFlags2::from_raw(
@@ -114,11 +120,21 @@ impl AttachmentPlan {
 
     /// Returns the state for reading back.
     fn read_state(&self) -> ImageState {
-        if self.samples > 1 {
+        if self.is_read_by_shader() {
             COMPUTE
         } else {
             TRANSFER_SRC
         }
+    }
+
+    /// True if a shader reads it back: several samples, which no copy reads, or if its path says so.
+    pub(crate) fn is_read_by_shader(&self) -> bool {
+        self.samples > 1 || self.end == PathEnd::ShaderRead
+    }
+
+    /// Returns the place of what is read back: in its copy, if there is one.
+    fn read_place(&self) -> Place {
+        self.copy.map_or(self.place, |_| Place::default())
     }
 
     fn barrier(&self, from: ImageState, to: ImageState) -> vk::ImageMemoryBarrier2<'static> {
@@ -132,7 +148,7 @@ impl AttachmentPlan {
             .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
             .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
             .image(self.image)
-            .subresource_range(range(self.aspects))
+            .subresource_range(self.place.range(self.aspects))
     }
 }
 
@@ -152,7 +168,7 @@ pub(crate) fn initial_contents(
     barriers(device, commands, &into);
     let layout = TRANSFER_DST.layout;
     for attachment in &plan.attachments {
-        let ranges = [range(attachment.aspects)];
+        let ranges = [attachment.place.range(attachment.aspects)];
         match &attachment.initial {
             InitialContents::Color(color) => {
                 // SAFETY: recording; the image is in this layout.
@@ -183,7 +199,12 @@ pub(crate) fn initial_contents(
                 }
             }
             InitialContents::Upload(offset) => {
-                let regions = [region(attachment, attachment.aspects, *offset)];
+                let regions = [region(
+                    attachment,
+                    attachment.place,
+                    attachment.aspects,
+                    *offset,
+                )];
                 // SAFETY: as above; the input buffer holds all texels from the offset on.
                 unsafe {
                     device.raw.cmd_copy_buffer_to_image(
@@ -207,9 +228,18 @@ pub(crate) fn initial_contents(
 }
 
 /// Records all passes. Attachments change state between passes and end in their first state.
-pub(crate) fn passes(device: &Device, commands: vk::CommandBuffer, plan: &Plan, input: vk::Buffer) {
+///
+/// # Errors
+/// If the driver fails to make command buffers.
+pub(crate) fn passes(
+    device: &Device,
+    recorder: &mut Recorder<'_>,
+    plan: &Plan,
+    input: vk::Buffer,
+) -> Result<(), BackendError> {
     let mut roles: Vec<Role> = plan.attachments.iter().map(|a| a.role).collect();
     for (index, pass) in plan.passes.iter().enumerate() {
+        let commands = recorder.next_pass(device)?;
         if index > 0 {
             between_passes(device, commands);
         }
@@ -220,10 +250,12 @@ pub(crate) fn passes(device: &Device, commands: vk::CommandBuffer, plan: &Plan, 
             &mut roles,
             pass.roles.iter().copied(),
         );
-        self::pass(device, commands, pass, input);
+        self::pass(device, recorder, pass, input)?;
     }
     let first = plan.attachments.iter().map(|a| a.role).enumerate();
+    let commands = recorder.next_pass(device)?;
     change_roles(device, commands, plan, &mut roles, first);
+    Ok(())
 }
 
 /// Records the transitions to these roles. Attachments that keep their role need only
@@ -268,8 +300,128 @@ fn between_passes(device: &Device, commands: vk::CommandBuffer) {
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
 }
 
-fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk::Buffer) {
-    let api = &device.raw;
+/// The command buffers of a submission.
+pub(crate) struct Recorder<'a> {
+    pub(crate) slot: &'a mut Slot,
+    pub(crate) kind: PathCommands,
+}
+
+impl Recorder<'_> {
+    /// Returns the command buffer for the next pass, outside of a pass.
+    fn next_pass(&mut self, device: &Device) -> Result<vk::CommandBuffer, BackendError> {
+        match self.kind {
+            PathCommands::Several => self.slot.next_primary(device),
+            PathCommands::One | PathCommands::Secondary => Ok(self.slot.commands()),
+        }
+    }
+
+    /// Records what is within a pass that has begun.
+    fn within(
+        &mut self,
+        device: &Device,
+        pass: &PassPlan,
+        record: impl Fn(vk::CommandBuffer),
+    ) -> Result<(), BackendError> {
+        if self.kind != PathCommands::Secondary {
+            record(self.slot.commands());
+            return Ok(());
+        }
+        let mut rendering = vk::CommandBufferInheritanceRenderingInfo::default()
+            .color_attachment_formats(&pass.targets.color)
+            .depth_attachment_format(pass.targets.depth)
+            .stencil_attachment_format(pass.targets.stencil)
+            .rasterization_samples(crate::state::samples(pass.targets.samples));
+        let inheritance = vk::CommandBufferInheritanceInfo::default();
+        let inheritance = match &pass.object {
+            Some(object) => inheritance
+                .render_pass(object.raw)
+                .subpass(object.compatible.subpass)
+                .framebuffer(object.framebuffer),
+            None => inheritance.push_next(&mut rendering),
+        };
+        let commands = self.slot.secondary(device, &inheritance)?;
+        record(commands);
+        // SAFETY: recording; the secondary commands are complete and executed once.
+        unsafe {
+            device
+                .raw
+                .end_command_buffer(commands)
+                .check("command memory")?;
+            device
+                .raw
+                .cmd_execute_commands(self.slot.commands(), &[commands]);
+        }
+        Ok(())
+    }
+
+    /// Returns who records the commands within a pass.
+    fn contents(&self) -> vk::SubpassContents {
+        match self.kind {
+            PathCommands::Secondary => vk::SubpassContents::SECONDARY_COMMAND_BUFFERS,
+            PathCommands::One | PathCommands::Several => vk::SubpassContents::INLINE,
+        }
+    }
+}
+
+fn pass(
+    device: &Device,
+    recorder: &mut Recorder<'_>,
+    pass: &PassPlan,
+    input: vk::Buffer,
+) -> Result<(), BackendError> {
+    let commands = recorder.slot.commands();
+    // SAFETY: recording, outside of a pass; the attachments are in the layouts of their roles.
+    unsafe {
+        match &pass.object {
+            Some(object) => begin_render_pass(device, recorder, pass, object),
+            None => begin_rendering(device, recorder, pass),
+        }
+    }
+    recorder.within(device, pass, |commands| {
+        // SAFETY: recording, within the pass.
+        unsafe { draws(device, commands, pass, input) };
+    })?;
+    // SAFETY: recording, within the pass.
+    unsafe {
+        match &pass.object {
+            Some(_) => device.raw.cmd_end_render_pass(commands),
+            None => device.raw.cmd_end_rendering(commands),
+        }
+    }
+    Ok(())
+}
+
+/// # Safety
+/// As [`pass`].
+unsafe fn begin_render_pass(
+    device: &Device,
+    recorder: &Recorder<'_>,
+    pass: &PassPlan,
+    object: &RenderPass,
+) {
+    let (commands, contents) = (recorder.slot.commands(), recorder.contents());
+    let info = vk::RenderPassBeginInfo::default()
+        .render_pass(object.raw)
+        .framebuffer(object.framebuffer)
+        .render_area(pass.area)
+        .clear_values(&object.values);
+    let subpasses = object.compatible.subpass;
+    // SAFETY: the caller's; the first subpass of two is left as it began.
+    unsafe {
+        let first = match subpasses {
+            0 => contents,
+            _ => vk::SubpassContents::INLINE,
+        };
+        device.raw.cmd_begin_render_pass(commands, &info, first);
+        for _ in 0..subpasses {
+            device.raw.cmd_next_subpass(commands, contents);
+        }
+    }
+}
+
+/// # Safety
+/// As [`pass`].
+unsafe fn begin_rendering(device: &Device, recorder: &Recorder<'_>, pass: &PassPlan) {
     let attachment = |view: vk::ImageView, layout: vk::ImageLayout, ends: &Ends| {
         vk::RenderingAttachmentInfo::default()
             .image_view(view)
@@ -278,7 +430,7 @@ fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk
             .store_op(ends.store)
             .clear_value(ends.value)
     };
-    let drawn = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+    let drawn = COLOR.layout;
     let mut color = Vec::with_capacity(pass.color.len());
     for target in &pass.color {
         let mut info = attachment(target.view, drawn, &target.ends);
@@ -310,24 +462,38 @@ fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk
     };
     let depth = aspect(|plan| plan.depth.as_ref(), 0);
     let stencil = aspect(|plan| plan.stencil.as_ref(), 1);
-    let [width, height] = pass.size;
-    let area = vk::Rect2D {
-        offset: vk::Offset2D::default(),
-        extent: vk::Extent2D { width, height },
-    };
     let mut info = vk::RenderingInfo::default()
-        .render_area(area)
+        .render_area(pass.area)
         .layer_count(1)
         .color_attachments(&color);
+    if recorder.kind == PathCommands::Secondary {
+        info = info.flags(vk::RenderingFlags::CONTENTS_SECONDARY_COMMAND_BUFFERS);
+    }
     if let Some(depth) = &depth {
         info = info.depth_attachment(depth);
     }
     if let Some(stencil) = &stencil {
         info = info.stencil_attachment(stencil);
     }
-    // SAFETY: recording; the attachments are in the layouts named, and live as long as the scene.
+    // SAFETY: the caller's; the attachments live as long as the scene.
     unsafe {
-        api.cmd_begin_rendering(commands, &info);
+        device
+            .raw
+            .cmd_begin_rendering(recorder.slot.commands(), &info);
+    }
+}
+
+/// Records the draws and clears of a pass.
+///
+/// # Safety
+/// Within the pass, which `commands` is made for.
+unsafe fn draws(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk::Buffer) {
+    let api = &device.raw;
+    // SAFETY: the caller's; pipelines live as long as the scene.
+    unsafe {
+        let bind = |pipeline: &Pipeline| {
+            api.cmd_bind_pipeline(commands, vk::PipelineBindPoint::GRAPHICS, pipeline.raw);
+        };
         let mut bound: Option<&Pipeline> = None;
         let mut clears = pass.clears.iter().peekable();
         for (index, draw) in pass.draws.iter().enumerate() {
@@ -336,21 +502,27 @@ fn pass(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, input: vk
             }
             let pipeline = &*draw.pipeline;
             if bound.is_none_or(|b| b.raw != pipeline.raw) {
-                let point = vk::PipelineBindPoint::GRAPHICS;
-                api.cmd_bind_pipeline(commands, point, pipeline.raw);
+                bind(pipeline);
                 bound = Some(pipeline);
+            }
+            if draw.overwritten {
+                draw.dynamic.opposite().set(device, commands);
+            }
+            draw.dynamic.set(device, commands);
+            if let Some(other) = &draw.other {
+                bind(other);
+                bind(pipeline);
             }
             self::draw(device, commands, draw, input);
         }
         for (_, clear) in clears {
             clear.record(device, commands);
         }
-        api.cmd_end_rendering(commands);
     }
 }
 
 /// # Safety
-/// Within a render pass of `commands`, with the draw's pipeline bound.
+/// Within a render pass of `commands`, with the draw's pipeline bound and its state set.
 unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, input: vk::Buffer) {
     let api = &device.raw;
     // SAFETY: set, buffers, queries and pipeline live as long as the scene, the offsets lie inside the
@@ -364,13 +536,15 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
             &[draw.set],
             &[draw.params],
         );
-        draw.dynamic.set(device, commands);
         api.cmd_bind_vertex_buffers(commands, 0, &[input], &[draw.vertices]);
         for query in &draw.queries {
             api.cmd_begin_query(commands, query.pool, query.index, query.flags);
         }
         if let Some(colors) = draw.colors {
             api.cmd_bind_vertex_buffers(commands, INSTANCE_BINDING, &[input], &[colors]);
+        }
+        if let Some((offset, kind)) = draw.indices {
+            api.cmd_bind_index_buffer(commands, input, offset, kind);
         }
         let CallNumbers {
             first,
@@ -379,9 +553,12 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
             instances,
             first_instance,
         } = draw.call;
-        match draw.indices {
-            Some((offset, kind)) => {
-                api.cmd_bind_index_buffer(commands, input, offset, kind);
+        match (draw.indices, draw.arguments) {
+            (Some(_), Some(offset)) => {
+                api.cmd_draw_indexed_indirect(commands, input, offset, 1, 0);
+            }
+            (None, Some(offset)) => api.cmd_draw_indirect(commands, input, offset, 1, 0),
+            (Some(_), None) => {
                 api.cmd_draw_indexed(
                     commands,
                     count,
@@ -391,7 +568,7 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
                     first_instance,
                 );
             }
-            None => api.cmd_draw(commands, count, instances, first, first_instance),
+            (None, None) => api.cmd_draw(commands, count, instances, first, first_instance),
         }
         for query in draw.queries.iter().rev() {
             api.cmd_end_query(commands, query.pool, query.index);
@@ -399,12 +576,91 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
     }
 }
 
+/// Records the copies of attachments to the images that are read in their place.
+fn copies(device: &Device, commands: vk::CommandBuffer, plan: &Plan) {
+    let copied = || plan.attachments.iter().filter_map(|a| Some((a, a.copy?)));
+    let moved = |image: vk::Image, a: &AttachmentPlan, from: ImageState, to: ImageState| {
+        a.barrier(from, to)
+            .image(image)
+            .subresource_range(Place::default().range(a.aspects))
+    };
+    let into: Vec<_> = copied()
+        .flat_map(|(a, copy)| {
+            let source = a.barrier(a.initial_state(), TRANSFER_SRC);
+            [source, moved(copy, a, UNDEFINED, TRANSFER_DST)]
+        })
+        .collect();
+    barriers(device, commands, &into);
+    for (attachment, copy) in copied() {
+        let [width, height] = attachment.size;
+        let (from, to) = (attachment.place, Place::default());
+        let source = from.layers(attachment.aspects);
+        let target = to.layers(attachment.aspects);
+        let extent = vk::Extent3D {
+            width,
+            height,
+            depth: 1,
+        };
+        // SAFETY: recording; the images are in these layouts, and both hold the rectangle.
+        unsafe {
+            if attachment.end == PathEnd::Blit {
+                let corners = |place: Place| {
+                    let end = place.offset(width, height);
+                    [
+                        place.offset(0, 0),
+                        vk::Offset3D {
+                            z: end.z + 1,
+                            ..end
+                        },
+                    ]
+                };
+                let region = vk::ImageBlit {
+                    src_subresource: source,
+                    src_offsets: corners(from),
+                    dst_subresource: target,
+                    dst_offsets: corners(to),
+                };
+                device.raw.cmd_blit_image(
+                    commands,
+                    attachment.image,
+                    TRANSFER_SRC.layout,
+                    copy,
+                    TRANSFER_DST.layout,
+                    &[region],
+                    vk::Filter::NEAREST,
+                );
+            } else {
+                let region = vk::ImageCopy {
+                    src_subresource: source,
+                    src_offset: from.offset(0, 0),
+                    dst_subresource: target,
+                    dst_offset: to.offset(0, 0),
+                    extent,
+                };
+                device.raw.cmd_copy_image(
+                    commands,
+                    attachment.image,
+                    TRANSFER_SRC.layout,
+                    copy,
+                    TRANSFER_DST.layout,
+                    &[region],
+                );
+            }
+        }
+    }
+    let out: Vec<_> = copied()
+        .map(|(a, copy)| moved(copy, a, TRANSFER_DST, a.read_state()))
+        .collect();
+    barriers(device, commands, &out);
+}
+
 /// Records the copies of everything that is read back to the output buffer.
 pub(crate) fn reads(device: &Device, commands: vk::CommandBuffer, plan: &Plan, output: vk::Buffer) {
+    copies(device, commands, plan);
     let into: Vec<_> = plan
         .attachments
         .iter()
-        .filter(|a| a.read)
+        .filter(|a| a.read && a.copy.is_none())
         .map(|a| a.barrier(a.initial_state(), a.read_state()))
         .collect();
     barriers(device, commands, &into);
@@ -428,12 +684,20 @@ pub(crate) fn reads(device: &Device, commands: vk::CommandBuffer, plan: &Plan, o
             }
         } else {
             let aspect = crate::format::aspect_flag(read.aspect);
-            let regions = [region(attachment, aspect, read.offset)];
+            let regions = match attachment.end {
+                PathEnd::Part => read.parts(attachment, aspect),
+                _ => vec![region(
+                    attachment,
+                    attachment.read_place(),
+                    aspect,
+                    read.offset,
+                )],
+            };
             // SAFETY: recording; the output buffer holds all texels from the offset on.
             unsafe {
                 device.raw.cmd_copy_image_to_buffer(
                     commands,
-                    attachment.image,
+                    attachment.copy.unwrap_or(attachment.image),
                     TRANSFER_SRC.layout,
                     output,
                     &regions,
@@ -469,6 +733,7 @@ fn barriers(
 /// Returns the copy of a whole aspect, tightly packed at an offset of a buffer.
 fn region(
     attachment: &AttachmentPlan,
+    place: Place,
     aspect: vk::ImageAspectFlags,
     offset: u64,
 ) -> vk::BufferImageCopy {
@@ -476,17 +741,48 @@ fn region(
         buffer_offset: offset,
         buffer_row_length: 0,
         buffer_image_height: 0,
-        image_subresource: vk::ImageSubresourceLayers {
-            aspect_mask: aspect,
-            mip_level: 0,
-            base_array_layer: 0,
-            layer_count: 1,
-        },
-        image_offset: vk::Offset3D::default(),
+        image_subresource: place.layers(aspect),
+        image_offset: place.offset(0, 0),
         image_extent: vk::Extent3D {
             width: attachment.size[0],
             height: attachment.size[1],
             depth: 1,
         },
+    }
+}
+
+impl ReadPlan {
+    /// Returns the copies of an aspect in up to four parts, which lie in the buffer as the whole would.
+    fn parts(
+        &self,
+        attachment: &AttachmentPlan,
+        aspect: vk::ImageAspectFlags,
+    ) -> Vec<vk::BufferImageCopy> {
+        let [width, height] = attachment.size;
+        // Offsets of depth and stencil in buffers are multiples of 4 (VkBufferImageCopy).
+        let cut = |length: u32| match length / 3 / 4 * 4 {
+            0 => vec![(0, length)],
+            first => vec![(0, first), (first, length - first)],
+        };
+        let texel = self.texel_bytes();
+        let mut all = Vec::new();
+        for (y, rows) in cut(height) {
+            for (x, columns) in cut(width) {
+                all.push(vk::BufferImageCopy {
+                    buffer_offset: self.offset
+                        + (u64::from(y) * u64::from(width) + u64::from(x)) * texel,
+                    buffer_row_length: width,
+                    buffer_image_height: 0,
+                    image_subresource: attachment.place.layers(aspect),
+                    image_offset: attachment.place.offset(x, y),
+                    image_extent: vk::Extent3D {
+                        width: columns,
+                        height: rows,
+                        depth: 1,
+                    },
+                });
+            }
+        }
+        all
     }
 }

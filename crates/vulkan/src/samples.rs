@@ -23,7 +23,7 @@ pub(crate) const TILE: u32 = 8;
 #[derive(Debug, Default)]
 pub(crate) struct SampleReaders {
     layout: Option<Layout>,
-    pipelines: HashMap<SampleType, vk::Pipeline>,
+    pipelines: HashMap<(SampleType, bool), vk::Pipeline>,
 }
 
 /// The compute pipeline of a reader with its layouts.
@@ -69,8 +69,8 @@ pub(crate) fn words(aspect: Aspect) -> usize {
     if aspect == Aspect::Color { 4 } else { 1 }
 }
 
-/// Returns the WGSL of a reader.
-fn source(seen: SampleType) -> String {
+/// Returns the WGSL of a reader of several samples or of one.
+fn source(seen: SampleType, several: bool) -> String {
     let (texture, code, aspect) = match seen {
         SampleType::Color => (
             "texture_multisampled_2d<f32>",
@@ -86,6 +86,10 @@ fn source(seen: SampleType) -> String {
         SampleType::Stencil => ("texture_multisampled_2d<u32>", "texel", Aspect::Stencil),
     };
     let words = words(aspect);
+    let (texture, samples, place) = match several {
+        true => (texture.to_owned(), "textureNumSamples(source)", "i32(s)"),
+        false => (texture.replace("multisampled_", ""), "1u", "0"),
+    };
     format!(
         "@group(0) @binding(0) var source: {texture};
 @group(0) @binding(1) var<storage, read_write> codes: array<u32>;
@@ -96,9 +100,9 @@ fn cs(@builtin(global_invocation_id) id: vec3u) {{
     if id.x >= size.x || id.y >= size.y {{
         return;
     }}
-    let samples = textureNumSamples(source);
+    let samples = {samples};
     for (var s = 0u; s < samples; s++) {{
-        let texel = textureLoad(source, vec2i(id.xy), i32(s));
+        let texel = textureLoad(source, vec2i(id.xy), {place});
         let code = {code};
         let at = ((id.y * size.x + id.x) * samples + s) * {words}u;
         for (var c = 0u; c < {words}u; c++) {{
@@ -111,21 +115,22 @@ fn cs(@builtin(global_invocation_id) id: vec3u) {{
 }
 
 impl SampleReaders {
-    /// Returns the reader of a sample type, created on first use.
+    /// Returns the reader of a sample type in several samples or one, created on first use.
     pub(crate) fn get(
         &mut self,
         device: &Device,
         seen: SampleType,
+        several: bool,
     ) -> Result<SampleReader, BackendError> {
         let layout = match self.layout {
             Some(layout) => layout,
             None => *self.layout.insert(layout(device)?),
         };
-        if let Some(pipeline) = self.pipelines.get(&seen).copied() {
+        if let Some(pipeline) = self.pipelines.get(&(seen, several)).copied() {
             return Ok(SampleReader { pipeline, layout });
         }
-        let pipeline = pipeline(device, &source(seen), layout.pipeline)?;
-        self.pipelines.insert(seen, pipeline);
+        let pipeline = pipeline(device, &source(seen, several), layout.pipeline)?;
+        self.pipelines.insert((seen, several), pipeline);
         Ok(SampleReader { pipeline, layout })
     }
 
@@ -200,7 +205,10 @@ mod tests {
             SampleType::Depth,
             SampleType::Stencil,
         ] {
-            shader::translate("read_samples", &source(seen)).expect("our own shader");
+            for several in [false, true] {
+                let source = source(seen, several);
+                shader::translate("read_samples", &source).expect("our own shader");
+            }
         }
     }
 

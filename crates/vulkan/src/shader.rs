@@ -2,6 +2,7 @@
 
 use crate::device::Device;
 use crate::error::Check;
+use crate::viewport;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_scene::{EarlyTests, Shader};
@@ -24,10 +25,10 @@ pub(crate) struct Module {
     pub(crate) attributes: Vec<u32>,
 }
 
-/// One module per shader and early-test mode. The set is closed, so all are kept.
+/// One module per shader, early-test mode and viewport. The set is closed, so all are kept.
 #[derive(Debug, Default)]
 pub(crate) struct Modules {
-    modules: HashMap<(Shader, EarlyTests), Module>,
+    modules: HashMap<(Shader, EarlyTests, bool), Module>,
 }
 
 /// Translates a WGSL file.
@@ -82,16 +83,21 @@ impl Modules {
         device: &Device,
         shader: Shader,
         tests: EarlyTests,
+        second_viewport: bool,
     ) -> Result<Module, BackendError> {
-        if let Some(module) = self.modules.get(&(shader, tests)) {
+        let key = (shader, tests, second_viewport);
+        if let Some(module) = self.modules.get(&key) {
             return Ok(module.clone());
         }
-        let translated = translate(shader.name(), &shader.wgsl_with(tests))?;
+        let mut translated = translate(shader.name(), &shader.wgsl_with(tests))?;
+        if second_viewport {
+            translated.words = viewport::choose_second(&translated.words);
+        }
         let module = Module {
             raw: create_module(device, shader.name(), &translated.words)?,
             attributes: translated.attributes,
         };
-        self.modules.insert((shader, tests), module.clone());
+        self.modules.insert(key, module.clone());
         Ok(module)
     }
 

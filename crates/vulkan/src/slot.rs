@@ -15,7 +15,13 @@ const FEWEST_SETS: u32 = 8;
 #[derive(Debug, Default)]
 pub(crate) struct Slot {
     pool: vk::CommandPool,
-    commands: vk::CommandBuffer,
+    /// Primary command buffers, the first of which are submitted.
+    primaries: Vec<vk::CommandBuffer>,
+    /// The number of primary command buffers that are recorded, the current one included.
+    recorded: usize,
+    secondaries: Vec<vk::CommandBuffer>,
+    /// The number of secondary command buffers that are recorded.
+    executed: usize,
     fence: vk::Fence,
     /// Empty if the queue has no timestamps.
     timestamps: Queries,
@@ -91,12 +97,6 @@ impl Slot {
                 .queue_family_index(device.queue_family);
             // SAFETY: the family is the one the device was made with.
             self.pool = unsafe { api.create_command_pool(&info, None) }.check("a command pool")?;
-            let info = vk::CommandBufferAllocateInfo::default()
-                .command_pool(self.pool)
-                .command_buffer_count(1);
-            // SAFETY: the pool was just made.
-            let made = unsafe { api.allocate_command_buffers(&info) }.check("a command buffer")?;
-            self.commands = made.first().copied().unwrap_or_default();
             let info = vk::FenceCreateInfo::default();
             // SAFETY: the device lives.
             self.fence = unsafe { api.create_fence(&info, None) }.check("a fence")?;
@@ -162,26 +162,72 @@ impl Slot {
     }
 
     /// Begins recording.
-    pub(crate) fn begin(&self, device: &Device) -> Result<vk::CommandBuffer, BackendError> {
-        let info = vk::CommandBufferBeginInfo::default()
-            .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+    pub(crate) fn begin(&mut self, device: &Device) -> Result<vk::CommandBuffer, BackendError> {
         // SAFETY: the device is done with the commands: `submit` waits.
         unsafe {
             device
                 .raw
                 .reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty())
                 .check("command memory")?;
-            device
-                .raw
-                .begin_command_buffer(self.commands, &info)
-                .check("command memory")?;
         }
-        Ok(self.commands)
+        (self.recorded, self.executed) = (0, 0);
+        self.next_primary(device)
+    }
+
+    /// Ends the primary command buffer and begins another one, which is submitted behind it.
+    pub(crate) fn next_primary(
+        &mut self,
+        device: &Device,
+    ) -> Result<vk::CommandBuffer, BackendError> {
+        if self.recorded > 0 {
+            // SAFETY: recording, outside of a render pass.
+            unsafe { device.raw.end_command_buffer(self.commands()) }.check("command memory")?;
+        }
+        let level = vk::CommandBufferLevel::PRIMARY;
+        let commands = nth(device, self.pool, level, &mut self.primaries, self.recorded)?;
+        self.recorded += 1;
+        let info = vk::CommandBufferBeginInfo::default()
+            .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        // SAFETY: the pool was reset, and the buffer is not recorded since.
+        unsafe { device.raw.begin_command_buffer(commands, &info) }.check("command memory")?;
+        Ok(commands)
+    }
+
+    /// Begins a secondary command buffer within a pass.
+    pub(crate) fn secondary(
+        &mut self,
+        device: &Device,
+        inheritance: &vk::CommandBufferInheritanceInfo<'_>,
+    ) -> Result<vk::CommandBuffer, BackendError> {
+        let level = vk::CommandBufferLevel::SECONDARY;
+        let commands = nth(
+            device,
+            self.pool,
+            level,
+            &mut self.secondaries,
+            self.executed,
+        )?;
+        self.executed += 1;
+        let info = vk::CommandBufferBeginInfo::default()
+            .flags(
+                vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT
+                    | vk::CommandBufferUsageFlags::RENDER_PASS_CONTINUE,
+            )
+            .inheritance_info(inheritance);
+        // SAFETY: as above.
+        unsafe { device.raw.begin_command_buffer(commands, &info) }.check("command memory")?;
+        Ok(commands)
+    }
+
+    /// Returns the primary command buffer that is being recorded.
+    pub(crate) fn commands(&self) -> vk::CommandBuffer {
+        let last = self.recorded.saturating_sub(1);
+        self.primaries.get(last).copied().unwrap_or_default()
     }
 
     /// Records the reset of the timestamps.
     pub(crate) fn reset_timestamps(&self, device: &Device) {
-        self.timestamps.reset(device, self.commands, 2);
+        self.timestamps.reset(device, self.commands(), 2);
     }
 
     /// Records a timestamp: 0 before and 1 after the timed commands.
@@ -192,7 +238,7 @@ impl Slot {
             unsafe {
                 device
                     .raw
-                    .cmd_write_timestamp2(self.commands, stage, self.timestamps.raw, index);
+                    .cmd_write_timestamp2(self.commands(), stage, self.timestamps.raw, index);
             }
         }
     }
@@ -205,13 +251,16 @@ impl Slot {
         start: Instant,
     ) -> Result<(Duration, Duration), BackendError> {
         let fences = [self.fence];
-        let commands = [vk::CommandBufferSubmitInfo::default().command_buffer(self.commands)];
+        let commands: Vec<_> = self.primaries[..self.recorded]
+            .iter()
+            .map(|c| vk::CommandBufferSubmitInfo::default().command_buffer(*c))
+            .collect();
         let info = [vk::SubmitInfo2::default().command_buffer_infos(&commands)];
         let api = &device.raw;
         // SAFETY: the commands are complete, everything they use lives in the scene, and one thread
         // uses the queue.
         unsafe {
-            api.end_command_buffer(self.commands)
+            api.end_command_buffer(self.commands())
                 .check("command memory")?;
             api.reset_fences(&fences).check("a fence")?;
             // Set first: after an error the device may have begun.
@@ -251,4 +300,26 @@ impl Slot {
             queries.destroy(device);
         }
     }
+}
+
+/// Returns the command buffer of this number, created on first use.
+fn nth(
+    device: &Device,
+    pool: vk::CommandPool,
+    level: vk::CommandBufferLevel,
+    all: &mut Vec<vk::CommandBuffer>,
+    number: usize,
+) -> Result<vk::CommandBuffer, BackendError> {
+    if all.len() <= number {
+        let info = vk::CommandBufferAllocateInfo::default()
+            .command_pool(pool)
+            .level(level)
+            .command_buffer_count(1);
+        // SAFETY: the pool lives.
+        let made = unsafe { device.raw.allocate_command_buffers(&info) };
+        all.extend(made.check("a command buffer")?);
+    }
+    all.get(number)
+        .copied()
+        .ok_or_else(|| internal("no command buffer came back"))
 }

@@ -1,0 +1,158 @@
+//! A path as Vulkan takes it: the values that a device has, and what each means for an attachment, a pass or
+//! a draw.
+//!
+//! Everything else asks the functions here and not the path. A new value is a new answer of one of them.
+
+use crate::device::Device;
+use crate::format::{self, Native};
+use crate::image::ImageKey;
+use crate::samples;
+use ash::vk;
+use etalon_backend::BackendError;
+use etalon_frame::{
+    Aspect, ChannelEncoding, PathArea, PathClip, PathEnd, PathState, PathTarget, PathValue,
+    PathViewport, Requirement, TextureFormat,
+};
+use etalon_scene::{Attachment, ColorTarget, Draw, Multisample, Path, PolygonMode, Scene};
+use std::collections::BTreeSet;
+
+/// Returns the values that a device has. Formats may lack some of them: [`target`] and [`end`] say so.
+pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
+    let has = |value: &PathValue| match *value {
+        PathValue::State(PathState::ExtendedDynamic3) => false,
+        PathValue::Viewport(PathViewport::Array) => device.second_viewport,
+        PathValue::End(PathEnd::ShaderRead) => device.compute,
+        // Only OpenGL has them.
+        PathValue::Target(PathTarget::Renderbuffer) | PathValue::Clip(PathClip::Toggled) => false,
+        _ => true,
+    };
+    PathValue::all().into_iter().filter(has).collect()
+}
+
+/// Returns the part of a texture that an attachment is. What an attachment cannot be is left plain: several
+/// samples have one level and no cube, and shaders see no slice of three dimensions.
+pub(crate) fn target(scene: &Scene, index: usize, attachment: &Attachment) -> PathTarget {
+    let single = attachment.samples == 1;
+    let read_by_shader = || {
+        let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
+        let read = scene.path.end == PathEnd::ShaderRead && scene.read.contains(&index);
+        read || draws.any(|d| d.textures.contains(&index))
+    };
+    let can = match scene.path.target {
+        PathTarget::MipLevel => single,
+        PathTarget::CubeFace => single && attachment.size[0] == attachment.size[1],
+        PathTarget::Slice3d => single && attachment.format.is_color() && !read_by_shader(),
+        PathTarget::Plain | PathTarget::ArrayLayer | PathTarget::Renderbuffer => true,
+    };
+    match can {
+        true => scene.path.target,
+        false => PathTarget::Plain,
+    }
+}
+
+/// Checks that the device makes images of a key that is not plain.
+pub(crate) fn check_target(device: &Device, key: &ImageKey) -> Result<(), BackendError> {
+    if key.target == PathTarget::Plain {
+        return Ok(());
+    }
+    let shape = key.shape();
+    // SAFETY: the physical device is of this living instance.
+    let properties = unsafe {
+        let api = device.instance.raw();
+        api.get_physical_device_image_format_properties(
+            device.physical,
+            key.format,
+            shape.kind,
+            vk::ImageTiling::OPTIMAL,
+            key.usage,
+            shape.flags,
+        )
+    };
+    let fits = properties.is_ok_and(|p| {
+        p.max_extent.width >= shape.extent.width
+            && p.max_extent.height >= shape.extent.height
+            && p.max_extent.depth >= shape.extent.depth
+            && p.max_mip_levels >= shape.levels
+            && p.max_array_layers >= shape.layers
+            && p.sample_counts.as_raw() & key.samples != 0
+    });
+    let value = Requirement::Path(PathValue::Target(key.target));
+    fits.then_some(()).ok_or(BackendError::NotSupported(value))
+}
+
+/// Returns the way of an attachment to the host. A blit of normalized colours may round, and a shader cannot
+/// tell the codes of some formats: these are read as they are by default.
+pub(crate) fn end(
+    device: &Device,
+    path: &Path,
+    attachment: &Attachment,
+    native: Native,
+) -> Result<PathEnd, BackendError> {
+    let format = attachment.format;
+    let single = attachment.samples == 1;
+    let can = match path.end {
+        PathEnd::Blit => single && is_blitted_exactly(format),
+        PathEnd::ShaderRead => single && is_fetched_exactly(format, native),
+        PathEnd::Part => single,
+        PathEnd::Store | PathEnd::Copy => true,
+    };
+    if !can {
+        return Ok(PathEnd::Store);
+    }
+    if path.end == PathEnd::Blit && !device.blits(native.raw) {
+        let value = PathValue::End(PathEnd::Blit);
+        return Err(BackendError::NotSupported(Requirement::Path(value)));
+    }
+    Ok(path.end)
+}
+
+fn is_blitted_exactly(format: TextureFormat) -> bool {
+    let exact = |e: &ChannelEncoding| e.is_float() || matches!(e, ChannelEncoding::Uint(_));
+    format.color_channels().iter().all(exact)
+}
+
+fn is_fetched_exactly(format: TextureFormat, native: Native) -> bool {
+    let aspects: &[Aspect] = format.aspects();
+    aspects.iter().all(|aspect| {
+        let channels = format::channels(format, native.raw, *aspect);
+        channels.iter().all(|encoding| {
+            let twofold = matches!(encoding, ChannelEncoding::Srgb8 | ChannelEncoding::Snorm(_));
+            samples::can_read(*encoding) && !twofold
+        })
+    })
+}
+
+/// Returns the render areas of a pass, which is recorded once for each.
+pub(crate) fn areas(path: &Path, [width, height]: [u32; 2]) -> Vec<vk::Rect2D> {
+    let columns = |left: u32, width: u32| vk::Rect2D {
+        offset: vk::Offset2D {
+            x: left.cast_signed(),
+            y: 0,
+        },
+        extent: vk::Extent2D { width, height },
+    };
+    match path.area {
+        PathArea::Part if width > 1 => {
+            // Not the middle, which tiles and their multiples share.
+            let left = (width * 2 / 5).max(1);
+            vec![columns(0, left), columns(left, width - left)]
+        }
+        PathArea::Part | PathArea::Full => vec![columns(0, width)],
+    }
+}
+
+/// Returns a draw whose pipeline differs from this one's in what a pipeline holds.
+pub(crate) fn other(draw: &Draw) -> Draw {
+    let opposite = |target: &ColorTarget| ColorTarget {
+        blend: None,
+        write_mask: !target.write_mask & 0b1111,
+    };
+    Draw {
+        targets: draw.targets.iter().map(opposite).collect(),
+        logic: None,
+        polygon_mode: PolygonMode::Fill,
+        depth_clamp: false,
+        multisample: Multisample::default(),
+        ..draw.clone()
+    }
+}

@@ -1,0 +1,225 @@
+//! Render passes and their framebuffers: the objects that a pass is, where it is no dynamic rendering.
+
+use crate::clear::Ends;
+use crate::device::Device;
+use crate::error::Check;
+use crate::pipeline::Targets;
+use crate::plan::{DepthStencilPlan, PassPlan};
+use crate::record::{COLOR, DEPTH_STENCIL, DEPTH_STENCIL_READ_ONLY, DEPTH_STENCIL_RESOLVE};
+use crate::state;
+use ash::vk;
+use etalon_backend::BackendError;
+
+/// What two compatible render passes share besides formats (Vulkan, Render Pass Compatibility).
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Compatible {
+    /// The subpass that draws.
+    pub(crate) subpass: u32,
+    resolves: Vec<bool>,
+    modes: Option<[u32; 2]>,
+    read_only: bool,
+}
+
+/// A render pass with its framebuffer.
+pub(crate) struct RenderPass {
+    pub(crate) raw: vk::RenderPass,
+    pub(crate) framebuffer: vk::Framebuffer,
+    pub(crate) compatible: Compatible,
+    /// One for each attachment, in the render pass's order.
+    pub(crate) values: Vec<vk::ClearValue>,
+}
+
+/// The attachments of a render pass, in order, with the views of its framebuffer.
+#[derive(Default)]
+struct Attachments {
+    descriptions: Vec<vk::AttachmentDescription2<'static>>,
+    views: Vec<vk::ImageView>,
+    values: Vec<vk::ClearValue>,
+}
+
+impl Attachments {
+    /// Adds an attachment and returns the reference to it. Its layout is the same before, within and
+    /// after the pass.
+    fn add(
+        &mut self,
+        (view, format, samples): (vk::ImageView, vk::Format, u32),
+        layout: vk::ImageLayout,
+        aspects: vk::ImageAspectFlags,
+        [first, second]: [&Ends; 2],
+    ) -> vk::AttachmentReference2<'static> {
+        let number = self.views.len() as u32;
+        self.views.push(view);
+        self.values.push(first.value);
+        self.descriptions.push(
+            vk::AttachmentDescription2::default()
+                .format(format)
+                .samples(state::samples(samples))
+                .load_op(first.load)
+                .store_op(first.store)
+                .stencil_load_op(second.load)
+                .stencil_store_op(second.store)
+                .initial_layout(layout)
+                .final_layout(layout),
+        );
+        vk::AttachmentReference2::default()
+            .attachment(number)
+            .layout(layout)
+            .aspect_mask(aspects)
+    }
+}
+
+const UNUSED: u32 = vk::ATTACHMENT_UNUSED;
+
+impl RenderPass {
+    /// Returns a planned pass as an object. With a second subpass, the first names the same attachments
+    /// and draws nothing, so load operations and draws are apart.
+    pub(crate) fn new(
+        device: &Device,
+        pass: &PassPlan,
+        targets: &Targets,
+        second_subpass: bool,
+    ) -> Result<Self, BackendError> {
+        let mut all = Attachments::default();
+        let kept = Ends::kept();
+        let (mut color, mut resolves) = (Vec::new(), Vec::new());
+        for (plan, format) in pass.color.iter().zip(&targets.color) {
+            let shape = (plan.view, *format, targets.samples);
+            let aspect = vk::ImageAspectFlags::COLOR;
+            color.push(all.add(shape, COLOR.layout, aspect, [&plan.ends, &kept]));
+            resolves.push(match plan.resolve {
+                None => vk::AttachmentReference2::default().attachment(UNUSED),
+                Some((view, _)) => {
+                    all.add((view, *format, 1), COLOR.layout, aspect, [&kept, &kept])
+                }
+            });
+        }
+        let tested = pass.depth_stencil.as_ref().map(|plan| {
+            let layout = match plan.read_only {
+                true => DEPTH_STENCIL_READ_ONLY.layout,
+                false => DEPTH_STENCIL.layout,
+            };
+            let ends = depth_stencil_ends(plan);
+            let shape = (plan.view, targets.depth_stencil(), targets.samples);
+            let reference = all.add(shape, layout, targets.aspects(), [&ends[0], &ends[1]]);
+            let last = all.values.last_mut();
+            if let Some(value) = last {
+                *value = vk::ClearValue {
+                    depth_stencil: vk::ClearDepthStencilValue {
+                        // SAFETY: the values of depth and stencil were made as such, or are zero.
+                        depth: unsafe { ends[0].value.depth_stencil.depth },
+                        // SAFETY: as above.
+                        stencil: unsafe { ends[1].value.depth_stencil.stencil },
+                    },
+                };
+            }
+            reference
+        });
+        let resolved = pass.depth_stencil.as_ref().and_then(|plan| plan.resolve);
+        let target = resolved.map(|(view, _)| {
+            let shape = (view, targets.depth_stencil(), 1);
+            let layout = DEPTH_STENCIL_RESOLVE.layout;
+            all.add(shape, layout, targets.aspects(), [&kept, &kept])
+        });
+        let mut depth_stencil_resolve = vk::SubpassDescriptionDepthStencilResolve::default();
+        if let (Some((_, [depth, stencil])), Some(target)) = (resolved, &target) {
+            depth_stencil_resolve = depth_stencil_resolve
+                .depth_resolve_mode(depth)
+                .stencil_resolve_mode(stencil)
+                .depth_stencil_resolve_attachment(target);
+        }
+        let described = |last: bool| {
+            let mut subpass = vk::SubpassDescription2::default()
+                .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
+                .color_attachments(&color);
+            if let Some(tested) = &tested {
+                subpass = subpass.depth_stencil_attachment(tested);
+            }
+            if last && pass.color.iter().any(|c| c.resolve.is_some()) {
+                subpass = subpass.resolve_attachments(&resolves);
+            }
+            subpass
+        };
+        let mut last = described(true);
+        if target.is_some() {
+            last = last.push_next(&mut depth_stencil_resolve);
+        }
+        let (subpasses, subpass) = match second_subpass {
+            true => (vec![described(false), last], 1),
+            false => (vec![last], 0),
+        };
+        let dependencies = [between_subpasses()];
+        let info = vk::RenderPassCreateInfo2::default()
+            .attachments(&all.descriptions)
+            .subpasses(&subpasses)
+            .dependencies(&dependencies[..usize::from(second_subpass)]);
+        // SAFETY: all parts of `info` live.
+        let raw = unsafe { device.raw.create_render_pass2(&info, None) }.check("a render pass")?;
+        let mut made = Self {
+            raw,
+            framebuffer: vk::Framebuffer::null(),
+            compatible: Compatible {
+                subpass,
+                resolves: pass.color.iter().map(|c| c.resolve.is_some()).collect(),
+                modes: resolved.map(|(_, modes)| modes.map(vk::ResolveModeFlags::as_raw)),
+                read_only: pass.depth_stencil.as_ref().is_some_and(|d| d.read_only),
+            },
+            values: all.values,
+        };
+        let [width, height] = pass.size;
+        let info = vk::FramebufferCreateInfo::default()
+            .render_pass(raw)
+            .attachments(&all.views)
+            .width(width)
+            .height(height)
+            .layers(1);
+        // SAFETY: the views are of the render pass's formats and at least so large.
+        let framebuffer =
+            unsafe { device.raw.create_framebuffer(&info, None) }.check("a framebuffer");
+        match framebuffer {
+            Ok(framebuffer) => made.framebuffer = framebuffer,
+            Err(error) => {
+                made.destroy(device);
+                return Err(error);
+            }
+        }
+        Ok(made)
+    }
+
+    pub(crate) fn destroy(&self, device: &Device) {
+        // SAFETY: the device is done with the pass; null handles are ignored.
+        unsafe {
+            device.raw.destroy_framebuffer(self.framebuffer, None);
+            device.raw.destroy_render_pass(self.raw, None);
+        }
+    }
+}
+
+/// The operations of depth and stencil. A read-only pass writes nothing, not even by a store operation.
+fn depth_stencil_ends(plan: &DepthStencilPlan) -> [Ends; 2] {
+    [&plan.depth, &plan.stencil].map(|ends| {
+        let mut ends = ends.clone().unwrap_or_else(Ends::kept);
+        if plan.read_only {
+            ends.store = vk::AttachmentStoreOp::NONE;
+        }
+        ends
+    })
+}
+
+/// What the first subpass wrote, load operations included, before the second.
+fn between_subpasses() -> vk::SubpassDependency2<'static> {
+    let stages = vk::PipelineStageFlags::COLOR_ATTACHMENT_OUTPUT
+        | vk::PipelineStageFlags::EARLY_FRAGMENT_TESTS
+        | vk::PipelineStageFlags::LATE_FRAGMENT_TESTS;
+    let written =
+        vk::AccessFlags::COLOR_ATTACHMENT_WRITE | vk::AccessFlags::DEPTH_STENCIL_ATTACHMENT_WRITE;
+    let read =
+        vk::AccessFlags::COLOR_ATTACHMENT_READ | vk::AccessFlags::DEPTH_STENCIL_ATTACHMENT_READ;
+    vk::SubpassDependency2::default()
+        .src_subpass(0)
+        .dst_subpass(1)
+        .src_stage_mask(stages)
+        .dst_stage_mask(stages)
+        .src_access_mask(written)
+        .dst_access_mask(read | written)
+        .dependency_flags(vk::DependencyFlags::BY_REGION)
+}

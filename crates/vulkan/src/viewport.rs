@@ -1,0 +1,105 @@
+//! Vertex shaders that choose the second viewport.
+//!
+//! WGSL has no viewport index, so the built-in output is added to naga's SPIR-V: a capability with its
+//! extension, an output variable, and a store of 1 before each return of the vertex entry point.
+
+/// The opcodes in question (SPIR-V, Instructions).
+const EXTENSION: u32 = 10;
+const ENTRY_POINT: u32 = 15;
+const CAPABILITY: u32 = 17;
+const TYPE_INT: u32 = 21;
+const TYPE_POINTER: u32 = 32;
+const CONSTANT: u32 = 43;
+const FUNCTION: u32 = 54;
+const FUNCTION_END: u32 = 56;
+const VARIABLE: u32 = 59;
+const STORE: u32 = 62;
+const DECORATE: u32 = 71;
+const RETURN: u32 = 253;
+
+/// The capability ShaderViewportIndexLayerEXT of SPV_EXT_shader_viewport_index_layer.
+const VIEWPORT_INDEX_LAYER: u32 = 5254;
+const BUILT_IN: u32 = 11;
+const VIEWPORT_INDEX: u32 = 10;
+const OUTPUT: u32 = 3;
+
+/// Returns an instruction.
+fn instruction(opcode: u32, operands: &[u32]) -> Vec<u32> {
+    let mut words = vec![((operands.len() as u32 + 1) << 16) | opcode];
+    words.extend(operands);
+    words
+}
+
+/// Returns a module whose vertex entry point draws to the second viewport.
+pub(crate) fn choose_second(words: &[u32]) -> Vec<u32> {
+    let (header, body) = words.split_at(5);
+    let mut all = Vec::new();
+    let mut rest = body;
+    while let [head, ..] = rest {
+        let (one, behind) = rest.split_at((head >> 16).max(1) as usize);
+        all.push(one);
+        rest = behind;
+    }
+    let opcode = |one: &[u32]| one[0] & 0xffff;
+    let is = |one: &[u32], code: u32| opcode(one) == code;
+    let vertex = all
+        .iter()
+        .find(|one| is(one, ENTRY_POINT) && one[1] == 0)
+        .map(|one| one[2]);
+    // Two types of the same integers are not allowed; two pointers to them are.
+    let unsigned = all
+        .iter()
+        .find(|one| is(one, TYPE_INT) && one[2..] == [32, 0])
+        .map(|one| one[1]);
+    let first = header[3];
+    let [variable, pointer, one, made] = [first, first + 1, first + 2, first + 3];
+    let integer = unsigned.unwrap_or(made);
+    let mut out = header.to_vec();
+    out[3] = first + 4;
+    let (mut capability, mut extension, mut decorated, mut declared) = (false, false, false, false);
+    let mut function = None;
+    for line in all {
+        if !capability {
+            out.extend(instruction(CAPABILITY, &[VIEWPORT_INDEX_LAYER]));
+            capability = true;
+        }
+        if !extension && !is(line, CAPABILITY) {
+            let mut name = b"SPV_EXT_shader_viewport_index_layer".to_vec();
+            name.resize(name.len() / 4 * 4 + 4, 0);
+            let words = name
+                .chunks_exact(4)
+                .map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]));
+            out.extend(instruction(EXTENSION, &words.collect::<Vec<_>>()));
+            extension = true;
+        }
+        if !decorated && (is(line, DECORATE) || opcode(line) == 72) {
+            out.extend(instruction(DECORATE, &[variable, BUILT_IN, VIEWPORT_INDEX]));
+            decorated = true;
+        }
+        if !declared && is(line, FUNCTION) {
+            if unsigned.is_none() {
+                out.extend(instruction(TYPE_INT, &[made, 32, 0]));
+            }
+            out.extend(instruction(TYPE_POINTER, &[pointer, OUTPUT, integer]));
+            out.extend(instruction(CONSTANT, &[integer, one, 1]));
+            out.extend(instruction(VARIABLE, &[pointer, variable, OUTPUT]));
+            declared = true;
+        }
+        if is(line, FUNCTION) {
+            function = Some(line[2]);
+        }
+        if is(line, FUNCTION_END) {
+            function = None;
+        }
+        if is(line, RETURN) && function.is_some() && function == vertex {
+            out.extend(instruction(STORE, &[variable, one]));
+        }
+        if is(line, ENTRY_POINT) && Some(line[2]) == vertex {
+            let operands = [&line[1..], &[variable]].concat();
+            out.extend(instruction(ENTRY_POINT, &operands));
+        } else {
+            out.extend(line);
+        }
+    }
+    out
+}
