@@ -106,6 +106,34 @@ faults! {
     QueryFirst = "query-first" in "sequence";
     /// Queries after the first end before their draw.
     QueryEarly = "query-early" in "sequence";
+    /// Load operations do not clear colour.
+    LoadColorIgnored = "load-color-ignored" in "paths", vulkan;
+    /// Load operations do not clear depth.
+    LoadDepthIgnored = "load-depth-ignored" in "paths", vulkan;
+    /// Load operations do not clear stencil.
+    LoadStencilIgnored = "load-stencil-ignored" in "paths", vulkan;
+    /// What is drawn in a render pass that is an object is not stored.
+    StoreDropped = "store-dropped" in "paths", vulkan;
+    /// Views are of layer 0.
+    LayerDropped = "layer-dropped" in "paths", vulkan;
+    /// Views are of level 0.
+    LevelDropped = "level-dropped" in "paths", vulkan;
+    /// Of several targets, the second is not resolved.
+    ResolveSecondDropped = "resolve-second-dropped" in "paths", vulkan;
+    /// The second target receives what the first is resolved to.
+    ResolveSecondFromFirst = "resolve-second-from-first" in "paths", vulkan;
+    /// Culling is the pipeline's, although it is dynamic.
+    StaticForDynamic = "static-for-dynamic" in "paths", vulkan;
+    /// Culling in a pipeline is off.
+    StaticIgnored = "static-ignored" in "paths", vulkan;
+    /// The first draw of a secondary command buffer is lost.
+    SecondaryFirstDraw = "secondary-first-draw" in "paths", vulkan;
+    /// The second viewport is the first.
+    ViewportFirst = "viewport-first" in "paths", vulkan;
+    /// The first index is 0.
+    IndexOffset = "index-offset" in "paths", vulkan;
+    /// Blits leave their target's last column.
+    BlitColumn = "blit-column" in "paths", vulkan;
 }
 
 impl CallFault {

@@ -29,7 +29,7 @@ pub use known::{
     COUNTING_SHADERS, Defect, FOUR_SAMPLES, KNOWN, Known, SOFTPIPE_CLEARS, SOFTPIPE_WRONG, known,
 };
 pub use lacks::{Lacks, Names};
-pub use library::{Share, draw_library};
+pub use library::{Share, draw_area, draw_library};
 pub use scenes::{scene, with};
 pub use serde_json::{Value, json};
 pub use subject::{Missing, Outcome, Subject};

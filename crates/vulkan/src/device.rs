@@ -1,6 +1,7 @@
 //! Physical devices and the logical device.
 
 use crate::error::{Check, describe};
+use crate::extended;
 use crate::instance::{INSTANCE_VERSION, Instance};
 use ash::vk;
 use etalon_backend::{AdapterInfo, BackendError, Unavailable};
@@ -36,6 +37,8 @@ pub(crate) struct Device {
     pub(crate) features: vk::PhysicalDeviceFeatures,
     /// True if a vertex shader may choose the second of two viewports.
     pub(crate) second_viewport: bool,
+    /// The functions of extended dynamic state 3, if the device has all of it that the suite sets.
+    pub(crate) extended: Option<ash::ext::extended_dynamic_state3::Device>,
     /// Valid bits of a timestamp; 0 if timestamps are not supported.
     pub(crate) timestamp_bits: u32,
 }
@@ -136,6 +139,18 @@ fn has_extension(api: &ash::Instance, physical: vk::PhysicalDevice, name: &CStr)
     let all = extensions.iter().flatten();
     all.into_iter()
         .any(|e| e.extension_name_as_c_str().is_ok_and(|n| n == name))
+}
+
+/// True if a device has extended dynamic state 3, as far as the suite sets it.
+fn has_extended(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
+    if !has_extension(api, physical, ash::ext::extended_dynamic_state3::NAME) {
+        return false;
+    }
+    let mut offered = vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT::default();
+    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    // SAFETY: the chained structure is of an extension that the device has.
+    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    extended::has(&offered)
 }
 
 /// Returns the promises of maintenance5, where the device has it.
@@ -250,16 +265,27 @@ impl Device {
         let second_viewport = features.multi_viewport != 0
             && properties.limits.max_viewports > 1
             && has_extension(api, physical, ash::ext::shader_viewport_index_layer::NAME);
-        let extensions = [ash::ext::shader_viewport_index_layer::NAME.as_ptr()];
+        let extended = has_extended(api, physical);
+        let extensions: Vec<_> = [
+            (second_viewport, ash::ext::shader_viewport_index_layer::NAME),
+            (extended, ash::ext::extended_dynamic_state3::NAME),
+        ]
+        .into_iter()
+        .filter_map(|(used, name)| used.then_some(name.as_ptr()))
+        .collect();
+        let mut enabled_extended = extended::features(extended);
         // Both are mandatory in Vulkan 1.3.
         let mut enabled13 = vk::PhysicalDeviceVulkan13Features::default()
             .dynamic_rendering(true)
             .synchronization2(true);
-        let info = vk::DeviceCreateInfo::default()
+        let mut info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queues)
             .enabled_features(&enabled)
-            .enabled_extension_names(&extensions[..usize::from(second_viewport)])
+            .enabled_extension_names(&extensions)
             .push_next(&mut enabled13);
+        if extended {
+            info = info.push_next(&mut enabled_extended);
+        }
         // SAFETY: every pointer in `info` outlives the call.
         let raw = unsafe { api.create_device(physical, &info, None) }.map_err(|code| {
             Unavailable::new(
@@ -285,6 +311,7 @@ impl Device {
             compute: family.queue_flags.contains(compute),
             features: enabled,
             second_viewport,
+            extended: extended.then(|| ash::ext::extended_dynamic_state3::Device::new(api, &raw)),
             timestamp_bits: if properties.limits.timestamp_period > 0.0 {
                 family.timestamp_valid_bits
             } else {

@@ -7,6 +7,7 @@
 use crate::clear::intersection;
 use crate::device::Device;
 use crate::error::internal;
+use crate::extended;
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
@@ -43,6 +44,8 @@ const STATES: [vk::DynamicState; 18] = [
 pub(crate) struct Setting {
     /// True if all of it is in the pipeline.
     pub(crate) fixed: bool,
+    /// True if [`extended::STATES`] are dynamic too.
+    pub(crate) extended: bool,
     pub(crate) viewport: PathViewport,
 }
 
@@ -58,7 +61,12 @@ impl Setting {
             (_, false) => &[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR],
         };
         let rest: &[_] = if self.fixed { &[] } else { &STATES };
-        [viewports, rest].concat()
+        let extended: &[_] = if self.extended {
+            &extended::STATES
+        } else {
+            &[]
+        };
+        [viewports, rest, extended].concat()
     }
 }
 

@@ -17,6 +17,7 @@ mod descriptors;
 mod device;
 mod dynamic;
 mod error;
+mod extended;
 mod format;
 mod gpu;
 mod image;

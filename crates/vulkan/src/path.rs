@@ -19,7 +19,7 @@ use std::collections::BTreeSet;
 /// Returns the values that a device has. Formats may lack some of them: [`target`] and [`end`] say so.
 pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
     let has = |value: &PathValue| match *value {
-        PathValue::State(PathState::ExtendedDynamic3) => false,
+        PathValue::State(PathState::ExtendedDynamic3) => device.extended.is_some(),
         PathValue::Viewport(PathViewport::Array) => device.second_viewport,
         PathValue::End(PathEnd::ShaderRead) => device.compute,
         // Only OpenGL has them.

@@ -444,7 +444,8 @@ fn attributes(
     locations.iter().map(attribute).collect()
 }
 
-fn color_target(target: &ColorTarget) -> vk::PipelineColorBlendAttachmentState {
+/// Returns Vulkan's state of a colour attachment.
+pub(crate) fn color_target(target: &ColorTarget) -> vk::PipelineColorBlendAttachmentState {
     let mut native = vk::PipelineColorBlendAttachmentState::default()
         .color_write_mask(state::write_mask(target.write_mask));
     if let Some(blend) = target.blend {

@@ -4,6 +4,7 @@ use crate::clear::{ClearPlan, Ends, color_value, depth_stencil_value};
 use crate::counting::{Counting, Query};
 use crate::dynamic::Dynamic;
 use crate::error::internal;
+use crate::extended::Extended;
 use crate::format;
 use crate::gpu::Gpu;
 use crate::image::{Image, ImageKey, Place};
@@ -116,6 +117,8 @@ pub(crate) struct DrawPlan {
     pub(crate) other: Option<Rc<Pipeline>>,
     /// True if the state is set to another before.
     pub(crate) overwritten: bool,
+    /// The further dynamic state, where the path asks for it.
+    pub(crate) extended: Option<Extended>,
     /// The offset of the arguments, in an indirect draw.
     pub(crate) arguments: Option<u64>,
     pub(crate) set: vk::DescriptorSet,
@@ -283,15 +286,14 @@ impl DrawPlan {
         inputs: &DrawInputs,
         dynamic: Dynamic,
         pipeline: Rc<Pipeline>,
-        other: Option<Rc<Pipeline>>,
         set: vk::DescriptorSet,
         queries: Vec<Query>,
-        overwritten: bool,
     ) -> Result<Self, BackendError> {
         Ok(Self {
             pipeline,
-            other,
-            overwritten,
+            other: None,
+            overwritten: false,
+            extended: None,
             set,
             params: u32::try_from(inputs.params).map_err(|_| internal("inputs too large"))?,
             vertices: inputs.vertices,

@@ -18,6 +18,7 @@ thread_local! {
 struct Planted {
     fault: CallFault,
     v10: ash::DeviceFnV1_0,
+    v12: ash::DeviceFnV1_2,
     v13: ash::DeviceFnV1_3,
     /// The number of passes begun.
     passes: u32,
@@ -31,8 +32,12 @@ struct Planted {
     after_read_only: bool,
     /// True if the pass is read-only.
     read_only: bool,
+    /// True if the pass is an object.
+    in_render_pass: bool,
     /// True if the pass has stencil.
     stencil: bool,
+    /// The number of draws of a secondary command buffer; `None` in a primary one.
+    secondary: Option<u32>,
     size: vk::Extent2D,
     scissor: vk::Rect2D,
     topology: vk::PrimitiveTopology,
@@ -56,7 +61,13 @@ struct Kept {
 /// Returns the device with a fault in its function table.
 pub(crate) fn plant(device: &ash::Device, fault: CallFault) -> ash::Device {
     let (v10, v13) = (device.fp_v1_0().clone(), device.fp_v1_3().clone());
-    let (mut faulty10, mut faulty13) = (v10.clone(), v13.clone());
+    let v12 = device.fp_v1_2().clone();
+    let (mut faulty10, mut faulty12, mut faulty13) = (v10.clone(), v12.clone(), v13.clone());
+    faulty10.create_image_view = create_image_view;
+    faulty10.create_graphics_pipelines = create_graphics_pipelines;
+    faulty10.cmd_begin_render_pass = cmd_begin_render_pass;
+    faulty10.cmd_blit_image = cmd_blit_image;
+    faulty12.create_render_pass2 = create_render_pass2;
     faulty10.begin_command_buffer = begin_command_buffer;
     faulty10.cmd_draw = cmd_draw;
     faulty10.cmd_draw_indexed = cmd_draw_indexed;
@@ -77,6 +88,7 @@ pub(crate) fn plant(device: &ash::Device, fault: CallFault) -> ash::Device {
     PLANTED.set(Some(Planted {
         fault,
         v10,
+        v12,
         v13,
         passes: 0,
         draws: 0,
@@ -84,7 +96,9 @@ pub(crate) fn plant(device: &ash::Device, fault: CallFault) -> ash::Device {
         no_query: true,
         after_read_only: false,
         read_only: false,
+        in_render_pass: false,
         stencil: false,
+        secondary: None,
         size: vk::Extent2D::default(),
         scissor: vk::Rect2D::default(),
         topology: vk::PrimitiveTopology::TRIANGLE_LIST,
@@ -95,7 +109,7 @@ pub(crate) fn plant(device: &ash::Device, fault: CallFault) -> ash::Device {
         device.handle(),
         faulty10,
         device.fp_v1_1().clone(),
-        device.fp_v1_2().clone(),
+        faulty12,
         faulty13,
     )
 }
@@ -157,9 +171,14 @@ impl Planted {
     unsafe fn draw(&mut self, commands: vk::CommandBuffer, draw: impl Fn(&Self)) {
         self.draws += 1;
         let first = self.draws == 1;
+        if let Some(draws) = &mut self.secondary {
+            *draws += 1;
+        }
         let lost = match self.fault {
             CallFault::Draw256 => self.draws == 256,
             CallFault::LaterPassDraw => first && self.passes > 1,
+            CallFault::StoreDropped => self.in_render_pass,
+            CallFault::SecondaryFirstDraw => self.secondary == Some(1),
             CallFault::AfterReadOnly => first && self.after_read_only,
             _ => false,
         };
@@ -217,9 +236,15 @@ unsafe extern "system" fn begin_command_buffer(
     info: *const vk::CommandBufferBeginInfo<'_>,
 ) -> vk::Result {
     let call = |p: &mut Planted| {
-        (p.passes, p.draws, p.no_query) = (0, 0, true);
-        (p.after_read_only, p.read_only) = (false, false);
-        p.kept = Kept::default();
+        // SAFETY: the caller's.
+        let flags = unsafe { (*info).flags };
+        let within = flags.contains(vk::CommandBufferUsageFlags::RENDER_PASS_CONTINUE);
+        p.secondary = within.then_some(0);
+        if !within {
+            (p.passes, p.draws, p.no_query) = (0, 0, true);
+            (p.after_read_only, p.read_only, p.in_render_pass) = (false, false, false);
+            p.kept = Kept::default();
+        }
         // SAFETY: the caller's.
         unsafe { (p.v10.begin_command_buffer)(commands, info) }
     };
@@ -260,7 +285,10 @@ unsafe extern "system" fn cmd_draw_indexed(
             CallFault::BaseVertex => 0,
             _ => base_vertex,
         };
-        let mut first = first;
+        let mut first = match p.fault {
+            CallFault::IndexOffset => 0,
+            _ => first,
+        };
         if p.fault == CallFault::FirstIndex && first > 0 && count > 0 {
             (first, count) = (first + 1, count - 1);
         }
@@ -281,7 +309,12 @@ unsafe extern "system" fn cmd_set_scissor(
     scissors: *const vk::Rect2D,
 ) {
     with(|p| {
-        // SAFETY: the backend passes one rectangle.
+        if count > 1 {
+            // SAFETY: the caller's.
+            unsafe { (p.v10.cmd_set_scissor)(commands, at, count, scissors) };
+            return;
+        }
+        // SAFETY: the backend passes one rectangle at least.
         let mut scissor = unsafe { *scissors };
         if p.fault == CallFault::ScissorKept {
             scissor = lag(&mut p.kept.scissor, scissor);
@@ -307,8 +340,18 @@ unsafe extern "system" fn cmd_set_viewport(
     viewports: *const vk::Viewport,
 ) {
     with(|p| {
-        // SAFETY: the backend passes one viewport.
+        // SAFETY: the backend passes one viewport at least.
         let mut viewport = unsafe { *viewports };
+        if count > 1 {
+            let first = [viewport; 2];
+            let both = match p.fault {
+                CallFault::ViewportFirst => first.as_ptr(),
+                _ => viewports,
+            };
+            // SAFETY: the caller's; the backend passes two.
+            unsafe { (p.v10.cmd_set_viewport)(commands, at, count, both) };
+            return;
+        }
         if p.fault == CallFault::ViewportKept {
             viewport = lag(&mut p.kept.viewport, viewport);
         }
@@ -480,7 +523,13 @@ unsafe extern "system" fn cmd_begin_rendering(
         let read_only = vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL;
         let tested = depth.or(stencil);
         p.read_only = tested.is_some_and(|a| a.image_layout == read_only);
+        p.in_render_pass = false;
         let clears = |a: &vk::RenderingAttachmentInfo<'_>| a.load_op == vk::AttachmentLoadOp::CLEAR;
+        let load = |a: &mut vk::RenderingAttachmentInfo<'_>| {
+            if clears(a) {
+                a.load_op = vk::AttachmentLoadOp::LOAD;
+            }
+        };
         match p.fault {
             CallFault::LoadClears if p.passes > 1 => {
                 for color in &mut colors {
@@ -509,6 +558,22 @@ unsafe extern "system" fn cmd_begin_rendering(
             CallFault::ResolveFirst => {
                 for color in colors.iter_mut().skip(1) {
                     color.resolve_mode = vk::ResolveModeFlags::NONE;
+                }
+            }
+            CallFault::LoadColorIgnored => colors.iter_mut().for_each(load),
+            CallFault::LoadDepthIgnored => depth.iter_mut().for_each(load),
+            CallFault::LoadStencilIgnored => stencil.iter_mut().for_each(load),
+            CallFault::ResolveSecondDropped => {
+                for color in colors.iter_mut().skip(1).take(1) {
+                    color.resolve_mode = vk::ResolveModeFlags::NONE;
+                }
+            }
+            CallFault::ResolveSecondFromFirst => {
+                if let [first, second, ..] = &mut colors[..]
+                    && second.resolve_mode != vk::ResolveModeFlags::NONE
+                {
+                    first.resolve_image_view = second.resolve_image_view;
+                    second.resolve_mode = vk::ResolveModeFlags::NONE;
                 }
             }
             _ => {}
@@ -556,8 +621,11 @@ unsafe extern "system" fn cmd_set_depth_write_enable(
 unsafe extern "system" fn cmd_set_cull_mode(commands: vk::CommandBuffer, mode: vk::CullModeFlags) {
     with(|p| {
         let mut used = mode;
-        if p.fault == CallFault::CullKept {
-            used = lag(&mut p.kept.cull, mode);
+        match p.fault {
+            CallFault::CullKept => used = lag(&mut p.kept.cull, mode),
+            // What the backend leaves in a pipeline whose culling is dynamic.
+            CallFault::StaticForDynamic => used = vk::CullModeFlags::NONE,
+            _ => {}
         }
         // SAFETY: the caller's.
         unsafe { (p.v13.cmd_set_cull_mode)(commands, used) };
@@ -572,5 +640,126 @@ unsafe extern "system" fn cmd_set_primitive_topology(
         p.topology = topology;
         // SAFETY: the caller's.
         unsafe { (p.v13.cmd_set_primitive_topology)(commands, topology) };
+    });
+}
+
+unsafe extern "system" fn create_image_view(
+    device: vk::Device,
+    info: *const vk::ImageViewCreateInfo<'_>,
+    allocator: *const vk::AllocationCallbacks<'_>,
+    view: *mut vk::ImageView,
+) -> vk::Result {
+    let call = |p: &mut Planted| {
+        // SAFETY: the caller's.
+        let mut info = unsafe { *info };
+        match p.fault {
+            CallFault::LayerDropped => info.subresource_range.base_array_layer = 0,
+            CallFault::LevelDropped => info.subresource_range.base_mip_level = 0,
+            _ => {}
+        }
+        // SAFETY: the caller's; every image has a first level and layer.
+        unsafe { (p.v10.create_image_view)(device, &info, allocator, view) }
+    };
+    with(call).unwrap_or(vk::Result::ERROR_UNKNOWN)
+}
+
+unsafe extern "system" fn create_graphics_pipelines(
+    device: vk::Device,
+    cache: vk::PipelineCache,
+    count: u32,
+    infos: *const vk::GraphicsPipelineCreateInfo<'_>,
+    allocator: *const vk::AllocationCallbacks<'_>,
+    pipelines: *mut vk::Pipeline,
+) -> vk::Result {
+    let call = |p: &mut Planted| {
+        // SAFETY: the caller's; the backend makes one pipeline at a time, with this state.
+        let (mut info, mut raster) = unsafe { (*infos, *(*infos).p_rasterization_state) };
+        if p.fault == CallFault::StaticIgnored {
+            raster.cull_mode = vk::CullModeFlags::NONE;
+        }
+        info.p_rasterization_state = &raster;
+        // SAFETY: the caller's; the copies live until the call returns.
+        unsafe {
+            let create = p.v10.create_graphics_pipelines;
+            create(device, cache, count.min(1), &info, allocator, pipelines)
+        }
+    };
+    with(call).unwrap_or(vk::Result::ERROR_UNKNOWN)
+}
+
+unsafe extern "system" fn create_render_pass2(
+    device: vk::Device,
+    info: *const vk::RenderPassCreateInfo2<'_>,
+    allocator: *const vk::AllocationCallbacks<'_>,
+    pass: *mut vk::RenderPass,
+) -> vk::Result {
+    let call = |p: &mut Planted| {
+        // SAFETY: the caller's: there are so many attachments.
+        let (mut info, mut attachments) = unsafe {
+            let all = (*info).p_attachments;
+            let count = (*info).attachment_count as usize;
+            (*info, (0..count).map(|i| *all.add(i)).collect::<Vec<_>>())
+        };
+        let load = |operation: &mut vk::AttachmentLoadOp| {
+            if *operation == vk::AttachmentLoadOp::CLEAR {
+                *operation = vk::AttachmentLoadOp::LOAD;
+            }
+        };
+        for attachment in &mut attachments {
+            let tested = attachment.final_layout != vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+            match p.fault {
+                CallFault::LoadColorIgnored if !tested => load(&mut attachment.load_op),
+                CallFault::LoadDepthIgnored if tested => load(&mut attachment.load_op),
+                CallFault::LoadStencilIgnored => load(&mut attachment.stencil_load_op),
+                _ => {}
+            }
+        }
+        info.p_attachments = attachments.as_ptr();
+        // SAFETY: the caller's; the copies live until the call returns.
+        unsafe { (p.v12.create_render_pass2)(device, &info, allocator, pass) }
+    };
+    with(call).unwrap_or(vk::Result::ERROR_UNKNOWN)
+}
+
+unsafe extern "system" fn cmd_begin_render_pass(
+    commands: vk::CommandBuffer,
+    info: *const vk::RenderPassBeginInfo<'_>,
+    contents: vk::SubpassContents,
+) {
+    with(|p| {
+        p.passes += 1;
+        p.draws = 0;
+        p.in_render_pass = true;
+        // SAFETY: the caller's.
+        unsafe {
+            p.size = (*info).render_area.extent;
+            (p.v10.cmd_begin_render_pass)(commands, info, contents);
+        }
+    });
+}
+
+unsafe extern "system" fn cmd_blit_image(
+    commands: vk::CommandBuffer,
+    source: vk::Image,
+    source_layout: vk::ImageLayout,
+    target: vk::Image,
+    target_layout: vk::ImageLayout,
+    count: u32,
+    regions: *const vk::ImageBlit,
+    filter: vk::Filter,
+) {
+    with(|p| {
+        // SAFETY: the caller's; the backend passes one region.
+        let mut region = unsafe { *regions };
+        if p.fault == CallFault::BlitColumn {
+            region.src_offsets[1].x -= 1;
+            region.dst_offsets[1].x -= 1;
+        }
+        // SAFETY: the caller's; the region is no larger.
+        unsafe {
+            let blit = p.v10.cmd_blit_image;
+            let (from, to) = (source_layout, target_layout);
+            blit(commands, source, from, target, to, count, &region, filter);
+        }
     });
 }

@@ -5,6 +5,7 @@ use crate::counting::Counting;
 use crate::descriptors::Descriptors;
 use crate::dynamic::{Dynamic, Setting};
 use crate::error::internal;
+use crate::extended::{self, Extended};
 use crate::format;
 use crate::gpu::Gpu;
 use crate::image::Image;
@@ -156,6 +157,7 @@ impl<'a> PreparedScene<'a> {
 
         let setting = Setting {
             fixed: scene.path.state == PathState::Static,
+            extended: scene.path.state == PathState::ExtendedDynamic3,
             viewport: scene.path.viewport,
         };
         let mut sets = Descriptors::new(input, self.counts.as_ref(), &self.images);
@@ -192,15 +194,21 @@ impl<'a> PreparedScene<'a> {
                     state: &dynamic,
                 };
                 let mut get = |draw: &Draw| pipelines.get(device, &targets, draw, way);
-                let pipeline = get(draw)?;
+                let extended = setting
+                    .extended
+                    .then(|| Extended::new(draw, targets.samples));
+                let pipeline = match extended {
+                    Some(_) => get(&extended::held(draw))?,
+                    None => get(draw)?,
+                };
                 let other = match scene.path.state {
                     PathState::OtherPipeline => Some(get(&path::other(draw))?),
                     _ => None,
                 };
                 let queries = counting.queries(slot, draw)?;
-                let overwritten = scene.path.state == PathState::Overwritten;
-                let drawn =
-                    DrawPlan::new(place, dynamic, pipeline, other, set, queries, overwritten)?;
+                let mut drawn = DrawPlan::new(place, dynamic, pipeline, set, queries)?;
+                drawn.overwritten = scene.path.state == PathState::Overwritten;
+                (drawn.other, drawn.extended) = (other, extended);
                 planned.draws.push(drawn);
             }
         }

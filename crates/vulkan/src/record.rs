@@ -509,6 +509,9 @@ unsafe fn draws(device: &Device, commands: vk::CommandBuffer, pass: &PassPlan, i
                 draw.dynamic.opposite().set(device, commands);
             }
             draw.dynamic.set(device, commands);
+            if let Some(extended) = &draw.extended {
+                extended.set(device, commands);
+            }
             if let Some(other) = &draw.other {
                 bind(other);
                 bind(pipeline);

@@ -34,6 +34,21 @@ fn cases(fault: CallFault) -> &'static str {
         CallFault::EqualClearSkipped => "sequence/again/*",
         CallFault::ClearRect => "sequence/cleared-{by-command,in-parts}/*",
         CallFault::ResolveFirst => "sequence/resolve-several/*",
+        CallFault::LoadColorIgnored => "paths/write-masks/*/start=load-operation",
+        CallFault::LoadDepthIgnored => "paths/depth-test/pass=*/start=load-operation/*",
+        CallFault::LoadStencilIgnored => "paths/stencil/*/start=load-operation/*",
+        CallFault::StoreDropped => "paths/two-passes/*/pass=render-pass/*",
+        CallFault::LayerDropped => "paths/srgb/*/target=array-layer",
+        CallFault::LevelDropped => "paths/srgb/*/target=mip-level",
+        CallFault::ResolveSecondDropped | CallFault::ResolveSecondFromFirst => {
+            "paths/resolve/pass=dynamic-rendering/*"
+        }
+        CallFault::StaticForDynamic => "paths/cull/*/state=dynamic/*",
+        CallFault::StaticIgnored => "paths/cull/*/state=static/*",
+        CallFault::SecondaryFirstDraw => "paths/strip/commands=secondary/*",
+        CallFault::ViewportFirst => "paths/viewport/*/viewport=array",
+        CallFault::IndexOffset => "paths/strip/*/draws=base-vertex/*",
+        CallFault::BlitColumn => "paths/depth-ends/end=blit/*",
         CallFault::QueryFirst | CallFault::QueryEarly => "sequence/queries-*/*",
     }
 }

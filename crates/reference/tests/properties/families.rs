@@ -33,6 +33,7 @@ areas! {
     methods = "methods",
     multisample = "multisample",
     order = "order",
+    paths = "paths",
     perf = "perf",
     scissor = "scissor",
     selftest = "selftest",

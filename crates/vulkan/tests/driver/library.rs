@@ -3,7 +3,7 @@
 use crate::drivers::{backend, is_lavapipe, lavapipe};
 use etalon_backend::Backend;
 use etalon_case::Profile;
-use etalon_conformance::{Share, Subject, draw_library, run_all};
+use etalon_conformance::{Share, Subject, draw_area, draw_library, run_all};
 
 pub(crate) fn sample(backend: &dyn Backend) {
     let subject = Subject::new(backend, &[]);
@@ -22,4 +22,12 @@ fn the_validation_layer_is_silent() {
         Profile::Full,
         Share::sample(4),
     );
+}
+
+/// Every file of paths, with several values of each key.
+#[test]
+fn the_validation_layer_is_silent_on_every_path() {
+    let backend = backend(true);
+    let subject = Subject::new(&backend, &[]);
+    draw_area(&subject, "paths/", Profile::Quick, Share::All);
 }
