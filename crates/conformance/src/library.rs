@@ -47,7 +47,11 @@ pub fn draw_area(subject: &Subject<'_>, area: &str, profile: Profile, share: Sha
     let library = Library::built_in().unwrap();
     let (mut denied, mut all) = (0, 0);
     let mut chosen = Vec::new();
-    for file in library.files().filter(|f| f.name().starts_with(area)) {
+    for file in library
+        .files()
+        .iter()
+        .filter(|f| f.name().starts_with(area))
+    {
         let cases: Vec<_> = file.cases(profile).collect();
         all += cases.len();
         let step = match share {
