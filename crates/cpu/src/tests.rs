@@ -1,7 +1,8 @@
 use crate::CpuBackend;
 use etalon_backend::Backend;
-use etalon_case::{CaseFile, Profile};
+use etalon_case::{CaseFile, Library, Profile};
 use etalon_frame::Frame;
+use etalon_scene::Scene;
 
 fn frame(text: &str) -> Frame {
     let file = CaseFile::parse("t.json", text).expect("parses");
@@ -117,4 +118,35 @@ fn texture_coordinates_reach_shaders_that_read_them_as_numbers() {
             "{x}: {alpha} for {expected}"
         );
     }
+}
+
+/// What `start` and `draws` make of a scene is drawn as the scene is: the rasterizer executes neither, so
+/// both are drawn by the one way that it has.
+#[test]
+fn a_scene_on_its_path_is_the_same_picture() {
+    let library = Library::built_in().expect("built-in files parse");
+    let backend = CpuBackend::new("cpu");
+    let draw = |scene: &Scene| {
+        let mut prepared = backend.prepare(scene).expect("prepares");
+        prepared.submit().expect("draws");
+        prepared.read_back().expect("reads")
+    };
+    let mut made_over = 0;
+    for file in library
+        .files()
+        .iter()
+        .filter(|f| f.name().starts_with("paths/"))
+    {
+        for case in file.cases(Profile::Quick) {
+            let case = case.build().expect("builds");
+            let on_path = case.scene.on_path();
+            if on_path.passes == case.scene.passes {
+                continue;
+            }
+            made_over += 1;
+            let same = draw(&case.scene) == draw(&on_path);
+            assert!(same, "{}", case.id);
+        }
+    }
+    assert!(made_over > 100, "{made_over} scenes are made over");
 }
