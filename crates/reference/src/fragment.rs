@@ -114,7 +114,7 @@ impl Walk<'_> {
             return;
         }
         // A fragment that contributes nothing asks for a run only where the rules say so.
-        let asks = !masked && self.rules.runs_for_discarded.value();
+        let asks = !masked && self.counts_runs(place) && self.rules.runs_for_discarded.value();
         let survives = covered.survives();
         if !survives.must() {
             let mut lost = world.clone();
@@ -166,7 +166,10 @@ impl Walk<'_> {
             front,
             depth,
             sample: place.at.sample,
-            position: self.frag_coord(place),
+            position: match draw.shader.reads_coordinates() {
+                true => self.frag_coord(place),
+                false => [Range::exact(0.0); 2],
+            },
             texels: [self.texel(place, world, 0), self.texel(place, world, 1)],
             uv: self.uv(place),
             params: &draw.params,
@@ -199,9 +202,19 @@ impl Walk<'_> {
         depth || targets.any(|(_, target)| target.write_mask != 0)
     }
 
+    /// True if a draw counts the runs of its shader.
+    fn counts_runs(&self, place: Place<'_>) -> bool {
+        let kind = |counter: &usize| self.scene.counters[*counter].kind;
+        let mut counters = place.draw.counters.iter();
+        counters.any(|counter| kind(counter) == CounterKind::ShaderRuns)
+    }
+
     /// Adds a run of the shader for a fragment; `certain` if the rules demand it. Where a later fragment
     /// may take away the need of earlier ones, theirs are certain no longer.
     fn run(&self, place: Place<'_>, world: &mut World, certain: bool) {
+        if !self.counts_runs(place) {
+            return;
+        }
         if certain && !self.rules.runs_for_overwritten.value() && self.contributes(place) {
             for event in &mut world.events {
                 let kind = self.scene.counters[usize::from(event.counter)].kind;
@@ -291,11 +304,12 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) {
         let mut passed = tested.clone();
-        self.run(place, &mut passed, self.rules.runs_for_discarded.value());
+        let asks = self.counts_runs(place) && self.rules.runs_for_discarded.value();
+        self.run(place, &mut passed, asks);
         let survives = covered.survives();
         if survives.can() {
             let mut kept = tested.clone();
-            let asks = self.rules.runs_for_discarded.value() || self.contributes(place);
+            let asks = asks || self.contributes(place);
             self.run(place, &mut kept, asks);
             self.count(place, &mut kept, true, CounterKind::is_occlusion);
             self.write_depth(place, &mut kept, incoming, notes);
@@ -445,15 +459,20 @@ impl Walk<'_> {
         let outside = depth.float.low < near - slack || depth.float.high > far + slack;
         let written = source == Source::Written;
         let exported = written || place.primitive.is_biased();
-        let depth = match self.rules.depth_range.value() {
+        let depth = if depth.float.may_be_nan() {
             // NaN stays NaN, or is clamped to any value of the range.
-            _ if depth.float.may_be_nan() => depth.float,
-            _ if place.draw.depth_clamp => held,
-            _ if !(exported && outside) => unit,
-            DepthRange::Undefined => whole,
-            DepthRange::Unit => unit,
-            DepthRange::ViewportIfWritten if written => held,
-            DepthRange::Either | DepthRange::ViewportIfWritten => held.hull(unit),
+            depth.float
+        } else if place.draw.depth_clamp {
+            held
+        } else if !(exported && outside) {
+            unit
+        } else {
+            match self.rules.depth_range.value() {
+                DepthRange::Undefined => whole,
+                DepthRange::Unit => unit,
+                DepthRange::ViewportIfWritten if written => held,
+                DepthRange::Either | DepthRange::ViewportIfWritten => held.hull(unit),
+            }
         };
         let own = !written || place.draw.shader == Shader::FragCoordDepth;
         let same = match self.rules.same_depth.value() {

@@ -121,8 +121,9 @@ impl Walk<'_> {
                     });
                     let constant = place.draw.blend_constant.map(|v| {
                         let plain = judging.constant(v);
-                        match self.rules.clamps_constant.value() {
-                            true => plain.joined(judging.constant(v.clamp(0.0, 1.0))),
+                        let clamped = v.clamp(0.0, 1.0);
+                        match clamped != v && self.rules.clamps_constant.value() {
+                            true => plain.joined(judging.constant(clamped)),
                             false => plain,
                         }
                     });

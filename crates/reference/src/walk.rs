@@ -499,7 +499,8 @@ impl<'a> Walk<'a> {
 
     /// Returns a colour as it is read back.
     fn read_color(&self, encoding: ChannelEncoding, stored: CodeInterval) -> CodeInterval {
-        if self.rules.copies.value() == Copies::Exact {
+        let one_code = !encoding.is_float() && !matches!(encoding, ChannelEncoding::Snorm(_));
+        if one_code || self.rules.copies.value() == Copies::Exact {
             return stored;
         }
         match encoding {
