@@ -228,9 +228,12 @@ impl Segments {
                 let Some(next) = coming.peek() else { return };
                 at = next.start;
             }
+            let before = self.members.len();
             while let Some(next) = coming.next_if(|next| next.start <= at) {
-                let place = self.members.partition_point(|m| m.number < next.number);
-                self.members.insert(place, *next);
+                self.members.push(*next);
+            }
+            if before > 0 && self.members.len() > before {
+                self.members.sort_unstable_by_key(|member| member.number);
             }
             while breaks.next_if(|b| **b <= at).is_some() {}
             let ends = self.members.iter().map(|member| member.end);

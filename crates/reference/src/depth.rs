@@ -8,9 +8,11 @@ use smallvec::SmallVec;
 /// A depth over a primitive.
 #[derive(Clone, Debug)]
 pub(crate) struct Depth {
-    /// The extreme planes through the vertices that legal snapping allows; none if the depth is constant
-    /// or nothing but the vertices' depths is known.
+    /// The planes through the vertices that legal snapping allows, but for those that are nowhere near the
+    /// primitive extreme; none if the depth is constant or nothing but the vertices' depths is known.
     planes: SmallVec<[DepthPlane; 1]>,
+    /// The largest growth of any plane over one unit right and one down.
+    pub(crate) steepest: f64,
     /// The largest distance of a depth from its plane.
     pub(crate) error: f64,
     /// The range of the vertices' depths, with the error of interpolating between them.
@@ -22,6 +24,7 @@ impl Depth {
         let hull = z.iter().copied().reduce(Interval::hull);
         Self {
             planes: SmallVec::new(),
+            steepest: 0.0,
             error: 0.0,
             hull: hull.unwrap_or(Interval::exact(0.0)),
         }
@@ -64,7 +67,7 @@ impl Depth {
     pub(crate) fn over(
         vertices: [SnapBox; 3],
         z: [Interval; 3],
-        grid: i64,
+        [units, grid]: [i64; 2],
         float_error: f64,
     ) -> Self {
         let mut depth = Self::flat(&z).interpolated(float_error);
@@ -76,10 +79,15 @@ impl Depth {
         if least <= 0 && most >= 0 {
             return depth;
         }
-        depth.planes = planes(vertices, middle).collect();
+        let all: SmallVec<[DepthPlane; 64]> = planes(vertices, middle).collect();
+        let growth = all.iter().fold((0.0, 0.0), |(x, y): (f64, f64), p| {
+            (x.max(p.dx.abs()), y.max(p.dy.abs()))
+        });
+        depth.steepest = growth.0 + growth.1;
+        depth.planes = extreme(&all, near(vertices, units));
         // Positions may be interpolated before or after snapping: one step of the grid.
         let own = z.iter().map(|z| z.high - z.low).fold(0.0, f64::max);
-        depth.error += depth.steepest() * grid as f64 + own;
+        depth.error += depth.steepest * grid as f64 + own;
         depth
     }
 
@@ -89,18 +97,9 @@ impl Depth {
         self
     }
 
-    /// Returns the largest growth of the depth over one unit right and one down.
-    pub(crate) fn steepest(&self) -> f64 {
-        let all = self.planes.iter();
-        let largest = all.fold((0.0, 0.0), |(x, y): (f64, f64), p| {
-            (x.max(p.dx.abs()), y.max(p.dy.abs()))
-        });
-        largest.0 + largest.1
-    }
-
     /// Widens the depth for the edges of a triangle, which reach beyond it as lines do.
     pub(crate) fn reach_out(&mut self, units: i64) {
-        let far = self.steepest() * 2.0 * units as f64;
+        let far = self.steepest * 2.0 * units as f64;
         self.error += far;
         self.hull = self.hull.widen(far);
     }
@@ -131,6 +130,45 @@ impl Depth {
         all.reduce(Interval::hull)
             .map_or(self.hull, |depth| depth.widen(self.error))
     }
+}
+
+/// Returns the corners of a rectangle that holds all points near a triangle at which its planes are asked
+/// for.
+fn near(vertices: [SnapBox; 3], units: i64) -> [Point; 4] {
+    let [a, b, c] = vertices;
+    let mut all = a.hull(b).hull(c);
+    let reach = 4 * units;
+    all.low.x -= reach;
+    all.low.y -= reach;
+    all.high.x += reach;
+    all.high.y += reach;
+    all.corners()
+}
+
+/// Returns those of some planes that are the lowest or the highest somewhere in a rectangle. A plane that is
+/// not above another at any of its corners is not above it anywhere inside.
+fn extreme(all: &[DepthPlane], corners: [Point; 4]) -> SmallVec<[DepthPlane; 1]> {
+    if all.len() < 3 {
+        return SmallVec::from_slice(all);
+    }
+    let at: SmallVec<[[f64; 4]; 64]> = all.iter().map(|p| corners.map(|c| p.at(c))).collect();
+    let under = |i: usize, j: usize| at[i].iter().zip(&at[j]).all(|(a, b)| a <= b);
+    let (mut highest, mut lowest): (SmallVec<[usize; 64]>, SmallVec<[usize; 64]>) =
+        (SmallVec::new(), SmallVec::new());
+    for i in 0..all.len() {
+        if !highest.iter().any(|j| under(i, *j)) {
+            highest.retain(|j| !under(*j, i));
+            highest.push(i);
+        }
+        if !lowest.iter().any(|j| under(*j, i)) {
+            lowest.retain(|j| !under(i, *j));
+            lowest.push(i);
+        }
+    }
+    highest.extend(lowest);
+    highest.sort_unstable();
+    highest.dedup();
+    highest.into_iter().map(|i| all[i]).collect()
 }
 
 /// Returns the planes through all corners of the snapped positions: one if they are exact. A plane's

@@ -95,7 +95,7 @@ fn primitive(
     let of = |i: usize| vertex(context, draw, draw.mesh.vertices[i].position);
     let units = units_per_texel(context.limits);
     let grid = units >> context.limits.sub_pixel_bits;
-    let error = context.rules.float_error.value;
+    let error = context.rules.float_error.value();
     let mut bias = Interval::exact(0.0);
     let (shape, window_depth, clip_depth) = match one {
         PrimitiveVertices::Point(i) => {
@@ -119,15 +119,21 @@ fn primitive(
             let v = triangle.map(of);
             let boxes = v.map(|v| v.snapped);
             let triangle = Triangle::new(boxes, v.map(|v| v.id), units);
-            let window = Depth::over(boxes, v.map(|v| v.window_z), grid, error);
+            let window = Depth::over(boxes, v.map(|v| v.window_z), [units, grid], error);
             bias = depth_bias(context, draw, boxes, v.map(|v| v.window_z));
             let shape = match draw.polygon_mode {
                 PolygonMode::Fill => Shape::Triangle(triangle),
                 PolygonMode::Line => Shape::Outline(triangle),
             };
-            let clip = Depth::over(boxes, v.map(|v| v.clip_z), grid, error);
             // Vertices decide whether anything is clipped.
-            let mut depths = [window, clip.between(&v.map(|v| v.clip_z))];
+            let clip_z = v.map(|v| v.clip_z);
+            let inside = clip_z.iter().all(|z| z.low >= 0.0 && z.high <= 1.0);
+            let clip = match inside && draw.polygon_mode == PolygonMode::Fill {
+                // Nothing is clipped, wherever the sample lies.
+                true => Depth::flat(&clip_z),
+                false => Depth::over(boxes, clip_z, [units, grid], error).between(&clip_z),
+            };
+            let mut depths = [window, clip];
             if draw.polygon_mode == PolygonMode::Line {
                 depths.iter_mut().for_each(|depth| depth.reach_out(units));
             }
@@ -202,7 +208,7 @@ fn texture_coordinates(
     }
     let units = units_per_texel(context.limits);
     let grid = units >> context.limits.sub_pixel_bits;
-    let error = context.rules.float_error.value;
+    let error = context.rules.float_error.value();
     let value = |i: usize, axis: usize| Interval::exact(f64::from(draw.mesh.vertices[i].uv[axis]));
     let w = |i: usize| draw.mesh.vertices[i].position[3];
     Some([0, 1].map(|axis| match (shape, one) {
@@ -213,12 +219,15 @@ fn texture_coordinates(
         (_, PrimitiveVertices::Line([a, b])) if w(a) != w(b) => {
             Depth::flat(&[a, b].map(|i| value(i, axis))).interpolated(error)
         }
-        (Shape::Triangle(triangle), PrimitiveVertices::Triangle(own)) => {
-            Depth::over(triangle.vertices, own.map(|i| value(i, axis)), grid, error)
-        }
+        (Shape::Triangle(triangle), PrimitiveVertices::Triangle(own)) => Depth::over(
+            triangle.vertices,
+            own.map(|i| value(i, axis)),
+            [units, grid],
+            error,
+        ),
         (Shape::Outline(triangle), PrimitiveVertices::Triangle(own)) => {
             let values = own.map(|i| value(i, axis));
-            let mut plane = Depth::over(triangle.vertices, values, grid, error);
+            let mut plane = Depth::over(triangle.vertices, values, [units, grid], error);
             plane.reach_out(units);
             plane
         }
@@ -240,7 +249,7 @@ fn vertex(context: &PassContext<'_>, draw: &Draw, position: [f32; 4]) -> Vertex 
     let step = units_per_texel(limits) >> limits.sub_pixel_bits;
     let snap = |range: Range| -> (i64, i64) {
         let Interval { low, high } = range.hull();
-        let (low, high) = match context.rules.snap.value {
+        let (low, high) = match context.rules.snap.value() {
             Snap::EitherSide => ((low * grid).floor(), (high * grid).ceil()),
             Snap::Nearest => ((low * grid + 0.5).floor(), (high * grid + 0.5).floor()),
         };

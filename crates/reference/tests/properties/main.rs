@@ -2,6 +2,7 @@
 //! rasterizer's frames are legal, and wider rules never forbid what tighter ones allow.
 
 mod arithmetic;
+mod asked;
 mod common;
 mod evidence;
 mod families;

@@ -1,0 +1,88 @@
+//! What a judge asks of rules and limits is all that a legal set depends on.
+
+use crate::common::{APIS, limits};
+use etalon_case::{Library, Profile};
+use etalon_frame::{ApiVersion, LegalSet, Limits};
+use etalon_reference::{Rules, Texels, judge_some, judgements_by};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A set with the values of the permissions that it was computed by.
+type Known = (Vec<(usize, String)>, Arc<LegalSet>);
+
+/// Limits of every API, with two grids of sub-pixels.
+fn all_limits() -> Vec<Limits> {
+    let versions = [(1, 3), (4, 5), (3, 1), (0, 0)];
+    let mut all = Vec::new();
+    for (api, (major, minor)) in APIS.into_iter().zip(versions) {
+        for bits in [8, 4] {
+            let mut one = limits(api);
+            one.version = ApiVersion::new(major, minor);
+            one.sub_pixel_bits = bits;
+            all.push(one);
+        }
+    }
+    all
+}
+
+#[test]
+fn rules_that_agree_on_what_was_asked_give_the_same_sets() {
+    let library = Library::built_in().expect("built-in cases parse");
+    let quick = library.cases(Profile::Quick);
+    let is_small = |id: &str| {
+        !["methods/", "perf/", "size/"]
+            .iter()
+            .any(|a| id.starts_with(a))
+    };
+    let cases = quick.filter(|case| is_small(&case.id())).step_by(23);
+    let (mut sets, mut shared) = (0, 0);
+    for case in cases {
+        let case = case.build().expect("a built-in case builds");
+        let known: RefCell<HashMap<Limits, Vec<Known>>> = RefCell::default();
+        for limits in all_limits() {
+            let given = |basis: &Limits, rules: &Rules| {
+                let values = rules.values();
+                let mut known = known.borrow_mut();
+                let all = known.entry(basis.clone()).or_default();
+                let serves = |one: &&Known| one.0.iter().all(|(i, v)| values[*i] == *v);
+                if let Some((_, set)) = all.iter().find(serves) {
+                    return Arc::clone(set);
+                }
+                let rules = rules.clone();
+                let set = Arc::new(judge_some(&case.scene, basis, &rules, Texels::All));
+                let asked = rules.asked().into_iter().zip(values).enumerate();
+                let asked = asked.filter_map(|(i, (asked, value))| asked.then_some((i, value)));
+                all.push((asked.collect(), Arc::clone(&set)));
+                set
+            };
+            for one in judgements_by(&case.scene, &limits, Texels::All, given) {
+                let own = |rules: &Rules| judge_some(&case.scene, &one.limits, rules, Texels::All);
+                let yardstick = Rules::yardstick(&one.limits);
+                assert_eq!(*one.legal, own(&one.rules), "{} {}", case.id, limits.api);
+                assert_eq!(
+                    *one.yardstick,
+                    own(&yardstick),
+                    "{} {}",
+                    case.id,
+                    limits.api
+                );
+                sets += 2;
+            }
+        }
+        let computed: usize = known.borrow().values().map(Vec::len).sum();
+        shared += computed;
+    }
+    // Else there is nothing to share, and the test holds nothing.
+    assert!(shared * 2 < sets, "{shared} of {sets} sets were computed");
+}
+
+#[test]
+fn a_clone_was_asked_for_nothing() {
+    let rules = Rules::of(&limits(APIS[0]));
+    assert!(!rules.asked().contains(&true));
+    let _ = rules.store.value();
+    assert_eq!(rules.asked().iter().filter(|asked| **asked).count(), 1);
+    assert!(!rules.clone().asked().contains(&true));
+    assert_eq!(rules.clone(), rules);
+}
