@@ -87,7 +87,11 @@ fn lines(rows: u32, count: u32) -> Vec<DVec2> {
         } else {
             rows - 1 - step
         };
-        let ends = if step % 2 == 0 { [1.5, 6.5] } else { [6.5, 1.5] };
+        let ends = if step % 2 == 0 {
+            [1.5, 6.5]
+        } else {
+            [6.5, 1.5]
+        };
         ends.map(|x| DVec2::new(f64::from(column * 8) + x, f64::from(row) + 0.5))
     };
     (0..count).flat_map(line).collect()
