@@ -19,7 +19,7 @@ pub(crate) fn depth_bias(
     let (Some(encoding), true) = (context.depth, state.constant != 0 || state.slope != 0.0) else {
         return Interval::exact(0.0);
     };
-    let range = context.rules.depth_bias_unit.value.range(encoding);
+    let range = context.rules.depth_bias_unit.value().range(encoding);
     let unit = match encoding {
         ChannelEncoding::Unorm(bits) => {
             let least = 2_f64.powi(-i32::from(bits));
@@ -45,7 +45,7 @@ pub(crate) fn depth_bias(
     let by_slope = slopes(context, boxes, z).times(Interval::exact(f64::from(state.slope)));
     let sum = by_constant
         .plus(by_slope)
-        .widen_relative(context.rules.float_error.value);
+        .widen_relative(context.rules.float_error.value());
     let clamp = f64::from(state.clamp);
     if clamp > 0.0 {
         sum.map_increasing(|v| v.min(clamp))
@@ -78,5 +78,5 @@ fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interval; 3]) -> I
         .reduce(Interval::hull)
         .unwrap_or(Interval::exact(0.0));
     // Positions may be taken before or after snapping, and depths carry their own error.
-    slopes.widen_relative(0.01 + context.rules.float_error.value * 100.0)
+    slopes.widen_relative(0.01 + context.rules.float_error.value() * 100.0)
 }

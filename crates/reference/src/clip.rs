@@ -32,7 +32,7 @@ impl Clip {
         let units = units_per_texel(limits) as f64;
         let rect = viewport.area().map(|v| f64::from(v) * units);
         let slack = units / f64::from(1_u32 << limits.sub_pixel_bits)
-            + units * rules.float_error.value * 16.0;
+            + units * rules.float_error.value() * 16.0;
         Self {
             rect,
             triangles: Reach::new(rect, slack),

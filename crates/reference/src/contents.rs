@@ -36,7 +36,7 @@ impl Walk<'_> {
                 ..at
             };
             let worlds = self.earlier(at, passes)?;
-            if sample == 0 || self.rules.resolve.value != Resolve::CoarseAverage {
+            if sample == 0 || self.rules.resolve.value() != Resolve::CoarseAverage {
                 single.extend(worlds.iter().map(|w| w.cells[source].channels));
             }
             for (c, encoding) in encodings.iter().enumerate() {
@@ -56,7 +56,7 @@ impl Walk<'_> {
             single.dedup();
             let all = || single.iter().map(|one| codes_list(encodings, one));
             self.note_resolve(notes, [source, target], passes, &single, || {
-                let which = match self.rules.resolve.value {
+                let which = match self.rules.resolve.value() {
                     Resolve::CoarseAverage => "the first of the samples",
                     _ => "one of the samples",
                 };
@@ -74,7 +74,7 @@ impl Walk<'_> {
             let count = f64::from(attachment.samples);
             // The error is relative to the samples, of which the sum may be a small difference.
             let values = [between.low, between.high].map(|o| encoding.value_of_order(o).abs());
-            let error = values[0].max(values[1]) * count * self.rules.float_error.value;
+            let error = values[0].max(values[1]) * count * self.rules.float_error.value();
             let exact = sum[c].map_increasing(|v| v / count).widen(error);
             let average = judging.encode(*encoding, Range::same(exact));
             let rounded = |codes: Interval| CodeInterval {
@@ -82,7 +82,7 @@ impl Walk<'_> {
                 high: ((codes.high + halvings).ceil() as i64).clamp(between.low, between.high),
             };
             of_codes[c] = rounded(codes[c].map_increasing(|v| v / count));
-            result[c] = match self.rules.resolve.value {
+            result[c] = match self.rules.resolve.value() {
                 _ if between.is_exact() && !encoding.is_float() => between,
                 Resolve::Between if encoding.is_float() => between.hull(average),
                 Resolve::Between => between,
@@ -105,7 +105,7 @@ impl Walk<'_> {
             }
         }
         let mut all = vec![result];
-        if self.rules.resolve.value == Resolve::CoarseAverage && of_codes != result {
+        if self.rules.resolve.value() == Resolve::CoarseAverage && of_codes != result {
             all.push(of_codes);
         }
         single.dedup();

@@ -110,7 +110,7 @@ impl<'a> Tally<'a> {
             let (low, high) = match counter.kind {
                 CounterKind::SamplesPassed | CounterKind::AnySamplesPassed => {
                     let all = count.may.len() as u64 * u64::from(samples);
-                    let high = match self.rules.samples_counted.value {
+                    let high = match self.rules.samples_counted.value() {
                         SamplesCounted::Passing => count.possible,
                         SamplesCounted::PassingOrAll => count.possible.map(|p| p.max(all)),
                     };
@@ -120,7 +120,7 @@ impl<'a> Tally<'a> {
                 // sample, or as often as the implementation likes.
                 CounterKind::ShaderRuns => {
                     let none = count.possible == Some(0);
-                    let high = if self.rules.runs_once.value {
+                    let high = if self.rules.runs_once.value() {
                         count.possible
                     } else {
                         none.then_some(0)

@@ -48,7 +48,7 @@ impl Walk<'_> {
                 Shape::Line(_) | Shape::Point(_) => {
                     let front = self.draw_front(place.draw);
                     self.repeat(place, world.clone(), front, &mut result, notes);
-                    if !self.rules.points_face_front.value {
+                    if !self.rules.points_face_front.value() {
                         self.repeat(place, world, !front, &mut result, notes);
                     }
                 }
@@ -169,7 +169,7 @@ impl Walk<'_> {
             if side == inside {
                 continue;
             }
-            if side == Side::On && self.rules.shared_edge.value == SharedEdge::TopLeft {
+            if side == Side::On && self.rules.shared_edge.value() == SharedEdge::TopLeft {
                 let (p, q) = primitive.edge(i);
                 let (p, q) = if positive_area { (q, p) } else { (p, q) };
                 if !is_top_left(p, q) {
@@ -185,7 +185,7 @@ impl Walk<'_> {
             let decision = Decision::Edge {
                 draw: place.draw_id,
                 ends: (a.min(b), a.max(b)),
-                owner: (self.rules.shared_edge.value == SharedEdge::Independent)
+                owner: (self.rules.shared_edge.value() == SharedEdge::Independent)
                     .then_some(place.primitive_index as u32),
             };
             // The side is named by the edge's canonical direction.

@@ -156,11 +156,11 @@ impl Walk<'_> {
         let sum = values.fold(zero, |sum, value| sum.plus(value));
         let count = samples.len() as f64;
         let largest = encoding.value_of_order(between.high).abs();
-        let error = largest * count * self.rules.float_error.value;
+        let error = largest * count * self.rules.float_error.value();
         let exact = sum.map_increasing(|v| v / count).widen(error);
         let halvings = count.log2();
         let average = judging.encode(encoding, Range::same(exact));
-        match self.rules.resolve.value {
+        match self.rules.resolve.value() {
             Resolve::Average => average,
             Resolve::Between => between.hull(average),
             Resolve::CoarseAverage if encoding.is_float() => {

@@ -11,6 +11,7 @@ use crate::walk::depth_encoding;
 use etalon_frame::{ChannelEncoding, Frame, FrameError, LegalSet, Limits, compare};
 use etalon_scene::Scene;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// The relative width of a part that is not halved again: what single results may be off by anyway.
 const NARROW: f64 = 2e-5;
@@ -40,8 +41,8 @@ impl Judgement {
             None => Cow::Borrowed(self),
             Some(Fitted { rules, legal }) => Cow::Owned(Self {
                 rules,
-                legal,
-                yardstick: self.yardstick.clone(),
+                legal: Arc::new(legal),
+                yardstick: Arc::clone(&self.yardstick),
                 limits: limits.clone(),
                 ..*self
             }),
@@ -67,7 +68,7 @@ pub fn fit(
     };
     let is_fixed = matches!(encoding, ChannelEncoding::Unorm(_));
     // The last is tried first.
-    let mut parts: Vec<_> = rules.depth_bias_unit.value.readings(encoding).to_vec();
+    let mut parts: Vec<_> = rules.depth_bias_unit.value().readings(encoding).to_vec();
     parts.reverse();
     if (!is_fixed && parts.len() < 2) || wrong(legal, frame)? > 0 {
         return Ok(None);
@@ -86,8 +87,7 @@ pub fn fit(
             return Ok(None);
         }
         sets += 1;
-        let mut rules = rules.clone();
-        rules.depth_bias_unit.value.assumed = Some(part);
+        let rules = rules.assuming(part);
         let legal = judge_some(scene, limits, &rules, texels);
         let refused = wrong(&legal, frame)?;
         let fitted = Fitted { rules, legal };

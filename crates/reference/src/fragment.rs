@@ -43,7 +43,7 @@ impl Walk<'_> {
         }
         let outline = matches!(place.primitive.shape, Shape::Outline(_));
         for (world, drawn) in self.by_sample_coverage(place, world, notes) {
-            if outline && !self.rules.outlines_face_as_polygons.value {
+            if outline && !self.rules.outlines_face_as_polygons.value() {
                 self.shade(place, world.clone(), !front, drawn, result, notes);
             }
             self.shade(place, world, front, drawn, result, notes);
@@ -80,7 +80,7 @@ impl Walk<'_> {
                 // The order of the sample mask against counting is open; against the tests, the rules
                 // tell.
                 let mut silent = Notes(None);
-                let told = match self.rules.mask_acts_first.value {
+                let told = match self.rules.mask_acts_first.value() {
                     true => &mut silent,
                     false => &mut *notes,
                 };
@@ -88,7 +88,7 @@ impl Walk<'_> {
                 if outcomes.iter().any(|(_, passes)| *passes) {
                     self.count(place, &mut world, false, |_| true);
                 }
-                if !self.rules.mask_acts_first.value {
+                if !self.rules.mask_acts_first.value() {
                     for (mut outcome, passes) in outcomes {
                         if passes {
                             outcome.events.clone_from(&world.events);
@@ -105,7 +105,7 @@ impl Walk<'_> {
                     let worlds = [&world, &outcome];
                     self.early_fragment(place, worlds, &output, incoming, covered, result, notes);
                 } else {
-                    if !self.rules.skips_rejected.value {
+                    if !self.rules.skips_rejected.value() {
                         self.run(place, &mut outcome, false);
                     }
                     result.push(outcome);
@@ -114,7 +114,7 @@ impl Walk<'_> {
             return;
         }
         // A fragment that contributes nothing asks for a run only where the rules say so.
-        let asks = !masked && self.rules.runs_for_discarded.value;
+        let asks = !masked && self.rules.runs_for_discarded.value();
         let survives = covered.survives();
         if !survives.must() {
             let mut lost = world.clone();
@@ -202,7 +202,7 @@ impl Walk<'_> {
     /// Adds a run of the shader for a fragment; `certain` if the rules demand it. Where a later fragment
     /// may take away the need of earlier ones, theirs are certain no longer.
     fn run(&self, place: Place<'_>, world: &mut World, certain: bool) {
-        if certain && !self.rules.runs_for_overwritten.value && self.contributes(place) {
+        if certain && !self.rules.runs_for_overwritten.value() && self.contributes(place) {
             for event in &mut world.events {
                 let kind = self.scene.counters[usize::from(event.counter)].kind;
                 if kind == CounterKind::ShaderRuns {
@@ -255,7 +255,7 @@ impl Walk<'_> {
         if state.mask & (1 << sample) == 0 {
             // Whether forced early tests come before the mask is for the rules to say.
             let forced = place.draw.early_tests == EarlyTests::Forced;
-            let certain = !forced || self.rules.mask_acts_first.value;
+            let certain = !forced || self.rules.mask_acts_first.value();
             self.note_rejection(notes, place, Rejection::SampleMask, certain, &|| {
                 format!("the sample mask {:#x} leaves it out", state.mask)
             });
@@ -291,11 +291,11 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) {
         let mut passed = tested.clone();
-        self.run(place, &mut passed, self.rules.runs_for_discarded.value);
+        self.run(place, &mut passed, self.rules.runs_for_discarded.value());
         let survives = covered.survives();
         if survives.can() {
             let mut kept = tested.clone();
-            let asks = self.rules.runs_for_discarded.value || self.contributes(place);
+            let asks = self.rules.runs_for_discarded.value() || self.contributes(place);
             self.run(place, &mut kept, asks);
             self.count(place, &mut kept, true, CounterKind::is_occlusion);
             self.write_depth(place, &mut kept, incoming, notes);
@@ -311,15 +311,15 @@ impl Walk<'_> {
             || "the fragment goes away after its tests".to_owned(),
             Some(self.rules.early_updates.citation),
         );
-        let counted = self.rules.early_counts.value == EarlyUpdates::Happen;
+        let counted = self.rules.early_counts.value() == EarlyUpdates::Happen;
         self.count(place, &mut passed, counted, CounterKind::is_occlusion);
         let mut updated = passed.clone();
         self.write_depth(place, &mut updated, incoming, notes);
         result.push(updated);
         let may_not_happen =
             |lost: bool, updates: EarlyUpdates| lost && updates == EarlyUpdates::Either;
-        if may_not_happen(!covered.kept.must(), self.rules.early_updates.value)
-            || may_not_happen(!covered.coverage.must(), self.rules.early_coverage.value)
+        if may_not_happen(!covered.kept.must(), self.rules.early_updates.value())
+            || may_not_happen(!covered.coverage.must(), self.rules.early_coverage.value())
         {
             // As if the fragment had never been tested, but for what it counted.
             let mut untouched = before.clone();
@@ -380,7 +380,7 @@ impl Walk<'_> {
             let stored = world.cells[index].stencil;
             let masked = stencil_passes(&face, stored);
             let unmasked = compare(face.compare, face.reference, stored & face.read_mask);
-            let either = !self.rules.masks_reference.value && masked != unmasked;
+            let either = !self.rules.masks_reference.value() && masked != unmasked;
             if !masked || either {
                 let new = stencil_write(&face, face.fail_op, stored);
                 self.note_stencil(
@@ -441,11 +441,11 @@ impl Walk<'_> {
             high: 1.0,
         };
         let unit = depth.float.clamp(0.0, 1.0);
-        let slack = self.rules.float_error.value * 4.0;
+        let slack = self.rules.float_error.value() * 4.0;
         let outside = depth.float.low < near - slack || depth.float.high > far + slack;
         let written = source == Source::Written;
         let exported = written || place.primitive.is_biased();
-        let depth = match self.rules.depth_range.value {
+        let depth = match self.rules.depth_range.value() {
             // NaN stays NaN, or is clamped to any value of the range.
             _ if depth.float.may_be_nan() => depth.float,
             _ if place.draw.depth_clamp => held,
@@ -456,7 +456,7 @@ impl Walk<'_> {
             DepthRange::Either | DepthRange::ViewportIfWritten => held.hull(unit),
         };
         let own = !written || place.draw.shader == Shader::FragCoordDepth;
-        let same = match self.rules.same_depth.value {
+        let same = match self.rules.same_depth.value() {
             SameDepth::All => own,
             SameDepth::Written => written && own,
         };
@@ -477,7 +477,7 @@ impl Walk<'_> {
         }
         let alpha = alpha.hull();
         let several = place.at.samples > 1;
-        match self.rules.alpha_to_coverage.value {
+        match self.rules.alpha_to_coverage.value() {
             AlphaToCoverage::Ends => Possible::of(alpha.high > 0.0 || !several, alpha.low >= 1.0),
             AlphaToCoverage::Any => Possible::Maybe,
         }
@@ -606,7 +606,7 @@ impl Walk<'_> {
         let mut judging = Judging::new(self.rules);
         let codes = judging.encode(encoding, incoming);
         let of_codes = |codes: CodeInterval| Interval::of_codes(encoding, codes);
-        let (left, right) = match self.rules.depth_order.value {
+        let (left, right) = match self.rules.depth_order.value() {
             DepthOrder::Either => (
                 of_codes(codes).hull(incoming.hull()),
                 of_codes(stored).hull(judging.decode(encoding, stored).hull()),

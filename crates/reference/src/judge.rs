@@ -10,11 +10,13 @@ use crate::texels::Texels;
 use crate::verdict::verdict;
 use crate::walk::Walk;
 use etalon_frame::{
-    CountRange, Frame, LegalSet, LegalSetBuilder, Limits, Story, StoryLine, TexelSet,
+    Api, ApiVersion, CountRange, Frame, LegalSet, LegalSetBuilder, Limits, Story, StoryLine,
+    TexelSet,
 };
 use etalon_scene::{Draw, Scene};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// Both bands of one scene for one possible set of limits.
 #[derive(Clone, Debug)]
@@ -22,9 +24,9 @@ pub struct Judgement {
     /// The limits that were assumed: every depth format has one encoding.
     pub limits: Limits,
     /// The values that the API's text allows.
-    pub legal: LegalSet,
+    pub legal: Arc<LegalSet>,
     /// The values within the yardstick.
-    pub yardstick: LegalSet,
+    pub yardstick: Arc<LegalSet>,
     /// The number of judged samples of all images of one size, summed over sizes and sample counts. Of
     /// others nothing is asserted.
     pub looked_at: u64,
@@ -41,14 +43,29 @@ pub fn judgements(scene: &Scene, limits: &Limits) -> Vec<Judgement> {
 /// Returns [`judgements`] of some texels; of others nothing is asserted. Counters are sums over all
 /// texels: unless all are judged, nothing is asserted of counters either.
 pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judgement> {
+    judgements_by(scene, limits, texels, |limits, rules| {
+        Arc::new(judge_some(scene, limits, rules, texels))
+    })
+}
+
+/// Returns [`judgements_of`] with sets that `set` gives for limits and rules: [`judge_some`]'s of these, or of
+/// equal limits and rules whose values are the same as far as they were asked for. The limits are those
+/// that sets depend on, without all others.
+pub fn judgements_by(
+    scene: &Scene,
+    limits: &Limits,
+    texels: Texels,
+    set: impl Fn(&Limits, &Rules) -> Arc<LegalSet>,
+) -> Vec<Judgement> {
     let texels = texels.of(scene);
     limits
         .alternatives(&scene.formats())
         .into_iter()
         .map(|limits| {
             let rules = Rules::of(&limits);
-            let legal = judge_some(scene, &limits, &rules, texels);
-            let yardstick = judge_some(scene, &limits, &Rules::yardstick(&limits), texels);
+            let basis = basis(scene, &limits);
+            let legal = set(&basis, &rules);
+            let yardstick = set(&basis, &Rules::yardstick(&limits));
             let groups = legal.groups.iter();
             Judgement {
                 looked_at: groups
@@ -62,6 +79,31 @@ pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judg
             }
         })
         .collect()
+}
+
+/// Returns the limits that the legal sets of a scene depend on; the others have the same values for all
+/// adapters.
+fn basis(scene: &Scene, limits: &Limits) -> Limits {
+    let formats = scene.formats();
+    let counts: BTreeSet<u32> = scene.attachments.iter().map(|a| a.samples).collect();
+    let mut basis = limits.clone();
+    // The rules tell what depends on these.
+    basis.api = Api::Vulkan;
+    basis.version = ApiVersion::UNKNOWN;
+    basis.properties.clear();
+    basis.features.clear();
+    basis.exempt.clear();
+    basis.max_size = 0;
+    basis.max_color_attachments = 0;
+    basis.formats.retain(|format, _| formats.contains(format));
+    for support in basis.formats.values_mut() {
+        support.samples.clear();
+        support.blendable = false;
+    }
+    basis
+        .sample_positions
+        .retain(|count, _| counts.contains(count));
+    basis
 }
 
 /// Returns the legal set of all attachments that the scene reads back. Of a depth format with several

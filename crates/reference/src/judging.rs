@@ -70,7 +70,7 @@ impl<'r> Judging<'r> {
     }
 
     fn error(&self) -> f64 {
-        self.rules.float_error.value
+        self.rules.float_error.value()
     }
 
     /// Returns the results that a shader may compute for an exact one. Values beyond 32-bit floats are
@@ -83,7 +83,7 @@ impl<'r> Judging<'r> {
         if value.is(0.0) {
             return value;
         }
-        let wide = value.widen_relative(self.rules.shader_error.value);
+        let wide = value.widen_relative(self.rules.shader_error.value());
         let tiny = f64::from(f32::MIN_POSITIVE);
         Interval {
             low: if (0.0..tiny).contains(&wide.low) {
@@ -113,7 +113,7 @@ impl<'r> Judging<'r> {
 
     /// Widens to the destination's codes on either side, where blending may round to them.
     fn round_outward(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
-        if self.rules.blend.value != BlendPrecision::DestinationCodes {
+        if self.rules.blend.value() != BlendPrecision::DestinationCodes {
             return value;
         }
         match encoding {
@@ -157,7 +157,7 @@ impl<'r> Judging<'r> {
         if low >= 0.0 {
             return whole;
         }
-        match self.rules.signed_clamp.value {
+        match self.rules.signed_clamp.value() {
             SignedClamp::Signed => whole,
             SignedClamp::Unit => value.clamp(0.0, 1.0),
             SignedClamp::Either => whole.hull(value.clamp(0.0, 1.0)),
@@ -186,7 +186,7 @@ impl<'r> Judging<'r> {
                 false => at.abs() * error,
             };
             let (low, high) = (low - off(low), high + off(high));
-            let (low, high) = match self.rules.store.value {
+            let (low, high) = match self.rules.store.value() {
                 Rounding::EitherNeighbour => ((low + slack).floor(), (high - slack).ceil()),
                 Rounding::Within(codes) => ((low - codes).ceil(), (high + codes).floor()),
             };
@@ -203,7 +203,7 @@ impl<'r> Judging<'r> {
         }
         let limit = encoding.value_of_order(encoding.max_order());
         let beyond = value.high > limit || value.low < -limit;
-        if beyond && encoding == ChannelEncoding::Float16 && !self.rules.half_overflows.value {
+        if beyond && encoding == ChannelEncoding::Float16 && !self.rules.half_overflows.value() {
             return all_codes(encoding);
         }
         let low = match value.low {
@@ -226,7 +226,7 @@ impl<'r> Judging<'r> {
             _ => 1 << 10,
         };
         let (low, high) = (low.min(high), high.max(low));
-        let flushes = self.rules.flushes_small_floats.value;
+        let flushes = self.rules.flushes_small_floats.value();
         let flush = |order: i64, towards: i64| match flushes && order.abs() < normal {
             true => towards,
             false => order,
@@ -347,7 +347,7 @@ impl Arithmetic for Judging<'_> {
         let value = Interval::of_codes(encoding, code);
         match encoding {
             ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => {
-                let error = self.rules.decode_error.value;
+                let error = self.rules.decode_error.value();
                 let exact = |v: f64| v.abs() == 1.0;
                 let down = |v: f64| if exact(v) { v } else { v - v.abs() * error };
                 let up = |v: f64| if exact(v) { v } else { v + v.abs() * error };
@@ -415,7 +415,7 @@ impl Arithmetic for Judging<'_> {
     fn blend_factor(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
         let clamp = |v: Interval| {
             let clamped = self.blend_clamp(encoding, v);
-            match self.rules.factor_clamp.value {
+            match self.rules.factor_clamp.value() {
                 FactorClamp::Clamped => clamped,
                 FactorClamp::Either => clamped.hull(v),
             }

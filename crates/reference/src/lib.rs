@@ -45,7 +45,7 @@ mod world;
 
 pub use fit::{Fitted, fit};
 pub use interval::Interval;
-pub use judge::{Judgement, explain, judge, judge_some, judgements, judgements_of};
+pub use judge::{Judgement, explain, judge, judge_some, judgements, judgements_by, judgements_of};
 pub use judging::{Judging, Range};
 pub use rules::{Permission, Rules};
 pub use sample::Sample;

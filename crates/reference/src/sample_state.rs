@@ -28,7 +28,7 @@ enum ShadedAt {
 
 /// Returns where the fragment's coordinates lie that a shader reads, of several samples.
 fn frag_coord_at(rules: &Rules, state: &Multisample, samples: u32) -> ShadedAt {
-    match (rules.frag_coord.value, state.min_sample_shading) {
+    match (rules.frag_coord.value(), state.min_sample_shading) {
         (FragCoord::Inputs, _) => inputs_at(rules, state),
         (FragCoord::Sample, None) => ShadedAt::Center,
         // As many runs as samples, each with a sample at least: each sample has its own.
@@ -40,7 +40,7 @@ fn frag_coord_at(rules: &Rules, state: &Multisample, samples: u32) -> ShadedAt {
 /// Returns where inputs are interpolated that ask for no place of their own, of several samples.
 fn inputs_at(rules: &Rules, state: &Multisample) -> ShadedAt {
     match state.min_sample_shading {
-        Some(1.0) if rules.inputs_at_samples.value => ShadedAt::Sample,
+        Some(1.0) if rules.inputs_at_samples.value() => ShadedAt::Sample,
         _ => ShadedAt::Texel,
     }
 }
@@ -64,7 +64,7 @@ impl Walk<'_> {
                 high: f64::from(v) + 1.0,
             }),
         };
-        [across, down].map(|v| Range::same(v.widen(self.rules.float_error.value * v.high)))
+        [across, down].map(|v| Range::same(v.widen(self.rules.float_error.value() * v.high)))
     }
 
     /// Returns the number of samples among which the point may be chosen at which inputs are
@@ -94,7 +94,7 @@ impl Walk<'_> {
         let decision = Decision::SampleCoverage {
             value: value.to_bits(),
         };
-        let ends = self.rules.sample_coverage.value == AlphaToCoverage::Ends;
+        let ends = self.rules.sample_coverage.value() == AlphaToCoverage::Ends;
         let known = match value {
             0.0 | 1.0 if ends => Some(value > 0.0),
             _ => world.decided(decision),

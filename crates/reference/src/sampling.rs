@@ -68,7 +68,7 @@ impl Walk<'_> {
     /// Returns the result of a sampler on a texture whose texels are not followed.
     fn anything(&self, index: usize) -> [Range; 4] {
         let encodings = self.scene.attachments[index].format.color_channels();
-        let slack = self.rules.float_error.value * 4.0;
+        let slack = self.rules.float_error.value() * 4.0;
         let mut texel = [0.0, 0.0, 0.0, 1.0].map(|v| Range::same(Interval::exact(v).widen(slack)));
         for (channel, encoding) in texel.iter_mut().zip(encodings) {
             *channel = Range::same(match encoding.normalized_range() {
@@ -137,7 +137,7 @@ impl Walk<'_> {
             return None;
         }
         let texels = self.scene.attachments[texture.index].size;
-        let step = self.rules.filter_step.value;
+        let step = self.rules.filter_step.value();
         let along = |axis: usize| -> Vec<f64> {
             let size = texels[axis];
             let scaled = uv[axis].map_increasing(|v| v * f64::from(size));
@@ -230,7 +230,7 @@ impl Walk<'_> {
                 *sum = sum.plus(scaled);
             }
         }
-        Some(sum.map(|sum| sum.widen(largest * self.rules.float_error.value * 4.0)))
+        Some(sum.map(|sum| sum.widen(largest * self.rules.float_error.value() * 4.0)))
     }
 }
 

@@ -95,7 +95,7 @@ fn primitive(
     let of = |i: usize| vertex(context, draw, draw.mesh.vertices[i].position);
     let units = units_per_texel(context.limits);
     let grid = units >> context.limits.sub_pixel_bits;
-    let error = context.rules.float_error.value;
+    let error = context.rules.float_error.value();
     let mut bias = Interval::exact(0.0);
     let (shape, window_depth, clip_depth) = match one {
         PrimitiveVertices::Point(i) => {
@@ -202,7 +202,7 @@ fn texture_coordinates(
     }
     let units = units_per_texel(context.limits);
     let grid = units >> context.limits.sub_pixel_bits;
-    let error = context.rules.float_error.value;
+    let error = context.rules.float_error.value();
     let value = |i: usize, axis: usize| Interval::exact(f64::from(draw.mesh.vertices[i].uv[axis]));
     let w = |i: usize| draw.mesh.vertices[i].position[3];
     Some([0, 1].map(|axis| match (shape, one) {
@@ -240,7 +240,7 @@ fn vertex(context: &PassContext<'_>, draw: &Draw, position: [f32; 4]) -> Vertex 
     let step = units_per_texel(limits) >> limits.sub_pixel_bits;
     let snap = |range: Range| -> (i64, i64) {
         let Interval { low, high } = range.hull();
-        let (low, high) = match context.rules.snap.value {
+        let (low, high) = match context.rules.snap.value() {
             Snap::EitherSide => ((low * grid).floor(), (high * grid).ceil()),
             Snap::Nearest => ((low * grid + 0.5).floor(), (high * grid + 0.5).floor()),
         };

@@ -68,7 +68,7 @@ impl Walk<'_> {
             float: value.float.clamp(0.0, 1.0),
             coarse: value.coarse.clamp(0.0, 1.0),
         };
-        match self.rules.signed_result.value {
+        match self.rules.signed_result.value() {
             SignedClamp::Signed => whole,
             SignedClamp::Unit => judging.encode(encoding, clamped),
             SignedClamp::Either => whole.hull(judging.encode(encoding, clamped)),
@@ -79,7 +79,7 @@ impl Walk<'_> {
     fn logic_on(&self, format: TextureFormat) -> SrgbLogic {
         match format {
             _ if takes_logic(format) => SrgbLogic::Applies,
-            TextureFormat::Rgba8UnormSrgb => self.rules.srgb_logic.value,
+            TextureFormat::Rgba8UnormSrgb => self.rules.srgb_logic.value(),
             _ => SrgbLogic::PassesThrough,
         }
     }
@@ -121,7 +121,7 @@ impl Walk<'_> {
                     });
                     let constant = place.draw.blend_constant.map(|v| {
                         let plain = judging.constant(v);
-                        match self.rules.clamps_constant.value {
+                        match self.rules.clamps_constant.value() {
                             true => plain.joined(judging.constant(v.clamp(0.0, 1.0))),
                             false => plain,
                         }

@@ -390,7 +390,7 @@ impl<'a> Walk<'a> {
     }
 
     fn sides(&self, triangle: &Triangle, at: Sample, point: Point) -> [Side; 3] {
-        if at.samples == 1 || self.rules.covers_at_positions.value {
+        if at.samples == 1 || self.rules.covers_at_positions.value() {
             return [0, 1, 2].map(|i| triangle.side(i, point));
         }
         // Wherever in the texel the sample is covered: on one side only if all of the texel is.
@@ -499,7 +499,7 @@ impl<'a> Walk<'a> {
 
     /// Returns a colour as it is read back.
     fn read_color(&self, encoding: ChannelEncoding, stored: CodeInterval) -> CodeInterval {
-        if self.rules.copies.value == Copies::Exact {
+        if self.rules.copies.value() == Copies::Exact {
             return stored;
         }
         match encoding {

@@ -328,7 +328,7 @@ impl Bench<'_, '_> {
 /// The message about a frame that differs from the judged one; `None` where the API permits that.
 fn changed(limits: &Limits) -> Option<String> {
     let promise = Rules::invariance(limits, Invariance::Repeat);
-    promise.value.map(|_| {
+    promise.value().map(|_| {
         format!(
             "the picture after a round is not the one that was judged: {}",
             promise.citation

@@ -172,7 +172,7 @@ impl Judge {
         }
         if let Some(relation) = &case.relation {
             let found = relation::check(relation, case, frames);
-            let band = Rules::invariance(limits, relation.invariance).value;
+            let band = Rules::invariance(limits, relation.invariance).value();
             if found.differing > 0 && band > worst {
                 worst = band;
                 first = found.wrong.into_iter().next();
@@ -206,7 +206,7 @@ pub(crate) fn regrade(comparison: &mut Comparison, grades: &Grades) {
 pub(crate) fn is_due_to_fail(case: &Case, limits: &Limits) -> bool {
     let bound = |relation: &Relation| {
         let permission = Rules::invariance(limits, relation.invariance);
-        permission.value > Some(Band::Imprecise)
+        permission.value() > Some(Band::Imprecise)
     };
     case.judged_as.is_some() && case.relation.as_ref().is_none_or(bound)
 }
@@ -311,7 +311,9 @@ fn counter_message(counters: &[CounterOutcome]) -> Option<String> {
 /// Adds the differences that a relation forbids to a record.
 fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, found: Differences) {
     let permission = Rules::invariance(limits, relation.invariance);
-    let Some(band) = permission.value else { return };
+    let Some(band) = permission.value() else {
+        return;
+    };
     if record.verdict == Verdict::Open && found.compared > 0 {
         record.verdict = Verdict::Pass;
     }

@@ -1,12 +1,13 @@
-//! The cache of judgements, which adapters with the same limits share.
+//! The cache of legal sets. Adapters share those of equal limits under rules that agree on all that the
+//! judge asked for: most scenes touch few permissions, and the texts agree on most of these.
 
 use crate::sync::lock;
 use etalon_case::Case;
-use etalon_frame::{ApiVersion, Limits};
-use etalon_reference::{Judgement, Rules, Texels, judgements_of};
+use etalon_frame::{LegalSet, Limits};
+use etalon_reference::{Judgement, Rules, Texels, judge_some, judgements_by};
 use etalon_scene::Scene;
 use std::collections::{HashMap, VecDeque};
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, Mutex};
 
 /// The most bytes of cached legal sets.
 const CACHE_BYTES: usize = 512 << 20;
@@ -21,18 +22,26 @@ pub(crate) fn judged_texels(case: &Case) -> Texels {
     }
 }
 
-/// A case, one of its scenes, the limits it is judged by, and the values of the permissions.
-type Key = (usize, usize, Limits, String);
-type Entry = Arc<OnceLock<Arc<Vec<Judgement>>>>;
+/// A case, one of its scenes, and the limits that its sets depend on.
+type Key = (usize, usize, Limits);
+type Entry = Arc<Mutex<Vec<Known>>>;
 
-/// Judgements by case, scene and limits.
+/// A legal set, and the values of the permissions that it was computed by, by their place.
+#[derive(Debug)]
+struct Known {
+    asked: Vec<(usize, String)>,
+    set: Arc<LegalSet>,
+}
+
+/// Legal sets by case, scene, limits and permissions.
 #[derive(Debug, Default)]
 pub(crate) struct JudgementCache(Mutex<Cache>);
 
 #[derive(Debug, Default)]
 struct Cache {
     entries: HashMap<Key, Entry>,
-    order: VecDeque<Key>,
+    /// The entries of all sets, the oldest first, with the bytes that each set takes.
+    order: VecDeque<(Key, usize)>,
     bytes: usize,
 }
 
@@ -44,47 +53,48 @@ impl JudgementCache {
         case: &Case,
         index: usize,
         limits: &Limits,
-    ) -> Arc<Vec<Judgement>> {
+    ) -> Vec<Judgement> {
         let index = case.judged_index(index);
-        let permissions = Rules::of(limits).values();
-        let key = (number, index, limits_that_matter(limits), permissions);
-        let entry = {
-            let mut cache = lock(&self.0);
-            match cache.entries.get(&key) {
-                Some(entry) => Arc::clone(entry),
-                None => {
-                    let entry = Entry::default();
-                    cache.entries.insert(key.clone(), Arc::clone(&entry));
-                    entry
-                }
-            }
-        };
-        let mut fresh = false;
-        let sets = Arc::clone(entry.get_or_init(|| {
-            fresh = true;
-            let scene = judged_scene(case, index);
-            Arc::new(judgements_of(scene, limits, judged_texels(case)))
-        }));
-        if fresh {
-            let weight = |all: &[Judgement]| -> usize {
-                all.iter()
-                    .map(|j| j.legal.weight() + j.yardstick.weight())
-                    .sum()
-            };
-            let mut cache = lock(&self.0);
-            cache.bytes += weight(&sets);
-            cache.order.push_back(key);
-            while cache.bytes > CACHE_BYTES {
-                let Some(oldest) = cache.order.pop_front() else {
-                    break;
-                };
-                if let Some(old) = cache.entries.remove(&oldest) {
-                    let freed = old.get().map_or(0, |sets| weight(sets));
-                    cache.bytes = cache.bytes.saturating_sub(freed);
-                }
-            }
+        let scene = judged_scene(case, index);
+        let texels = judged_texels(case);
+        judgements_by(scene, limits, texels, |limits, rules| {
+            let key = (number, index, limits.clone());
+            self.set(key, rules, |rules| judge_some(scene, limits, rules, texels))
+        })
+    }
+
+    /// The set of a key by some rules. One that other rules gave is taken if these have the same values, as
+    /// far as they were asked for.
+    fn set(&self, key: Key, rules: &Rules, judge: impl Fn(&Rules) -> LegalSet) -> Arc<LegalSet> {
+        let entry = Arc::clone(lock(&self.0).entries.entry(key.clone()).or_default());
+        // Who comes second waits: most sets serve both.
+        let mut all = lock(&entry);
+        let values = rules.values();
+        let serves = |known: &&Known| known.asked.iter().all(|(i, value)| values[*i] == *value);
+        if let Some(known) = all.iter().find(serves) {
+            return Arc::clone(&known.set);
         }
-        sets
+        let rules = rules.clone();
+        let set = Arc::new(judge(&rules));
+        let asked = rules.asked().into_iter().zip(values).enumerate();
+        let asked = asked.filter_map(|(i, (asked, value))| asked.then_some((i, value)));
+        all.push(Known {
+            asked: asked.collect(),
+            set: Arc::clone(&set),
+        });
+        drop(all);
+        let mut cache = lock(&self.0);
+        cache.bytes += set.weight();
+        cache.order.push_back((key, set.weight()));
+        while cache.bytes > CACHE_BYTES {
+            let Some((oldest, weight)) = cache.order.pop_front() else {
+                break;
+            };
+            // Of an entry with several sets all are forgotten with the first.
+            cache.entries.remove(&oldest);
+            cache.bytes = cache.bytes.saturating_sub(weight);
+        }
+        set
     }
 }
 
@@ -98,18 +108,4 @@ pub(crate) fn judged_scene(case: &Case, index: usize) -> &Scene {
         Some(variant) => &variant.scene,
         None => case.judged_scene(),
     }
-}
-
-/// The limits that legal sets depend on; without the others, more adapters share one set.
-fn limits_that_matter(limits: &Limits) -> Limits {
-    let mut key = limits.clone();
-    key.features.clear();
-    key.max_size = 0;
-    // The values of the permissions stand for both; several versions share them.
-    key.version = ApiVersion::UNKNOWN;
-    key.properties.clear();
-    for support in key.formats.values_mut() {
-        support.samples.clear();
-    }
-    key
 }

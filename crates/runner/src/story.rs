@@ -44,7 +44,7 @@ pub fn story_of_relation(
         inside.then_some(())?;
     }
     let found = relation::check(&one, case, frames);
-    let band = Rules::invariance(limits, relation.invariance).value?;
+    let band = Rules::invariance(limits, relation.invariance).value()?;
     Some((
         band,
         of_differences(case, relation, limits, frames, &found)?,
@@ -59,7 +59,7 @@ pub(crate) fn tell_relation(
     limits: &Limits,
     (frames, found): (&[Frame], &Differences),
 ) {
-    let Some(band) = Rules::invariance(limits, relation.invariance).value else {
+    let Some(band) = Rules::invariance(limits, relation.invariance).value() else {
         return;
     };
     let graver = record.wrong.first().is_none_or(|first| first.band < band);
@@ -136,7 +136,7 @@ fn of_differences(
     let predicate = format!("must be the same {same}: {}", differences(first, &names));
     let judged_by = format!("judged by {}: {}", rules.text, permission.citation);
     let mut verdict = StoryLine::verdict(subject, predicate, judged_by);
-    add_grade(&mut verdict, permission.value);
+    add_grade(&mut verdict, permission.value());
     let mut lines = vec![verdict];
     let mut told = Vec::new();
     for (side, name) in sides.iter().zip(&names) {

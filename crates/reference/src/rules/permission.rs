@@ -1,31 +1,65 @@
 //! Permissions as data: the set of choices that a text leaves open, each with its citation.
 
 use etalon_frame::{ChannelEncoding, Grade};
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A permission with its citation, and the evidence for what it forbids.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A permission with its citation, and the evidence for what it forbids. It remembers being asked for, so
+/// that what was computed under some rules holds under all others that agree on the permissions asked for.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Permission<T> {
-    /// The permission, by all evidence.
-    pub value: T,
+    pub(super) value: T,
     /// The section that grants it.
     pub citation: &'static str,
     /// The evidence for what the permission forbids beyond [`Permission::wide`].
     pub grade: Grade,
-    /// The permission by the stronger evidence alone; the same as `value` where it is proven.
+    /// The permission by the stronger evidence alone; the same as the value where it is proven.
     pub wide: T,
+    asked: Asked,
 }
 
 impl<T: Copy> Permission<T> {
+    /// Returns the permission, by all evidence.
+    pub fn value(&self) -> T {
+        self.asked.0.store(true, Ordering::Relaxed);
+        self.value
+    }
+
+    /// Replaces the permission.
+    pub fn set(&mut self, value: T) {
+        self.value = value;
+    }
+
     /// Returns the permission as evidence of this grade or a stronger one leaves it.
-    pub fn bound_by(self, least: Grade) -> Self {
+    pub fn bound_by(&self, least: Grade) -> Self {
+        let value = if self.grade < least {
+            self.wide
+        } else {
+            self.value
+        };
         Self {
-            value: if self.grade < least {
-                self.wide
-            } else {
-                self.value
-            },
-            ..self
+            value,
+            ..self.clone()
         }
+    }
+}
+
+/// True if a permission was asked for since it was made or cloned. It is no part of what the permission is.
+#[derive(Debug, Default)]
+struct Asked(AtomicBool);
+
+impl Asked {
+    const NOT: Self = Self(AtomicBool::new(false));
+}
+
+impl Clone for Asked {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl PartialEq for Asked {
+    fn eq(&self, _: &Self) -> bool {
+        true
     }
 }
 
@@ -36,6 +70,7 @@ pub(super) const fn permit<T: Copy>(value: T, citation: &'static str) -> Permiss
         citation,
         grade: Grade::Proven,
         wide: value,
+        asked: Asked::NOT,
     }
 }
 
@@ -51,6 +86,7 @@ pub(super) const fn narrowed<T: Copy>(
         citation,
         grade,
         wide,
+        asked: Asked::NOT,
     }
 }
 
@@ -238,10 +274,7 @@ pub enum SameDepth {
     All,
 }
 
-/// Declares the permissions of [`Rules`], so that none is forgotten where all are narrowed or listed.
-macro_rules! rules {
-    ($($(#[$doc:meta])* $field:ident: $kind:ty,)+) => {
-        /// The coordinates that a shader reads of a fragment of several samples.
+/// The coordinates that a shader reads of a fragment of several samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FragCoord {
     /// The centre of the texel, or with sample shading the position of one of the samples of the run.
@@ -250,7 +283,10 @@ pub enum FragCoord {
     Inputs,
 }
 
-/// One specification's permissions, or the yardstick.
+/// Declares the permissions of [`Rules`], so that none is forgotten where all are narrowed or listed.
+macro_rules! rules {
+    ($($(#[$doc:meta])* $field:ident: $kind:ty,)+) => {
+        /// One specification's permissions, or the yardstick.
         #[derive(Clone, Debug, PartialEq)]
         pub struct Rules {
             /// The name: `vulkan`, `opengl`, `opengl-es`, `webgpu`, `yardstick`.
@@ -275,12 +311,16 @@ pub enum FragCoord {
                 }
             }
 
-            /// Returns the values of all permissions as text. Rules of one API with the same values give
-            /// the same legal sets, whatever they cite.
-            pub fn values(&self) -> String {
-                let mut text = String::new();
-                $(text.push_str(&format!("{:?};", self.$field.value));)+
-                text
+            /// Returns the values of all permissions as text. Rules with the same values give the same
+            /// legal sets, whatever they cite.
+            pub fn values(&self) -> Vec<String> {
+                vec![$(format!("{:?}", self.$field.value)),+]
+            }
+
+            /// Returns, of each permission in the order of [`Rules::values`], true if it was asked for since
+            /// these rules were made or cloned. Rules that agree on these give the same results.
+            pub fn asked(&self) -> Vec<bool> {
+                vec![$(self.$field.asked.0.load(Ordering::Relaxed)),+]
             }
 
             /// Returns every permission's name, citation and grade.
@@ -380,4 +420,13 @@ rules! {
     /// True if with sample shading of a share of 1 each sample's inputs are those at its position;
     /// otherwise at any point of the texel.
     inputs_at_samples: bool,
+}
+
+impl Rules {
+    /// Returns the rules with an assumption about the step of depth bias, in the unit of [`BiasUnit`].
+    pub(crate) fn assuming(&self, step: (f64, f64)) -> Self {
+        let mut rules = self.clone();
+        rules.depth_bias_unit.value.assumed = Some(step);
+        rules
+    }
 }

@@ -102,19 +102,19 @@ pub(crate) fn wider() -> Vec<(Rules, Rules)> {
         pairs.push((yardstick(), rules.clone()));
         for factor in [1.5, 10.0, 1000.0] {
             let mut wide = rules.clone();
-            wide.float_error.value *= factor;
+            wide.float_error.set(wide.float_error.value() * factor);
             pairs.push((rules.clone(), wide.clone()));
-            wide.decode_error.value *= factor;
+            wide.decode_error.set(wide.decode_error.value() * factor);
             pairs.push((rules.clone(), wide));
         }
     }
     let changes: [fn(&mut Rules); 6] = [
-        |r| r.store.value = Rounding::EitherNeighbour,
-        |r| r.blend.value = BlendPrecision::DestinationCodes,
-        |r| r.snap.value = Snap::EitherSide,
-        |r| r.shared_edge.value = SharedEdge::ExactlyOne,
-        |r| r.shared_edge.value = SharedEdge::Independent,
-        |r| r.depth_order.value = DepthOrder::Either,
+        |r| r.store.set(Rounding::EitherNeighbour),
+        |r| r.blend.set(BlendPrecision::DestinationCodes),
+        |r| r.snap.set(Snap::EitherSide),
+        |r| r.shared_edge.set(SharedEdge::ExactlyOne),
+        |r| r.shared_edge.set(SharedEdge::Independent),
+        |r| r.depth_order.set(DepthOrder::Either),
     ];
     for change in changes {
         let mut wide = yardstick();
@@ -233,7 +233,7 @@ proptest! {
                 // Two neighbours, and as many codes as the computed code may be off by.
                 let off = match encoding {
                     ChannelEncoding::Float32 => 0.0,
-                    _ => rules.float_error.value * order as f64,
+                    _ => rules.float_error.value() * order as f64,
                 };
                 let most = 3.0 + 2.0 * off;
                 prop_assert!(allowed.count() as f64 <= most, "{} {encoding}: {allowed:?}", rules.name);
