@@ -1,7 +1,6 @@
 //! Physical devices and the logical device.
 
 use crate::error::{Check, describe};
-use crate::extended;
 use crate::instance::{INSTANCE_VERSION, Instance};
 use ash::vk;
 use etalon_backend::{AdapterInfo, BackendError, Unavailable};
@@ -141,6 +140,33 @@ fn has_extension(api: &ash::Instance, physical: vk::PhysicalDevice, name: &CStr)
         .any(|e| e.extension_name_as_c_str().is_ok_and(|n| n == name))
 }
 
+/// Returns the features behind the further dynamic states, if they are enabled.
+fn extended_features(enabled: bool) -> vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT<'static> {
+    vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT::default()
+        .extended_dynamic_state3_polygon_mode(enabled)
+        .extended_dynamic_state3_depth_clamp_enable(enabled)
+        .extended_dynamic_state3_sample_mask(enabled)
+        .extended_dynamic_state3_alpha_to_coverage_enable(enabled)
+        .extended_dynamic_state3_color_blend_enable(enabled)
+        .extended_dynamic_state3_color_blend_equation(enabled)
+        .extended_dynamic_state3_color_write_mask(enabled)
+}
+
+/// Returns true if a device has all features behind the further dynamic states.
+fn has_all(features: &vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT<'_>) -> bool {
+    [
+        features.extended_dynamic_state3_polygon_mode,
+        features.extended_dynamic_state3_depth_clamp_enable,
+        features.extended_dynamic_state3_sample_mask,
+        features.extended_dynamic_state3_alpha_to_coverage_enable,
+        features.extended_dynamic_state3_color_blend_enable,
+        features.extended_dynamic_state3_color_blend_equation,
+        features.extended_dynamic_state3_color_write_mask,
+    ]
+    .into_iter()
+    .all(|has| has != vk::FALSE)
+}
+
 /// True if a device has extended dynamic state 3, as far as the suite sets it.
 fn has_extended(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
     if !has_extension(api, physical, ash::ext::extended_dynamic_state3::NAME) {
@@ -150,7 +176,7 @@ fn has_extended(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
     let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
     // SAFETY: the chained structure is of an extension that the device has.
     unsafe { api.get_physical_device_features2(physical, &mut both) };
-    extended::has(&offered)
+    has_all(&offered)
 }
 
 /// Returns the promises of maintenance5, where the device has it.
@@ -273,7 +299,7 @@ impl Device {
         .into_iter()
         .filter_map(|(used, name)| used.then_some(name.as_ptr()))
         .collect();
-        let mut enabled_extended = extended::features(extended);
+        let mut enabled_extended = extended_features(extended);
         // Both are mandatory in Vulkan 1.3.
         let mut enabled13 = vk::PhysicalDeviceVulkan13Features::default()
             .dynamic_rendering(true)

@@ -1,7 +1,6 @@
 //! Extended dynamic state 3: what else of a pipeline is set for each draw, where the path asks for it.
 
 use crate::device::Device;
-use crate::pipeline::color_target;
 use crate::state;
 use ash::vk;
 use etalon_scene::{ColorTarget, Draw, Multisample, PolygonMode};
@@ -19,35 +18,6 @@ pub(crate) const STATES: [vk::DynamicState; 7] = [
 
 /// The number of [`STATES`] that a pass without colour attachments has.
 pub(crate) const COLORLESS: usize = 4;
-
-/// Returns the features behind [`STATES`], if they are enabled.
-pub(crate) fn features(
-    enabled: bool,
-) -> vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT<'static> {
-    vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT::default()
-        .extended_dynamic_state3_polygon_mode(enabled)
-        .extended_dynamic_state3_depth_clamp_enable(enabled)
-        .extended_dynamic_state3_sample_mask(enabled)
-        .extended_dynamic_state3_alpha_to_coverage_enable(enabled)
-        .extended_dynamic_state3_color_blend_enable(enabled)
-        .extended_dynamic_state3_color_blend_equation(enabled)
-        .extended_dynamic_state3_color_write_mask(enabled)
-}
-
-/// Returns true if a device has all features behind [`STATES`].
-pub(crate) fn has(features: &vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT<'_>) -> bool {
-    [
-        features.extended_dynamic_state3_polygon_mode,
-        features.extended_dynamic_state3_depth_clamp_enable,
-        features.extended_dynamic_state3_sample_mask,
-        features.extended_dynamic_state3_alpha_to_coverage_enable,
-        features.extended_dynamic_state3_color_blend_enable,
-        features.extended_dynamic_state3_color_blend_equation,
-        features.extended_dynamic_state3_color_write_mask,
-    ]
-    .into_iter()
-    .all(|has| has != vk::FALSE)
-}
 
 /// Returns a draw whose pipeline holds other values of [`STATES`], which must not act.
 pub(crate) fn held(draw: &Draw) -> Draw {
@@ -86,7 +56,7 @@ impl Extended {
             samples,
             mask: draw.multisample.mask,
             alpha_to_coverage: draw.multisample.alpha_to_coverage,
-            targets: draw.targets.iter().map(color_target).collect(),
+            targets: draw.targets.iter().map(state::color_target).collect(),
         }
     }
 

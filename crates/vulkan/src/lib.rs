@@ -9,6 +9,7 @@
 //! Shaders, pipelines, images, buffers and command pools outlive a scene in bounded pools, since a
 //! suite draws many thousands of small scenes.
 
+mod attached;
 mod backend;
 mod buffer;
 mod clear;
@@ -21,6 +22,7 @@ mod extended;
 mod format;
 mod gpu;
 mod image;
+mod image_state;
 mod inputs;
 mod instance;
 mod limits;
@@ -39,6 +41,7 @@ mod samples;
 mod shader;
 mod slot;
 mod state;
+mod targets;
 mod viewport;
 
 pub use backend::{Options, VulkanBackend, enumerate, open};

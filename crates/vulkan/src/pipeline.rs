@@ -6,12 +6,13 @@ use crate::error::{Check, internal};
 use crate::render_pass::{Compatible, RenderPass};
 use crate::shader::{Module, Modules};
 use crate::state;
+use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::PathViewport;
 use etalon_scene::{
-    BlendComponent, ColorTarget, Draw, EarlyTests, LogicOperation, Multisample, PolygonMode,
-    PrimitiveTopology, Shader,
+    ColorTarget, Draw, EarlyTests, LogicOperation, Multisample, PolygonMode, PrimitiveTopology,
+    Shader,
 };
 use std::collections::HashMap;
 use std::mem::{offset_of, size_of};
@@ -20,32 +21,6 @@ use std::rc::Rc;
 /// The most pipelines kept. A full cache drops those that no prepared scene holds: Lavapipe keeps
 /// about a megabyte of machine code for each.
 const KEPT_PIPELINES: usize = 256;
-
-/// The formats and sample count of a pass's attachments.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Targets {
-    pub(crate) color: Vec<vk::Format>,
-    /// `UNDEFINED` without a depth aspect.
-    pub(crate) depth: vk::Format,
-    /// `UNDEFINED` without a stencil aspect.
-    pub(crate) stencil: vk::Format,
-    pub(crate) samples: u32,
-}
-
-impl Targets {
-    /// Returns the format of the depth-stencil attachment.
-    pub(crate) fn depth_stencil(&self) -> vk::Format {
-        match self.depth {
-            vk::Format::UNDEFINED => self.stencil,
-            depth => depth,
-        }
-    }
-
-    /// Returns the aspects of the depth-stencil attachment.
-    pub(crate) fn aspects(&self) -> vk::ImageAspectFlags {
-        crate::format::aspect_mask(self.depth_stencil())
-    }
-}
 
 /// The static state of a pipeline; the rest is [`Setting::states`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -362,7 +337,7 @@ fn create(
         .alpha_to_coverage_enable(key.multisample.alpha_to_coverage)
         .alpha_to_one_enable(key.multisample.alpha_to_one);
     let depth_stencil = fixed.map(Dynamic::depth_stencil).unwrap_or_default();
-    let targets: Vec<_> = key.color.iter().map(color_target).collect();
+    let targets: Vec<_> = key.color.iter().map(state::color_target).collect();
     let mut blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&targets);
     if let Some(logic) = key.logic {
         blend = blend.logic_op_enable(true).logic_op(state::logic(logic));
@@ -442,30 +417,4 @@ fn attributes(
         })
     };
     locations.iter().map(attribute).collect()
-}
-
-/// Returns Vulkan's state of a colour attachment.
-pub(crate) fn color_target(target: &ColorTarget) -> vk::PipelineColorBlendAttachmentState {
-    let mut native = vk::PipelineColorBlendAttachmentState::default()
-        .color_write_mask(state::write_mask(target.write_mask));
-    if let Some(blend) = target.blend {
-        let parts = |c: BlendComponent| {
-            (
-                state::blend_factor(c.src_factor),
-                state::blend_factor(c.dst_factor),
-                state::blend_operation(c.operation),
-            )
-        };
-        let (src, dst, operation) = parts(blend.color);
-        let (src_alpha, dst_alpha, alpha_operation) = parts(blend.alpha);
-        native = native
-            .blend_enable(true)
-            .src_color_blend_factor(src)
-            .dst_color_blend_factor(dst)
-            .color_blend_op(operation)
-            .src_alpha_blend_factor(src_alpha)
-            .dst_alpha_blend_factor(dst_alpha)
-            .alpha_blend_op(alpha_operation);
-    }
-    native
 }

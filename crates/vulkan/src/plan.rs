@@ -1,5 +1,6 @@
 //! The commands of a scene in terms of device handles, ready to be recorded at each submit.
 
+use crate::attached::{ColorPlan, DepthStencilPlan};
 use crate::clear::{ClearPlan, Ends, color_value, depth_stencil_value};
 use crate::counting::{Counting, Query};
 use crate::dynamic::Dynamic;
@@ -11,10 +12,11 @@ use crate::image::{Image, ImageKey, Place};
 use crate::inputs::{CallNumbers, DrawInputs};
 use crate::limits::attachment_usage;
 use crate::path;
-use crate::pipeline::{Pipeline, Targets};
+use crate::pipeline::Pipeline;
 use crate::read::ReadPlan;
 use crate::render_pass::RenderPass;
 use crate::state;
+use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{PathEnd, PathTarget, Requirement};
@@ -88,26 +90,6 @@ pub(crate) struct PassPlan {
     pub(crate) draws: Vec<DrawPlan>,
     /// Clear commands with the draws before which they are executed, in order.
     pub(crate) clears: Vec<(usize, ClearPlan)>,
-}
-
-/// A colour attachment of a pass.
-pub(crate) struct ColorPlan {
-    pub(crate) view: vk::ImageView,
-    pub(crate) ends: Ends,
-    /// The view and mode of the resolve, if the pass resolves it.
-    pub(crate) resolve: Option<(vk::ImageView, vk::ResolveModeFlags)>,
-}
-
-/// The depth-stencil attachment of a pass.
-pub(crate) struct DepthStencilPlan {
-    pub(crate) view: vk::ImageView,
-    /// The operations of depth, if the format has it.
-    pub(crate) depth: Option<Ends>,
-    /// The operations of stencil, if the format has it.
-    pub(crate) stencil: Option<Ends>,
-    pub(crate) read_only: bool,
-    /// The view of the resolve with the modes of depth and stencil, if the pass resolves them.
-    pub(crate) resolve: Option<(vk::ImageView, [vk::ResolveModeFlags; 2])>,
 }
 
 /// The plan of a draw.

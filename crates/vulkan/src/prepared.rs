@@ -178,7 +178,9 @@ impl<'a> PreparedScene<'a> {
             };
             if scene.path.pass != PathPass::DynamicRendering {
                 let second = scene.path.pass == PathPass::SecondSubpass;
-                planned.object = Some(RenderPass::new(device, planned, &targets, second)?);
+                let attached = (&planned.color[..], planned.depth_stencil.as_ref());
+                let object = RenderPass::new(device, planned.size, attached, &targets, second)?;
+                planned.object = Some(object);
             }
             for (draw, place) in pass.draws.iter().zip(places) {
                 if draw.targets.len() != pass.color.len() {
@@ -213,7 +215,9 @@ impl<'a> PreparedScene<'a> {
             }
         }
 
-        let (reads, bytes) = ReadPlan::all(self.gpu, scene, &self.plan.attachments)?;
+        let attachments = self.plan.attachments.iter();
+        let by_shader: Vec<bool> = attachments.map(AttachmentPlan::is_read_by_shader).collect();
+        let (reads, bytes) = ReadPlan::all(self.gpu, scene, &by_shader)?;
         let output = pools.memory.buffer(device, BufferUse::Output, bytes)?;
         let output = self.output.insert(output);
         self.plan.reads = reads;

@@ -8,7 +8,6 @@ use crate::format;
 use crate::gpu::Gpu;
 use crate::image::Image;
 use crate::inputs::OffsetAllocator;
-use crate::plan::AttachmentPlan;
 use crate::samples::{self, SampleReader, SampleReaders, SampleType};
 use crate::slot::Slot;
 use ash::vk;
@@ -37,11 +36,12 @@ pub(crate) struct ReadPlan {
 }
 
 impl ReadPlan {
-    /// Returns all reads of a scene and the size of the output buffer.
+    /// Returns all reads of a scene and the size of the output buffer; `by_shader` tells of each attachment
+    /// if a shader reads it back.
     pub(crate) fn all(
         gpu: &Gpu,
         scene: &Scene,
-        plans: &[AttachmentPlan],
+        by_shader: &[bool],
     ) -> Result<(Vec<Self>, u64), BackendError> {
         let limits = &gpu.device.limits;
         // Offsets of depth and stencil copies are multiples of 4, others of the texel size.
@@ -53,9 +53,7 @@ impl ReadPlan {
                 return Err(internal("a read names no attachment"));
             };
             let format = attachment.format;
-            let by_shader = plans
-                .get(*index)
-                .is_some_and(AttachmentPlan::is_read_by_shader);
+            let by_shader = by_shader.get(*index) == Some(&true);
             let native = format::native(&gpu.natives, format)?;
             for aspect in format.aspects() {
                 let channels = format::channels(format, native.raw, *aspect);

@@ -1,14 +1,17 @@
 //! Recording of commands: initial contents, passes, and copies for reading back.
 
+use crate::attached::DepthStencilPlan;
 use crate::clear::Ends;
 use crate::device::Device;
 use crate::error::Check;
 use crate::image::Place;
+use crate::image_state::{
+    COLOR, COMPUTE, DEPTH_STENCIL, DEPTH_STENCIL_READ_ONLY, DEPTH_STENCIL_RESOLVE, FETCHED,
+    ImageState, TRANSFER_DST, TRANSFER_SRC, UNDEFINED,
+};
 use crate::inputs::CallNumbers;
 use crate::pipeline::{INSTANCE_BINDING, Pipeline};
-use crate::plan::{
-    AttachmentPlan, DepthStencilPlan, DrawPlan, InitialContents, PassPlan, Plan, Role,
-};
+use crate::plan::{AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role};
 use crate::read::ReadPlan;
 use crate::render_pass::RenderPass;
 use crate::samples::TILE;
@@ -16,87 +19,6 @@ use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{PathCommands, PathEnd};
-
-/// The layout of an image with the stages and accesses that use it.
-#[derive(Clone, Copy)]
-pub(crate) struct ImageState {
-    pub(crate) layout: vk::ImageLayout,
-    stages: vk::PipelineStageFlags2,
-    access: vk::AccessFlags2,
-}
-
-const TRANSFER_DST: ImageState = ImageState {
-    layout: vk::ImageLayout::TRANSFER_DST_OPTIMAL,
-    stages: vk::PipelineStageFlags2::ALL_TRANSFER,
-    access: vk::AccessFlags2::TRANSFER_WRITE,
-};
-
-const TRANSFER_SRC: ImageState = ImageState {
-    layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
-    stages: vk::PipelineStageFlags2::ALL_TRANSFER,
-    access: vk::AccessFlags2::TRANSFER_READ,
-};
-
-const COMPUTE: ImageState = ImageState {
-    layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
-    stages: vk::PipelineStageFlags2::COMPUTE_SHADER,
-    access: vk::AccessFlags2::SHADER_SAMPLED_READ,
-};
-
-/// Depth and stencil attachments of a read-only pass.
-pub(crate) const DEPTH_STENCIL_READ_ONLY: ImageState = ImageState {
-    layout: vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL,
-    stages: DEPTH_STENCIL.stages,
-    access: vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_READ,
-};
-
-pub(crate) const DEPTH_STENCIL: ImageState = ImageState {
-    layout: vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
-    stages: vk::PipelineStageFlags2::from_raw(
-        vk::PipelineStageFlags2::EARLY_FRAGMENT_TESTS.as_raw()
-            | vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS.as_raw(),
-    ),
-    access: vk::AccessFlags2::from_raw(
-        vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_READ.as_raw()
-            | vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw(),
-    ),
-};
-
-/// Targets of resolves of depth and stencil, which the colour stage writes (Vulkan, Render Pass Multisample
-/// Resolve Operations).
-pub(crate) const DEPTH_STENCIL_RESOLVE: ImageState = ImageState {
-    layout: DEPTH_STENCIL.layout,
-    stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
-    access: vk::AccessFlags2::from_raw(
-        vk::AccessFlags2::COLOR_ATTACHMENT_READ.as_raw()
-            | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE.as_raw(),
-    ),
-};
-
-/// Any earlier use; the contents are discarded.
-const UNDEFINED: ImageState = ImageState {
-    layout: vk::ImageLayout::UNDEFINED,
-    stages: vk::PipelineStageFlags2::ALL_COMMANDS,
-    access: vk::AccessFlags2::MEMORY_WRITE,
-};
-
-pub(crate) const COLOR: ImageState = ImageState {
-    layout: vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
-    stages: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
-    access: vk::AccessFlags2::from_raw(
-        vk::AccessFlags2::COLOR_ATTACHMENT_READ.as_raw()
-            | vk::AccessFlags2::COLOR_ATTACHMENT_WRITE.as_raw(),
-    ),
-};
-
-const FETCHED: ImageState = ImageState {
-    layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
-    stages: vk::PipelineStageFlags2::from_raw(
-        vk::PipelineStageFlags2::VERTEX_SHADER.as_raw()
-            | vk::PipelineStageFlags2::FRAGMENT_SHADER.as_raw(),
-    ),
-    access: vk::AccessFlags2::SHADER_SAMPLED_READ,
-};
 
 impl Role {
     /// Returns the state of an attachment in this role.

@@ -1,12 +1,12 @@
 //! Render passes and their framebuffers: the objects that a pass is, where it is no dynamic rendering.
 
+use crate::attached::{ColorPlan, DepthStencilPlan};
 use crate::clear::Ends;
 use crate::device::Device;
 use crate::error::Check;
-use crate::pipeline::Targets;
-use crate::plan::{DepthStencilPlan, PassPlan};
-use crate::record::{COLOR, DEPTH_STENCIL, DEPTH_STENCIL_READ_ONLY, DEPTH_STENCIL_RESOLVE};
+use crate::image_state::{COLOR, DEPTH_STENCIL, DEPTH_STENCIL_READ_ONLY, DEPTH_STENCIL_RESOLVE};
 use crate::state;
+use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::BackendError;
 
@@ -75,14 +75,15 @@ impl RenderPass {
     /// and draws nothing, so load operations and draws are apart.
     pub(crate) fn new(
         device: &Device,
-        pass: &PassPlan,
+        size: [u32; 2],
+        (colors, depth_stencil): (&[ColorPlan], Option<&DepthStencilPlan>),
         targets: &Targets,
         second_subpass: bool,
     ) -> Result<Self, BackendError> {
         let mut all = Attachments::default();
         let kept = Ends::kept();
         let (mut color, mut resolves) = (Vec::new(), Vec::new());
-        for (plan, format) in pass.color.iter().zip(&targets.color) {
+        for (plan, format) in colors.iter().zip(&targets.color) {
             let shape = (plan.view, *format, targets.samples);
             let aspect = vk::ImageAspectFlags::COLOR;
             color.push(all.add(shape, COLOR.layout, aspect, [&plan.ends, &kept]));
@@ -93,7 +94,7 @@ impl RenderPass {
                 }
             });
         }
-        let tested = pass.depth_stencil.as_ref().map(|plan| {
+        let tested = depth_stencil.map(|plan| {
             let layout = match plan.read_only {
                 true => DEPTH_STENCIL_READ_ONLY.layout,
                 false => DEPTH_STENCIL.layout,
@@ -114,7 +115,7 @@ impl RenderPass {
             }
             reference
         });
-        let resolved = pass.depth_stencil.as_ref().and_then(|plan| plan.resolve);
+        let resolved = depth_stencil.and_then(|plan| plan.resolve);
         let target = resolved.map(|(view, _)| {
             let shape = (view, targets.depth_stencil(), 1);
             let layout = DEPTH_STENCIL_RESOLVE.layout;
@@ -134,7 +135,7 @@ impl RenderPass {
             if let Some(tested) = &tested {
                 subpass = subpass.depth_stencil_attachment(tested);
             }
-            if last && pass.color.iter().any(|c| c.resolve.is_some()) {
+            if last && colors.iter().any(|c| c.resolve.is_some()) {
                 subpass = subpass.resolve_attachments(&resolves);
             }
             subpass
@@ -159,13 +160,13 @@ impl RenderPass {
             framebuffer: vk::Framebuffer::null(),
             compatible: Compatible {
                 subpass,
-                resolves: pass.color.iter().map(|c| c.resolve.is_some()).collect(),
+                resolves: colors.iter().map(|c| c.resolve.is_some()).collect(),
                 modes: resolved.map(|(_, modes)| modes.map(vk::ResolveModeFlags::as_raw)),
-                read_only: pass.depth_stencil.as_ref().is_some_and(|d| d.read_only),
+                read_only: depth_stencil.is_some_and(|d| d.read_only),
             },
             values: all.values,
         };
-        let [width, height] = pass.size;
+        let [width, height] = size;
         let info = vk::FramebufferCreateInfo::default()
             .render_pass(raw)
             .attachments(&all.views)

@@ -2,8 +2,8 @@
 
 use ash::vk;
 use etalon_scene::{
-    BlendFactor, BlendOperation, CompareFunction, CullMode, FrontFace, LogicOperation, PolygonMode,
-    PrimitiveTopology, ResolveMode, StencilOperation,
+    BlendComponent, BlendFactor, BlendOperation, ColorTarget, CompareFunction, CullMode, FrontFace,
+    LogicOperation, PolygonMode, PrimitiveTopology, ResolveMode, StencilOperation,
 };
 
 pub(crate) fn compare(function: CompareFunction) -> vk::CompareOp {
@@ -142,4 +142,30 @@ pub(crate) fn resolve_mode(mode: ResolveMode) -> vk::ResolveModeFlags {
         ResolveMode::Min => vk::ResolveModeFlags::MIN,
         ResolveMode::Max => vk::ResolveModeFlags::MAX,
     }
+}
+
+/// Returns Vulkan's state of a colour attachment.
+pub(crate) fn color_target(target: &ColorTarget) -> vk::PipelineColorBlendAttachmentState {
+    let mut native = vk::PipelineColorBlendAttachmentState::default()
+        .color_write_mask(write_mask(target.write_mask));
+    if let Some(blend) = target.blend {
+        let parts = |c: BlendComponent| {
+            (
+                blend_factor(c.src_factor),
+                blend_factor(c.dst_factor),
+                blend_operation(c.operation),
+            )
+        };
+        let (src, dst, operation) = parts(blend.color);
+        let (src_alpha, dst_alpha, alpha_operation) = parts(blend.alpha);
+        native = native
+            .blend_enable(true)
+            .src_color_blend_factor(src)
+            .dst_color_blend_factor(dst)
+            .color_blend_op(operation)
+            .src_alpha_blend_factor(src_alpha)
+            .dst_alpha_blend_factor(dst_alpha)
+            .alpha_blend_op(alpha_operation);
+    }
+    native
 }
