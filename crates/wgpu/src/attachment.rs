@@ -6,7 +6,9 @@ use crate::state;
 use crate::texel;
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
-use etalon_scene::{Contents, LoadOperation, Operations, Pass, PassOperations, Scene, StoreOperation};
+use etalon_scene::{
+    Contents, LoadOperation, Operations, Pass, PassOperations, Scene, StoreOperation,
+};
 use wgpu::BufferUsages;
 
 /// An attachment of a scene on the device.

@@ -23,9 +23,7 @@ pub(crate) fn offered(flags: DownlevelFlags, features: &BTreeSet<Feature>) -> BT
         // A secondary command buffer is a render bundle.
         PathValue::Commands(_) => true,
         PathValue::Draws(PathDraws::BaseVertex) => features.contains(&Feature::BaseVertex),
-        PathValue::Draws(PathDraws::Indirect) => {
-            flags.contains(DownlevelFlags::INDIRECT_EXECUTION)
-        }
+        PathValue::Draws(PathDraws::Indirect) => flags.contains(DownlevelFlags::INDIRECT_EXECUTION),
         PathValue::Draws(_) => true,
         PathValue::End(end) => end != PathEnd::Blit,
         PathValue::State(PathState::Overwritten | PathState::OtherPipeline) => true,
@@ -59,9 +57,7 @@ pub(crate) fn target(scene: &Scene, index: usize) -> PathTarget {
         && match scene.path.target {
             PathTarget::Plain | PathTarget::MipLevel | PathTarget::ArrayLayer => true,
             PathTarget::CubeFace => attachment.size[0] == attachment.size[1],
-            PathTarget::Slice3d => {
-                attachment.format.is_color() && !read_by_shader() && !resolved()
-            }
+            PathTarget::Slice3d => attachment.format.is_color() && !read_by_shader() && !resolved(),
             PathTarget::Renderbuffer => false,
         };
     match can {
@@ -131,7 +127,11 @@ impl Shape {
 }
 
 /// Checks that the device has textures as large as an attachment's target needs.
-pub(crate) fn check_target(gpu: &Gpu, target: PathTarget, shape: Shape) -> Result<(), BackendError> {
+pub(crate) fn check_target(
+    gpu: &Gpu,
+    target: PathTarget,
+    shape: Shape,
+) -> Result<(), BackendError> {
     let limits = gpu.device.limits();
     let most = match shape.dimension {
         wgpu::TextureDimension::D3 => limits.max_texture_dimension_3d,
@@ -173,9 +173,7 @@ fn is_fetched_exactly(format: TextureFormat, abilities: Abilities) -> bool {
     let floats = format.depth_encodings() == [ChannelEncoding::Float32];
     match format.is_color() {
         true => format.color_channels().iter().all(exact),
-        false => {
-            format.has_depth() && (floats || read_path(format, abilities) == ReadPath::Shader)
-        }
+        false => format.has_depth() && (floats || read_path(format, abilities) == ReadPath::Shader),
     }
 }
 
@@ -202,6 +200,106 @@ pub(crate) fn commands(scene: &Scene) -> Vec<std::ops::Range<usize>> {
     let passes = scene.passes.len();
     match scene.path.commands {
         PathCommands::Several if passes > 0 => (0..passes).map(|n| n..n + 1).collect(),
-        PathCommands::One | PathCommands::Several | PathCommands::Secondary => vec![0..passes],
+        PathCommands::One | PathCommands::Several | PathCommands::Secondary => {
+            std::iter::once(0..passes).collect()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_scene::{Attachment, Contents, Pass, Path};
+
+    const ABILITIES: Abilities = Abilities {
+        copies: true,
+        casts: true,
+    };
+
+    /// A scene of two passes that reads one attachment, by a path.
+    fn scene(format: TextureFormat, samples: u32, path: Path) -> Scene {
+        Scene {
+            attachments: vec![Attachment {
+                name: String::new(),
+                format,
+                size: [8, 8],
+                samples,
+                contents: Contents::Color([0.0; 4]),
+            }],
+            passes: vec![Pass::default(), Pass::default()],
+            read: vec![0],
+            counters: Vec::new(),
+            path,
+        }
+    }
+
+    #[test]
+    fn values_follow_what_the_adapter_has() {
+        let base = PathValue::Draws(PathDraws::BaseVertex);
+        let indirect = PathValue::Draws(PathDraws::Indirect);
+        let none = offered(DownlevelFlags::empty(), &BTreeSet::new());
+        assert!(!none.contains(&base) && !none.contains(&indirect));
+        let all = offered(
+            DownlevelFlags::all(),
+            &BTreeSet::from([Feature::BaseVertex]),
+        );
+        assert!(all.contains(&base) && all.contains(&indirect));
+        assert!(!all.contains(&PathValue::Target(PathTarget::Renderbuffer)));
+    }
+
+    #[test]
+    fn attachments_are_the_parts_that_they_can_be() {
+        let of = |format, samples, due| {
+            let path = Path {
+                target: due,
+                ..Path::default()
+            };
+            target(&scene(format, samples, path), 0)
+        };
+        let (color, depth) = (TextureFormat::Rgba8Unorm, TextureFormat::Depth32Float);
+        assert_eq!(of(color, 1, PathTarget::Slice3d), PathTarget::Slice3d);
+        assert_eq!(of(depth, 1, PathTarget::Slice3d), PathTarget::Plain);
+        assert_eq!(of(depth, 1, PathTarget::CubeFace), PathTarget::CubeFace);
+        assert_eq!(of(color, 4, PathTarget::ArrayLayer), PathTarget::Plain);
+        let mip = Shape::of(PathTarget::MipLevel, [8, 5]);
+        assert_eq!(
+            (mip.size.width >> mip.level, mip.size.height >> mip.level),
+            (8, 5)
+        );
+        assert_eq!(Shape::of(PathTarget::Slice3d, [8, 8]).slice(), Some(3));
+        assert_eq!(Shape::of(PathTarget::ArrayLayer, [8, 8]).slice(), None);
+    }
+
+    #[test]
+    fn what_would_round_is_read_by_default() {
+        let of = |format, due| {
+            let path = Path {
+                end: due,
+                ..Path::default()
+            };
+            end(&scene(format, 1, path), 0, ABILITIES)
+        };
+        let color = TextureFormat::Rgba8Unorm;
+        assert_eq!(of(color, PathEnd::ShaderRead), PathEnd::ShaderRead);
+        let srgb = TextureFormat::Rgba8UnormSrgb;
+        assert_eq!(of(srgb, PathEnd::ShaderRead), PathEnd::Store);
+        let short = TextureFormat::Depth16Unorm;
+        assert_eq!(of(short, PathEnd::ShaderRead), PathEnd::Store);
+        let depth = TextureFormat::Depth32Float;
+        assert_eq!(of(depth, PathEnd::ShaderRead), PathEnd::ShaderRead);
+        assert_eq!(of(depth, PathEnd::Part), PathEnd::Store);
+    }
+
+    #[test]
+    fn each_pass_has_a_command_buffer() {
+        let of = |due| {
+            let path = Path {
+                commands: due,
+                ..Path::default()
+            };
+            commands(&scene(TextureFormat::Rgba8Unorm, 1, path))
+        };
+        assert_eq!(of(PathCommands::One).first(), Some(&(0..2)));
+        assert_eq!(of(PathCommands::Several), [0..1, 1..2]);
     }
 }

@@ -11,7 +11,6 @@ use etalon_backend::{BackendError, ReadFault};
 use etalon_frame::{
     Aspect, ChannelEncoding, Frame, Image, PathEnd, PathTarget, ReadPath, TextureFormat,
 };
-use std::ops::Range;
 use wgpu::BufferUsages;
 
 /// The size of an `rgba32uint` texel.
@@ -327,12 +326,12 @@ impl<'a> ReadPlan<'a> {
         let [width, height] = self.source.size;
         let (columns, rows) = match self.source.end {
             PathEnd::Part => (halves(width), halves(height)),
-            _ => (vec![0..width], vec![0..height]),
+            _ => (vec![(0, width)], vec![(0, height)]),
         };
-        for rows in rows {
-            for columns in columns.iter().cloned() {
-                let texels = u64::from(columns.start) * self.texel_bytes() as u64;
-                let place = u64::from(rows.start) * u64::from(self.pitch) + texels;
+        for (y, high) in rows {
+            for (x, wide) in &columns {
+                let texels = u64::from(*x) * self.texel_bytes() as u64;
+                let place = u64::from(y) * u64::from(self.pitch) + texels;
                 let to = wgpu::TexelCopyBufferInfo {
                     buffer,
                     layout: wgpu::TexelCopyBufferLayout {
@@ -341,9 +340,8 @@ impl<'a> ReadPlan<'a> {
                         rows_per_image: None,
                     },
                 };
-                let from = texture.copied(aspect, [columns.start, rows.start]);
-                let size = extent([columns.end - columns.start, rows.end - rows.start]);
-                encoder.copy_texture_to_buffer(from, to, size);
+                let from = texture.copied(aspect, [*x, y]);
+                encoder.copy_texture_to_buffer(from, to, extent([*wide, high]));
             }
         }
     }
@@ -425,11 +423,11 @@ impl<'a> ReadPlan<'a> {
     }
 }
 
-/// Returns two unequal parts of a side, or the side if it is one texel.
-fn halves(side: u32) -> Vec<Range<u32>> {
+/// Returns the beginnings and lengths of two unequal parts of a side, or of the side if it is one texel.
+fn halves(side: u32) -> Vec<(u32, u32)> {
     match side * 2 / 5 {
-        0 => vec![0..side],
-        first => vec![0..first, first..side],
+        0 => vec![(0, side)],
+        first => vec![(0, first), (first, side - first)],
     }
 }
 
@@ -449,5 +447,18 @@ fn unchanged<T>() -> wgpu::Operations<T> {
     wgpu::Operations {
         load: wgpu::LoadOp::Load,
         store: wgpu::StoreOp::Store,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_cover_a_side() {
+        assert_eq!(halves(1), [(0, 1)]);
+        assert_eq!(halves(2), [(0, 2)]);
+        assert_eq!(halves(5), [(0, 2), (2, 3)]);
+        assert_eq!(halves(16), [(0, 6), (6, 10)]);
     }
 }
