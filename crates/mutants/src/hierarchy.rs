@@ -471,7 +471,7 @@ fn tested(list: &mut List) {
         &'static str,
         fn(CompareFunction, [u32; 2], [u32; 2]) -> bool,
     );
-    let rejects: [Reject; 2] = [
+    let rejects: [Reject; 5] = [
         (
             "greatest-used-for-greater",
             "Greater is tested against the greatest depth of a tile.",
@@ -481,6 +481,23 @@ fn tested(list: &mut List) {
             "least-used-for-less",
             "Less is tested against the least depth of a tile.",
             |compare, [lo, _], [min, _]| compare == CompareFunction::Less && lo >= min,
+        ),
+        (
+            "less-equal-bound-rejected",
+            "Less-equal rejects a draw whose least depth is a tile's greatest.",
+            |compare, [lo, _], [_, max]| compare == CompareFunction::LessEqual && lo >= max,
+        ),
+        (
+            "greater-equal-bound-rejected",
+            "Greater-equal rejects a draw whose greatest depth is a tile's least.",
+            |compare, [_, hi], [min, _]| compare == CompareFunction::GreaterEqual && hi <= min,
+        ),
+        (
+            "equal-bound-rejected",
+            "Equal rejects a draw that meets a tile's depths at one end only.",
+            |compare, [lo, hi], [min, max]| {
+                compare == CompareFunction::Equal && (lo >= max || hi <= min)
+            },
         ),
     ];
     for (name, about, of) in rejects {

@@ -37,7 +37,7 @@ pub use early_tests::EarlyTests;
 pub use fetch::{Fetch, IndexFormat, RESTART_16};
 pub use invariance::Invariance;
 pub use mesh::{MAX_VERTICES, Mesh, PrimitiveVertices, RESTART, Vertex};
-pub use mesh_source::{FieldOf, MeshSource, Splat, Units};
+pub use mesh_source::{FieldOf, MeshSource, Splat, StripOf, Units};
 pub use pass::{
     Clear, ClearTarget, DepthStencilResolve, LoadOperation, Operations, Pass, PassOperations,
     ResolveMode, StoreOperation,

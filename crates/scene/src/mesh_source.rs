@@ -3,12 +3,14 @@
 mod builder;
 mod field;
 mod splat;
+mod strip;
 mod surface;
 #[cfg(test)]
 mod tests;
 
 pub use field::FieldOf;
 pub use splat::Splat;
+pub use strip::StripOf;
 
 use crate::mesh::{Mesh, RESTART, Vertex};
 use crate::rasterization::FrontFace;
@@ -147,6 +149,22 @@ pub enum MeshSource {
         #[serde(default)]
         spare: u32,
     },
+    /// One strip of primitives, each with texels of its own, row by row or column by column.
+    Strip {
+        /// The primitives, which fit the draw's topology.
+        of: StripOf,
+        /// The number of primitives that have texels of their own; those that join them come on top.
+        count: u32,
+        /// Vertex depth.
+        #[serde(default)]
+        z: f32,
+        /// The vertex colour.
+        #[serde(default)]
+        value: Splat,
+        /// True for an indexed draw.
+        #[serde(default)]
+        indexed: bool,
+    },
     /// Vertices one by one.
     Vertices {
         /// Positions x, y, z.
@@ -245,6 +263,16 @@ impl MeshSource {
                 };
                 let all = builder.field(&field, *z, &values)?;
                 indices = indexed.then_some(all);
+            }
+            Self::Strip {
+                of,
+                count,
+                z,
+                value,
+                indexed,
+            } => {
+                builder.strip(*of, *count, *z, value.0)?;
+                indices = indexed.then(|| (0..builder.vertices.len() as u32).collect());
             }
             Self::Torus { segments, value } => {
                 indices = Some(builder.torus(*segments, value.0)?);

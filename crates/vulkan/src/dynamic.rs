@@ -50,8 +50,8 @@ pub(crate) struct Setting {
 }
 
 impl Setting {
-    /// Returns the dynamic states.
-    pub(crate) fn states(self) -> Vec<vk::DynamicState> {
+    /// Returns the dynamic states of a pipeline with colour attachments, or without.
+    pub(crate) fn states(self, colored: bool) -> Vec<vk::DynamicState> {
         let viewports: &[_] = match (self.viewport, self.fixed) {
             (PathViewport::WithCount, _) => &[
                 vk::DynamicState::VIEWPORT_WITH_COUNT,
@@ -61,10 +61,10 @@ impl Setting {
             (_, false) => &[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR],
         };
         let rest: &[_] = if self.fixed { &[] } else { &STATES };
-        let extended: &[_] = if self.extended {
-            &extended::STATES
-        } else {
-            &[]
+        let extended: &[_] = match (self.extended, colored) {
+            (false, _) => &[],
+            (true, false) => &extended::STATES[..extended::COLORLESS],
+            (true, true) => &extended::STATES,
         };
         [viewports, rest, extended].concat()
     }

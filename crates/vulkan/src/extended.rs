@@ -17,6 +17,9 @@ pub(crate) const STATES: [vk::DynamicState; 7] = [
     vk::DynamicState::COLOR_WRITE_MASK_EXT,
 ];
 
+/// The number of [`STATES`] that a pass without colour attachments has.
+pub(crate) const COLORLESS: usize = 4;
+
 /// Returns the features behind [`STATES`], if they are enabled.
 pub(crate) fn features(
     enabled: bool,

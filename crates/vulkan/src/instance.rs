@@ -211,6 +211,7 @@ fn is_intended(id: &CStr) -> bool {
     [
         &b"Undefined-Value-ShaderOutputNotConsumed"[..],
         b"WARNING-Shader-OutputNotConsumed",
+        b"UNASSIGNED-CoreValidation-Shader-OutputNotConsumed",
     ]
     .iter()
     .any(|known| id.starts_with(known))

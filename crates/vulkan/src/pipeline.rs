@@ -370,7 +370,7 @@ fn create(
     if let Some(state) = fixed {
         blend = blend.blend_constants(state.blend_constants());
     }
-    let states = way.setting.states();
+    let states = way.setting.states(!key.color.is_empty());
     let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&states);
     let mut rendering = vk::PipelineRenderingCreateInfo::default()
         .color_attachment_formats(&key.targets.color)

@@ -114,13 +114,13 @@ impl<'a> PreparedScene<'a> {
         }
         // The images that are read back, by attachment.
         let mut sources: Vec<usize> = (0..self.images.len()).collect();
-        for index in 0..sources.len() {
-            let plan = &mut self.plan.attachments[index];
+        let plans = self.plan.attachments.iter_mut().zip(&scene.attachments);
+        for (source, (plan, attachment)) in sources.iter_mut().zip(plans) {
             if plan.read && matches!(plan.end, PathEnd::Copy | PathEnd::Blit) {
-                let key = copy_key(self.images[index].key, &scene.attachments[index]);
+                let key = copy_key(self.images[*source].key, attachment);
                 let image = pools.memory.image(device, key)?;
                 plan.copy = Some(image.raw);
-                sources[index] = self.images.len();
+                *source = self.images.len();
                 self.images.push(image);
             }
         }

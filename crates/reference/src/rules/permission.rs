@@ -48,7 +48,10 @@ impl<T: Copy> Permission<T> {
 struct Asked(AtomicBool);
 
 impl Asked {
-    const NOT: Self = Self(AtomicBool::new(false));
+    /// Not asked for.
+    const fn not() -> Self {
+        Self(AtomicBool::new(false))
+    }
 }
 
 impl Clone for Asked {
@@ -70,7 +73,7 @@ pub(super) const fn permit<T: Copy>(value: T, citation: &'static str) -> Permiss
         citation,
         grade: Grade::Proven,
         wide: value,
-        asked: Asked::NOT,
+        asked: Asked::not(),
     }
 }
 
@@ -86,7 +89,7 @@ pub(super) const fn narrowed<T: Copy>(
         citation,
         grade,
         wide,
-        asked: Asked::NOT,
+        asked: Asked::not(),
     }
 }
 
