@@ -54,6 +54,7 @@ impl Reading<'_> {
         let size = source.surface.size();
         let surface = self.pool.surface(context, kind, size)?;
         state::reset(context);
+        spoil(context, source.format, &surface);
         match source.end {
             PathEnd::Copy => copy_image(context, source.surface, &surface),
             _ => blit(context, source.format, source.surface, &surface),
@@ -407,6 +408,27 @@ fn halves(side: i32) -> Vec<(i32, i32)> {
     match side * 2 / 5 {
         0 => vec![(0, side)],
         first => vec![(0, first), (first, side - first)],
+    }
+}
+
+/// Fills a surface with values that a copy which is lost would leave behind. Without it they could be those of
+/// an earlier scene with the same picture.
+fn spoil(context: &Context, format: TextureFormat, surface: &Surface) {
+    let gl = &context.gl;
+    // SAFETY: the context is current, the framebuffer is its own, and masks and scissor are open.
+    unsafe {
+        gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+        match (
+            format.is_integer(),
+            format.has_depth(),
+            format.has_stencil(),
+        ) {
+            (true, ..) => gl.clear_buffer_u32_slice(glow::COLOR, 0, &[77; 4]),
+            (_, true, true) => gl.clear_buffer_depth_stencil(glow::DEPTH_STENCIL, 0, 0.3, 77),
+            (_, true, false) => gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[0.3]),
+            (_, false, true) => gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[77]),
+            (false, false, false) => gl.clear_buffer_f32_slice(glow::COLOR, 0, &[0.3; 4]),
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use crate::counting::Counting;
 use crate::fetch::FetchKey;
 use crate::gpu::{Gpu, TextureLease, extent};
 use crate::limits::{Abilities, read_path};
+use crate::state;
 use crate::target::Target;
 use crate::texel;
 use etalon_backend::codes::code_of_fetched;
@@ -87,6 +88,8 @@ pub(crate) fn frame(
     }
     let usage = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
     let buffer = gpu.buffer(usage, size + counting.bytes());
+    // A copy that is lost must not leave the codes of an earlier scene with the same picture.
+    encoder.clear_buffer(&buffer, 0, None);
     let mut scratch = Vec::new();
     for plan in &plans {
         plan.record(gpu, &mut encoder, &buffer, &mut scratch)?;
@@ -123,10 +126,43 @@ impl Source<'_> {
             return Ok(None);
         }
         let target = gpu.attachment(self.format, self.size, self.samples, PathTarget::Plain)?;
+        self.spoil(gpu, encoder, &target);
         let all = wgpu::TextureAspect::All;
         let (from, to) = (self.target.copied(all, [0, 0]), target.copied(all, [0, 0]));
         encoder.copy_texture_to_texture(from, to, extent(self.size));
         Ok(Some(target))
+    }
+
+    /// Fills the target of a copy with values that are left if the copy is lost.
+    fn spoil(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, target: &Target) {
+        let format = self.format;
+        let color = [Some(wgpu::RenderPassColorAttachment {
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(state::color(
+                    [if format.is_integer() { 77.0 } else { 0.3 }; 4],
+                )),
+                store: wgpu::StoreOp::Store,
+            },
+            ..cleared(target)
+        })];
+        let whole = wgpu::RenderPassDepthStencilAttachment {
+            view: &target.view,
+            depth_ops: format.has_depth().then_some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(0.3),
+                store: wgpu::StoreOp::Store,
+            }),
+            stencil_ops: format.has_stencil().then_some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(77),
+                store: wgpu::StoreOp::Store,
+            }),
+        };
+        if gpu.draws(format) {
+            encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                color_attachments: if format.is_color() { &color } else { &[] },
+                depth_stencil_attachment: (!format.is_color()).then_some(whole),
+                ..wgpu::RenderPassDescriptor::default()
+            });
+        }
     }
 }
 
