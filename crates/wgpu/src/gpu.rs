@@ -5,12 +5,12 @@ use crate::error::Errors;
 use crate::format;
 use crate::layout::Layout;
 use crate::limits::{Abilities, fetched};
-use crate::path::{self, Shape};
+use crate::path::Shape;
 use crate::pipeline::Pipelines;
 use crate::pool::{Lease, Pool};
 use crate::target::Target;
 use etalon_backend::{BackendError, ReadFault};
-use etalon_frame::{Limits, PathTarget, TextureFormat};
+use etalon_frame::{Limits, PathTarget, PathValue, Requirement, TextureFormat};
 use std::rc::Rc;
 use wgpu::{BufferUsages, TextureUsages};
 
@@ -112,7 +112,7 @@ impl Gpu {
         target: PathTarget,
     ) -> Result<TextureLease<'_>, BackendError> {
         let shape = Shape::of(target, size);
-        path::check_target(self, target, shape)?;
+        self.check_target(target, shape)?;
         let known = format::known(format)?;
         let drawable = self.draws(format);
         let usage = match (samples, drawable) {
@@ -126,6 +126,20 @@ impl Gpu {
             false => TextureUsages::empty(),
         };
         Ok(self.texture(known, shape, samples, usage | copied))
+    }
+
+    /// Checks that the device has textures as large as an attachment's target needs.
+    fn check_target(&self, target: PathTarget, shape: Shape) -> Result<(), BackendError> {
+        let limits = self.device.limits();
+        let most = match shape.dimension {
+            wgpu::TextureDimension::D3 => limits.max_texture_dimension_3d,
+            _ => limits.max_texture_dimension_2d,
+        };
+        let fits = shape.size.width.max(shape.size.height) <= most;
+        let value = Requirement::Path(PathValue::Target(target));
+        (fits || target == PathTarget::Plain)
+            .then_some(())
+            .ok_or(BackendError::NotSupported(value))
     }
 
     /// Returns true if attachments of the format can be drawn to.

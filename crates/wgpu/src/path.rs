@@ -3,12 +3,9 @@
 //!
 //! Everything else asks the functions here and not the path. A new value is a new answer of one of them.
 
-use crate::gpu::Gpu;
-use crate::limits::{Abilities, read_path};
-use etalon_backend::BackendError;
 use etalon_frame::{
     ChannelEncoding, Feature, PathCommands, PathDraws, PathEnd, PathStart, PathState, PathTarget,
-    PathValue, ReadPath, Requirement, TextureFormat,
+    PathValue, TextureFormat,
 };
 use etalon_scene::{ColorTarget, Draw, Multisample, PolygonMode, Scene};
 use std::collections::BTreeSet;
@@ -126,35 +123,26 @@ impl Shape {
     }
 }
 
-/// Checks that the device has textures as large as an attachment's target needs.
-pub(crate) fn check_target(
-    gpu: &Gpu,
-    target: PathTarget,
-    shape: Shape,
-) -> Result<(), BackendError> {
-    let limits = gpu.device.limits();
-    let most = match shape.dimension {
-        wgpu::TextureDimension::D3 => limits.max_texture_dimension_3d,
-        _ => limits.max_texture_dimension_2d,
-    };
-    let fits = shape.size.width.max(shape.size.height) <= most;
-    let value = Requirement::Path(PathValue::Target(target));
-    (fits || target == PathTarget::Plain)
-        .then_some(())
-        .ok_or(BackendError::NotSupported(value))
+/// What an adapter does by default with attachments of a format.
+#[derive(Clone, Copy)]
+pub(crate) struct Reading {
+    /// Depth and stencil can be copied.
+    pub(crate) copies: bool,
+    /// A shader fetches depth.
+    pub(crate) fetches: bool,
 }
 
 /// Returns the way of an attachment to the host. Depth and stencil are copied as a whole (11.2.4), and a
 /// fetch does not determine the codes of some formats: these are read as they are by default.
-pub(crate) fn end(scene: &Scene, index: usize, abilities: Abilities) -> PathEnd {
+pub(crate) fn end(scene: &Scene, index: usize, reading: Reading) -> PathEnd {
     let attachment = &scene.attachments[index];
     let format = attachment.format;
     let can = attachment.samples == 1
         && match scene.path.end {
             PathEnd::Store => true,
-            PathEnd::Copy => format.is_color() || abilities.copies,
+            PathEnd::Copy => format.is_color() || reading.copies,
             PathEnd::Part => format.is_color(),
-            PathEnd::ShaderRead => is_fetched_exactly(format, abilities),
+            PathEnd::ShaderRead => is_fetched_exactly(format, reading),
             PathEnd::Blit => false,
         };
     match can {
@@ -164,7 +152,7 @@ pub(crate) fn end(scene: &Scene, index: usize, abilities: Abilities) -> PathEnd 
 }
 
 /// As for samples, but that views of one sample convert sRGB. Stencil is never fetched.
-fn is_fetched_exactly(format: TextureFormat, abilities: Abilities) -> bool {
+fn is_fetched_exactly(format: TextureFormat, reading: Reading) -> bool {
     let exact = |encoding: &ChannelEncoding| match encoding {
         ChannelEncoding::Snorm(_) | ChannelEncoding::Srgb8 => false,
         ChannelEncoding::Unorm(bits) => *bits <= 10,
@@ -173,7 +161,7 @@ fn is_fetched_exactly(format: TextureFormat, abilities: Abilities) -> bool {
     let floats = format.depth_encodings() == [ChannelEncoding::Float32];
     match format.is_color() {
         true => format.color_channels().iter().all(exact),
-        false => format.has_depth() && (floats || read_path(format, abilities) == ReadPath::Shader),
+        false => format.has_depth() && (floats || reading.fetches),
     }
 }
 
@@ -211,9 +199,9 @@ mod tests {
     use super::*;
     use etalon_scene::{Attachment, Contents, Pass, Path};
 
-    const ABILITIES: Abilities = Abilities {
+    const READING: Reading = Reading {
         copies: true,
-        casts: true,
+        fetches: false,
     };
 
     /// A scene of two passes that reads one attachment, by a path.
@@ -277,7 +265,7 @@ mod tests {
                 end: due,
                 ..Path::default()
             };
-            end(&scene(format, 1, path), 0, ABILITIES)
+            end(&scene(format, 1, path), 0, READING)
         };
         let color = TextureFormat::Rgba8Unorm;
         assert_eq!(of(color, PathEnd::ShaderRead), PathEnd::ShaderRead);

@@ -6,13 +6,15 @@ use crate::clock::Clock;
 use crate::counting::{Counted, Counting};
 use crate::format;
 use crate::gpu::{BufferLease, Gpu};
-use crate::path;
+use crate::limits::read_path;
+use crate::path::{self, Reading};
 use crate::pipeline::{DrawKey, INSTANCE_SLOT};
 use crate::read::{self, Source};
 use crate::state;
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::{
-    Frame, PathCommands, PathDraws, PathEnd, PathState, PathValue, Requirement, TextureFormat,
+    Frame, PathCommands, PathDraws, PathEnd, PathState, PathValue, ReadPath, Requirement,
+    TextureFormat,
 };
 use etalon_scene::{Call, Draw, Pass, PassOperations, Scene, Viewport};
 use std::ops::Range;
@@ -145,7 +147,12 @@ impl<'a> PreparedScene<'a> {
             attachments,
             passes,
             read: ends
-                .map(|i| (*i, path::end(scene, *i, gpu.abilities)))
+                .map(|i| {
+                    (
+                        *i,
+                        path::end(scene, *i, reading(gpu, scene.attachments[*i].format)),
+                    )
+                })
                 .collect(),
             commands: path::commands(scene),
             state: scene.path.state,
@@ -498,6 +505,14 @@ fn place_arguments(
     let bytes = |words: &[u32]| -> Vec<u8> { words.iter().flat_map(|w| w.to_ne_bytes()).collect() };
     append(&mut geometry.arguments, &bytes(&vec![0; words.len()]));
     Ok(append(&mut geometry.arguments, &bytes(&words)).start)
+}
+
+/// Returns what the adapter does by default with attachments of a format.
+fn reading(gpu: &Gpu, format: TextureFormat) -> Reading {
+    Reading {
+        copies: gpu.abilities.copies,
+        fetches: read_path(format, gpu.abilities) == ReadPath::Shader,
+    }
 }
 
 /// WebGPU has one reference for both faces; `SeparateStencilMasks` is denied, so they are equal.
