@@ -230,7 +230,7 @@ impl Reading<'_> {
                 gl.bind_framebuffer(glow::FRAMEBUFFER, Some(target.framebuffer));
                 gl.viewport(0, 0, size[0] as i32, size[1] as i32);
                 gl.use_program(Some(program));
-                // The layer is 0 where there is one.
+                // A texture has samples or layers: one of the two numbers is 0.
                 gl.uniform_1_i32(location.as_ref(), sample as i32 + part.layer);
                 gl.bind_vertex_array(Some(self.no_vertices));
                 gl.active_texture(glow::TEXTURE0);
