@@ -4,6 +4,7 @@ use crate::context::Context;
 use crate::egl::{self, ContextRequest};
 use crate::objects::Objects;
 use crate::options::{Options, Profile, Tuning};
+use crate::path;
 use crate::planted;
 use crate::prepared::PreparedScene;
 use crate::probe::Probed;
@@ -136,7 +137,7 @@ fn limits(context: &Context, probed: &Probed) -> Limits {
             .map(|(format, support)| (*format, support.limits.clone()))
             .collect(),
         features: probed.features.clone(),
-        paths: Default::default(),
+        paths: path::offered(context, &probed.features),
         sample_positions,
     }
 }
@@ -158,7 +159,7 @@ impl Backend for GlBackend {
         Ok(Box::new(PreparedScene::new(
             &self.context,
             &self.objects,
-            scene,
+            &scene.on_path(),
         )?))
     }
 

@@ -3,6 +3,9 @@
 use glow::HasContext;
 use naga::back::glsl;
 
+/// The extension by which vertex shaders name a viewport.
+pub(crate) const SECOND_VIEWPORT: &str = "GL_ARB_shader_viewport_layer_array";
+
 /// The capabilities that this backend uses.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Caps {
@@ -39,6 +42,12 @@ pub(crate) struct Caps {
     pub(crate) conservative_depth: bool,
     /// The offset alignment of storage buffers; `None` if fragment shaders have none.
     pub(crate) storage_alignment: Option<usize>,
+    /// Draws take arguments from buffers.
+    pub(crate) indirect: bool,
+    /// `glCopyImageSubData` exists.
+    pub(crate) copy_image: bool,
+    /// Vertex shaders name a viewport ([`SECOND_VIEWPORT`]).
+    pub(crate) second_viewport: bool,
     /// `glInvalidateFramebuffer` exists.
     pub(crate) invalidate: bool,
     /// `GL_SAMPLES_PASSED` queries work.
@@ -110,6 +119,9 @@ impl Caps {
                 || has("GL_ARB_conservative_depth")
                 || (es && has("GL_EXT_conservative_depth")),
             storage_alignment,
+            indirect: since((4, 0), (3, 1)) || (!es && has("GL_ARB_draw_indirect")),
+            copy_image: since((4, 3), (3, 2)) || (!es && has("GL_ARB_copy_image")),
+            second_viewport: !es && has(SECOND_VIEWPORT),
             invalidate: since((4, 3), ALWAYS) || has("GL_ARB_invalidate_subdata"),
             // ES only has `GL_ANY_SAMPLES_PASSED`.
             samples_passed: !es,

@@ -17,6 +17,8 @@ pub(crate) struct Inputs {
     pub(crate) vertices: Option<(glow::Buffer, usize)>,
     pub(crate) indices: Option<(glow::Buffer, usize)>,
     pub(crate) params: Option<(glow::Buffer, usize)>,
+    /// The arguments of indirect draws.
+    pub(crate) arguments: Option<(glow::Buffer, usize)>,
     /// The storage buffer that shaders count in.
     pub(crate) runs: Option<(glow::Buffer, usize)>,
 }
@@ -24,7 +26,13 @@ pub(crate) struct Inputs {
 impl Inputs {
     /// Returns all buffers.
     pub(crate) fn into_buffers(self) -> impl Iterator<Item = (glow::Buffer, usize)> {
-        let all = [self.vertices, self.indices, self.params, self.runs];
+        let all = [
+            self.vertices,
+            self.indices,
+            self.params,
+            self.arguments,
+            self.runs,
+        ];
         all.into_iter().flatten()
     }
 }
@@ -45,6 +53,8 @@ pub(crate) struct Pass {
 pub(crate) struct DrawCall {
     pub(crate) program: glow::Program,
     pub(crate) state: DrawState,
+    /// State that is set before the draw's own.
+    pub(crate) other: Option<DrawState>,
     pub(crate) textures: Vec<glow::Texture>,
     /// The sampler; `None` if texels are fetched.
     pub(crate) sampler: Option<glow::Sampler>,
@@ -56,6 +66,10 @@ pub(crate) struct DrawCall {
     pub(crate) params: Option<i32>,
     pub(crate) mode: u32,
     pub(crate) fetched: Fetched,
+    /// The offset of the arguments of an indirect draw.
+    pub(crate) arguments: Option<i32>,
+    /// True if the commands are flushed behind the draw.
+    pub(crate) flushed: bool,
 }
 
 /// Draws all passes.
@@ -122,6 +136,9 @@ pub(crate) fn draw_all(
 
 fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
     let gl = &context.gl;
+    if let Some(other) = &draw.other {
+        other.apply(context);
+    }
     draw.state.apply(context);
     // SAFETY: the context is current and all objects are its own; vertices, indices and blocks
     // were counted when the buffers were filled.
@@ -149,13 +166,21 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
         for query in &draw.queries {
             gl.begin_query(query.target, query.object);
         }
-        draw.fetched.draw(context, draw.mode);
+        let arguments = draw.arguments.zip(inputs.arguments);
+        if let Some((_, (buffer, _))) = arguments {
+            gl.bind_buffer(glow::DRAW_INDIRECT_BUFFER, Some(buffer));
+        }
+        let place = arguments.map(|(place, _)| place);
+        draw.fetched.draw(context, draw.mode, place);
         for query in &draw.queries {
             gl.end_query(query.target);
         }
         if draw.runs.is_some() {
             // The next draw may use the same counter.
             gl.memory_barrier(glow::SHADER_STORAGE_BARRIER_BIT);
+        }
+        if draw.flushed {
+            gl.flush();
         }
     }
 }

@@ -35,6 +35,9 @@ entry_points! {
     polygon_offset_clamp: fn(f32, f32, f32);
     depth_bounds: fn(f64, f64);
     viewport_indexed: fn(u32, f32, f32, f32, f32);
+    viewport_array: fn(u32, i32, *const f32);
+    scissor_array: fn(u32, i32, *const i32);
+    depth_range_array: fn(u32, i32, *const f64);
     primitive_restart_index: fn(u32);
     draw_elements_base_vertex: fn(u32, i32, u32, Offset, i32);
     draw_elements_instanced_base_vertex: fn(u32, i32, u32, Offset, i32, i32);
@@ -114,6 +117,9 @@ impl EntryPoints {
             }
             if version >= (4, 1) || has("GL_ARB_viewport_array") {
                 load!(viewport_indexed, c"glViewportIndexedf");
+                load!(viewport_array, c"glViewportArrayv");
+                load!(scissor_array, c"glScissorArrayv");
+                load!(depth_range_array, c"glDepthRangeArrayv");
             }
         }
         if !es || version >= (3, 2) {

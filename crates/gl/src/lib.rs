@@ -26,6 +26,7 @@ mod features;
 mod format;
 mod objects;
 mod options;
+mod path;
 mod planted;
 mod pool;
 mod prepared;

@@ -8,14 +8,18 @@ use crate::counters::Counters;
 use crate::draw::{self, DrawCall, Inputs, Pass};
 use crate::enums::topology;
 use crate::objects::Objects;
+use crate::path;
 use crate::pool::Pool;
 use crate::read::{Reading, Source};
 use crate::state::{self, DrawState};
 use crate::surface::{Surface, SurfaceKind, upload};
 use crate::vertices::{Fetched, Geometry};
 use etalon_backend::{BackendError, FrameTime, Prepared};
-use etalon_frame::{Frame, Requirement, TextureFormat};
-use etalon_scene::{Contents, Draw, Scene};
+use etalon_frame::{
+    Frame, PathCommands, PathDraws, PathEnd, PathState, PathTarget, PathValue, Requirement,
+    TextureFormat,
+};
+use etalon_scene::{Contents, Draw, Path, Scene};
 use glow::HasContext;
 use std::time::{Duration, Instant};
 
@@ -25,7 +29,9 @@ pub(crate) struct PreparedScene<'a> {
     objects: &'a Objects,
     attachments: Vec<Attachment>,
     passes: Vec<Pass>,
-    read: Vec<usize>,
+    path: Path,
+    /// The attachments that are read, and the way of each to the host.
+    read: Vec<(usize, PathEnd)>,
     inputs: Inputs,
     counters: Counters,
     submitted: bool,
@@ -36,7 +42,9 @@ pub(crate) struct PreparedScene<'a> {
 /// The parts of the shared buffers that draws have not taken yet.
 struct Unused {
     /// The places of draws, in order.
-    places: std::vec::IntoIter<Fetched>,
+    places: std::vec::IntoIter<(Fetched, Option<i32>)>,
+    /// The number of the next draw.
+    number: usize,
     /// The offset of the next parameter block.
     params: i32,
 }
@@ -52,7 +60,8 @@ impl<'a> PreparedScene<'a> {
             objects,
             attachments: Vec::new(),
             passes: Vec::new(),
-            read: scene.read.clone(),
+            path: scene.path,
+            read: ends(objects, scene),
             inputs: Inputs::default(),
             counters: Counters::new(context, &scene.counters),
             submitted: false,
@@ -75,10 +84,13 @@ impl<'a> PreparedScene<'a> {
                     || p.depth_stencil == Some(index)
             };
             let drawn = scene.passes.iter().any(is_drawn);
-            self.attachment(&mut pool, attachment, drawn)?;
+            let support = self.objects.formats.get(&attachment.format);
+            let target = path::target(scene, index, support);
+            self.attachment(&mut pool, attachment, target, drawn)?;
         }
         let mut unused = Unused {
             places: self.buffers(&mut pool, scene)?.into_iter(),
+            number: 0,
             params: 0,
         };
         for pass in &scene.passes {
@@ -91,11 +103,12 @@ impl<'a> PreparedScene<'a> {
         &mut self,
         pool: &mut Pool,
         attachment: &etalon_scene::Attachment,
+        target: PathTarget,
         drawn: bool,
     ) -> Result<(), BackendError> {
         let context = self.context;
         let format = attachment.format;
-        let kind = SurfaceKind::Attachment(format, attachment.samples);
+        let kind = SurfaceKind::Attachment(format, attachment.samples, target);
         let surface = pool.surface(context, kind, attachment.size)?;
         let texels = attachment.size[0] as usize * attachment.size[1] as usize;
         let complete = surface.is_complete();
@@ -134,20 +147,31 @@ impl<'a> PreparedScene<'a> {
             initial,
         });
         if !complete && (drawn || format != TextureFormat::Rgba32Float) {
-            return Err(BackendError::NotSupported(Requirement::Format(format)));
+            let requirement = match target {
+                PathTarget::Plain => Requirement::Format(format),
+                target => Requirement::Path(PathValue::Target(target)),
+            };
+            return Err(BackendError::NotSupported(requirement));
         }
         Ok(())
     }
 
     /// Fills one buffer with all vertices, one with all indices, one with all parameter blocks. Returns
-    /// the places of all draws.
-    fn buffers(&mut self, pool: &mut Pool, scene: &Scene) -> Result<Vec<Fetched>, BackendError> {
+    /// the places of all draws and of their arguments, where they are indirect.
+    fn buffers(
+        &mut self,
+        pool: &mut Pool,
+        scene: &Scene,
+    ) -> Result<Vec<(Fetched, Option<i32>)>, BackendError> {
         let context = self.context;
         let mut geometry = Geometry::default();
         let mut places = Vec::new();
         let mut params = Vec::new();
         for draw in scene.passes.iter().flat_map(|pass| &pass.draws) {
-            places.push(geometry.place(draw));
+            let fetched = geometry.place(draw);
+            let indirect = scene.path.draws == PathDraws::Indirect;
+            let arguments = indirect.then(|| geometry.place_arguments(&fetched));
+            places.push((fetched, arguments));
             if draw.shader.uses_params() {
                 params.extend_from_slice(&draw.params.to_bytes());
                 params.resize(params.len().next_multiple_of(self.objects.params_stride), 0);
@@ -166,6 +190,7 @@ impl<'a> PreparedScene<'a> {
             vertices: buffer(&geometry.vertices)?,
             indices: buffer(&geometry.indices)?,
             params: buffer(&params)?,
+            arguments: buffer(&geometry.arguments)?,
             runs: buffer(&vec![0; self.counters.storage_size()])?,
         };
         Ok(places)
@@ -235,8 +260,9 @@ impl<'a> PreparedScene<'a> {
     ) -> Result<DrawCall, BackendError> {
         let context = self.context;
         let fetched = unused.places.next();
-        let fetched =
+        let (fetched, arguments) =
             fetched.ok_or_else(|| BackendError::Internal("a draw has no place".to_owned()))?;
+        let variant = path::variant(&self.path, unused.number);
         let block = draw.shader.uses_params().then_some(unused.params);
         let textures = draw
             .textures
@@ -254,8 +280,18 @@ impl<'a> PreparedScene<'a> {
                 context,
                 draw.shader,
                 draw.early_tests,
+                variant,
             )?,
-            state: DrawState::new(context, draw, read_only)?,
+            state: DrawState::new(context, draw, read_only, &self.path, variant)?,
+            other: match self.path.state {
+                PathState::Overwritten => {
+                    let other = path::other(draw);
+                    Some(DrawState::new(
+                        context, &other, read_only, &self.path, variant,
+                    )?)
+                }
+                _ => None,
+            },
             textures,
             sampler: sampler.transpose()?,
             queries: self.counters.queries(context, pool, draw)?,
@@ -263,7 +299,10 @@ impl<'a> PreparedScene<'a> {
             params: block,
             mode: topology(draw.topology),
             fetched,
+            arguments,
+            flushed: self.path.commands == PathCommands::Several,
         };
+        unused.number += 1;
         if block.is_some() {
             unused.params += self.objects.params_stride as i32;
         }
@@ -320,7 +359,7 @@ impl<'a> PreparedScene<'a> {
             counters: self.counters.read(context, self.inputs.runs)?,
             ..Frame::default()
         };
-        for index in &self.read {
+        for (index, end) in &self.read {
             let attachment = self.attachments.get(*index);
             let known = attachment.and_then(|a| Some((a, objects.formats.get(&a.format)?)));
             let Some((attachment, support)) = known else {
@@ -333,11 +372,22 @@ impl<'a> PreparedScene<'a> {
                 plan: support.read,
                 depth: &support.limits.depth,
                 surface: &attachment.surface,
+                end: *end,
             })?);
         }
         context.check("reading a frame back")?;
         Ok(frame)
     }
+}
+
+/// Returns the attachments that a scene reads, and the way of each to the host.
+fn ends(objects: &Objects, scene: &Scene) -> Vec<(usize, PathEnd)> {
+    let end = |index: &usize| {
+        let format = scene.attachments.get(*index).map(|a| a.format);
+        let support = format.and_then(|format| objects.formats.get(&format));
+        support.map_or(PathEnd::Store, |support| path::end(scene, *index, support))
+    };
+    scene.read.iter().map(|i| (*i, end(i))).collect()
 }
 
 impl Prepared for PreparedScene<'_> {

@@ -12,7 +12,9 @@ use crate::program::translates;
 use crate::support::{ReadPlan, ShaderStencil, Support};
 use crate::surface::{Surface, SurfaceKind};
 use crate::{codes, features};
-use etalon_frame::{ChannelEncoding, Feature, FormatSupport, ReadPath, Requirement, TextureFormat};
+use etalon_frame::{
+    ChannelEncoding, Feature, FormatSupport, PathTarget, ReadPath, Requirement, TextureFormat,
+};
 use etalon_scene::{EarlyTests, Shader};
 use glow::HasContext;
 use std::collections::{BTreeMap, BTreeSet};
@@ -54,6 +56,7 @@ pub(crate) fn probe(context: &Context) -> Probed {
             }
             continue;
         };
+        support.fetched_exactly = fetch_is_exact(&support) && stencil_is_fetched(context, format);
         let more = sample_counts(context, format, &support, &mut probed.positions);
         support.limits.samples.extend(more);
         probed.formats.insert(format, support);
@@ -96,7 +99,7 @@ fn with_surface<T>(
     body: impl FnOnce(&Surface) -> Option<T>,
 ) -> Option<T> {
     gl_format(format)?;
-    let kind = SurfaceKind::Attachment(format, samples);
+    let kind = SurfaceKind::Attachment(format, samples, PathTarget::Plain);
     let surface = Surface::new(context, kind, SIZE).ok()?;
     let result = body(&surface);
     surface.delete(context);
@@ -117,6 +120,7 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
                 read: path,
             },
             read,
+            fetched_exactly: false,
         })
     };
     if format == TextureFormat::Rgba32Float && !surface.is_complete() {
@@ -282,12 +286,8 @@ fn sample_counts(
     support: &Support,
     positions: &mut Positions,
 ) -> Vec<u32> {
-    let caps = &context.caps;
-    let stencil_fetched =
-        caps.stencil_texturing && (caps.stencil_textures || format != TextureFormat::Stencil8);
     let drawn = !support.limits.samples.is_empty();
-    let readable = (!format.has_stencil() || stencil_fetched) && fetch_is_exact(support);
-    if !caps.multisample_textures || !drawn || !readable {
+    if !context.caps.multisample_textures || !drawn || !support.fetched_exactly {
         return Vec::new();
     }
     let mut counts = Vec::new();
@@ -304,6 +304,13 @@ fn sample_counts(
         }
     }
     counts
+}
+
+/// Returns true if the format has no stencil, or a shader can fetch it.
+fn stencil_is_fetched(context: &Context, format: TextureFormat) -> bool {
+    let caps = &context.caps;
+    !format.has_stencil()
+        || caps.stencil_texturing && (caps.stencil_textures || format != TextureFormat::Stencil8)
 }
 
 /// Returns true if a shader's fetch determines the code that a copy would return. Floating-point
@@ -356,6 +363,7 @@ mod tests {
                 read,
             },
             read: ReadPlan::Depth24,
+            fetched_exactly: false,
         };
         let long = vec![ChannelEncoding::Unorm(24)];
         assert!(!fetch_is_exact(&support(ReadPath::Copy, long.clone())));

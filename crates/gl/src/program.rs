@@ -1,6 +1,8 @@
 //! Programs of the suite's shaders, translated by naga, and of reading attachments back.
 
+use crate::caps::SECOND_VIEWPORT;
 use crate::context::{Context, refused};
+use crate::path::Variant;
 use etalon_backend::BackendError;
 use etalon_scene::{EarlyTests, Shader};
 use glow::HasContext;
@@ -29,8 +31,8 @@ const RUNS: ResourceBinding = ResourceBinding {
 /// The programs of a context, created on first use.
 #[derive(Default)]
 pub(crate) struct Programs {
-    shaders: HashMap<(Shader, EarlyTests), glow::Program>,
-    readers: HashMap<(Reader, bool), (glow::Program, Option<glow::UniformLocation>)>,
+    shaders: HashMap<(Shader, EarlyTests, Variant), glow::Program>,
+    readers: HashMap<(Reader, View), (glow::Program, Option<glow::UniformLocation>)>,
 }
 
 /// The type of the values that a read-back program fetches.
@@ -42,6 +44,19 @@ pub(crate) enum Reader {
     Integers,
 }
 
+/// The texture that a read-back program fetches from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum View {
+    /// One image.
+    Plain,
+    /// Several samples.
+    Samples,
+    /// An array.
+    Layers,
+    /// Three dimensions.
+    Slices,
+}
+
 impl Programs {
     /// Returns the program of one of the suite's shaders.
     pub(crate) fn shader(
@@ -49,8 +64,9 @@ impl Programs {
         context: &Context,
         shader: Shader,
         tests: EarlyTests,
+        variant: Variant,
     ) -> Result<glow::Program, BackendError> {
-        if let Some(program) = self.shaders.get(&(shader, tests)) {
+        if let Some(program) = self.shaders.get(&(shader, tests, variant)) {
             return Ok(*program);
         }
         let fail = |message| BackendError::Shader {
@@ -58,12 +74,8 @@ impl Programs {
             message,
         };
         let translated = Translated::new(context, shader, tests).map_err(fail)?;
-        let program = link(
-            context,
-            shader.name(),
-            &translated.vertex,
-            &translated.fragment,
-        )?;
+        let vertex = varied(translated.vertex, variant);
+        let program = link(context, shader.name(), &vertex, &translated.fragment)?;
         let gl = &context.gl;
         // SAFETY: the context is current and the program is linked.
         unsafe {
@@ -79,7 +91,7 @@ impl Programs {
                 gl.uniform_1_i32(location.as_ref(), *unit as i32);
             }
         }
-        self.shaders.insert((shader, tests), program);
+        self.shaders.insert((shader, tests, variant), program);
         Ok(program)
     }
 
@@ -89,9 +101,9 @@ impl Programs {
         &mut self,
         context: &Context,
         reader: Reader,
-        multisampled: bool,
+        view: View,
     ) -> Result<(glow::Program, Option<glow::UniformLocation>), BackendError> {
-        if let Some(known) = self.readers.get(&(reader, multisampled)) {
+        if let Some(known) = self.readers.get(&(reader, view)) {
             return Ok(*known);
         }
         let header = format!("#version {}\n", context.caps.glsl)
@@ -100,21 +112,24 @@ impl Programs {
             + "void main() {\n\
                vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));\n\
                gl_Position = vec4(corner * 4.0 - 1.0, 0.5, 1.0);\n}\n";
-        let sampler = match (reader, multisampled) {
-            (Reader::Floats, false) => "sampler2D",
-            (Reader::Floats, true) => "sampler2DMS",
-            (Reader::Integers, false) => "usampler2D",
-            (Reader::Integers, true) => "usampler2DMS",
+        let prefix = match reader {
+            Reader::Floats => "",
+            Reader::Integers => "u",
         };
-        // The last argument is the sample index, or the level of a single-sample texture.
-        let fetched = "texelFetch(source, ivec2(gl_FragCoord.xy), number)";
+        let (sampler, place) = match view {
+            View::Plain => ("sampler2D", "ivec2(gl_FragCoord.xy), 0"),
+            View::Samples => ("sampler2DMS", "ivec2(gl_FragCoord.xy), number"),
+            View::Layers => ("sampler2DArray", "ivec3(gl_FragCoord.xy, number), 0"),
+            View::Slices => ("sampler3D", "ivec3(gl_FragCoord.xy, number), 0"),
+        };
+        let fetched = format!("texelFetch(source, {place})");
         let (name, value) = match reader {
             Reader::Floats => ("read floats", format!("floatBitsToUint({fetched})")),
-            Reader::Integers => ("read integers", fetched.to_owned()),
+            Reader::Integers => ("read integers", fetched),
         };
         let fragment = header
             + &format!(
-                "uniform highp {sampler} source;\n\
+                "uniform highp {prefix}{sampler} source;\n\
                  uniform highp int number;\n\
                  layout(location = 0) out highp uvec4 value;\n\
                  void main() {{\nvalue = {value};\n}}\n"
@@ -129,9 +144,31 @@ impl Programs {
             gl.get_uniform_location(program, "number")
         };
         let made = (program, location);
-        self.readers.insert((reader, multisampled), made);
+        self.readers.insert((reader, view), made);
         Ok(made)
     }
+}
+
+/// Returns a vertex shader in the form that a draw's path asks for.
+fn varied(vertex: String, variant: Variant) -> String {
+    let Some((head, body)) = vertex.split_once('\n') else {
+        return vertex;
+    };
+    if variant == Variant::default() {
+        return vertex;
+    }
+    let mut made = format!("{head}\n");
+    if variant.second_viewport {
+        made += &format!("#extension {SECOND_VIEWPORT} : require\n");
+    }
+    made += &format!("#define main drawn\n{body}\n#undef main\nvoid main() {{\ndrawn();\n");
+    if variant.mirrored {
+        made += "gl_Position.y = -gl_Position.y;\n";
+    }
+    if variant.second_viewport {
+        made += "gl_ViewportIndex = 1;\n";
+    }
+    made + "}\n"
 }
 
 /// Returns true if naga can write a shader in the context's GLSL.

@@ -4,13 +4,13 @@ use crate::codes;
 use crate::context::{Context, refused};
 use crate::format::gl_format;
 use crate::pool::Pool;
-use crate::program::{Programs, Reader};
+use crate::program::{Programs, Reader, View};
 use crate::state;
 use crate::support::{ReadPlan, ShaderStencil};
 use crate::surface::{Storage, Surface, SurfaceKind};
 use etalon_backend::BackendError;
 use etalon_backend::codes::code_of_float;
-use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath, TextureFormat};
+use etalon_frame::{Aspect, ChannelEncoding, Image, PathEnd, PathTarget, ReadPath, TextureFormat};
 use glow::HasContext;
 
 /// The objects that reading needs besides the surface.
@@ -32,11 +32,43 @@ pub(crate) struct Source<'a> {
     pub(crate) plan: ReadPlan,
     pub(crate) depth: &'a [ChannelEncoding],
     pub(crate) surface: &'a Surface,
+    /// The way to the host.
+    pub(crate) end: PathEnd,
+}
+
+impl Source<'_> {
+    /// True if a shader fetches the texels. Several samples are never copied, which would resolve them.
+    fn is_fetched(&self) -> bool {
+        self.surface.samples() > 1 || self.end == PathEnd::ShaderRead
+    }
 }
 
 impl Reading<'_> {
     /// Returns the images of all aspects of an attachment, depth before stencil.
     pub(crate) fn images(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
+        if !matches!(source.end, PathEnd::Copy | PathEnd::Blit) {
+            return self.images_of(source);
+        }
+        let context = self.context;
+        let kind = SurfaceKind::Attachment(source.format, 1, PathTarget::Plain);
+        let size = source.surface.size();
+        let surface = self.pool.surface(context, kind, size)?;
+        state::reset(context);
+        spoil(context, source.format, &surface);
+        match source.end {
+            PathEnd::Copy => copy_image(context, source.surface, &surface),
+            _ => blit(context, source.format, source.surface, &surface),
+        }
+        let images = self.images_of(&Source {
+            surface: &surface,
+            end: PathEnd::Store,
+            ..*source
+        });
+        self.pool.put_surface(context, surface);
+        images
+    }
+
+    fn images_of(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
         let image = |aspect, channels, read, codes| Image {
             attachment: source.name.to_owned(),
             aspect,
@@ -47,7 +79,7 @@ impl Reading<'_> {
             codes,
         };
         if source.format.is_color() {
-            let codes = self.color(source.surface, source.format, source.plan)?;
+            let codes = self.color(source)?;
             let channels = source.format.color_channels().to_vec();
             return Ok(vec![image(Aspect::Color, channels, ReadPath::Copy, codes)]);
         }
@@ -71,14 +103,9 @@ impl Reading<'_> {
     }
 
     /// Returns the codes of a colour surface.
-    fn color(
-        &mut self,
-        surface: &Surface,
-        format: TextureFormat,
-        plan: ReadPlan,
-    ) -> Result<Vec<u32>, BackendError> {
-        let mut codes = self.stored_color(surface, format, plan)?;
-        self.plant(surface, format.color_channels(), &mut codes);
+    fn color(&mut self, source: &Source<'_>) -> Result<Vec<u32>, BackendError> {
+        let mut codes = self.stored_color(source)?;
+        self.plant(source.surface, source.format.color_channels(), &mut codes);
         Ok(codes)
     }
 
@@ -90,15 +117,11 @@ impl Reading<'_> {
     }
 
     /// Returns the codes of a colour surface. Several samples are always fetched.
-    fn stored_color(
-        &mut self,
-        surface: &Surface,
-        format: TextureFormat,
-        plan: ReadPlan,
-    ) -> Result<Vec<u32>, BackendError> {
+    fn stored_color(&mut self, source: &Source<'_>) -> Result<Vec<u32>, BackendError> {
+        let (surface, format) = (source.surface, source.format);
         let channels = format.color_channels();
-        if surface.samples() == 1 && plan != ReadPlan::Fetched {
-            return Ok(copy(self.context, surface, format, plan).0);
+        if !source.is_fetched() && source.plan != ReadPlan::Fetched {
+            return Ok(copy(self.context, source, source.plan).0);
         }
         if format.is_integer() {
             let wide = self.fetch(surface, Reader::Integers)?;
@@ -128,13 +151,12 @@ impl Reading<'_> {
 
     fn depth_stencil(&mut self, source: &Source<'_>) -> Result<DepthStencil, BackendError> {
         let (surface, format) = (source.surface, source.format);
-        let multisampled = surface.samples() > 1;
+        let fetched = source.is_fetched();
         let (depth, stencil) = match source.plan {
             ReadPlan::Shader { depth, stencil } => (depth, stencil),
-            // A copy would resolve.
-            _ if multisampled => (format.has_depth(), ShaderStencil::Copy),
+            _ if fetched => (format.has_depth(), ShaderStencil::Copy),
             plan => {
-                let (first, second) = copy(self.context, surface, format, plan);
+                let (first, second) = copy(self.context, source, plan);
                 return Ok(if format.has_depth() {
                     (Some(first), second)
                 } else {
@@ -155,8 +177,8 @@ impl Reading<'_> {
         let stencil = match stencil {
             _ if !format.has_stencil() => None,
             ShaderStencil::None => None,
-            ShaderStencil::Copy if !multisampled => {
-                Some(copy(self.context, surface, format, ReadPlan::Stencil).0)
+            ShaderStencil::Copy if !fetched => {
+                Some(copy(self.context, source, ReadPlan::Stencil).0)
             }
             ShaderStencil::Copy | ShaderStencil::Shader => Some(self.fetched_stencil(surface)?),
         };
@@ -168,13 +190,20 @@ impl Reading<'_> {
     fn fetch(&mut self, surface: &Surface, reader: Reader) -> Result<Vec<u32>, BackendError> {
         let context = self.context;
         let gl = &context.gl;
-        let Storage::Texture(texture, binding) = surface.storage else {
+        let Storage::Texture(part) = surface.storage else {
             return Err(BackendError::Internal(
                 "a renderbuffer cannot be fetched from".to_owned(),
             ));
         };
         let samples = surface.samples();
-        let (program, location) = self.programs.reader(context, reader, samples > 1)?;
+        let binding = part.binding;
+        let view = match binding {
+            glow::TEXTURE_3D => View::Slices,
+            glow::TEXTURE_2D_ARRAY => View::Layers,
+            glow::TEXTURE_2D_MULTISAMPLE => View::Samples,
+            _ => View::Plain,
+        };
+        let (program, location) = self.programs.reader(context, reader, view)?;
         let size = surface.size();
         let target = self.pool.surface(context, SurfaceKind::Fetched, size)?;
         if !target.is_complete() {
@@ -182,7 +211,7 @@ impl Reading<'_> {
             return Err(refused("a framebuffer for reading back", "incomplete"));
         }
         state::reset(context);
-        let has_stencil = matches!(surface.kind, SurfaceKind::Attachment(f, _) if f.has_stencil());
+        let has_stencil = matches!(surface.kind, SurfaceKind::Attachment(f, ..) if f.has_stencil());
         let set_mode = |mode: u32| {
             if reader == Reader::Integers && has_stencil && context.caps.stencil_texturing {
                 // SAFETY: the texture is bound and the context has the parameter.
@@ -201,16 +230,24 @@ impl Reading<'_> {
                 gl.bind_framebuffer(glow::FRAMEBUFFER, Some(target.framebuffer));
                 gl.viewport(0, 0, size[0] as i32, size[1] as i32);
                 gl.use_program(Some(program));
-                gl.uniform_1_i32(location.as_ref(), sample as i32);
+                // A texture has samples or layers: one of the two numbers is 0.
+                gl.uniform_1_i32(location.as_ref(), sample as i32 + part.layer);
                 gl.bind_vertex_array(Some(self.no_vertices));
                 gl.active_texture(glow::TEXTURE0);
-                gl.bind_texture(binding, Some(texture));
+                gl.bind_texture(binding, Some(part.texture));
                 set_mode(glow::STENCIL_INDEX);
                 gl.draw_arrays(glow::TRIANGLES, 0, 3);
                 set_mode(glow::DEPTH_COMPONENT);
             }
             // Every version reads unsigned integers as four channels.
-            read_pixels(gl, size, glow::RGBA_INTEGER, glow::UNSIGNED_INT, &mut wide);
+            read_pixels(
+                gl,
+                size,
+                glow::RGBA_INTEGER,
+                glow::UNSIGNED_INT,
+                &mut wide,
+                false,
+            );
             for (texel, values) in wide.chunks_exact(4).enumerate() {
                 let at = (texel * samples as usize + sample) * 4;
                 all[at..at + 4].copy_from_slice(values);
@@ -233,12 +270,9 @@ fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
 
 /// Reads a single-sample surface by `glReadPixels`: colour, depth or else stencil, and the stencil
 /// beside depth.
-fn copy(
-    context: &Context,
-    surface: &Surface,
-    format: TextureFormat,
-    plan: ReadPlan,
-) -> (Vec<u32>, Option<Vec<u32>>) {
+fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Option<Vec<u32>>) {
+    let (surface, format) = (source.surface, source.format);
+    let parted = source.end == PathEnd::Part;
     let gl = &context.gl;
     let size = surface.size();
     let texels = size[0] as usize * size[1] as usize;
@@ -246,7 +280,7 @@ fn copy(
     unsafe { gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer)) };
     let words = |format, kind, per_texel: usize| {
         let mut words = vec![0_u32; texels * per_texel];
-        read_pixels(gl, size, format, kind, &mut words);
+        read_pixels(gl, size, format, kind, &mut words, parted);
         words
     };
     let depth = glow::DEPTH_COMPONENT;
@@ -254,13 +288,20 @@ fn copy(
         ReadPlan::Packed => {
             let mut bytes = vec![0_u8; texels * codes::texel_bytes(format)];
             if let Some(client) = gl_format(format) {
-                read_pixels(gl, size, client.format, client.kind, &mut bytes);
+                read_pixels(gl, size, client.format, client.kind, &mut bytes, parted);
             }
             (codes::unpack(format, &bytes), None)
         }
         ReadPlan::Bytes => {
             let mut bytes = vec![0_u8; texels * 4];
-            read_pixels(gl, size, glow::RGBA, glow::UNSIGNED_BYTE, &mut bytes);
+            read_pixels(
+                gl,
+                size,
+                glow::RGBA,
+                glow::UNSIGNED_BYTE,
+                &mut bytes,
+                parted,
+            );
             let channels = format.color_channels();
             let narrow = |texel: &[u8]| -> Vec<u32> {
                 let values = channels.iter().zip(texel);
@@ -276,7 +317,7 @@ fn copy(
         ReadPlan::Integers => (words(glow::RGBA_INTEGER, glow::UNSIGNED_INT, 4), None),
         ReadPlan::Depth16 => {
             let mut codes = vec![0_u16; texels];
-            read_pixels(gl, size, depth, glow::UNSIGNED_SHORT, &mut codes);
+            read_pixels(gl, size, depth, glow::UNSIGNED_SHORT, &mut codes, parted);
             (codes.into_iter().map(u32::from).collect(), None)
         }
         ReadPlan::Depth24 => {
@@ -305,6 +346,7 @@ fn copy(
                 glow::STENCIL_INDEX,
                 glow::UNSIGNED_BYTE,
                 &mut values,
+                parted,
             );
             (values.into_iter().map(u32::from).collect(), None)
         }
@@ -322,19 +364,156 @@ fn shortened(encoding: ChannelEncoding, byte: u8) -> u32 {
     }
 }
 
-/// Reads the bound framebuffer into a slice of exactly the image's size.
+/// Reads the bound framebuffer into a slice of exactly the image's size, in several parts if `parted`.
 fn read_pixels<T: bytemuck::Pod>(
     gl: &glow::Context,
     size: [u32; 2],
     format: u32,
     kind: u32,
     into: &mut [T],
+    parted: bool,
 ) {
-    let pixels = glow::PixelPackData::Slice(Some(bytemuck::cast_slice_mut(into)));
-    // SAFETY: rows are packed tightly (`state::reset`) and the callers size the slice by format
-    // and type.
+    let [width, height] = size.map(|side| side as i32);
+    let (columns, rows) = match parted {
+        true => (halves(width), halves(height)),
+        false => (vec![(0, width)], vec![(0, height)]),
+    };
+    for (y, high) in rows {
+        for (x, wide) in &columns {
+            let bytes = bytemuck::cast_slice_mut(into);
+            let pixels = glow::PixelPackData::Slice(Some(bytes));
+            // SAFETY: rows are as long as the image's and packed tightly, the parts lie inside of it, and
+            // the callers size the slice by format and type.
+            unsafe {
+                gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
+                gl.pixel_store_i32(glow::PACK_ROW_LENGTH, width);
+                gl.pixel_store_i32(glow::PACK_SKIP_PIXELS, *x);
+                gl.pixel_store_i32(glow::PACK_SKIP_ROWS, y);
+                gl.read_pixels(*x, y, *wide, high, format, kind, pixels);
+            }
+        }
+    }
+    for name in [
+        glow::PACK_ROW_LENGTH,
+        glow::PACK_SKIP_PIXELS,
+        glow::PACK_SKIP_ROWS,
+    ] {
+        // SAFETY: the context is current.
+        unsafe { gl.pixel_store_i32(name, 0) };
+    }
+}
+
+/// Returns the beginnings and lengths of two unequal parts of a side, or of the side if it is one texel.
+fn halves(side: i32) -> Vec<(i32, i32)> {
+    match side * 2 / 5 {
+        0 => vec![(0, side)],
+        first => vec![(0, first), (first, side - first)],
+    }
+}
+
+/// Fills a surface with values that a copy which is lost would leave behind. Without it they could be those of
+/// an earlier scene with the same picture.
+fn spoil(context: &Context, format: TextureFormat, surface: &Surface) {
+    let gl = &context.gl;
+    // SAFETY: the context is current, the framebuffer is its own, and masks and scissor are open.
     unsafe {
-        gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
-        gl.read_pixels(0, 0, size[0] as i32, size[1] as i32, format, kind, pixels);
+        gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+        match (
+            format.is_integer(),
+            format.has_depth(),
+            format.has_stencil(),
+        ) {
+            (true, ..) => gl.clear_buffer_u32_slice(glow::COLOR, 0, &[77; 4]),
+            (_, true, true) => gl.clear_buffer_depth_stencil(glow::DEPTH_STENCIL, 0, 0.3, 77),
+            (_, true, false) => gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[0.3]),
+            (_, false, true) => gl.clear_buffer_i32_slice(glow::STENCIL, 0, &[77]),
+            (false, false, false) => gl.clear_buffer_f32_slice(glow::COLOR, 0, &[0.3; 4]),
+        }
+    }
+}
+
+/// Copies a surface's texels to another of the same size and format.
+fn copy_image(context: &Context, from: &Surface, to: &Surface) {
+    let gl = &context.gl;
+    let [width, height] = from.size().map(|side| side as i32);
+    let (source, target) = (Place::of(from), Place::of(to));
+    // SAFETY: the context is current, has the function, and the images are its own and as large.
+    unsafe {
+        gl.copy_image_sub_data(
+            source.name,
+            source.binding,
+            source.level,
+            0,
+            0,
+            source.layer,
+            target.name,
+            target.binding,
+            target.level,
+            0,
+            0,
+            target.layer,
+            width,
+            height,
+            1,
+        );
+    }
+}
+
+/// An image as copies name it: renderbuffers have names as textures do.
+struct Place {
+    name: glow::Texture,
+    binding: u32,
+    level: i32,
+    layer: i32,
+}
+
+impl Place {
+    fn of(surface: &Surface) -> Self {
+        match surface.storage {
+            Storage::Texture(part) => Self {
+                name: part.texture,
+                binding: part.binding,
+                level: part.level,
+                layer: part.layer,
+            },
+            Storage::Renderbuffer(buffer) => Self {
+                name: glow::NativeTexture(buffer.0),
+                binding: glow::RENDERBUFFER,
+                level: 0,
+                layer: 0,
+            },
+        }
+    }
+}
+
+/// Blits a surface to another of the same size and format.
+fn blit(context: &Context, format: TextureFormat, from: &Surface, to: &Surface) {
+    let gl = &context.gl;
+    let [w, h] = from.size().map(|side| side as i32);
+    let mask = format.aspects().iter().fold(0, |mask, aspect| {
+        mask | match aspect {
+            Aspect::Color => glow::COLOR_BUFFER_BIT,
+            Aspect::Depth => glow::DEPTH_BUFFER_BIT,
+            Aspect::Stencil => glow::STENCIL_BUFFER_BIT,
+        }
+    });
+    // SAFETY: the context is current and the framebuffers are its own.
+    unsafe {
+        gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(from.framebuffer));
+        gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(to.framebuffer));
+        gl.blit_framebuffer(0, 0, w, h, 0, 0, w, h, mask, glow::NEAREST);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_cover_a_side() {
+        assert_eq!(halves(1), [(0, 1)]);
+        assert_eq!(halves(2), [(0, 2)]);
+        assert_eq!(halves(5), [(0, 2), (2, 3)]);
+        assert_eq!(halves(16), [(0, 6), (6, 10)]);
     }
 }

@@ -6,10 +6,11 @@
 
 use crate::context::Context;
 use crate::enums::{compare, equations, logic_operation, mask, operation};
+use crate::path::Variant;
 use etalon_backend::BackendError;
-use etalon_frame::{Feature, Requirement};
+use etalon_frame::{Feature, PathClip, PathViewport, Requirement};
 use etalon_scene::{
-    ColorTarget, CullMode, DepthBias, DepthState, Draw, FrontFace, Multisample, PolygonMode,
+    ColorTarget, CullMode, DepthBias, DepthState, Draw, FrontFace, Multisample, Path, PolygonMode,
     PrimitiveTopology, RESTART, RESTART_16, SampleCoverage, StencilFace, StencilState, Viewport,
 };
 use glow::HasContext;
@@ -29,6 +30,9 @@ pub(crate) struct DrawState {
     polygons: bool,
     rasterizer_discard: bool,
     viewport: Viewport,
+    viewports: PathViewport,
+    /// The clip volume's origin, where the draws' differ.
+    origin: Option<u32>,
     scissor: Option<[i32; 4]>,
     depth_bias: Option<DepthBias>,
     depth_clamp: bool,
@@ -49,6 +53,8 @@ impl DrawState {
         context: &Context,
         draw: &Draw,
         read_only: bool,
+        path: &Path,
+        variant: Variant,
     ) -> Result<Self, BackendError> {
         if !viewport_is_exact(context, &draw.viewport) {
             // The requirement that is nearest to a viewport that GL cannot represent.
@@ -57,7 +63,8 @@ impl DrawState {
         }
         let differ = draw.targets.windows(2).any(|pair| pair[0] != pair[1]);
         // Without clip control the shaders mirror y, which inverts every winding.
-        let ccw = (draw.front_face == FrontFace::Ccw) == context.caps.clip_control;
+        let mirrored = variant.mirrored || !context.caps.clip_control;
+        let ccw = (draw.front_face == FrontFace::Ccw) != mirrored;
         Ok(Self {
             cull: match draw.cull {
                 CullMode::None => None,
@@ -84,6 +91,12 @@ impl DrawState {
             },
             rasterizer_discard: draw.rasterizer_discard,
             viewport: draw.viewport,
+            viewports: path.viewport,
+            origin: match path.clip {
+                PathClip::Constant => None,
+                PathClip::Toggled if variant.mirrored => Some(glow::LOWER_LEFT),
+                PathClip::Toggled => Some(glow::UPPER_LEFT),
+            },
             scissor: draw.scissor.map(scissor),
             depth_bias: (draw.depth_bias != DepthBias::default()).then_some(draw.depth_bias),
             depth_clamp: draw.depth_clamp,
@@ -126,6 +139,31 @@ impl DrawState {
             if !context.caps.es {
                 gl.polygon_mode(glow::FRONT_AND_BACK, self.polygon_mode);
             }
+            match self.viewports {
+                PathViewport::One => self.apply_viewport(context),
+                PathViewport::WithCount => self.apply_viewports(context, 1),
+                PathViewport::Array => self.apply_viewports(context, 2),
+            }
+            if let (Some(origin), Some(clip_control)) =
+                (self.origin, context.entry_points.clip_control)
+            {
+                clip_control(glow::LOWER_LEFT, glow::NEGATIVE_ONE_TO_ONE);
+                clip_control(origin, glow::ZERO_TO_ONE);
+            }
+        }
+        if context.caps.depth_clamp {
+            set(gl, glow::DEPTH_CLAMP, self.depth_clamp);
+        }
+    }
+
+    /// Sets the viewport and the scissor rectangle of all viewports.
+    ///
+    /// # Safety
+    /// The context is current.
+    unsafe fn apply_viewport(&self, context: &Context) {
+        let gl = &context.gl;
+        // SAFETY: the caller's.
+        unsafe {
             let [x, y, w, h] = self.viewport.rect;
             match context.entry_points.viewport_indexed {
                 Some(viewport) => viewport(0, x, y, w, h),
@@ -141,8 +179,32 @@ impl DrawState {
                 gl.scissor(x, y, w, h);
             }
         }
-        if context.caps.depth_clamp {
-            set(gl, glow::DEPTH_CLAMP, self.depth_clamp);
+    }
+
+    /// Sets the last of `count` viewports and scissor rectangles to the draw's, those before it to others.
+    ///
+    /// # Safety
+    /// The context is current.
+    unsafe fn apply_viewports(&self, context: &Context, count: i32) {
+        let of = &context.entry_points;
+        let (Some(viewports), Some(scissors), Some(ranges)) =
+            (of.viewport_array, of.scissor_array, of.depth_range_array)
+        else {
+            return;
+        };
+        let skipped = 2 - count as usize;
+        let [x, y, w, h] = self.viewport.rect;
+        let rects = [[1.0, 1.0, 3.0, 2.0], [x, y, w, h]];
+        let [near, far] = self.viewport.depth.map(f64::from);
+        let depths = [[0.125, 0.25], [near, far]];
+        // SAFETY: the caller's; so many elements are left in each array.
+        unsafe {
+            viewports(0, count, rects[skipped..].as_ptr().cast());
+            ranges(0, count, depths[skipped..].as_ptr().cast());
+            if let Some(rect) = self.scissor {
+                let rects = [[1, 1, 2, 1], rect];
+                scissors(0, count, rects[skipped..].as_ptr().cast());
+            }
         }
     }
 

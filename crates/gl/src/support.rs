@@ -53,4 +53,6 @@ pub(crate) struct Support {
     pub(crate) limits: FormatSupport,
     /// For one sample; several are always fetched by a shader.
     pub(crate) read: ReadPlan,
+    /// A shader's fetch determines the codes that `read` returns.
+    pub(crate) fetched_exactly: bool,
 }

@@ -4,15 +4,15 @@ use crate::codes;
 use crate::context::{Context, refused};
 use crate::format::{GlFormat, gl_format};
 use etalon_backend::BackendError;
-use etalon_frame::{Requirement, TextureFormat};
+use etalon_frame::{PathTarget, PathValue, Requirement, TextureFormat};
 use glow::HasContext;
 use std::cell::Cell;
 
 /// The use of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum SurfaceKind {
-    /// A scene's attachment with this many samples per texel.
-    Attachment(TextureFormat, u32),
+    /// A scene's attachment with this many samples per texel, and the part of a texture that it is.
+    Attachment(TextureFormat, u32, PathTarget),
     /// The target of read-back shaders: four 32-bit unsigned integers per texel.
     Fetched,
 }
@@ -20,7 +20,7 @@ pub(crate) enum SurfaceKind {
 impl SurfaceKind {
     fn gl(self) -> Result<GlFormat, BackendError> {
         match self {
-            Self::Attachment(format, _) => {
+            Self::Attachment(format, ..) => {
                 gl_format(format).ok_or(BackendError::NotSupported(Requirement::Format(format)))
             }
             Self::Fetched => Ok(GlFormat {
@@ -34,7 +34,7 @@ impl SurfaceKind {
 
     fn samples(self) -> u32 {
         match self {
-            Self::Attachment(_, samples) => samples,
+            Self::Attachment(_, samples, _) => samples,
             Self::Fetched => 1,
         }
     }
@@ -42,11 +42,19 @@ impl SurfaceKind {
     /// Returns the approximate size of a texel.
     fn bytes(self) -> u64 {
         match self {
-            Self::Attachment(format, samples) if format.is_color() => {
+            Self::Attachment(format, samples, _) if format.is_color() => {
                 codes::texel_bytes(format) as u64 * u64::from(samples)
             }
-            Self::Attachment(_, samples) => 8 * u64::from(samples),
+            Self::Attachment(_, samples, _) => 8 * u64::from(samples),
             Self::Fetched => 16,
+        }
+    }
+
+    /// Returns the part of a texture that the surface is.
+    pub(crate) fn target(self) -> PathTarget {
+        match self {
+            Self::Attachment(_, _, target) => target,
+            Self::Fetched => PathTarget::Plain,
         }
     }
 }
@@ -54,10 +62,46 @@ impl SurfaceKind {
 /// The storage of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Storage {
-    /// A texture and its target.
-    Texture(glow::Texture, u32),
-    /// A renderbuffer, if textures of the format do not exist.
+    /// A part of a texture.
+    Texture(Part),
+    /// A renderbuffer.
     Renderbuffer(glow::Renderbuffer),
+}
+
+/// One image of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Part {
+    pub(crate) texture: glow::Texture,
+    /// The target that the texture is bound to.
+    pub(crate) binding: u32,
+    pub(crate) level: i32,
+    /// The layer of an array, the slice of a three-dimensional texture or the face of a cube.
+    pub(crate) layer: i32,
+}
+
+impl Part {
+    /// The only image of a texture.
+    fn whole(texture: glow::Texture, binding: u32) -> Self {
+        Self {
+            texture,
+            binding,
+            level: 0,
+            layer: 0,
+        }
+    }
+
+    /// Returns true if the layer is the third coordinate of texels.
+    pub(crate) fn is_deep(self) -> bool {
+        matches!(self.binding, glow::TEXTURE_2D_ARRAY | glow::TEXTURE_3D)
+    }
+
+    /// Returns the target of the image, which is the face's in a cube.
+    fn image(self) -> u32 {
+        match self.binding {
+            glow::TEXTURE_CUBE_MAP => glow::TEXTURE_CUBE_MAP_POSITIVE_X + self.layer as u32,
+            binding => binding,
+        }
+    }
 }
 
 /// A texture or renderbuffer with a framebuffer. Contents of a new one are undefined.
@@ -86,15 +130,16 @@ impl Surface {
     ) -> Result<Self, BackendError> {
         let format = kind.gl()?;
         let samples = kind.samples();
-        let stencil_only = matches!(kind, SurfaceKind::Attachment(TextureFormat::Stencil8, _));
+        let stencil_only = matches!(kind, SurfaceKind::Attachment(TextureFormat::Stencil8, ..));
         // A shader reads stencil in ES and if multisampled, which takes a texture.
         let fetched = (context.caps.es || samples > 1) && context.caps.stencil_textures;
-        let storage = if stencil_only && !fetched {
-            renderbuffer(context, format, size)?
-        } else if samples > 1 {
-            multisample_texture(context, format, size, samples)?
-        } else {
-            texture(context, format, size)?
+        let storage = match kind.target() {
+            PathTarget::Renderbuffer => renderbuffer(context, format, size)?,
+            PathTarget::Plain if stencil_only && !fetched => renderbuffer(context, format, size)?,
+            PathTarget::Plain if samples > 1 => {
+                multisample_texture(context, format, size, samples)?
+            }
+            target => texture(context, format, size, target)?,
         };
         let (framebuffer, status) = framebuffer(context, &[(storage, format.attachment)])?;
         let id = NEXT_ID.with(|next| next.replace(next.get() + 1));
@@ -117,7 +162,7 @@ impl Surface {
     /// Returns the texture; `None` for a renderbuffer.
     pub(crate) fn texture(&self) -> Option<glow::Texture> {
         match self.storage {
-            Storage::Texture(texture, _) => Some(texture),
+            Storage::Texture(part) => Some(part.texture),
             Storage::Renderbuffer(_) => None,
         }
     }
@@ -141,7 +186,7 @@ impl Surface {
         unsafe {
             gl.delete_framebuffer(self.framebuffer);
             match self.storage {
-                Storage::Texture(texture, _) => gl.delete_texture(texture),
+                Storage::Texture(part) => gl.delete_texture(part.texture),
                 Storage::Renderbuffer(buffer) => gl.delete_renderbuffer(buffer),
             }
         }
@@ -169,10 +214,13 @@ fn renderbuffer(
 fn texture(
     context: &Context,
     format: GlFormat,
-    [width, height]: [u32; 2],
+    size: [u32; 2],
+    path: PathTarget,
 ) -> Result<Storage, BackendError> {
     let gl = &context.gl;
-    let target = glow::TEXTURE_2D;
+    let shape = Shape::of(path, size);
+    let target = shape.binding;
+    check_size(context, path, shape)?;
     // SAFETY: the context is current; no client memory is read.
     unsafe {
         let texture = gl.create_texture().map_err(|e| refused("a texture", e))?;
@@ -180,24 +228,127 @@ fn texture(
         gl.bind_texture(target, Some(texture));
         let set = |name, value: u32| gl.tex_parameter_i32(target, name, value as i32);
         // Fetches require a complete texture, even if they do not use its filter.
-        set(glow::TEXTURE_MAX_LEVEL, 0);
+        // A shader sees the one level.
+        set(glow::TEXTURE_BASE_LEVEL, shape.level as u32);
+        set(glow::TEXTURE_MAX_LEVEL, shape.level as u32);
         set(glow::TEXTURE_MIN_FILTER, glow::NEAREST);
         set(glow::TEXTURE_MAG_FILTER, glow::NEAREST);
         set(glow::TEXTURE_WRAP_S, glow::CLAMP_TO_EDGE);
         set(glow::TEXTURE_WRAP_T, glow::CLAMP_TO_EDGE);
-        gl.tex_image_2d(
-            target,
-            0,
-            format.internal as i32,
-            width as i32,
-            height as i32,
-            0,
-            format.format,
-            format.kind,
-            glow::PixelUnpackData::Slice(None),
-        );
-        Ok(Storage::Texture(texture, target))
+        let part = Part {
+            texture,
+            binding: target,
+            level: shape.level,
+            layer: shape.layer,
+        };
+        let none = || glow::PixelUnpackData::Slice(None);
+        let (internal, words, kind) = (format.internal as i32, format.format, format.kind);
+        for level in 0..=shape.level {
+            let [width, height] = shape.size.map(|side| (side >> level) as i32);
+            if part.is_deep() {
+                let depth = shape.layers;
+                gl.tex_image_3d(
+                    target,
+                    level,
+                    internal,
+                    width,
+                    height,
+                    depth,
+                    0,
+                    words,
+                    kind,
+                    none(),
+                );
+                continue;
+            }
+            for layer in 0..shape.layers {
+                let image = Part { layer, ..part }.image();
+                gl.tex_image_2d(
+                    image,
+                    level,
+                    internal,
+                    width,
+                    height,
+                    0,
+                    words,
+                    kind,
+                    none(),
+                );
+            }
+        }
+        Ok(Storage::Texture(part))
     }
+}
+
+/// The texture that an attachment is a part of.
+#[derive(Clone, Copy)]
+struct Shape {
+    binding: u32,
+    /// The size of level 0.
+    size: [u32; 2],
+    /// The level, which is the last.
+    level: i32,
+    /// The number of layers, slices or faces.
+    layers: i32,
+    /// The layer, slice or face.
+    layer: i32,
+}
+
+impl Shape {
+    fn of(path: PathTarget, size: [u32; 2]) -> Self {
+        let plain = Self {
+            binding: glow::TEXTURE_2D,
+            size,
+            level: 0,
+            layers: 1,
+            layer: 0,
+        };
+        match path {
+            PathTarget::Plain | PathTarget::Renderbuffer => plain,
+            PathTarget::MipLevel => Self {
+                // Odd sizes, which are rounded down from level to level.
+                size: size.map(|side| 2 * side + 1),
+                level: 1,
+                ..plain
+            },
+            PathTarget::ArrayLayer => Self {
+                binding: glow::TEXTURE_2D_ARRAY,
+                layers: 3,
+                layer: 2,
+                ..plain
+            },
+            PathTarget::Slice3d => Self {
+                binding: glow::TEXTURE_3D,
+                layers: 4,
+                layer: 3,
+                ..plain
+            },
+            PathTarget::CubeFace => Self {
+                binding: glow::TEXTURE_CUBE_MAP,
+                layers: 6,
+                layer: 4,
+                ..plain
+            },
+        }
+    }
+}
+
+/// Checks that the context has textures as large as a part of one needs.
+fn check_size(context: &Context, path: PathTarget, shape: Shape) -> Result<(), BackendError> {
+    let name = match path {
+        PathTarget::Plain | PathTarget::Renderbuffer => return Ok(()),
+        PathTarget::MipLevel | PathTarget::ArrayLayer => glow::MAX_TEXTURE_SIZE,
+        PathTarget::Slice3d => glow::MAX_3D_TEXTURE_SIZE,
+        PathTarget::CubeFace => glow::MAX_CUBE_MAP_TEXTURE_SIZE,
+    };
+    // SAFETY: the context is current and has these limits since version 3.
+    let most = unsafe { context.gl.get_parameter_i32(name) };
+    let fits = shape
+        .size
+        .iter()
+        .all(|side| i64::from(*side) <= i64::from(most));
+    let value = Requirement::Path(PathValue::Target(path));
+    fits.then_some(()).ok_or(BackendError::NotSupported(value))
 }
 
 fn multisample_texture(
@@ -223,33 +374,32 @@ fn multisample_texture(
             let internal = internal as i32;
             gl.tex_image_2d_multisample(target, samples, internal, width, height, true);
         }
-        Ok(Storage::Texture(texture, target))
+        Ok(Storage::Texture(Part::whole(texture, target)))
     }
 }
 
 /// Replaces the contents of a single-sample colour texture. `bytes` covers it.
 pub(crate) fn upload(context: &Context, format: TextureFormat, surface: &Surface, bytes: &[u8]) {
     let gl = &context.gl;
-    let Some(words) = gl_format(format) else {
+    let (Some(words), Storage::Texture(part)) = (gl_format(format), surface.storage) else {
         return;
     };
-    let size = surface.size();
+    let [width, height] = surface.size().map(|side| side as i32);
     // SAFETY: the context is current, rows are packed tightly (`state::reset`), and the caller has
     // counted the bytes.
     unsafe {
         gl.active_texture(glow::TEXTURE0);
-        gl.bind_texture(glow::TEXTURE_2D, surface.texture());
-        gl.tex_sub_image_2d(
-            glow::TEXTURE_2D,
-            0,
-            0,
-            0,
-            size[0] as i32,
-            size[1] as i32,
-            words.format,
-            words.kind,
-            glow::PixelUnpackData::Slice(Some(bytes)),
-        );
+        gl.bind_texture(part.binding, Some(part.texture));
+        let texels = glow::PixelUnpackData::Slice(Some(bytes));
+        let (image, level, layer) = (part.image(), part.level, part.layer);
+        let (kind, format) = (words.kind, words.format);
+        if part.is_deep() {
+            gl.tex_sub_image_3d(
+                image, level, 0, 0, layer, width, height, 1, format, kind, texels,
+            );
+        } else {
+            gl.tex_sub_image_2d(image, level, 0, 0, width, height, format, kind, texels);
+        }
     }
 }
 
@@ -268,9 +418,20 @@ pub(crate) fn framebuffer(
         let mut buffers = Vec::new();
         for (storage, point) in attachments {
             match storage {
-                Storage::Texture(texture, target) => {
-                    gl.framebuffer_texture_2d(glow::FRAMEBUFFER, *point, *target, Some(*texture), 0)
-                }
+                Storage::Texture(part) if part.is_deep() => gl.framebuffer_texture_layer(
+                    glow::FRAMEBUFFER,
+                    *point,
+                    Some(part.texture),
+                    part.level,
+                    part.layer,
+                ),
+                Storage::Texture(part) => gl.framebuffer_texture_2d(
+                    glow::FRAMEBUFFER,
+                    *point,
+                    part.image(),
+                    Some(part.texture),
+                    part.level,
+                ),
                 Storage::Renderbuffer(buffer) => gl.framebuffer_renderbuffer(
                     glow::FRAMEBUFFER,
                     *point,

@@ -25,6 +25,8 @@ const COLOR: u32 = 1;
 pub(crate) struct Geometry {
     pub(crate) vertices: Vec<u8>,
     pub(crate) indices: Vec<u8>,
+    /// The arguments of indirect draws.
+    pub(crate) arguments: Vec<u8>,
 }
 
 /// The place of a draw's geometry in the buffers, and how it is drawn.
@@ -86,6 +88,18 @@ impl Geometry {
         }
     }
 
+    /// Adds the arguments of a placed draw, behind others that would draw nothing. Returns their offset.
+    pub(crate) fn place_arguments(&mut self, fetched: &Fetched) -> i32 {
+        let words = fetched.arguments();
+        let unused = vec![0_u32; words.len()];
+        self.arguments
+            .extend_from_slice(bytemuck::cast_slice(&unused));
+        let place = self.arguments.len();
+        self.arguments
+            .extend_from_slice(bytemuck::cast_slice(&words));
+        place as i32
+    }
+
     fn place_own(&mut self, vertices: usize, call: &Call<'_>) -> Own {
         let colors = (!call.colors.is_empty()).then_some(self.vertices.len() as i32);
         self.vertices.extend_from_slice(call.color_bytes());
@@ -135,15 +149,39 @@ pub(crate) unsafe fn set_pointers(context: &Context, vertices: i32) {
 }
 
 impl Fetched {
-    /// Calls the driver's draw.
+    /// Returns the arguments of an indirect draw (OpenGL 4.6, 10.4).
+    fn arguments(&self) -> Vec<u32> {
+        match self {
+            Self::Shared {
+                count,
+                indices: Some(offset),
+                ..
+            } => vec![
+                *count as u32,
+                1,
+                *offset as u32 / size_of::<u32>() as u32,
+                0,
+                0,
+            ],
+            Self::Shared { first, count, .. } => vec![*count as u32, 1, *first as u32, 0],
+            Self::Own(own) => own.arguments(),
+        }
+    }
+
+    /// Calls the driver's draw, with arguments from an offset in the bound buffer where there is one.
     ///
     /// # Safety
     /// The context is current, and the vertex array with the scene's buffers is bound.
-    pub(crate) unsafe fn draw(&self, context: &Context, mode: u32) {
+    pub(crate) unsafe fn draw(&self, context: &Context, mode: u32, arguments: Option<i32>) {
         let gl = &context.gl;
-        // SAFETY: as for this function; vertices and indices were counted when the buffers were filled.
+        // SAFETY: as for this function; vertices, indices and arguments were counted when the buffers were
+        // filled.
         unsafe {
             match self {
+                Self::Shared { indices, .. } if let Some(place) = arguments => match indices {
+                    Some(_) => gl.draw_elements_indirect_offset(mode, glow::UNSIGNED_INT, place),
+                    None => gl.draw_arrays_indirect_offset(mode, place),
+                },
                 Self::Shared {
                     count,
                     indices: Some(offset),
@@ -157,7 +195,7 @@ impl Fetched {
                         gl.vertex_attrib_pointer_f32(COLOR, 4, glow::FLOAT, false, stride, offset);
                         gl.vertex_attrib_divisor(COLOR, 1);
                     }
-                    own.draw(context, mode);
+                    own.draw(context, mode, arguments);
                     gl.vertex_attrib_divisor(COLOR, 0);
                     set_pointers(context, 0);
                 }
@@ -167,11 +205,31 @@ impl Fetched {
 }
 
 impl Own {
+    fn arguments(&self) -> Vec<u32> {
+        let (count, first_instance) = (self.count as u32, self.first_instance);
+        let instances = match self.colors {
+            Some(_) => self.instances as u32,
+            None => 1,
+        };
+        match self.indices {
+            Some((offset, kind)) => {
+                let size = match kind {
+                    glow::UNSIGNED_SHORT => size_of::<u16>(),
+                    _ => size_of::<u32>(),
+                };
+                let first = offset as usize / size;
+                let base = self.base_vertex.cast_unsigned();
+                vec![count, instances, first as u32, base, first_instance]
+            }
+            None => vec![count, instances, self.first as u32, first_instance],
+        }
+    }
+
     /// Calls the plainest function that takes all of the numbers.
     ///
     /// # Safety
     /// As for [`Fetched::draw`], with pointers set.
-    unsafe fn draw(&self, context: &Context, mode: u32) {
+    unsafe fn draw(&self, context: &Context, mode: u32, arguments: Option<i32>) {
         let (gl, entry_points) = (&context.gl, &context.entry_points);
         let Self {
             first,
@@ -185,6 +243,10 @@ impl Own {
         // SAFETY: as for this function; limits deny scenes whose functions are missing.
         unsafe {
             let Some((offset, kind)) = self.indices else {
+                if let Some(place) = arguments {
+                    gl.draw_arrays_indirect_offset(mode, place);
+                    return;
+                }
                 match entry_points.draw_arrays_instanced_base_instance {
                     Some(draw) if first_instance > 0 => {
                         draw(mode, first, count, instances, first_instance);
@@ -200,6 +262,9 @@ impl Own {
             let moved = entry_points.draw_elements_base_vertex;
             let moved_instances = entry_points.draw_elements_instanced_base_vertex;
             match (whole, moved, moved_instances) {
+                _ if let Some(place) = arguments => {
+                    gl.draw_elements_indirect_offset(mode, kind, place);
+                }
                 (Some(draw), ..) if first_instance > 0 => {
                     draw(
                         mode,

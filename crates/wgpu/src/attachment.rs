@@ -1,11 +1,14 @@
 //! The attachments of a scene and their initial contents.
 
 use crate::gpu::{BufferLease, Gpu, TextureLease, extent};
+use crate::path;
 use crate::state;
 use crate::texel;
 use etalon_backend::BackendError;
 use etalon_frame::TextureFormat;
-use etalon_scene::{Contents, Operations, PassOperations, Scene, StoreOperation};
+use etalon_scene::{
+    Contents, LoadOperation, Operations, Pass, PassOperations, Scene, StoreOperation,
+};
 use wgpu::BufferUsages;
 
 /// An attachment of a scene on the device.
@@ -16,7 +19,8 @@ pub(crate) struct DeviceAttachment<'a> {
     pub(crate) samples: u32,
     pub(crate) target: TextureLease<'a>,
     initial: InitialContents<'a>,
-    /// The pass that clears it: the first that uses it, if that one draws to it.
+    /// The pass that clears it: the first that uses it, if that one draws to it and loads all of it. What
+    /// another load operation replaces is cleared before.
     cleared_by: Option<usize>,
     /// True if a pass writes to it.
     changes: bool,
@@ -69,9 +73,11 @@ impl<'a> DeviceAttachment<'a> {
             format,
             size,
             samples: attachment.samples,
-            target: gpu.attachment(format, size, attachment.samples)?,
+            target: gpu.attachment(format, size, attachment.samples, path::target(scene, index))?,
             initial,
-            cleared_by: first.filter(|pass| drawn.clone().nth(*pass).is_some_and(|d| d.0)),
+            cleared_by: first
+                .filter(|pass| drawn.clone().nth(*pass).is_some_and(|d| d.0))
+                .filter(|pass| loads(&scene.passes[*pass], index)),
             changes: drawn.clone().any(|(draws, resolves, _)| draws || resolves),
         })
     }
@@ -113,7 +119,7 @@ impl<'a> DeviceAttachment<'a> {
                 rows_per_image: None,
             },
         };
-        let target = self.target.texture.as_image_copy();
+        let target = self.target.copied(wgpu::TextureAspect::All, [0, 0]);
         encoder.copy_buffer_to_texture(source, target, extent(self.size));
     }
 
@@ -131,7 +137,7 @@ impl<'a> DeviceAttachment<'a> {
         let cleared = operations.load.clear_value().map(state::color);
         wgpu::RenderPassColorAttachment {
             view: &self.target.view,
-            depth_slice: None,
+            depth_slice: self.target.slice(),
             resolve_target: resolve,
             ops: both(cleared.or(initial), operations.store),
         }
@@ -167,6 +173,16 @@ impl<'a> DeviceAttachment<'a> {
             depth_ops: None,
             stencil_ops: None,
         }
+    }
+}
+
+/// True if a pass loads all aspects of an attachment that it draws to.
+fn loads(pass: &Pass, index: usize) -> bool {
+    let mut colors = pass.color.iter().enumerate();
+    let PassOperations { depth, stencil, .. } = &pass.operations;
+    match colors.find(|(_, color)| **color == index) {
+        Some((location, _)) => pass.color_operations(location).load == LoadOperation::Load,
+        None => depth.load == LoadOperation::Load && stencil.load == LoadOperation::Load,
     }
 }
 

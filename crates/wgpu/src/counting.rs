@@ -45,6 +45,13 @@ pub(crate) struct Counted {
     pub(crate) runs: Option<usize>,
 }
 
+impl Counted {
+    /// True if a query stands around the draw.
+    pub(crate) fn is_queried(self) -> bool {
+        self.occlusion.is_some() || self.statistics.is_some()
+    }
+}
+
 impl Queries {
     /// Returns queries for these counters; `None` if there are no counters.
     fn new(gpu: &Gpu, ty: wgpu::QueryType, counters: Vec<usize>, offset: u64) -> Option<Self> {

@@ -14,6 +14,10 @@ pub(crate) const WGSL: &str = include_str!("fetch.wgsl");
 pub(crate) enum FetchKey {
     /// Depth, as the bits of a float, into `r32uint`.
     Depth,
+    /// A colour, as the bits of floats, into `rgba32uint`.
+    Texel,
+    /// A colour of integers into `rgba32uint`.
+    IntegerTexel,
     /// One sample of colour or depth, as the bits of floats, into `rgba32uint`.
     Sample,
     /// One sample of stencil into the red channel of `rgba32uint`.
@@ -40,6 +44,14 @@ pub(crate) fn pipeline(
         FetchKey::Depth => {
             let color = wgpu::TextureFormat::R32Uint;
             (&layouts.texture, "everywhere", "depth", color, all, None)
+        }
+        FetchKey::Texel => {
+            let color = wgpu::TextureFormat::Rgba32Uint;
+            (&layouts.texture, "everywhere", "texel", color, all, None)
+        }
+        FetchKey::IntegerTexel => {
+            let (layout, color) = (&layouts.integer_texture, wgpu::TextureFormat::Rgba32Uint);
+            (layout, "everywhere", "integer_texel", color, all, None)
         }
         FetchKey::Sample => {
             let color = wgpu::TextureFormat::Rgba32Uint;

@@ -3,6 +3,7 @@
 @group(0) @binding(1) var source: texture_2d<f32>;
 @group(0) @binding(1) var samples: texture_multisampled_2d<f32>;
 @group(0) @binding(1) var integer_samples: texture_multisampled_2d<u32>;
+@group(0) @binding(1) var integer_source: texture_2d<u32>;
 
 // One triangle over everything.
 fn corner(i: u32) -> vec4f {
@@ -28,6 +29,16 @@ fn sampled(@builtin(vertex_index) i: u32) -> Sampled {
 @fragment
 fn depth(@builtin(position) position: vec4f) -> @location(0) u32 {
     return bitcast<u32>(textureLoad(source, vec2i(position.xy), 0).r);
+}
+
+@fragment
+fn texel(@builtin(position) position: vec4f) -> @location(0) vec4u {
+    return bitcast<vec4u>(textureLoad(source, vec2i(position.xy), 0));
+}
+
+@fragment
+fn integer_texel(@builtin(position) position: vec4f) -> @location(0) vec4u {
+    return textureLoad(integer_source, vec2i(position.xy), 0);
 }
 
 @fragment

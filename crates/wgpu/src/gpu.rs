@@ -5,11 +5,12 @@ use crate::error::Errors;
 use crate::format;
 use crate::layout::Layout;
 use crate::limits::{Abilities, fetched};
+use crate::path::Shape;
 use crate::pipeline::Pipelines;
 use crate::pool::{Lease, Pool};
 use crate::target::Target;
 use etalon_backend::{BackendError, ReadFault};
-use etalon_frame::{Limits, TextureFormat};
+use etalon_frame::{Limits, PathTarget, PathValue, Requirement, TextureFormat};
 use std::rc::Rc;
 use wgpu::{BufferUsages, TextureUsages};
 
@@ -36,7 +37,7 @@ pub(crate) struct Gpu {
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct TextureKey {
     format: wgpu::TextureFormat,
-    size: [u32; 2],
+    shape: Shape,
     samples: u32,
 }
 
@@ -108,7 +109,10 @@ impl Gpu {
         format: TextureFormat,
         size: [u32; 2],
         samples: u32,
+        target: PathTarget,
     ) -> Result<TextureLease<'_>, BackendError> {
+        let shape = Shape::of(target, size);
+        self.check_target(target, shape)?;
         let known = format::known(format)?;
         let drawable = self.draws(format);
         let usage = match (samples, drawable) {
@@ -116,7 +120,26 @@ impl Gpu {
             (1, true) => fetched(format) | TextureUsages::RENDER_ATTACHMENT,
             _ => TextureUsages::TEXTURE_BINDING | TextureUsages::RENDER_ATTACHMENT,
         };
-        Ok(self.texture(known, size, samples, usage))
+        // Copies of depth end in another texture of its format.
+        let copied = match samples == 1 && self.abilities.copies {
+            true => TextureUsages::COPY_DST,
+            false => TextureUsages::empty(),
+        };
+        Ok(self.texture(known, shape, samples, usage | copied))
+    }
+
+    /// Checks that the device has textures as large as an attachment's target needs.
+    fn check_target(&self, target: PathTarget, shape: Shape) -> Result<(), BackendError> {
+        let limits = self.device.limits();
+        let most = match shape.dimension {
+            wgpu::TextureDimension::D3 => limits.max_texture_dimension_3d,
+            _ => limits.max_texture_dimension_2d,
+        };
+        let fits = shape.size.width.max(shape.size.height) <= most;
+        let value = Requirement::Path(PathValue::Target(target));
+        (fits || target == PathTarget::Plain)
+            .then_some(())
+            .ok_or(BackendError::NotSupported(value))
     }
 
     /// Returns true if attachments of the format can be drawn to.
@@ -128,33 +151,40 @@ impl Gpu {
     /// Returns a texture that a fetch renders to, with undefined contents.
     pub(crate) fn scratch(&self, format: wgpu::TextureFormat, size: [u32; 2]) -> TextureLease<'_> {
         let usage = fetched(TextureFormat::Rgba8Unorm) | TextureUsages::RENDER_ATTACHMENT;
-        self.texture(format, size, 1, usage)
+        let shape = Shape::of(PathTarget::Plain, size);
+        self.texture(format, shape, 1, usage)
     }
 
     /// The usages follow from format and sample count, so they are not part of the key.
     fn texture(
         &self,
         format: wgpu::TextureFormat,
-        size: [u32; 2],
+        shape: Shape,
         samples: u32,
         usage: TextureUsages,
     ) -> TextureLease<'_> {
-        let texels = u64::from(size[0]) * u64::from(size[1]) * u64::from(samples);
+        let wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: layers,
+        } = shape.size;
+        let sides = [width, height, layers, samples];
+        let texels: u64 = sides.into_iter().map(u64::from).product();
         // An estimate, without the device's padding.
         let bytes = texels * u64::from(format.block_copy_size(None).unwrap_or(8));
         let key = TextureKey {
             format,
-            size,
+            shape,
             samples,
         };
         let casts = [format.remove_srgb_suffix()];
         self.textures.take(key, bytes, || {
             let texture = self.device.create_texture(&wgpu::TextureDescriptor {
                 label: None,
-                size: extent(size),
-                mip_level_count: 1,
+                size: shape.size,
+                mip_level_count: shape.levels,
                 sample_count: samples,
-                dimension: wgpu::TextureDimension::D2,
+                dimension: shape.dimension,
                 format,
                 usage,
                 view_formats: if samples > 1 && format.is_srgb() {
@@ -163,7 +193,7 @@ impl Gpu {
                     &[]
                 },
             });
-            Rc::new(Target::new(texture))
+            Rc::new(Target::new(texture, shape))
         })
     }
 

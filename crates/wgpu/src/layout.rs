@@ -71,6 +71,8 @@ pub(crate) struct Layouts {
     pub(crate) none: Layout,
     /// One texture.
     pub(crate) texture: Layout,
+    /// One texture of integers.
+    pub(crate) integer_texture: Layout,
     /// One multisampled texture of floats.
     pub(crate) samples: Layout,
     /// One multisampled texture of integers.
@@ -85,6 +87,7 @@ impl Layouts {
             draws: Cache::default(),
             none: layout(device, &[]),
             texture: layout(device, &[entry(1, texture(float, false))]),
+            integer_texture: layout(device, &[entry(1, texture(integer, false))]),
             samples: layout(device, &[entry(1, texture(float, true))]),
             integers: layout(device, &[entry(1, texture(integer, true))]),
         }

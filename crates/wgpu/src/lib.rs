@@ -24,6 +24,7 @@ mod gpu;
 mod layout;
 mod limits;
 mod messages;
+mod path;
 mod pipeline;
 mod pool;
 mod prepared;

@@ -1,6 +1,6 @@
 //! The limits and features of an adapter.
 
-use crate::format;
+use crate::{format, path};
 use etalon_frame::{
     Api, ApiVersion, ChannelEncoding, Feature, FormatSupport, Limits, ReadPath, Requirement,
     TextureFormat, standard_sample_positions,
@@ -29,6 +29,7 @@ pub(crate) fn used_features() -> Features {
         | Features::DEPTH_CLIP_CONTROL
         | Features::PIPELINE_STATISTICS_QUERY
         | Features::SHADER_EARLY_DEPTH_TEST
+        | Features::INDIRECT_FIRST_INSTANCE
 }
 
 /// Abilities of an adapter that [`Limits`] do not contain.
@@ -252,6 +253,7 @@ pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abi
         .filter_map(|f| Some((f, support(adapter, features, abilities, f)?)))
         .collect();
     let max_size = of.max_texture_dimension_2d;
+    let offered = offered(flags, features, &of);
     Limits {
         api: Api::WebGpu,
         version: ApiVersion::UNKNOWN,
@@ -263,8 +265,8 @@ pub(crate) fn limits(adapter: &wgpu::Adapter, features: Features, abilities: Abi
             .max_color_attachments
             .min(of.max_color_attachment_bytes_per_sample / MOST_TEXEL_BYTES),
         formats,
-        features: offered(flags, features, &of),
-        paths: Default::default(),
+        paths: path::offered(flags, &offered),
+        features: offered,
         // WebGPU requires the standard ones of all adapters (Rasterization).
         sample_positions: BTreeMap::from([1, SAMPLES].map(|n| (n, standard_sample_positions(n)))),
     }

@@ -4,11 +4,14 @@ use crate::counting::Counting;
 use crate::fetch::FetchKey;
 use crate::gpu::{Gpu, TextureLease, extent};
 use crate::limits::{Abilities, read_path};
+use crate::state;
 use crate::target::Target;
 use crate::texel;
 use etalon_backend::codes::code_of_fetched;
 use etalon_backend::{BackendError, ReadFault};
-use etalon_frame::{Aspect, ChannelEncoding, Frame, Image, ReadPath, TextureFormat};
+use etalon_frame::{
+    Aspect, ChannelEncoding, Frame, Image, PathEnd, PathTarget, ReadPath, TextureFormat,
+};
 use wgpu::BufferUsages;
 
 /// The size of an `rgba32uint` texel.
@@ -21,6 +24,8 @@ pub(crate) struct Source<'a> {
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
     pub(crate) target: &'a Target,
+    /// The way to the host.
+    pub(crate) end: PathEnd,
 }
 
 /// The read-back of one aspect of an attachment.
@@ -41,6 +46,8 @@ struct ReadPlan<'a> {
 enum ReadMethod {
     /// Copied from the attachment.
     Copy,
+    /// Fetched by a shader, four values to a texel.
+    FetchTexel,
     /// Fetched by a shader as the bits of floats.
     FetchDepth,
     /// Fetched by a shader sample by sample, an image of four values each.
@@ -56,9 +63,23 @@ pub(crate) fn frame(
     sources: &[Source<'_>],
     counting: &Counting<'_>,
 ) -> Result<Frame, BackendError> {
+    let descriptor = wgpu::CommandEncoderDescriptor::default();
+    let mut encoder = gpu.device.create_command_encoder(&descriptor);
+    let copies = sources
+        .iter()
+        .map(|source| source.copy(gpu, &mut encoder))
+        .collect::<Result<Vec<_>, _>>()?;
+    let sources: Vec<_> = sources
+        .iter()
+        .zip(&copies)
+        .map(|(source, copy)| Source {
+            target: copy.as_ref().map_or(source.target, |copy| &***copy),
+            ..*source
+        })
+        .collect();
     let mut size = 0;
     let mut plans = Vec::new();
-    for source in sources {
+    for source in &sources {
         for aspect in source.format.aspects() {
             let plan = ReadPlan::new(source, *aspect, gpu.abilities, size);
             size += plan.bytes();
@@ -67,8 +88,8 @@ pub(crate) fn frame(
     }
     let usage = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
     let buffer = gpu.buffer(usage, size + counting.bytes());
-    let descriptor = wgpu::CommandEncoderDescriptor::default();
-    let mut encoder = gpu.device.create_command_encoder(&descriptor);
+    // A copy that is lost must not leave the codes of an earlier scene with the same picture.
+    encoder.clear_buffer(&buffer, 0, None);
     let mut scratch = Vec::new();
     for plan in &plans {
         plan.record(gpu, &mut encoder, &buffer, &mut scratch)?;
@@ -94,6 +115,57 @@ pub(crate) fn frame(
     Ok(frame)
 }
 
+impl Source<'_> {
+    /// Records the copy to another texture, if that is the way to the host.
+    fn copy<'g>(
+        &self,
+        gpu: &'g Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> Result<Option<TextureLease<'g>>, BackendError> {
+        if self.end != PathEnd::Copy {
+            return Ok(None);
+        }
+        let target = gpu.attachment(self.format, self.size, self.samples, PathTarget::Plain)?;
+        self.spoil(gpu, encoder, &target);
+        let all = wgpu::TextureAspect::All;
+        let (from, to) = (self.target.copied(all, [0, 0]), target.copied(all, [0, 0]));
+        encoder.copy_texture_to_texture(from, to, extent(self.size));
+        Ok(Some(target))
+    }
+
+    /// Fills the target of a copy with values that are left if the copy is lost.
+    fn spoil(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, target: &Target) {
+        let format = self.format;
+        let color = [Some(wgpu::RenderPassColorAttachment {
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(state::color(
+                    [if format.is_integer() { 77.0 } else { 0.3 }; 4],
+                )),
+                store: wgpu::StoreOp::Store,
+            },
+            ..cleared(target)
+        })];
+        let whole = wgpu::RenderPassDepthStencilAttachment {
+            view: &target.view,
+            depth_ops: format.has_depth().then_some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(0.3),
+                store: wgpu::StoreOp::Store,
+            }),
+            stencil_ops: format.has_stencil().then_some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(77),
+                store: wgpu::StoreOp::Store,
+            }),
+        };
+        if gpu.draws(format) {
+            encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                color_attachments: if format.is_color() { &color } else { &[] },
+                depth_stencil_attachment: (!format.is_color()).then_some(whole),
+                ..wgpu::RenderPassDescriptor::default()
+            });
+        }
+    }
+}
+
 impl<'a> ReadPlan<'a> {
     fn new(source: &'a Source<'a>, aspect: Aspect, abilities: Abilities, offset: u64) -> Self {
         let format = source.format;
@@ -108,7 +180,10 @@ impl<'a> ReadPlan<'a> {
         };
         let method = match aspect {
             _ if source.samples > 1 => ReadMethod::FetchSamples,
-            Aspect::Depth if path == ReadPath::Shader => ReadMethod::FetchDepth,
+            Aspect::Color if source.end == PathEnd::ShaderRead => ReadMethod::FetchTexel,
+            Aspect::Depth if path == ReadPath::Shader || source.end == PathEnd::ShaderRead => {
+                ReadMethod::FetchDepth
+            }
             Aspect::Stencil if !abilities.copies => ReadMethod::StencilBits,
             Aspect::Color | Aspect::Depth | Aspect::Stencil => ReadMethod::Copy,
         };
@@ -135,7 +210,7 @@ impl<'a> ReadPlan<'a> {
     /// Returns the size of a texel in the buffer.
     fn texel_bytes(&self) -> usize {
         match (self.method, self.aspect) {
-            (ReadMethod::FetchSamples, _) => SAMPLE_BYTES,
+            (ReadMethod::FetchSamples | ReadMethod::FetchTexel, _) => SAMPLE_BYTES,
             (ReadMethod::FetchDepth | ReadMethod::StencilBits, _) => 4,
             (ReadMethod::Copy, Aspect::Color) => texel::bytes(self.source.format),
             (ReadMethod::Copy, Aspect::Stencil) => 1,
@@ -152,7 +227,9 @@ impl<'a> ReadPlan<'a> {
 
     fn bytes(&self) -> u64 {
         match self.method {
-            ReadMethod::Copy | ReadMethod::FetchDepth => self.image_bytes(),
+            ReadMethod::Copy | ReadMethod::FetchDepth | ReadMethod::FetchTexel => {
+                self.image_bytes()
+            }
             ReadMethod::FetchSamples => u64::from(self.source.samples) * self.image_bytes(),
             ReadMethod::StencilBits => 2 * self.image_bytes(),
         }
@@ -175,7 +252,18 @@ impl<'a> ReadPlan<'a> {
                     Aspect::Depth => wgpu::TextureAspect::DepthOnly,
                     Aspect::Stencil => wgpu::TextureAspect::StencilOnly,
                 };
-                self.copy(encoder, &self.source.target.texture, aspect, buffer, 0);
+                self.copy(encoder, self.source.target, aspect, buffer, 0);
+            }
+            ReadMethod::FetchTexel => {
+                let layouts = &gpu.pipelines.layouts;
+                let (key, layout) = match self.source.format.is_integer() {
+                    true => (FetchKey::IntegerTexel, &layouts.integer_texture),
+                    false => (FetchKey::Texel, &layouts.texture),
+                };
+                let bindings = gpu.bound(layout, &[self.source.target.fetch()]);
+                let format = wgpu::TextureFormat::Rgba32Uint;
+                let fetched = (key, &bindings, format, 0);
+                scratch.push(self.fetch(gpu, encoder, buffer, fetched)?);
             }
             ReadMethod::FetchDepth => {
                 let layout = &gpu.pipelines.layouts.texture;
@@ -204,7 +292,7 @@ impl<'a> ReadPlan<'a> {
                     self.record_bits(gpu, encoder, &target, half)?;
                     let all = wgpu::TextureAspect::All;
                     let offset = u64::from(half) * self.image_bytes();
-                    self.copy(encoder, &target.texture, all, buffer, offset);
+                    self.copy(encoder, &target, all, buffer, offset);
                     scratch.push(target);
                 }
             }
@@ -232,7 +320,7 @@ impl<'a> ReadPlan<'a> {
         drop(pass);
         let offset = u64::from(sample) * self.image_bytes();
         let all = wgpu::TextureAspect::All;
-        self.copy(encoder, &target.texture, all, buffer, offset);
+        self.copy(encoder, &target, all, buffer, offset);
         Ok(target)
     }
 
@@ -266,31 +354,39 @@ impl<'a> ReadPlan<'a> {
     fn copy(
         &self,
         encoder: &mut wgpu::CommandEncoder,
-        texture: &wgpu::Texture,
+        texture: &Target,
         aspect: wgpu::TextureAspect,
         buffer: &wgpu::Buffer,
         offset: u64,
     ) {
-        let from = wgpu::TexelCopyTextureInfo {
-            aspect,
-            ..texture.as_image_copy()
+        let [width, height] = self.source.size;
+        let (columns, rows) = match self.source.end {
+            PathEnd::Part => (halves(width), halves(height)),
+            _ => (vec![(0, width)], vec![(0, height)]),
         };
-        let to = wgpu::TexelCopyBufferInfo {
-            buffer,
-            layout: wgpu::TexelCopyBufferLayout {
-                offset: self.offset + offset,
-                bytes_per_row: Some(self.pitch),
-                rows_per_image: None,
-            },
-        };
-        encoder.copy_texture_to_buffer(from, to, extent(self.source.size));
+        for (y, high) in rows {
+            for (x, wide) in &columns {
+                let texels = u64::from(*x) * self.texel_bytes() as u64;
+                let place = u64::from(y) * u64::from(self.pitch) + texels;
+                let to = wgpu::TexelCopyBufferInfo {
+                    buffer,
+                    layout: wgpu::TexelCopyBufferLayout {
+                        offset: self.offset + offset + place,
+                        bytes_per_row: Some(self.pitch),
+                        rows_per_image: None,
+                    },
+                };
+                let from = texture.copied(aspect, [*x, y]);
+                encoder.copy_texture_to_buffer(from, to, extent([*wide, high]));
+            }
+        }
     }
 
     /// Returns the image from the mapped buffer.
     fn image(&self, bytes: &[u8], fault: Option<ReadFault>) -> Image {
         let mut codes = match self.method {
             ReadMethod::Copy | ReadMethod::FetchDepth => self.copied(bytes),
-            ReadMethod::FetchSamples => self.samples(bytes),
+            ReadMethod::FetchSamples | ReadMethod::FetchTexel => self.samples(bytes),
             ReadMethod::StencilBits => {
                 let (low, high) = (self.texels(bytes, 0), self.texels(bytes, 1));
                 low.zip(high)
@@ -363,6 +459,14 @@ impl<'a> ReadPlan<'a> {
     }
 }
 
+/// Returns the beginnings and lengths of two unequal parts of a side, or of the side if it is one texel.
+fn halves(side: u32) -> Vec<(u32, u32)> {
+    match side * 2 / 5 {
+        0 => vec![(0, side)],
+        first => vec![(0, first), (first, side - first)],
+    }
+}
+
 fn cleared(target: &Target) -> wgpu::RenderPassColorAttachment<'_> {
     wgpu::RenderPassColorAttachment {
         view: &target.view,
@@ -379,5 +483,18 @@ fn unchanged<T>() -> wgpu::Operations<T> {
     wgpu::Operations {
         load: wgpu::LoadOp::Load,
         store: wgpu::StoreOp::Store,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_cover_a_side() {
+        assert_eq!(halves(1), [(0, 1)]);
+        assert_eq!(halves(2), [(0, 2)]);
+        assert_eq!(halves(5), [(0, 2), (2, 3)]);
+        assert_eq!(halves(16), [(0, 6), (6, 10)]);
     }
 }

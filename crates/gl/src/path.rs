@@ -1,0 +1,324 @@
+//! A path as OpenGL takes it: the values that a context has, and what each means for an attachment, a draw or
+//! a read.
+//!
+//! Everything else asks the functions here and not the path. A new value is a new answer of one of them.
+
+use crate::context::Context;
+use crate::support::{ReadPlan, Support};
+use etalon_frame::{
+    ChannelEncoding, Feature, PathArea, PathClip, PathCommands, PathDraws, PathEnd, PathPass,
+    PathState, PathTarget, PathValue, PathViewport,
+};
+use etalon_scene::{
+    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, CompareFunction,
+    Contents, CullMode, DepthBias, DepthState, Draw, FrontFace, LogicOperation, Multisample, Path,
+    SampleCoverage, Scene, StencilFace, StencilOperation, StencilState, Viewport,
+};
+use std::collections::BTreeSet;
+
+/// Returns the values that a context with these features has. Formats may lack some of them: [`target`] and
+/// [`end`] say so.
+pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeSet<PathValue> {
+    let caps = &context.caps;
+    let arrays = context.entry_points.viewport_array.is_some();
+    let has = |value: &PathValue| match *value {
+        PathValue::Start(_) | PathValue::Target(_) | PathValue::Commands(PathCommands::Several) => {
+            true
+        }
+        PathValue::Draws(PathDraws::BaseVertex) => features.contains(&Feature::BaseVertex),
+        PathValue::Draws(PathDraws::Indirect) => caps.indirect,
+        PathValue::Draws(_) => true,
+        PathValue::End(PathEnd::Copy) => caps.copy_image,
+        PathValue::End(_) => true,
+        PathValue::Clip(PathClip::Toggled) => caps.clip_control,
+        PathValue::State(PathState::Overwritten) => true,
+        PathValue::Viewport(PathViewport::Array) => arrays && caps.second_viewport,
+        PathValue::Viewport(_) => arrays,
+        // OpenGL has neither passes with objects, nor pipelines, nor command buffers, nor render areas.
+        PathValue::Pass(
+            PathPass::DynamicRendering | PathPass::RenderPass | PathPass::SecondSubpass,
+        )
+        | PathValue::State(
+            PathState::Dynamic
+            | PathState::Static
+            | PathState::ExtendedDynamic3
+            | PathState::OtherPipeline,
+        )
+        | PathValue::Commands(PathCommands::One | PathCommands::Secondary)
+        | PathValue::Area(PathArea::Full | PathArea::Part)
+        | PathValue::Clip(PathClip::Constant) => false,
+    };
+    PathValue::all().into_iter().filter(has).collect()
+}
+
+/// Returns the part of a texture that an attachment is. What an attachment cannot be is left plain: several
+/// samples, whose positions only textures with one layer promise; depth in three dimensions; texels of a
+/// renderbuffer that are uploaded or that a shader reads.
+pub(crate) fn target(scene: &Scene, index: usize, support: Option<&Support>) -> PathTarget {
+    let attachment = &scene.attachments[index];
+    let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
+    // Shaders of scenes know textures of two dimensions only.
+    let sampled = draws.any(|d| d.textures.contains(&index));
+    let fetched = scene.read.contains(&index)
+        && support.is_some_and(|s| by_shader(s.read) || reads_by_shader(scene, index, s));
+    let uploaded = matches!(attachment.contents, Contents::Texels(_));
+    let can = attachment.samples == 1
+        && match scene.path.target {
+            PathTarget::Plain | PathTarget::MipLevel => true,
+            PathTarget::ArrayLayer => !sampled,
+            PathTarget::Slice3d => !sampled && attachment.format.is_color(),
+            // No shader fetches texels of a cube.
+            PathTarget::CubeFace => {
+                !sampled && !fetched && attachment.size[0] == attachment.size[1]
+            }
+            PathTarget::Renderbuffer => {
+                let renders = support.is_some_and(|s| !s.limits.samples.is_empty());
+                !sampled && !fetched && !uploaded && renders
+            }
+        };
+    match can {
+        true => scene.path.target,
+        false => PathTarget::Plain,
+    }
+}
+
+fn by_shader(plan: ReadPlan) -> bool {
+    matches!(plan, ReadPlan::Fetched | ReadPlan::Shader { .. })
+}
+
+fn reads_by_shader(scene: &Scene, index: usize, support: &Support) -> bool {
+    end(scene, index, support) == PathEnd::ShaderRead
+}
+
+/// Returns the way of an attachment to the host. A blit of normalized colours may round, and a fetch does not
+/// determine the codes of some formats: these are read as they are by default.
+pub(crate) fn end(scene: &Scene, index: usize, support: &Support) -> PathEnd {
+    let attachment = &scene.attachments[index];
+    let format = attachment.format;
+    let exact = |e: &ChannelEncoding| e.is_float() || matches!(e, ChannelEncoding::Uint(_));
+    let twofold = |e: &ChannelEncoding| matches!(e, ChannelEncoding::Snorm(_));
+    let channels = format.color_channels();
+    let can = attachment.samples == 1
+        && match scene.path.end {
+            PathEnd::Store | PathEnd::Copy | PathEnd::Part => true,
+            PathEnd::Blit => channels.iter().all(exact),
+            PathEnd::ShaderRead => support.fetched_exactly && !channels.iter().any(twofold),
+        };
+    match can {
+        true => scene.path.end,
+        false => PathEnd::Store,
+    }
+}
+
+/// The vertex shader's part of a draw's path.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct Variant {
+    /// The shader mirrors y, since the clip volume's origin is the lower left.
+    pub(crate) mirrored: bool,
+    /// The shader names the second viewport.
+    pub(crate) second_viewport: bool,
+}
+
+/// Returns the variant of a pass's n-th draw. Every second one takes the other origin, where it changes.
+pub(crate) fn variant(path: &Path, number: usize) -> Variant {
+    Variant {
+        mirrored: path.clip == PathClip::Toggled && number % 2 == 1,
+        second_viewport: path.viewport == PathViewport::Array,
+    }
+}
+
+/// Returns a draw that differs in all state that every context can set, but not in what is drawn.
+pub(crate) fn other(draw: &Draw) -> Draw {
+    let face = StencilFace {
+        compare: CompareFunction::Never,
+        fail_op: StencilOperation::Invert,
+        depth_fail_op: StencilOperation::Invert,
+        pass_op: StencilOperation::Invert,
+        read_mask: 0x55,
+        write_mask: 0x55,
+        reference: 0xaa,
+    };
+    let sum = BlendComponent {
+        operation: BlendOperation::ReverseSubtract,
+        src_factor: BlendFactor::One,
+        dst_factor: BlendFactor::One,
+    };
+    let opposite = |target: &ColorTarget| ColorTarget {
+        blend: Some(BlendState {
+            color: sum,
+            alpha: sum,
+        }),
+        write_mask: !target.write_mask & 0b1111,
+    };
+    Draw {
+        cull: match draw.cull {
+            CullMode::Front => CullMode::Back,
+            CullMode::Back => CullMode::Front,
+            CullMode::None | CullMode::FrontAndBack => CullMode::FrontAndBack,
+        },
+        front_face: match draw.front_face {
+            FrontFace::Ccw => FrontFace::Cw,
+            FrontFace::Cw => FrontFace::Ccw,
+        },
+        rasterizer_discard: true,
+        viewport: Viewport {
+            rect: [0.0, 0.0, 1.0, 1.0],
+            depth: [0.5, 0.5],
+        },
+        scissor: Some([0, 0, 1, 1]),
+        depth_bias: DepthBias {
+            constant: 1000,
+            slope: 2.0,
+            clamp: 0.0,
+        },
+        depth_clamp: !draw.depth_clamp,
+        depth_bounds: Some([0.999_999, 0.999_999_5]),
+        depth: Some(DepthState {
+            compare: CompareFunction::Never,
+            write: draw.depth.is_none_or(|d| !d.write),
+        }),
+        stencil: Some(StencilState {
+            front: face,
+            back: face,
+        }),
+        targets: draw.targets.iter().map(opposite).collect(),
+        logic: Some(LogicOperation::Clear),
+        multisample: Multisample {
+            mask: 0,
+            alpha_to_coverage: !draw.multisample.alpha_to_coverage,
+            alpha_to_one: !draw.multisample.alpha_to_one,
+            min_sample_shading: Some(1.0),
+            sample_coverage: Some(SampleCoverage {
+                value: 0.0,
+                invert: false,
+            }),
+        },
+        blend_constant: draw.blend_constant.map(|v| if v > 0.5 { 0.0 } else { 1.0 }),
+        ..draw.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::support::ShaderStencil;
+    use etalon_frame::{FormatSupport, ReadPath, TextureFormat};
+    use etalon_scene::{Attachment, Mesh, Pass, Shader};
+
+    fn support(read: ReadPlan) -> Support {
+        Support {
+            limits: FormatSupport {
+                samples: vec![1, 4],
+                blendable: true,
+                depth: Vec::new(),
+                read: ReadPath::Copy,
+            },
+            read,
+            fetched_exactly: true,
+        }
+    }
+
+    /// A scene that reads one attachment, by a path with a target and an end.
+    fn scene(format: TextureFormat, samples: u32, target: PathTarget, end: PathEnd) -> Scene {
+        Scene {
+            attachments: vec![Attachment {
+                name: String::new(),
+                format,
+                size: [8, 8],
+                samples,
+                contents: Contents::Color([0.0; 4]),
+            }],
+            passes: vec![Pass::default()],
+            read: vec![0],
+            counters: Vec::new(),
+            path: Path {
+                target,
+                end,
+                ..Path::default()
+            },
+        }
+    }
+
+    #[test]
+    fn attachments_are_the_parts_that_they_can_be() {
+        let copied = support(ReadPlan::Packed);
+        let depth = true;
+        let fetched = support(ReadPlan::Shader {
+            depth,
+            stencil: ShaderStencil::None,
+        });
+        let color = TextureFormat::Rgba8Unorm;
+        let of = |format, samples, due, support| {
+            target(
+                &scene(format, samples, due, PathEnd::Store),
+                0,
+                Some(support),
+            )
+        };
+        for due in PathTarget::ALL.iter().copied() {
+            assert_eq!(of(color, 1, due, &copied), due);
+            assert_eq!(of(color, 4, due, &copied), PathTarget::Plain);
+        }
+        let near = TextureFormat::Depth24Plus;
+        for (due, found) in [
+            (PathTarget::ArrayLayer, PathTarget::ArrayLayer),
+            (PathTarget::Slice3d, PathTarget::Plain),
+            (PathTarget::CubeFace, PathTarget::Plain),
+            (PathTarget::Renderbuffer, PathTarget::Plain),
+        ] {
+            assert_eq!(of(near, 1, due, &fetched), found);
+        }
+    }
+
+    #[test]
+    fn what_would_round_is_read_by_default() {
+        let of = |format, samples, due| {
+            let scene = scene(format, samples, PathTarget::Plain, due);
+            end(&scene, 0, &support(ReadPlan::Packed))
+        };
+        let unorm = TextureFormat::Rgba8Unorm;
+        assert_eq!(of(unorm, 1, PathEnd::Blit), PathEnd::Store);
+        let float = TextureFormat::Rgba16Float;
+        assert_eq!(of(float, 1, PathEnd::Blit), PathEnd::Blit);
+        assert_eq!(of(float, 4, PathEnd::Blit), PathEnd::Store);
+        assert_eq!(of(unorm, 1, PathEnd::ShaderRead), PathEnd::ShaderRead);
+        let snorm = TextureFormat::Rgba8Snorm;
+        assert_eq!(of(snorm, 1, PathEnd::ShaderRead), PathEnd::Store);
+        assert_eq!(of(snorm, 1, PathEnd::Part), PathEnd::Part);
+    }
+
+    #[test]
+    fn every_second_draw_takes_the_other_origin() {
+        let path = Path {
+            clip: PathClip::Toggled,
+            ..Path::default()
+        };
+        let mirrored = [0, 1, 2].map(|number| variant(&path, number).mirrored);
+        assert_eq!(mirrored, [false, true, false]);
+        assert_eq!(variant(&Path::default(), 1), Variant::default());
+    }
+
+    #[test]
+    fn all_state_of_another_draw_differs() {
+        let mesh = Mesh {
+            vertices: Vec::new(),
+            indices: None,
+        };
+        let own = Draw::new(Shader::FlatColor, mesh, Viewport::whole([8, 8]));
+        let other = other(&own);
+        assert_ne!(other.cull, own.cull);
+        assert_ne!(other.front_face, own.front_face);
+        assert_ne!(other.rasterizer_discard, own.rasterizer_discard);
+        assert_ne!(other.viewport, own.viewport);
+        assert_ne!(other.scissor, own.scissor);
+        assert_ne!(other.depth_bias, own.depth_bias);
+        assert_ne!(other.depth_clamp, own.depth_clamp);
+        assert_ne!(other.depth_bounds, own.depth_bounds);
+        assert_ne!(other.depth, own.depth);
+        assert_ne!(other.stencil, own.stencil);
+        assert_ne!(other.logic, own.logic);
+        assert_ne!(other.blend_constant, own.blend_constant);
+        assert_ne!(other.multisample, own.multisample);
+        assert_eq!(other.mesh, own.mesh);
+    }
+}

@@ -1,0 +1,293 @@
+//! A path as WebGPU takes it: the values that an adapter has, and what each means for an attachment, a draw or
+//! a read.
+//!
+//! Everything else asks the functions here and not the path. A new value is a new answer of one of them.
+
+use etalon_frame::{
+    ChannelEncoding, Feature, PathCommands, PathDraws, PathEnd, PathStart, PathState, PathTarget,
+    PathValue, TextureFormat,
+};
+use etalon_scene::{ColorTarget, Draw, Multisample, PolygonMode, Scene};
+use std::collections::BTreeSet;
+use wgpu::DownlevelFlags;
+
+/// Returns the values that an adapter with these features has. Formats may lack some of them: [`target`] and
+/// [`end`] say so.
+pub(crate) fn offered(flags: DownlevelFlags, features: &BTreeSet<Feature>) -> BTreeSet<PathValue> {
+    let has = |value: &PathValue| match *value {
+        PathValue::Start(PathStart::LoadOperation | PathStart::Draw) => true,
+        PathValue::Target(target) => target != PathTarget::Renderbuffer,
+        // A secondary command buffer is a render bundle.
+        PathValue::Commands(_) => true,
+        PathValue::Draws(PathDraws::BaseVertex) => features.contains(&Feature::BaseVertex),
+        PathValue::Draws(PathDraws::Indirect) => flags.contains(DownlevelFlags::INDIRECT_EXECUTION),
+        PathValue::Draws(_) => true,
+        PathValue::End(end) => end != PathEnd::Blit,
+        PathValue::State(PathState::Overwritten | PathState::OtherPipeline) => true,
+        // Viewports, scissor rectangles, the blend constant and the stencil reference are never part of a
+        // pipeline, everything else always is.
+        PathValue::State(PathState::Dynamic | PathState::Static | PathState::ExtendedDynamic3)
+        | PathValue::Start(PathStart::Transfer | PathStart::ClearCommand)
+        | PathValue::Pass(_)
+        | PathValue::Area(_)
+        | PathValue::Clip(_)
+        | PathValue::Viewport(_) => false,
+    };
+    PathValue::all().into_iter().filter(has).collect()
+}
+
+/// Returns the part of a texture that an attachment is. What an attachment cannot be is left plain: several
+/// samples have one level and layer (GPUTextureDescriptor), depth has two dimensions, and shaders of scenes
+/// see no slice of three.
+pub(crate) fn target(scene: &Scene, index: usize) -> PathTarget {
+    let attachment = &scene.attachments[index];
+    let read_by_shader = || {
+        let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
+        let read = scene.path.end == PathEnd::ShaderRead && scene.read.contains(&index);
+        read || draws.any(|d| d.textures.contains(&index))
+    };
+    let resolved = || {
+        let mut passes = scene.passes.iter();
+        passes.any(|p| p.resolve.contains(&Some(index)))
+    };
+    let can = attachment.samples == 1
+        && match scene.path.target {
+            PathTarget::Plain | PathTarget::MipLevel | PathTarget::ArrayLayer => true,
+            PathTarget::CubeFace => attachment.size[0] == attachment.size[1],
+            PathTarget::Slice3d => attachment.format.is_color() && !read_by_shader() && !resolved(),
+            PathTarget::Renderbuffer => false,
+        };
+    match can {
+        true => scene.path.target,
+        false => PathTarget::Plain,
+    }
+}
+
+/// The texture that an attachment is a part of.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct Shape {
+    pub(crate) size: wgpu::Extent3d,
+    pub(crate) dimension: wgpu::TextureDimension,
+    pub(crate) levels: u32,
+    /// The level of the attachment.
+    pub(crate) level: u32,
+    /// The layer, face or slice of the attachment.
+    pub(crate) layer: u32,
+}
+
+impl Shape {
+    pub(crate) fn of(target: PathTarget, [width, height]: [u32; 2]) -> Self {
+        let size = |width, height, depth_or_array_layers| wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers,
+        };
+        let plain = Self {
+            size: size(width, height, 1),
+            dimension: wgpu::TextureDimension::D2,
+            levels: 1,
+            level: 0,
+            layer: 0,
+        };
+        match target {
+            PathTarget::Plain | PathTarget::Renderbuffer => plain,
+            PathTarget::MipLevel => Self {
+                // Odd sizes, which are rounded down from level to level.
+                size: size(2 * width + 1, 2 * height + 1, 1),
+                levels: 2,
+                level: 1,
+                ..plain
+            },
+            PathTarget::ArrayLayer => Self {
+                size: size(width, height, 3),
+                layer: 2,
+                ..plain
+            },
+            PathTarget::CubeFace => Self {
+                size: size(width, height, 6),
+                layer: 4,
+                ..plain
+            },
+            PathTarget::Slice3d => Self {
+                size: size(width, height, 4),
+                dimension: wgpu::TextureDimension::D3,
+                layer: 3,
+                ..plain
+            },
+        }
+    }
+
+    /// The slice of a three-dimensional texture.
+    pub(crate) fn slice(self) -> Option<u32> {
+        (self.dimension == wgpu::TextureDimension::D3).then_some(self.layer)
+    }
+}
+
+/// What an adapter does by default with attachments of a format.
+#[derive(Clone, Copy)]
+pub(crate) struct Reading {
+    /// Depth and stencil can be copied.
+    pub(crate) copies: bool,
+    /// A shader fetches depth.
+    pub(crate) fetches: bool,
+}
+
+/// Returns the way of an attachment to the host. Depth and stencil are copied as a whole (11.2.4), and a
+/// fetch does not determine the codes of some formats: these are read as they are by default.
+pub(crate) fn end(scene: &Scene, index: usize, reading: Reading) -> PathEnd {
+    let attachment = &scene.attachments[index];
+    let format = attachment.format;
+    let can = attachment.samples == 1
+        && match scene.path.end {
+            PathEnd::Store => true,
+            PathEnd::Copy => format.is_color() || reading.copies,
+            PathEnd::Part => format.is_color(),
+            PathEnd::ShaderRead => is_fetched_exactly(format, reading),
+            PathEnd::Blit => false,
+        };
+    match can {
+        true => scene.path.end,
+        false => PathEnd::Store,
+    }
+}
+
+/// As for samples, but that views of one sample convert sRGB. Stencil is never fetched.
+fn is_fetched_exactly(format: TextureFormat, reading: Reading) -> bool {
+    let exact = |encoding: &ChannelEncoding| match encoding {
+        ChannelEncoding::Snorm(_) | ChannelEncoding::Srgb8 => false,
+        ChannelEncoding::Unorm(bits) => *bits <= 10,
+        _ => true,
+    };
+    let floats = format.depth_encodings() == [ChannelEncoding::Float32];
+    match format.is_color() {
+        true => format.color_channels().iter().all(exact),
+        false => format.has_depth() && (floats || reading.fetches),
+    }
+}
+
+/// Returns a draw whose pipeline differs from this one's.
+pub(crate) fn other(draw: &Draw) -> Draw {
+    Draw {
+        targets: draw
+            .targets
+            .iter()
+            .map(|_| ColorTarget {
+                blend: None,
+                write_mask: 0,
+            })
+            .collect(),
+        polygon_mode: PolygonMode::Fill,
+        depth_clamp: false,
+        multisample: Multisample::default(),
+        ..draw.clone()
+    }
+}
+
+/// Returns the passes of each command buffer.
+pub(crate) fn commands(scene: &Scene) -> Vec<std::ops::Range<usize>> {
+    let passes = scene.passes.len();
+    match scene.path.commands {
+        PathCommands::Several if passes > 0 => (0..passes).map(|n| n..n + 1).collect(),
+        PathCommands::One | PathCommands::Several | PathCommands::Secondary => {
+            std::iter::once(0..passes).collect()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_scene::{Attachment, Contents, Pass, Path};
+
+    const READING: Reading = Reading {
+        copies: true,
+        fetches: false,
+    };
+
+    /// A scene of two passes that reads one attachment, by a path.
+    fn scene(format: TextureFormat, samples: u32, path: Path) -> Scene {
+        Scene {
+            attachments: vec![Attachment {
+                name: String::new(),
+                format,
+                size: [8, 8],
+                samples,
+                contents: Contents::Color([0.0; 4]),
+            }],
+            passes: vec![Pass::default(), Pass::default()],
+            read: vec![0],
+            counters: Vec::new(),
+            path,
+        }
+    }
+
+    #[test]
+    fn values_follow_what_the_adapter_has() {
+        let base = PathValue::Draws(PathDraws::BaseVertex);
+        let indirect = PathValue::Draws(PathDraws::Indirect);
+        let none = offered(DownlevelFlags::empty(), &BTreeSet::new());
+        assert!(!none.contains(&base) && !none.contains(&indirect));
+        let all = offered(
+            DownlevelFlags::all(),
+            &BTreeSet::from([Feature::BaseVertex]),
+        );
+        assert!(all.contains(&base) && all.contains(&indirect));
+        assert!(!all.contains(&PathValue::Target(PathTarget::Renderbuffer)));
+    }
+
+    #[test]
+    fn attachments_are_the_parts_that_they_can_be() {
+        let of = |format, samples, due| {
+            let path = Path {
+                target: due,
+                ..Path::default()
+            };
+            target(&scene(format, samples, path), 0)
+        };
+        let (color, depth) = (TextureFormat::Rgba8Unorm, TextureFormat::Depth32Float);
+        assert_eq!(of(color, 1, PathTarget::Slice3d), PathTarget::Slice3d);
+        assert_eq!(of(depth, 1, PathTarget::Slice3d), PathTarget::Plain);
+        assert_eq!(of(depth, 1, PathTarget::CubeFace), PathTarget::CubeFace);
+        assert_eq!(of(color, 4, PathTarget::ArrayLayer), PathTarget::Plain);
+        let mip = Shape::of(PathTarget::MipLevel, [8, 5]);
+        assert_eq!(
+            (mip.size.width >> mip.level, mip.size.height >> mip.level),
+            (8, 5)
+        );
+        assert_eq!(Shape::of(PathTarget::Slice3d, [8, 8]).slice(), Some(3));
+        assert_eq!(Shape::of(PathTarget::ArrayLayer, [8, 8]).slice(), None);
+    }
+
+    #[test]
+    fn what_would_round_is_read_by_default() {
+        let of = |format, due| {
+            let path = Path {
+                end: due,
+                ..Path::default()
+            };
+            end(&scene(format, 1, path), 0, READING)
+        };
+        let color = TextureFormat::Rgba8Unorm;
+        assert_eq!(of(color, PathEnd::ShaderRead), PathEnd::ShaderRead);
+        let srgb = TextureFormat::Rgba8UnormSrgb;
+        assert_eq!(of(srgb, PathEnd::ShaderRead), PathEnd::Store);
+        let short = TextureFormat::Depth16Unorm;
+        assert_eq!(of(short, PathEnd::ShaderRead), PathEnd::Store);
+        let depth = TextureFormat::Depth32Float;
+        assert_eq!(of(depth, PathEnd::ShaderRead), PathEnd::ShaderRead);
+        assert_eq!(of(depth, PathEnd::Part), PathEnd::Store);
+    }
+
+    #[test]
+    fn each_pass_has_a_command_buffer() {
+        let of = |due| {
+            let path = Path {
+                commands: due,
+                ..Path::default()
+            };
+            commands(&scene(TextureFormat::Rgba8Unorm, 1, path))
+        };
+        assert_eq!(of(PathCommands::One).first(), Some(&(0..2)));
+        assert_eq!(of(PathCommands::Several), [0..1, 1..2]);
+    }
+}
