@@ -476,7 +476,7 @@ fn a_folder_in_use_or_with_a_run_is_left_alone() {
         .stderr(Stdio::null())
         .spawn()
         .unwrap();
-    wait_for_records(&mut first, out.path());
+    wait_for_progress(&mut first, out.path(), 0);
     let again = |more: &[&str]| {
         let mut command = etalon(&RUN);
         command.arg("--out").arg(out.path()).args(more).assert()
