@@ -15,9 +15,11 @@
 
 mod call_fault;
 pub mod codes;
+mod halves;
 mod read_fault;
 
 pub use call_fault::CallFault;
+pub use halves::halves;
 pub use read_fault::ReadFault;
 
 use etalon_frame::{Frame, Limits, Requirement};

@@ -8,8 +8,8 @@ use crate::program::{Programs, Reader, View};
 use crate::state;
 use crate::support::{ReadPlan, ShaderStencil};
 use crate::surface::{Storage, Surface, SurfaceKind};
-use etalon_backend::BackendError;
 use etalon_backend::codes::code_of_float;
+use etalon_backend::{BackendError, halves};
 use etalon_frame::{Aspect, ChannelEncoding, Image, PathEnd, PathTarget, ReadPath, TextureFormat};
 use glow::HasContext;
 
@@ -373,23 +373,24 @@ fn read_pixels<T: bytemuck::Pod>(
     into: &mut [T],
     parted: bool,
 ) {
-    let [width, height] = size.map(|side| side as i32);
+    let [width, height] = size;
     let (columns, rows) = match parted {
         true => (halves(width), halves(height)),
         false => (vec![(0, width)], vec![(0, height)]),
     };
-    for (y, high) in rows {
-        for (x, wide) in &columns {
+    let native = |(first, length): (u32, u32)| (first as i32, length as i32);
+    for (y, high) in rows.into_iter().map(native) {
+        for (x, wide) in columns.iter().copied().map(native) {
             let bytes = bytemuck::cast_slice_mut(into);
             let pixels = glow::PixelPackData::Slice(Some(bytes));
             // SAFETY: rows are as long as the image's and packed tightly, the parts lie inside of it, and
             // the callers size the slice by format and type.
             unsafe {
                 gl.pixel_store_i32(glow::PACK_ALIGNMENT, 1);
-                gl.pixel_store_i32(glow::PACK_ROW_LENGTH, width);
-                gl.pixel_store_i32(glow::PACK_SKIP_PIXELS, *x);
+                gl.pixel_store_i32(glow::PACK_ROW_LENGTH, width as i32);
+                gl.pixel_store_i32(glow::PACK_SKIP_PIXELS, x);
                 gl.pixel_store_i32(glow::PACK_SKIP_ROWS, y);
-                gl.read_pixels(*x, y, *wide, high, format, kind, pixels);
+                gl.read_pixels(x, y, wide, high, format, kind, pixels);
             }
         }
     }
@@ -400,14 +401,6 @@ fn read_pixels<T: bytemuck::Pod>(
     ] {
         // SAFETY: the context is current.
         unsafe { gl.pixel_store_i32(name, 0) };
-    }
-}
-
-/// Returns the beginnings and lengths of two unequal parts of a side, or of the side if it is one texel.
-fn halves(side: i32) -> Vec<(i32, i32)> {
-    match side * 2 / 5 {
-        0 => vec![(0, side)],
-        first => vec![(0, first), (first, side - first)],
     }
 }
 
@@ -502,18 +495,5 @@ fn blit(context: &Context, format: TextureFormat, from: &Surface, to: &Surface) 
         gl.bind_framebuffer(glow::READ_FRAMEBUFFER, Some(from.framebuffer));
         gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, Some(to.framebuffer));
         gl.blit_framebuffer(0, 0, w, h, 0, 0, w, h, mask, glow::NEAREST);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn parts_cover_a_side() {
-        assert_eq!(halves(1), [(0, 1)]);
-        assert_eq!(halves(2), [(0, 2)]);
-        assert_eq!(halves(5), [(0, 2), (2, 3)]);
-        assert_eq!(halves(16), [(0, 6), (6, 10)]);
     }
 }

@@ -10,8 +10,8 @@ use crate::texels::Texels;
 use crate::verdict::verdict;
 use crate::walk::Walk;
 use etalon_frame::{
-    Api, ApiVersion, CountRange, Frame, LegalSet, LegalSetBuilder, Limits, Story, StoryLine,
-    TexelSet,
+    Api, ApiVersion, CountRange, FormatSupport, Frame, LegalSet, LegalSetBuilder, Limits, Story,
+    StoryLine, TexelSet,
 };
 use etalon_scene::{Draw, Scene};
 use rustc_hash::FxHashMap;
@@ -84,26 +84,32 @@ pub fn judgements_by(
 /// Returns the limits that the legal sets of a scene depend on; the others have the same values for all
 /// adapters.
 fn basis(scene: &Scene, limits: &Limits) -> Limits {
-    let formats = scene.formats();
-    let counts: BTreeSet<u32> = scene.attachments.iter().map(|a| a.samples).collect();
-    let mut basis = limits.clone();
-    // The rules tell what depends on these.
-    basis.api = Api::Vulkan;
-    basis.version = ApiVersion::UNKNOWN;
-    basis.properties.clear();
-    basis.features.clear();
-    basis.exempt.clear();
-    basis.max_size = 0;
-    basis.max_color_attachments = 0;
-    basis.formats.retain(|format, _| formats.contains(format));
-    for support in basis.formats.values_mut() {
-        support.samples.clear();
-        support.blendable = false;
+    let formats = scene.formats().into_iter().filter_map(|format| {
+        let support = limits.formats.get(&format)?;
+        let basis = FormatSupport {
+            samples: Vec::new(),
+            blendable: false,
+            depth: support.depth.clone(),
+            read: support.read,
+        };
+        Some((format, basis))
+    });
+    let counts = scene.attachments.iter().map(|a| a.samples);
+    let positions = counts.filter_map(|n| Some((n, limits.sample_positions.get(&n)?.clone())));
+    Limits {
+        // The rules tell what depends on these three.
+        api: Api::Vulkan,
+        version: ApiVersion::UNKNOWN,
+        properties: BTreeSet::new(),
+        sub_pixel_bits: limits.sub_pixel_bits,
+        max_size: 0,
+        max_color_attachments: 0,
+        formats: formats.collect(),
+        features: BTreeSet::new(),
+        paths: BTreeSet::new(),
+        exempt: BTreeSet::new(),
+        sample_positions: positions.collect(),
     }
-    basis
-        .sample_positions
-        .retain(|count, _| counts.contains(count));
-    basis
 }
 
 /// Returns the legal set of all attachments that the scene reads back. Of a depth format with several

@@ -47,7 +47,7 @@ pub use fit::{Fitted, fit};
 pub use interval::Interval;
 pub use judge::{Judgement, explain, judge, judge_some, judgements, judgements_by, judgements_of};
 pub use judging::{Judging, Range};
-pub use rules::{Permission, Rules};
+pub use rules::{AskedValues, Permission, Rules};
 pub use sample::Sample;
 pub use texels::Texels;
 pub use walk::codes_text;

@@ -4,7 +4,7 @@
 use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::{LegalSet, Limits};
-use etalon_reference::{Judgement, Rules, Texels, judge_some, judgements_by};
+use etalon_reference::{AskedValues, Judgement, Rules, Texels, judge_some, judgements_by};
 use etalon_scene::Scene;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
@@ -26,10 +26,10 @@ pub(crate) fn judged_texels(case: &Case) -> Texels {
 type Key = (usize, usize, Limits);
 type Entry = Arc<Mutex<Vec<Known>>>;
 
-/// A legal set, and the values of the permissions that it was computed by, by their place.
+/// A legal set, and the permissions that it was computed by.
 #[derive(Debug)]
 struct Known {
-    asked: Vec<(usize, String)>,
+    asked: AskedValues,
     set: Arc<LegalSet>,
 }
 
@@ -69,17 +69,13 @@ impl JudgementCache {
         let entry = Arc::clone(lock(&self.0).entries.entry(key.clone()).or_default());
         // Who comes second waits: most sets serve both.
         let mut all = lock(&entry);
-        let values = rules.values();
-        let serves = |known: &&Known| known.asked.iter().all(|(i, value)| values[*i] == *value);
-        if let Some(known) = all.iter().find(serves) {
+        if let Some(known) = all.iter().find(|known| rules.agree_on(&known.asked)) {
             return Arc::clone(&known.set);
         }
         let rules = rules.clone();
         let set = Arc::new(judge(&rules));
-        let asked = rules.asked().into_iter().zip(values).enumerate();
-        let asked = asked.filter_map(|(i, (asked, value))| asked.then_some((i, value)));
         all.push(Known {
-            asked: asked.collect(),
+            asked: rules.asked(),
             set: Arc::clone(&set),
         });
         drop(all);

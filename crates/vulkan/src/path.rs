@@ -4,6 +4,7 @@
 //! Everything else asks the functions here and not the path. A new value is a new answer of one of them.
 
 use crate::device::Device;
+use crate::extended;
 use crate::format::{self, Native};
 use crate::image::ImageKey;
 use crate::samples;
@@ -13,7 +14,7 @@ use etalon_frame::{
     Aspect, ChannelEncoding, PathArea, PathClip, PathEnd, PathState, PathTarget, PathValue,
     PathViewport, Requirement, TextureFormat,
 };
-use etalon_scene::{Attachment, ColorTarget, Draw, Multisample, Path, PolygonMode, Scene};
+use etalon_scene::{Attachment, Draw, Multisample, Path, Scene};
 use std::collections::BTreeSet;
 
 /// Returns the values that a device has. Formats may lack some of them: [`target`] and [`end`] say so.
@@ -143,16 +144,9 @@ pub(crate) fn areas(path: &Path, [width, height]: [u32; 2]) -> Vec<vk::Rect2D> {
 
 /// Returns a draw whose pipeline differs from this one's in what a pipeline holds.
 pub(crate) fn other(draw: &Draw) -> Draw {
-    let opposite = |target: &ColorTarget| ColorTarget {
-        blend: None,
-        write_mask: !target.write_mask & 0b1111,
-    };
     Draw {
-        targets: draw.targets.iter().map(opposite).collect(),
         logic: None,
-        polygon_mode: PolygonMode::Fill,
-        depth_clamp: false,
         multisample: Multisample::default(),
-        ..draw.clone()
+        ..extended::held(draw)
     }
 }

@@ -8,7 +8,7 @@ use crate::state;
 use crate::target::Target;
 use crate::texel;
 use etalon_backend::codes::code_of_fetched;
-use etalon_backend::{BackendError, ReadFault};
+use etalon_backend::{BackendError, ReadFault, halves};
 use etalon_frame::{
     Aspect, ChannelEncoding, Frame, Image, PathEnd, PathTarget, ReadPath, TextureFormat,
 };
@@ -459,14 +459,6 @@ impl<'a> ReadPlan<'a> {
     }
 }
 
-/// Returns the beginnings and lengths of two unequal parts of a side, or of the side if it is one texel.
-fn halves(side: u32) -> Vec<(u32, u32)> {
-    match side * 2 / 5 {
-        0 => vec![(0, side)],
-        first => vec![(0, first), (first, side - first)],
-    }
-}
-
 fn cleared(target: &Target) -> wgpu::RenderPassColorAttachment<'_> {
     wgpu::RenderPassColorAttachment {
         view: &target.view,
@@ -483,18 +475,5 @@ fn unchanged<T>() -> wgpu::Operations<T> {
     wgpu::Operations {
         load: wgpu::LoadOp::Load,
         store: wgpu::StoreOp::Store,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn parts_cover_a_side() {
-        assert_eq!(halves(1), [(0, 1)]);
-        assert_eq!(halves(2), [(0, 2)]);
-        assert_eq!(halves(5), [(0, 2), (2, 3)]);
-        assert_eq!(halves(16), [(0, 6), (6, 10)]);
     }
 }

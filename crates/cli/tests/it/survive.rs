@@ -403,16 +403,8 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
 
 /// Waits until a run has written some records.
 fn wait_for_records(child: &mut Child, out: &Path) {
-    let start = Instant::now();
-    loop {
-        let text = fs::read_to_string(out.join("run.jsonl")).unwrap_or_default();
-        if text.lines().count() > 5 {
-            return;
-        }
-        assert!(child.try_wait().unwrap().is_none(), "it ended too early");
-        assert!(start.elapsed() < Duration::from_secs(60), "no records come");
-        sleep(Duration::from_millis(2));
-    }
+    wait_for_progress(child, out, 4);
+    assert!(records_in(out) > 4, "it ended too early");
 }
 
 #[test]

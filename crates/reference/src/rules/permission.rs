@@ -43,6 +43,17 @@ impl<T: Copy> Permission<T> {
     }
 }
 
+/// Permissions that were asked for, by name, with their values as text.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct AskedValues(Vec<(&'static str, String)>);
+
+impl AskedValues {
+    /// Returns the names of the permissions.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.0.iter().map(|(name, _)| *name)
+    }
+}
+
 /// True if a permission was asked for since it was made or cloned. It is no part of what the permission is.
 #[derive(Debug, Default)]
 struct Asked(AtomicBool);
@@ -314,16 +325,22 @@ macro_rules! rules {
                 }
             }
 
-            /// Returns the values of all permissions as text. Rules with the same values give the same
-            /// legal sets, whatever they cite.
-            pub fn values(&self) -> Vec<String> {
-                vec![$(format!("{:?}", self.$field.value)),+]
+            /// Returns the permissions that were asked for since these rules were made or cloned.
+            pub fn asked(&self) -> AskedValues {
+                let mut asked = AskedValues::default();
+                $(if self.$field.asked.0.load(Ordering::Relaxed) {
+                    asked.0.push((stringify!($field), format!("{:?}", self.$field.value)));
+                })+
+                asked
             }
 
-            /// Returns, of each permission in the order of [`Rules::values`], true if it was asked for since
-            /// these rules were made or cloned. Rules that agree on these give the same results.
-            pub fn asked(&self) -> Vec<bool> {
-                vec![$(self.$field.asked.0.load(Ordering::Relaxed)),+]
+            /// True if the values that were asked for of other rules are these rules' too. What was computed
+            /// by those then holds by these, whatever they cite.
+            pub fn agree_on(&self, asked: &AskedValues) -> bool {
+                asked.0.iter().all(|(name, value)| match *name {
+                    $(stringify!($field) => format!("{:?}", self.$field.value) == *value,)+
+                    _ => false,
+                })
             }
 
             /// Returns every permission's name, citation and grade.

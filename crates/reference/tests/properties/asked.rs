@@ -3,13 +3,13 @@
 use crate::common::{APIS, limits};
 use etalon_case::{Library, Profile};
 use etalon_frame::{ApiVersion, LegalSet, Limits};
-use etalon_reference::{Rules, Texels, judge_some, judgements_by};
+use etalon_reference::{AskedValues, Rules, Texels, judge_some, judgements_by};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::Arc;
 
 /// A set with the values of the permissions that it was computed by.
-type Known = (Vec<(usize, String)>, Arc<LegalSet>);
+type Known = (AskedValues, Arc<LegalSet>);
 
 /// Limits of every API, with two grids of sub-pixels.
 fn all_limits() -> Vec<Limits> {
@@ -42,18 +42,14 @@ fn rules_that_agree_on_what_was_asked_give_the_same_sets() {
         let known: RefCell<HashMap<Limits, Vec<Known>>> = RefCell::default();
         for limits in all_limits() {
             let given = |basis: &Limits, rules: &Rules| {
-                let values = rules.values();
                 let mut known = known.borrow_mut();
                 let all = known.entry(basis.clone()).or_default();
-                let serves = |one: &&Known| one.0.iter().all(|(i, v)| values[*i] == *v);
-                if let Some((_, set)) = all.iter().find(serves) {
+                if let Some((_, set)) = all.iter().find(|one| rules.agree_on(&one.0)) {
                     return Arc::clone(set);
                 }
                 let rules = rules.clone();
                 let set = Arc::new(judge_some(&case.scene, basis, &rules, Texels::All));
-                let asked = rules.asked().into_iter().zip(values).enumerate();
-                let asked = asked.filter_map(|(i, (asked, value))| asked.then_some((i, value)));
-                all.push((asked.collect(), Arc::clone(&set)));
+                all.push((rules.asked(), Arc::clone(&set)));
                 set
             };
             for one in judgements_by(&case.scene, &limits, Texels::All, given) {
@@ -80,9 +76,9 @@ fn rules_that_agree_on_what_was_asked_give_the_same_sets() {
 #[test]
 fn a_clone_was_asked_for_nothing() {
     let rules = Rules::of(&limits(APIS[0]));
-    assert!(!rules.asked().contains(&true));
+    assert_eq!(rules.asked().names().count(), 0);
     let _ = rules.store.value();
-    assert_eq!(rules.asked().iter().filter(|asked| **asked).count(), 1);
-    assert!(!rules.clone().asked().contains(&true));
+    assert_eq!(rules.asked().names().collect::<Vec<_>>(), ["store"]);
+    assert_eq!(rules.clone().asked().names().count(), 0);
     assert_eq!(rules.clone(), rules);
 }

@@ -1,0 +1,22 @@
+//! The parts in which an image is read where its path says so.
+
+/// Returns the beginnings and lengths of two unequal parts of a side, or of the side if it is one texel.
+pub fn halves(side: u32) -> Vec<(u32, u32)> {
+    match side * 2 / 5 {
+        0 => vec![(0, side)],
+        first => vec![(0, first), (first, side - first)],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_cover_a_side() {
+        assert_eq!(halves(1), [(0, 1)]);
+        assert_eq!(halves(2), [(0, 2)]);
+        assert_eq!(halves(5), [(0, 2), (2, 3)]);
+        assert_eq!(halves(16), [(0, 6), (6, 10)]);
+    }
+}
