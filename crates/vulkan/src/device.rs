@@ -38,6 +38,8 @@ pub(crate) struct Device {
     pub(crate) second_viewport: bool,
     /// The functions of extended dynamic state 3, if the device has all of it that the suite sets.
     pub(crate) extended: Option<ash::ext::extended_dynamic_state3::Device>,
+    /// The provoking vertices that the device has besides the first.
+    pub(crate) provoking: Provoking,
     /// Valid bits of a timestamp; 0 if timestamps are not supported.
     pub(crate) timestamp_bits: u32,
 }
@@ -227,6 +229,39 @@ impl Resolves {
     }
 }
 
+/// The provoking vertices that a device has besides the first.
+#[derive(Clone, Copy)]
+pub(crate) struct Provoking {
+    /// True if the last vertex may provoke.
+    pub(crate) last: bool,
+    /// True if pipelines of one pass may differ in it.
+    pub(crate) mixed: bool,
+}
+
+impl Provoking {
+    fn of(api: &ash::Instance, physical: vk::PhysicalDevice) -> Self {
+        if !has_extension(api, physical, ash::ext::provoking_vertex::NAME) {
+            return Self {
+                last: false,
+                mixed: false,
+            };
+        }
+        let mut features = vk::PhysicalDeviceProvokingVertexFeaturesEXT::default();
+        let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut features);
+        // SAFETY: the chained structure is of an extension that the device has.
+        unsafe { api.get_physical_device_features2(physical, &mut both) };
+        let mut properties = vk::PhysicalDeviceProvokingVertexPropertiesEXT::default();
+        let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut properties);
+        // SAFETY: as above.
+        unsafe { api.get_physical_device_properties2(physical, &mut both) };
+        let last = features.provoking_vertex_last != vk::FALSE;
+        Self {
+            last,
+            mixed: last && properties.provoking_vertex_mode_per_pipeline != vk::FALSE,
+        }
+    }
+}
+
 /// Returns the features of a device that the suite uses.
 fn used_features(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures {
     vk::PhysicalDeviceFeatures {
@@ -244,6 +279,8 @@ fn used_features(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures
         occlusion_query_precise: has.occlusion_query_precise,
         pipeline_statistics_query: has.pipeline_statistics_query,
         sample_rate_shading: has.sample_rate_shading,
+        shader_clip_distance: has.shader_clip_distance,
+        tessellation_shader: has.tessellation_shader,
         ..vk::PhysicalDeviceFeatures::default()
     }
 }
@@ -292,7 +329,9 @@ impl Device {
             && properties.limits.max_viewports > 1
             && has_extension(api, physical, ash::ext::shader_viewport_index_layer::NAME);
         let extended = has_extended(api, physical);
+        let provoking = Provoking::of(api, physical);
         let extensions: Vec<_> = [
+            (provoking.last, ash::ext::provoking_vertex::NAME),
             (second_viewport, ash::ext::shader_viewport_index_layer::NAME),
             (extended, ash::ext::extended_dynamic_state3::NAME),
         ]
@@ -309,6 +348,11 @@ impl Device {
             .enabled_features(&enabled)
             .enabled_extension_names(&extensions)
             .push_next(&mut enabled13);
+        let mut last_provokes =
+            vk::PhysicalDeviceProvokingVertexFeaturesEXT::default().provoking_vertex_last(true);
+        if provoking.last {
+            info = info.push_next(&mut last_provokes);
+        }
         if extended {
             info = info.push_next(&mut enabled_extended);
         }
@@ -337,6 +381,7 @@ impl Device {
             compute: family.queue_flags.contains(compute),
             features: enabled,
             second_viewport,
+            provoking,
             extended: extended.then(|| ash::ext::extended_dynamic_state3::Device::new(api, &raw)),
             timestamp_bits: if properties.limits.timestamp_period > 0.0 {
                 family.timestamp_valid_bits
