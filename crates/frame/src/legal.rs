@@ -177,7 +177,30 @@ impl SampleGroup {
     pub fn sample(&self, x: u32, y: u32, sample: u32) -> &TexelSet {
         let at = (y as usize * self.size[0] as usize + x as usize) * self.samples as usize
             + sample as usize;
+        self.at(at)
+    }
+
+    /// The number of samples.
+    pub(crate) fn len(&self) -> usize {
+        self.index.len()
+    }
+
+    /// The legal values of a sample by its number, row by row and texel by texel.
+    pub(crate) fn at(&self, at: usize) -> &TexelSet {
         &self.palette[self.index[at] as usize]
+    }
+
+    /// The number of a sample's set; equal numbers stand for equal sets.
+    pub(crate) fn number(&self, at: usize) -> u32 {
+        self.index[at]
+    }
+
+    /// The column, row and sample within the texel of a sample by its number.
+    pub(crate) fn position(&self, at: usize) -> [u32; 3] {
+        let texel = at / self.samples as usize;
+        let width = self.size[0] as usize;
+        // They were unsigned 32-bit numbers before they made the number.
+        [texel % width, texel / width, at % self.samples as usize].map(|n| n as u32)
     }
 
     /// The distinct sets, each with how many samples have it.
