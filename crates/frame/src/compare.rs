@@ -113,24 +113,22 @@ pub fn compare(
             let n = info.channels.len();
             &frame.images[*i].codes[at * n..(at + 1) * n]
         };
-        let same = |at: usize| {
-            group.number(at) == group.number(at - 1)
-                && ideal.number(at) == ideal.number(at - 1)
-                && images.iter().all(|i| codes(i, at) == codes(i, at - 1))
-        };
+        let same = |at: usize| images.iter().all(|i| codes(i, at) == codes(i, at - 1));
         let mut distances = Distances::new(&images);
         let mut at = 0;
-        while at < group.len() {
+        let (mut sets, mut ideals) = (group.runs().peekable(), ideal.runs().peekable());
+        while let (Some((end, allowed)), Some((ideal_end, tight))) =
+            (sets.peek().copied(), ideals.peek().copied())
+        {
             // Most samples equal the one before them, in what they hold and in what they may hold.
-            let run = at..(at + 1..group.len())
-                .find(|next| !same(*next))
-                .unwrap_or(group.len());
+            let most = end.min(ideal_end);
+            let next = (at + 1..most).find(|next| !same(*next)).unwrap_or(most);
+            let run = at..next;
             orders.clear();
             for image in &images {
                 let channels = codes(image, at).iter().zip(&image.1.channels);
                 orders.extend(channels.map(|(code, e)| e.order_of_code(*code)));
             }
-            let (allowed, tight) = (group.at(at), ideal.at(at));
             let times = run.len() as u64;
             distances.add(tight, &orders, times);
             result.texels.total += times;
@@ -159,7 +157,9 @@ pub fn compare(
                 let first = run.clone().take(left);
                 imprecise.extend(first.map(|at| describe(Band::Imprecise, tight, at)));
             }
-            at = run.end;
+            at = next;
+            sets.next_if(|(end, _)| *end <= at);
+            ideals.next_if(|(end, _)| *end <= at);
         }
         distances.into(&mut result.accuracy);
     }
