@@ -177,7 +177,7 @@ fn tessellation(wire: &DrawWire, mesh: &Mesh) -> Result<(), At> {
         return Err(At::new("patches are made of a triangle-list"));
     }
     let count = mesh.indices.as_ref().map_or(mesh.vertices.len(), Vec::len);
-    if count % 3 != 0 || mesh.indices.iter().flatten().any(|i| *i == RESTART) {
+    if !count.is_multiple_of(3) || mesh.indices.iter().flatten().any(|i| *i == RESTART) {
         return Err(At::new(
             "patches have three vertices each, and no restart between them",
         ));

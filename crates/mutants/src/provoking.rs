@@ -4,6 +4,9 @@ use super::list::{CONFUSION, List, Row};
 use super::plant::{Plant, draws, from_draw};
 use etalon_scene::{Draw, PrimitiveTopology, ProvokingVertex, RESTART};
 
+/// True of the draws that a bug strikes.
+type Strikes = fn(&Draw) -> bool;
+
 fn other(vertex: ProvokingVertex) -> ProvokingVertex {
     match vertex {
         ProvokingVertex::First => ProvokingVertex::Last,
@@ -12,7 +15,7 @@ fn other(vertex: ProvokingVertex) -> ProvokingVertex {
 }
 
 /// Exchanges the conventions of the draws that a bug strikes.
-fn exchanged(strikes: fn(&Draw) -> bool) -> Plant {
+fn exchanged(strikes: Strikes) -> Plant {
     draws(move |draw| {
         if strikes(draw) {
             draw.provoking = draw.provoking.map(other);
@@ -56,7 +59,7 @@ pub(super) fn add(list: &mut List) {
             }),
         );
     }
-    let rows: [Row<fn(&Draw) -> bool>; 8] = [
+    let rows: [Row<Strikes>; 8] = [
         ("exchanged", "First and last are exchanged.", |_| true),
         (
             "exchanged-for-line-lists",
