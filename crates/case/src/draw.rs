@@ -6,8 +6,9 @@ use crate::fetch::fetch;
 use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
-    Attachment, ColorTarget, Counter, Draw, MAX_VERTICES, Mesh, Multisample, Params, PolygonMode,
-    PrimitiveTopology, Shader, StencilFace, StencilOperation, StencilState, Viewport,
+    Attachment, ColorTarget, Contents, Counter, Draw, EarlyTests, MAX_VERTICES, Mesh, Multisample,
+    Params, PolygonMode, PrimitiveTopology, Shader, StencilFace, StencilOperation, StencilState,
+    Viewport,
 };
 
 /// The target of a draw, and the names that it can use.
@@ -73,6 +74,10 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
             Ok(index)
         };
         textures.push(check().map_err(|e| e.index(i).key("textures"))?);
+    }
+    if wire.shader.writes_mask() {
+        let masks = textures.first().map(|i| &attachments[*i]);
+        check_masks(masks).map_err(|e| e.key("textures"))?;
     }
     if textures.len() != wire.shader.textures() {
         return Err(At::new(format!(
@@ -285,6 +290,30 @@ fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
     Ok(())
 }
 
+/// Checks the texture from which a shader takes its sample mask, and perhaps its depth.
+fn check_masks(texture: Option<&Attachment>) -> Result<(), At> {
+    let Some(texture) = texture else {
+        return Ok(());
+    };
+    let texels = match &texture.contents {
+        Contents::Texels(texels) if texture.format == TextureFormat::Rgba32Float => texels,
+        _ => {
+            let message = "a sample mask comes from uploaded texels of rgba32float";
+            return Err(At::new(message));
+        }
+    };
+    let fits = |texel: &[u32]| {
+        let (mask, depth) = (f32::from_bits(texel[0]), f32::from_bits(texel[1]));
+        mask.fract() == 0.0 && (0.0..=65535.0).contains(&mask) && (0.0..=1.0).contains(&depth)
+    };
+    match texels.chunks_exact(4).all(fits) {
+        true => Ok(()),
+        false => Err(At::new(
+            "a sample mask is a whole number from 0 to 65535, and a written depth lies between 0 and 1",
+        )),
+    }
+}
+
 /// True if a draw can change depth or stencil.
 pub(crate) fn writes_depth_stencil(draw: &Draw) -> bool {
     let changes = |face: &StencilFace| {
@@ -339,6 +368,9 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
 }
 
 fn check_shader(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
+    if !wire.shader.has_fragment() {
+        return check_shaderless(wire, targets);
+    }
     if targets.len() > wire.shader.outputs() {
         return Err(At::new(format!(
             "shader {} writes {} colours, the pass has {} colour attachments",
@@ -359,6 +391,27 @@ fn check_shader(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
     }
     if wire.logic.is_some() && targets.iter().any(|t| t.blend.is_some()) {
         return Err(At::new("a logic operation stands instead of blending").key("logic"));
+    }
+    Ok(())
+}
+
+/// Refuses what asks for the colours of a fragment shader where there is none.
+fn check_shaderless(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
+    let refuse = |message: &str, key| Err(At::new(message.to_owned()).key(key));
+    if targets.iter().any(|t| t.write_mask != 0) {
+        let message = "without a fragment shader, colours are undefined: mask all channels";
+        return refuse(message, "write_mask");
+    }
+    if targets.iter().any(|t| t.blend.is_some()) || wire.logic.is_some() {
+        return refuse("without a fragment shader, nothing is blended", "shader");
+    }
+    if wire.multisample.alpha_to_coverage || wire.multisample.alpha_to_one {
+        let message = "without a fragment shader, alpha is undefined";
+        return refuse(message, "multisample");
+    }
+    if wire.early_tests != EarlyTests::Implicit {
+        let message = "without a fragment shader, no test is early";
+        return refuse(message, "early_tests");
     }
     Ok(())
 }

@@ -88,6 +88,7 @@ fn tests_early(draw: &Draw) -> bool {
     let same = !(shader.discards()
         || shader.writes_depth()
         || shader.counts_runs()
+        || shader.writes_mask()
         || draw.multisample.alpha_to_coverage);
     same || draw.early_tests == EarlyTests::Forced
 }
@@ -99,12 +100,16 @@ fn reads_depth(shader: Shader) -> bool {
         Shader::ExpensiveColor
             | Shader::FlatColor
             | Shader::FragCoordColor
+            | Shader::MaskedColor
+            | Shader::MaskedDiscard
+            | Shader::MaskedSample
             | Shader::SampledColor
             | Shader::SampledDiscard
             | Shader::TexelColor
             | Shader::TexelColorAll
             | Shader::TexelDiscard
             | Shader::UniformColor
+            | Shader::VertexOnly
     )
 }
 
@@ -211,6 +216,9 @@ impl<'a, S: Steps> SpanState<'a, S> {
             shaded = Some(output);
             if let Some(kept) = &output.kept {
                 mask = and(mask, self.steps.kept(kept));
+            }
+            if let Some(written) = &output.mask {
+                mask = and(mask, self.steps.mask_keeps(written, sample, samples));
             }
             if self.draw.multisample.alpha_to_coverage {
                 let covers = self.steps.alpha_covers(output.color[3], sample, samples);

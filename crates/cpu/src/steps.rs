@@ -8,7 +8,7 @@ pub use crate::lanes::{Codes, LANES, Mask, Real};
 use crate::sampling::sample;
 use crate::surface::Surface;
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
-use etalon_pipeline::shader::Kept;
+use etalon_pipeline::shader::{Kept, SampleMask};
 use etalon_pipeline::{
     Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
 };
@@ -153,6 +153,14 @@ pub trait Steps {
         } else {
             std::array::from_fn(|i| value[i] >= limit[i])
         }
+    }
+
+    /// Returns the texels whose sample the mask that a shader writes keeps. Of one sample, its first bit
+    /// counts.
+    #[inline(always)]
+    fn mask_keeps(&self, mask: &SampleMask<Real>, sample: usize, _samples: usize) -> Mask {
+        mask.bits
+            .map(|bits| mask.written(bits as u32) & (1 << sample) != 0)
     }
 
     /// Returns the increment of a counter for a span of samples that passed, or of texels whose

@@ -41,6 +41,10 @@ state_enum! {
         ForcedEarlyTests = "forced-early-tests",
         /// Pipeline statistics of fragment shader runs.
         FragmentInvocations = "fragment-invocations",
+        /// Draws without a fragment shader.
+        FragmentShaderAbsent = "fragment-shader-absent",
+        /// The same where there are colour attachments, whose channels are all masked.
+        FragmentShaderAbsentWithColor = "fragment-shader-absent-with-color",
         /// Culling front and back faces together.
         FrontAndBackCulling = "front-and-back-culling",
         /// Blending and write masks that differ between colour attachments.
@@ -69,6 +73,10 @@ state_enum! {
         ReversedDepthRange = "reversed-depth-range",
         /// Drawing a share of a texel's samples, or the others, whatever the fragment.
         SampleCoverage = "sample-coverage",
+        /// Sample masks that fragment shaders write.
+        SampleMaskOutput = "sample-mask-output",
+        /// The same together with alpha to coverage.
+        SampleMaskOutputWithAlphaToCoverage = "sample-mask-output-with-alpha-to-coverage",
         /// Shaders that run once per sample and know which.
         SampleShading = "sample-shading",
         /// A scissor rectangle that reaches beyond the attachments.

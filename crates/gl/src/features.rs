@@ -49,7 +49,11 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         // ES has no `glPolygonMode`.
         Feature::PolygonModeLine => !caps.es,
         Feature::PreciseOcclusion => caps.samples_passed,
-        Feature::SampleShading => caps.sample_variables,
+        Feature::SampleMaskOutput
+        | Feature::SampleMaskOutputWithAlphaToCoverage
+        | Feature::SampleShading => caps.sample_variables,
+        // A program of ES has a fragment shader, or does not link (OpenGL ES 3.2, 7.3).
+        Feature::FragmentShaderAbsent | Feature::FragmentShaderAbsentWithColor => !caps.es,
         Feature::StorageCounters => caps.storage_alignment.is_some(),
     };
     Feature::ALL.into_iter().filter(known).collect()

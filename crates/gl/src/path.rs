@@ -42,6 +42,7 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
             PathState::Dynamic
             | PathState::Static
             | PathState::ExtendedDynamic3
+            | PathState::DynamicLogic
             | PathState::OtherPipeline,
         )
         | PathValue::Commands(PathCommands::One | PathCommands::Secondary)

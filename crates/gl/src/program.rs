@@ -75,7 +75,12 @@ impl Programs {
         };
         let translated = Translated::new(context, shader, tests).map_err(fail)?;
         let vertex = varied(translated.vertex, variant);
-        let program = link(context, shader.name(), &vertex, &translated.fragment)?;
+        let program = link(
+            context,
+            shader.name(),
+            &vertex,
+            translated.fragment.as_deref(),
+        )?;
         let gl = &context.gl;
         // SAFETY: the context is current and the program is linked.
         unsafe {
@@ -134,7 +139,7 @@ impl Programs {
                  layout(location = 0) out highp uvec4 value;\n\
                  void main() {{\nvalue = {value};\n}}\n"
             );
-        let program = link(context, name, &vertex, &fragment)?;
+        let program = link(context, name, &vertex, Some(&fragment))?;
         let gl = &context.gl;
         // SAFETY: the context is current and the program is linked.
         let location = unsafe {
@@ -179,7 +184,8 @@ pub(crate) fn translates(context: &Context, shader: Shader, tests: EarlyTests) -
 /// A shader in GLSL.
 struct Translated {
     vertex: String,
-    fragment: String,
+    /// `None` for a vertex shader alone.
+    fragment: Option<String>,
     /// The names of uniform blocks.
     blocks: Vec<String>,
     /// The names of textures with their units: the binding less one.
@@ -195,20 +201,27 @@ impl Translated {
             .map_err(|e| e.emit_to_string(source))?;
         let mut translated = Self {
             vertex: String::new(),
-            fragment: String::new(),
+            fragment: None,
             blocks: Vec::new(),
             textures: Vec::new(),
         };
         translated.vertex = translated.stage(context, &module, &info, ShaderStage::Vertex)?;
+        if !shader.has_fragment() {
+            return Ok(translated);
+        }
         let fragment = translated.stage(context, &module, &info, ShaderStage::Fragment)?;
         // naga uses GLSL's signed sample index where WGSL's is unsigned; ES does not convert.
-        translated.fragment = fragment.replace("gl_SampleID", "uint(gl_SampleID)");
+        let mut fragment = fragment.replace("gl_SampleID", "uint(gl_SampleID)");
+        if shader.writes_mask() {
+            fragment = with_mask(&fragment, context.caps.es)?;
+        }
         // naga omits qualifiers that the version lacks.
         if let Some(word) = qualifier(tests)
-            && !translated.fragment.contains(word)
+            && !fragment.contains(word)
         {
             return Err(format!("GLSL {} has no `{word}`", context.caps.glsl));
         }
+        translated.fragment = Some(fragment);
         Ok(translated)
     }
 
@@ -269,6 +282,22 @@ impl Translated {
     }
 }
 
+/// Returns a fragment shader that assigns its sample mask as GLSL has it: naga assigns an unsigned number to
+/// what is an array of signed ones, and leaves the extension of ES out.
+fn with_mask(fragment: &str, es: bool) -> Result<String, String> {
+    const EXTENSION: &str = "#extension GL_OES_sample_variables : require\n";
+    let assigned = fragment
+        .split_once("gl_SampleMask = ")
+        .and_then(|(before, rest)| Some((before, rest.split_once(';')?)));
+    let (before, (value, rest)) = assigned.ok_or("naga assigns no sample mask")?;
+    let text = format!("{before}gl_SampleMask[0] = int({value});{rest}");
+    let (version, body) = text.split_once('\n').ok_or("naga writes no version")?;
+    Ok(match es && !text.contains(EXTENSION) {
+        true => format!("{version}\n{EXTENSION}{body}"),
+        false => text,
+    })
+}
+
 /// Returns GLSL's layout qualifier of an early-test mode.
 fn qualifier(tests: EarlyTests) -> Option<&'static str> {
     match tests {
@@ -284,7 +313,7 @@ fn link(
     context: &Context,
     name: &str,
     vertex: &str,
-    fragment: &str,
+    fragment: Option<&str>,
 ) -> Result<glow::Program, BackendError> {
     let gl = &context.gl;
     let fail = |message: String| BackendError::Shader {
@@ -294,10 +323,8 @@ fn link(
     // SAFETY: the context is current and all objects are its own.
     unsafe {
         let program = gl.create_program().map_err(|e| refused("a program", e))?;
-        for (stage, source) in [
-            (glow::VERTEX_SHADER, vertex),
-            (glow::FRAGMENT_SHADER, fragment),
-        ] {
+        let fragment = fragment.map(|text| (glow::FRAGMENT_SHADER, text));
+        for (stage, source) in std::iter::once((glow::VERTEX_SHADER, vertex)).chain(fragment) {
             let shader = gl
                 .create_shader(stage)
                 .map_err(|e| refused("a shader", e))?;

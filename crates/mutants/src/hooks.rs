@@ -3,7 +3,7 @@
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{Codes, Faithful, LANES, Mask, Path, Real, Steps, Tests, Written};
 use etalon_frame::{Aspect, ChannelEncoding};
-use etalon_pipeline::shader::Kept;
+use etalon_pipeline::shader::{Kept, SampleMask};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, blend};
 use etalon_scene::{
     BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Shader, StencilFace,
@@ -93,6 +93,9 @@ hooks! {
     depth_sample(usize, usize) -> usize;
     /// True if a shader keeps a fragment, given the value and its limit.
     kept(f32, f32) -> bool;
+    /// True if the sample mask of a shader keeps a sample, given the mask as it is written, the sample's
+    /// index and the number of samples.
+    mask_keeps(u32, usize, usize) -> bool;
     /// A channel of a resolved texel.
     resolve(ChannelEncoding, &[u32]) -> u32;
 }
@@ -340,6 +343,15 @@ impl Steps for &Hooks {
         match &self.depth_sample {
             None => sample,
             Some(bug) => bug(sample, samples),
+        }
+    }
+
+    fn mask_keeps(&self, mask: &SampleMask<Real>, sample: usize, samples: usize) -> Mask {
+        match &self.mask_keeps {
+            None => Faithful.mask_keeps(mask, sample, samples),
+            Some(bug) => mask
+                .bits
+                .map(|bits| bug(mask.written(bits as u32), sample, samples)),
         }
     }
 

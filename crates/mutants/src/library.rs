@@ -4,9 +4,9 @@ use crate::list::List;
 use crate::mutant::Mutant;
 use crate::{
     bias, blend, bounds, capability, carried, clear, counter, cull, depth, depth_range, discard,
-    dual_source, early, fetch, formats, geometry, hierarchy, invariance, logic, mask, read_only,
-    readback, resolve, sample_coverage, sample_shading, samples, scissor, sequence, size, stencil,
-    sticky, targets, texture, tiled, topology, upload, viewport,
+    dual_source, early, fetch, formats, geometry, held, hierarchy, invariance, logic, mask,
+    read_only, readback, resolve, sample_coverage, sample_shading, samples, scissor, sequence,
+    shader_mask, size, stencil, sticky, targets, texture, tiled, topology, upload, viewport,
 };
 use std::sync::LazyLock;
 
@@ -52,6 +52,8 @@ pub fn mutants() -> &'static [Mutant] {
         carried::add(&mut list);
         sequence::add(&mut list);
         size::add(&mut list);
+        shader_mask::add(&mut list);
+        held::add(&mut list);
         list.mutants
     });
     &ALL

@@ -152,6 +152,18 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
         Feature::SampleCoverage,
     );
     need(draw.shader.has_second_source(), Feature::DualSourceBlending);
+    let masks = draw.shader.writes_mask();
+    need(masks, Feature::SampleMaskOutput);
+    need(
+        masks && draw.multisample.alpha_to_coverage,
+        Feature::SampleMaskOutputWithAlphaToCoverage,
+    );
+    let shaderless = !draw.shader.has_fragment();
+    need(shaderless, Feature::FragmentShaderAbsent);
+    need(
+        shaderless && !draw.targets.is_empty(),
+        Feature::FragmentShaderAbsentWithColor,
+    );
     need(
         draw.targets.windows(2).any(|pair| pair[0] != pair[1]),
         Feature::IndependentBlend,

@@ -38,6 +38,10 @@ pub(crate) struct Device {
     pub(crate) second_viewport: bool,
     /// The functions of extended dynamic state 3, if the device has all of it that the suite sets.
     pub(crate) extended: Option<ash::ext::extended_dynamic_state3::Device>,
+    /// The function behind dynamic logic operations, where the device has them.
+    pub(crate) dynamic_logic: Option<ash::ext::extended_dynamic_state2::Device>,
+    /// True if logic operations can be enabled between draws.
+    pub(crate) logic_enable: bool,
     /// Valid bits of a timestamp; 0 if timestamps are not supported.
     pub(crate) timestamp_bits: u32,
 }
@@ -179,6 +183,33 @@ fn has_extended(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
     has_all(&offered)
 }
 
+/// True if logic operations can be dynamic.
+fn has_dynamic_logic(
+    api: &ash::Instance,
+    physical: vk::PhysicalDevice,
+    features: &vk::PhysicalDeviceFeatures,
+) -> bool {
+    if features.logic_op == vk::FALSE
+        || !has_extension(api, physical, ash::ext::extended_dynamic_state2::NAME)
+    {
+        return false;
+    }
+    let mut offered = vk::PhysicalDeviceExtendedDynamicState2FeaturesEXT::default();
+    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    // SAFETY: the chained structure is of an extension that the device has.
+    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    offered.extended_dynamic_state2_logic_op != vk::FALSE
+}
+
+/// True if a device with extended dynamic state 3 can enable logic operations between draws.
+fn has_dynamic_logic_enable(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
+    let mut offered = vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT::default();
+    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    // SAFETY: the chained structure is of an extension that the device has.
+    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    offered.extended_dynamic_state3_logic_op_enable != vk::FALSE
+}
+
 /// Returns the promises of maintenance5, where the device has it.
 fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Property> {
     if !has_extension(api, physical, ash::khr::maintenance5::NAME) {
@@ -292,14 +323,20 @@ impl Device {
             && properties.limits.max_viewports > 1
             && has_extension(api, physical, ash::ext::shader_viewport_index_layer::NAME);
         let extended = has_extended(api, physical);
+        let dynamic_logic = has_dynamic_logic(api, physical, &enabled);
+        let logic_enable = dynamic_logic && extended && has_dynamic_logic_enable(api, physical);
         let extensions: Vec<_> = [
+            (dynamic_logic, ash::ext::extended_dynamic_state2::NAME),
             (second_viewport, ash::ext::shader_viewport_index_layer::NAME),
             (extended, ash::ext::extended_dynamic_state3::NAME),
         ]
         .into_iter()
         .filter_map(|(used, name)| used.then_some(name.as_ptr()))
         .collect();
-        let mut enabled_extended = extended_features(extended);
+        let mut enabled_extended =
+            extended_features(extended).extended_dynamic_state3_logic_op_enable(logic_enable);
+        let mut enabled_logic = vk::PhysicalDeviceExtendedDynamicState2FeaturesEXT::default()
+            .extended_dynamic_state2_logic_op(true);
         // Both are mandatory in Vulkan 1.3.
         let mut enabled13 = vk::PhysicalDeviceVulkan13Features::default()
             .dynamic_rendering(true)
@@ -311,6 +348,9 @@ impl Device {
             .push_next(&mut enabled13);
         if extended {
             info = info.push_next(&mut enabled_extended);
+        }
+        if dynamic_logic {
+            info = info.push_next(&mut enabled_logic);
         }
         // SAFETY: every pointer in `info` outlives the call.
         let raw = unsafe { api.create_device(physical, &info, None) }.map_err(|code| {
@@ -338,6 +378,9 @@ impl Device {
             features: enabled,
             second_viewport,
             extended: extended.then(|| ash::ext::extended_dynamic_state3::Device::new(api, &raw)),
+            dynamic_logic: dynamic_logic
+                .then(|| ash::ext::extended_dynamic_state2::Device::new(api, &raw)),
+            logic_enable,
             timestamp_bits: if properties.limits.timestamp_period > 0.0 {
                 family.timestamp_valid_bits
             } else {

@@ -105,11 +105,15 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::ConstantAlphaBlendFactor
         | Feature::FirstInstance
         | Feature::ForcedEarlyTests
+        | Feature::FragmentShaderAbsent
+        | Feature::FragmentShaderAbsentWithColor
         | Feature::FrontAndBackCulling
         | Feature::MinMaxBlendFactors
         | Feature::MirroredViewport
         | Feature::RasterizerDiscard
         | Feature::ReversedDepthRange
+        | Feature::SampleMaskOutput
+        | Feature::SampleMaskOutputWithAlphaToCoverage
         | Feature::ScissorOutside
         | Feature::SeparateStencilMasks
         | Feature::TriangleFans

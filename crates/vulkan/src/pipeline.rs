@@ -352,7 +352,7 @@ fn create(
         .depth_attachment_format(key.targets.depth)
         .stencil_attachment_format(key.targets.stencil);
     let mut info = vk::GraphicsPipelineCreateInfo::default()
-        .stages(&stages)
+        .stages(&stages[..if key.shader.has_fragment() { 2 } else { 1 }])
         .vertex_input_state(&vertex_input)
         .input_assembly_state(&assembly)
         .viewport_state(&viewport)

@@ -157,7 +157,7 @@ impl<'a> PreparedScene<'a> {
 
         let setting = Setting {
             fixed: scene.path.state == PathState::Static,
-            extended: scene.path.state == PathState::ExtendedDynamic3,
+            further: path::further(device, scene.path.state),
             viewport: scene.path.viewport,
         };
         let mut sets = Descriptors::new(input, self.counts.as_ref(), &self.images);
@@ -197,10 +197,11 @@ impl<'a> PreparedScene<'a> {
                 };
                 let mut get = |draw: &Draw| pipelines.get(device, &targets, draw, way);
                 let extended = setting
-                    .extended
-                    .then(|| Extended::new(draw, targets.samples));
+                    .further
+                    .any()
+                    .then(|| Extended::new(draw, targets.samples, setting.further));
                 let pipeline = match extended {
-                    Some(_) => get(&extended::held(draw))?,
+                    Some(_) => get(&extended::held_by(setting.further, draw))?,
                     None => get(draw)?,
                 };
                 let other = match scene.path.state {

@@ -193,6 +193,9 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
             Feature::ForcedEarlyTests,
             feature(Features::SHADER_EARLY_DEPTH_TEST),
         ),
+        // A pipeline without targets fits no pass with colour attachments (render pass layouts).
+        (Feature::FragmentShaderAbsent, true),
+        (Feature::FragmentShaderAbsentWithColor, false),
         (
             Feature::FragmentInvocations,
             feature(Features::PIPELINE_STATISTICS_QUERY),
@@ -203,6 +206,9 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
         ),
         // WebGPU has no polygon modes; a native feature of wgpu answers to no text.
         (Feature::PolygonModeLine, false),
+        (Feature::SampleMaskOutput, true),
+        // A pipeline that writes one has alpha to coverage off (GPURenderPipelineDescriptor).
+        (Feature::SampleMaskOutputWithAlphaToCoverage, false),
         (
             Feature::SampleShading,
             flag(DownlevelFlags::MULTISAMPLED_SHADING),
