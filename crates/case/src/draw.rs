@@ -459,7 +459,53 @@ fn stencil(wire: &StencilWire) -> StencilState {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::resolve::parse_scene;
     use etalon_scene::SampleCoverage;
+    use serde_json::{Value, json};
+
+    /// The fault of a draw with a texture of this format and these texels, all alike.
+    fn fault(draw: Value, format: &str, texel: [f64; 4]) -> Option<String> {
+        let values = [texel; 4];
+        let scene = json!({
+            "attachments": {
+                "c": { "format": "rgba8unorm", "size": [4, 4] },
+                "t": { "format": format, "size": [4, 4], "texels": { "kind": "rows", "values": values } }
+            },
+            "passes": [{ "color": ["c"], "draws": [draw] }], "read": ["c"]
+        });
+        parse_scene(&scene).err().map(|e| e.to_string())
+    }
+
+    #[test]
+    fn sample_masks_are_whole_numbers_of_uploaded_floats() {
+        let draw =
+            json!({ "mesh": { "kind": "full" }, "shader": "masked_depth", "textures": ["t"] });
+        let faulty = |format, texel| fault(draw.clone(), format, texel).is_some();
+        assert!(!faulty("rgba32float", [65535.0, 1.0, 0.0, 0.0]));
+        assert!(faulty("rgba32float", [0.5, 1.0, 0.0, 0.0]));
+        assert!(faulty("rgba32float", [-1.0, 1.0, 0.0, 0.0]));
+        assert!(faulty("rgba32float", [1.0, 1.5, 0.0, 0.0]));
+        assert!(faulty("rgba8unorm", [1.0, 1.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn without_a_fragment_shader_nothing_asks_for_its_colours() {
+        let draw = json!({ "mesh": { "kind": "full" }, "shader": "vertex_only", "write_mask": "" });
+        let with = |key: &str, value: Value| {
+            let mut draw = draw.clone();
+            draw[key] = value;
+            fault(draw, "rgba8unorm", [0.0; 4])
+        };
+        assert_eq!(with("cull", json!("none")), None);
+        for (key, value) in [
+            ("write_mask", json!("a")),
+            ("logic", json!("xor")),
+            ("early_tests", json!("forced")),
+            ("counters", json!(["c"])),
+        ] {
+            assert!(with(key, value).is_some(), "{key}");
+        }
+    }
 
     #[test]
     fn shares_of_one_sample_are_allowed_and_senseless_ones_are_not() {

@@ -349,3 +349,28 @@ fn link(
         Ok(program)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sample_mask_is_assigned_as_the_first_word_of_an_array() {
+        let text = "#version 310 es\nvoid main() {\ngl_SampleMask = _e1.mask;\nreturn;\n}\n";
+        let made = with_mask(text, true).expect("it assigns one");
+        let expected = "#version 310 es\n#extension GL_OES_sample_variables : require\nvoid main() {\n\
+                        gl_SampleMask[0] = int(_e1.mask);\nreturn;\n}\n";
+        assert_eq!(made, expected);
+        let twice = with_mask(
+            &text.replace("void", "#extension GL_OES_sample_variables : require\nvoid"),
+            true,
+        );
+        assert_eq!(twice.as_deref(), Ok(expected));
+        assert!(
+            !with_mask(text, false)
+                .expect("as before")
+                .contains("#extension")
+        );
+        assert!(with_mask("#version 450\nvoid main() {}\n", false).is_err());
+    }
+}

@@ -84,6 +84,7 @@ fn masks(list: &mut List) {
             bit(mask, sample) && bit(mask, (sample + 1) % samples)
         }),
     );
+    list.class("shader-mask", "early-z");
     list.add(
         "replaces-alpha-to-coverage",
         "Direct3D 11.3: alpha to coverage is off where the shader writes oMask",
@@ -96,7 +97,6 @@ fn masks(list: &mut List) {
         "A mask that the shader writes takes the place of the draw's.",
         masked(|draw| draw.multisample.mask = u32::MAX),
     );
-    list.class("shader-mask", "early-z");
     list.add(
         "tested-early",
         "llvmpipe, panfrost: early tests despite what a shader does to coverage",
