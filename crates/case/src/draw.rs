@@ -473,7 +473,7 @@ mod tests {
             },
             "passes": [{ "color": ["c"], "draws": [draw] }], "read": ["c"]
         });
-        parse_scene(&scene).err().map(|e| e.to_string())
+        parse_scene(&scene).err().map(|e| format!("{e:?}"))
     }
 
     #[test]

@@ -185,3 +185,35 @@ impl Extended {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_scene::{Mesh, Shader, Viewport};
+
+    #[test]
+    fn draws_of_all_logic_operations_share_a_pipeline_that_holds_another() {
+        let draw = |logic| {
+            let mesh = Mesh {
+                vertices: Vec::new(),
+                indices: None,
+            };
+            Draw {
+                logic,
+                ..Draw::new(Shader::FlatColor, mesh, Viewport::whole([4, 4]))
+            }
+        };
+        let held = |logic: DynamicLogic, extended, own| {
+            held_by(Further { extended, logic }, &draw(own)).logic
+        };
+        let (xor, nor) = (Some(LogicOperation::Xor), Some(LogicOperation::Nor));
+        for own in [xor, nor] {
+            assert_eq!(held(DynamicLogic::Nothing, false, own), own);
+            assert_eq!(held(DynamicLogic::Operation, false, own), Some(HELD));
+            assert_eq!(held(DynamicLogic::All, true, own), Some(HELD));
+        }
+        // Off is no operation: that it is on or off is dynamic only where all is.
+        assert_eq!(held(DynamicLogic::Operation, false, None), None);
+        assert_eq!(held(DynamicLogic::All, true, None), Some(HELD));
+    }
+}
