@@ -7,8 +7,8 @@ use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
     Attachment, ColorTarget, Contents, Counter, Draw, EarlyTests, MAX_VERTICES, Mesh, Multisample,
-    Params, PolygonMode, PrimitiveTopology, Shader, StencilFace, StencilOperation, StencilState,
-    Viewport,
+    Params, PolygonMode, PrimitiveTopology, RESTART, Shader, StencilFace, StencilOperation,
+    StencilState, Viewport,
 };
 
 /// The target of a draw, and the names that it can use.
@@ -89,6 +89,8 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
         .key("textures"));
     }
     sampler(wire, target, &textures).map_err(|e| e.key("sampler"))?;
+    tessellation(wire, &mesh).map_err(|e| e.key("tessellation"))?;
+    clip_distances(wire)?;
     let counters = counters(wire, target.counters).map_err(|e| e.key("counters"))?;
     if wire.early_tests.is_conservative() && !wire.shader.writes_depth() {
         let message = "a promise about the written depth needs a shader that writes one";
@@ -115,6 +117,8 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
     Ok(Draw {
         fetch,
         topology: wire.topology,
+        tessellation: wire.tessellation,
+        provoking: wire.provoking,
         params: Params {
             color: wire.params.color.0,
             back_color: wire.params.back_color.0,
@@ -128,6 +132,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
         polygon_mode: wire.polygon_mode,
         rasterizer_discard: wire.rasterizer_discard,
         scissor: wire.scissor,
+        clip_distances: wire.clip_distances,
         depth_bias: wire.depth_bias,
         depth_clamp: wire.depth_clamp,
         depth_bounds: wire.depth_bounds,
@@ -164,6 +169,48 @@ fn multisample(state: &Multisample, samples: u32) -> Result<(), At> {
     if !state.sample_coverage.is_none_or(|c| c.value.is_finite()) {
         let message = "a share of the samples is a finite number";
         return Err(At::new(message).key("value").key("sample_coverage"));
+    }
+    Ok(())
+}
+
+/// Checks that patches are whole triangles, and that no attribute has to pass the tessellator.
+fn tessellation(wire: &DrawWire, mesh: &Mesh) -> Result<(), At> {
+    if wire.tessellation.is_none() {
+        return Ok(());
+    }
+    if wire.topology != PrimitiveTopology::TriangleList {
+        return Err(At::new("patches are made of a triangle-list"));
+    }
+    let count = mesh.indices.as_ref().map_or(mesh.vertices.len(), Vec::len);
+    if !count.is_multiple_of(3) || mesh.indices.iter().flatten().any(|i| *i == RESTART) {
+        return Err(At::new(
+            "patches have three vertices each, and no restart between them",
+        ));
+    }
+    if !wire.shader.passes_position_alone() {
+        return Err(At::new(format!(
+            "the evaluation shader hands on positions alone, and {} reads attributes",
+            wire.shader.name()
+        )));
+    }
+    Ok(())
+}
+
+/// Checks that something is clipped by distances, and that it is no outline: which edges of a clipped
+/// polygon are drawn no text says.
+fn clip_distances(wire: &DrawWire) -> Result<(), At> {
+    let count = wire.shader.clip_distances();
+    if wire.clip_distances != u8::MAX && u32::from(wire.clip_distances) >> count != 0 {
+        let message = format!("shader {} has {count} clip distances", wire.shader.name());
+        return Err(At::new(message).key("clip_distances"));
+    }
+    if count > 0 && wire.polygon_mode != PolygonMode::Fill {
+        let message = "the outline of what clip distances leave is open";
+        return Err(At::new(message).key("polygon_mode"));
+    }
+    if count > 0 && wire.instances.is_some() {
+        let message = "clip distances are made of the vertex colour, and instances have their own";
+        return Err(At::new(message).key("instances"));
     }
     Ok(())
 }
@@ -504,6 +551,82 @@ mod tests {
             ("counters", json!(["c"])),
         ] {
             assert!(with(key, value).is_some(), "{key}");
+        }
+    }
+
+    /// What is wrong with a scene of one draw.
+    fn wrong(draw: Value) -> Option<String> {
+        let scene = json!({
+            "attachments": { "color": { "format": "rgba8unorm" } },
+            "passes": [{ "color": ["color"], "draws": [draw] }],
+            "read": ["color"]
+        });
+        parse_scene(&scene).err().map(|at| format!("{at:?}"))
+    }
+
+    #[test]
+    fn patches_are_triangles_without_attributes() {
+        let draw = |shader: &str, topology: &str, indices: Value| {
+            wrong(json!({
+                "mesh": { "kind": "vertices", "positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], "indices": indices },
+                "tessellation": { "order": "cw", "origin": "lower-left" },
+                "topology": topology, "shader": shader
+            }))
+        };
+        let two = json!([0, 1, 2, 2, 1, 3]);
+        assert_eq!(draw("uniform_color", "triangle-list", two.clone()), None);
+        let refused = [
+            draw("flat_color", "triangle-list", two.clone()),
+            draw("uniform_color", "triangle-strip", two),
+            draw("uniform_color", "triangle-list", json!([0, 1, 2, 3])),
+            draw(
+                "uniform_color",
+                "triangle-list",
+                json!([0, 1, 2, null, 1, 2]),
+            ),
+        ];
+        let words = [
+            "reads attributes",
+            "triangle-list",
+            "three vertices",
+            "three vertices",
+        ];
+        for (refused, words) in refused.into_iter().zip(words) {
+            let said = refused.expect("no such patch");
+            assert!(
+                said.contains(words) && said.contains("tessellation"),
+                "{said}"
+            );
+        }
+    }
+
+    #[test]
+    fn clip_distances_are_those_of_the_shader() {
+        let draw = |keys: Value| {
+            let mut draw = json!({ "mesh": { "kind": "full" }, "shader": "clip_flat" });
+            for (key, value) in keys.as_object().into_iter().flatten() {
+                draw[key] = value.clone();
+            }
+            wrong(draw)
+        };
+        for keys in [
+            json!({}),
+            json!({ "clip_distances": 0 }),
+            json!({ "clip_distances": 3 }),
+        ] {
+            assert_eq!(draw(keys), None);
+        }
+        for (keys, words) in [
+            (json!({ "clip_distances": 4 }), "has 2 clip distances"),
+            (
+                json!({ "shader": "flat_color", "clip_distances": 1 }),
+                "has 0 clip distances",
+            ),
+            (json!({ "polygon_mode": "line" }), "the outline"),
+            (json!({ "instances": { "colors": [1] } }), "have their own"),
+        ] {
+            let said = draw(keys).expect("it is impossible");
+            assert!(said.contains(words), "{said}");
         }
     }
 

@@ -38,6 +38,10 @@ pub(crate) struct Caps {
     pub(crate) stencil_textures: bool,
     /// Shaders can force early fragment tests.
     pub(crate) early_tests: bool,
+    /// Shaders have clip distances.
+    pub(crate) clip_distances: bool,
+    /// The lines of a tessellation shader that name its extensions; `None` if there are none such.
+    pub(crate) tessellation: Option<&'static str>,
     /// Shaders can declare conservative depth.
     pub(crate) conservative_depth: bool,
     /// The offset alignment of storage buffers; `None` if fragment shaders have none.
@@ -118,6 +122,16 @@ impl Caps {
             conservative_depth: since((4, 2), NEVER)
                 || has("GL_ARB_conservative_depth")
                 || (es && has("GL_EXT_conservative_depth")),
+            clip_distances: !es || has("GL_EXT_clip_cull_distance"),
+            tessellation: if since((4, 0), (3, 2)) {
+                Some("")
+            } else if !es && has("GL_ARB_tessellation_shader") {
+                Some("#extension GL_ARB_tessellation_shader : require\n")
+            } else if es && version >= (3, 1) && has("GL_EXT_tessellation_shader") {
+                Some("#extension GL_EXT_tessellation_shader : require\n")
+            } else {
+                None
+            },
             storage_alignment,
             indirect: since((4, 0), (3, 1)) || (!es && has("GL_ARB_draw_indirect")),
             copy_image: since((4, 3), (3, 2)) || (!es && has("GL_ARB_copy_image")),

@@ -39,6 +39,7 @@ entry_points! {
     scissor_array: fn(u32, i32, *const i32);
     depth_range_array: fn(u32, i32, *const f64);
     primitive_restart_index: fn(u32);
+    provoking_vertex: fn(u32);
     draw_elements_base_vertex: fn(u32, i32, u32, Offset, i32);
     draw_elements_instanced_base_vertex: fn(u32, i32, u32, Offset, i32, i32);
     draw_arrays_instanced_base_instance: fn(u32, i32, i32, i32, u32);
@@ -90,6 +91,9 @@ impl EntryPoints {
             } else if has("GL_OES_sample_shading") {
                 load!(min_sample_shading, c"glMinSampleShadingOES");
             }
+            if has("GL_ANGLE_provoking_vertex") {
+                load!(provoking_vertex, c"glProvokingVertexANGLE");
+            }
             if has("GL_OES_viewport_array") {
                 load!(viewport_indexed, c"glViewportIndexedfOES");
             }
@@ -104,6 +108,7 @@ impl EntryPoints {
             load!(logic_op, c"glLogicOp");
             load!(clamp_color, c"glClampColor");
             load!(primitive_restart_index, c"glPrimitiveRestartIndex");
+            load!(provoking_vertex, c"glProvokingVertex");
             if version >= (4, 3) || has("GL_KHR_debug") {
                 load!(debug_callback, c"glDebugMessageCallback");
             }

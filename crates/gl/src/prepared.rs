@@ -281,6 +281,7 @@ impl<'a> PreparedScene<'a> {
                 draw.shader,
                 draw.early_tests,
                 variant,
+                draw.tessellation,
             )?,
             state: DrawState::new(context, draw, read_only, &self.path, variant)?,
             other: match self.path.state {
@@ -297,7 +298,10 @@ impl<'a> PreparedScene<'a> {
             queries: self.counters.queries(context, pool, draw)?,
             runs: self.counters.runs(draw),
             params: block,
-            mode: topology(draw.topology),
+            mode: match draw.tessellation {
+                None => topology(draw.topology),
+                Some(_) => glow::PATCHES,
+            },
             fetched,
             arguments,
             flushed: self.path.commands == PathCommands::Several,

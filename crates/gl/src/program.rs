@@ -4,7 +4,7 @@ use crate::caps::SECOND_VIEWPORT;
 use crate::context::{Context, refused};
 use crate::path::Variant;
 use etalon_backend::BackendError;
-use etalon_scene::{EarlyTests, Shader};
+use etalon_scene::{CONTROL_GLSL, EVALUATION_GLSL, EarlyTests, FrontFace, Shader, Tessellation};
 use glow::HasContext;
 use naga::back::glsl;
 use naga::proc::BoundsCheckPolicies;
@@ -19,6 +19,7 @@ pub(crate) const RUNS_BINDING: u8 = 0;
 
 /// The capabilities beyond WebGPU's core that the suite's shaders use.
 const CAPABILITIES: Capabilities = Capabilities::DUAL_SOURCE_BLENDING
+    .union(Capabilities::CLIP_DISTANCES)
     .union(Capabilities::MULTISAMPLED_SHADING)
     .union(Capabilities::EARLY_DEPTH_TEST);
 
@@ -31,7 +32,7 @@ const RUNS: ResourceBinding = ResourceBinding {
 /// The programs of a context, created on first use.
 #[derive(Default)]
 pub(crate) struct Programs {
-    shaders: HashMap<(Shader, EarlyTests, Variant), glow::Program>,
+    shaders: HashMap<(Shader, EarlyTests, Variant, Option<FrontFace>), glow::Program>,
     readers: HashMap<(Reader, View), (glow::Program, Option<glow::UniformLocation>)>,
 }
 
@@ -65,8 +66,11 @@ impl Programs {
         shader: Shader,
         tests: EarlyTests,
         variant: Variant,
+        tessellation: Option<Tessellation>,
     ) -> Result<glow::Program, BackendError> {
-        if let Some(program) = self.shaders.get(&(shader, tests, variant)) {
+        let order = tessellation.map(|t| t.order);
+        let key = (shader, tests, variant, order);
+        if let Some(program) = self.shaders.get(&key) {
             return Ok(*program);
         }
         let fail = |message| BackendError::Shader {
@@ -75,12 +79,11 @@ impl Programs {
         };
         let translated = Translated::new(context, shader, tests).map_err(fail)?;
         let vertex = varied(translated.vertex, variant);
-        let program = link(
-            context,
-            shader.name(),
-            &vertex,
-            translated.fragment.as_deref(),
-        )?;
+        let mut stages = vec![(glow::VERTEX_SHADER, vertex)];
+        let fragment = translated.fragment;
+        stages.extend(fragment.map(|text| (glow::FRAGMENT_SHADER, text)));
+        stages.extend(order.into_iter().flat_map(|o| patches(context, o)));
+        let program = link(context, shader.name(), &stages)?;
         let gl = &context.gl;
         // SAFETY: the context is current and the program is linked.
         unsafe {
@@ -96,7 +99,7 @@ impl Programs {
                 gl.uniform_1_i32(location.as_ref(), *unit as i32);
             }
         }
-        self.shaders.insert((shader, tests, variant), program);
+        self.shaders.insert(key, program);
         Ok(program)
     }
 
@@ -139,7 +142,11 @@ impl Programs {
                  layout(location = 0) out highp uvec4 value;\n\
                  void main() {{\nvalue = {value};\n}}\n"
             );
-        let program = link(context, name, &vertex, Some(&fragment))?;
+        let stages = [
+            (glow::VERTEX_SHADER, vertex),
+            (glow::FRAGMENT_SHADER, fragment),
+        ];
+        let program = link(context, name, &stages)?;
         let gl = &context.gl;
         // SAFETY: the context is current and the program is linked.
         let location = unsafe {
@@ -152,6 +159,24 @@ impl Programs {
         self.readers.insert((reader, view), made);
         Ok(made)
     }
+}
+
+/// Returns the stages that tessellate patches of three vertices, which is the number that contexts start
+/// with (OpenGL 4.6, 10.1.15; ES 3.2, 10.1.12).
+fn patches(context: &Context, order: FrontFace) -> [(u32, String); 2] {
+    let (version, es) = (context.caps.glsl, context.caps.es);
+    let extensions = context.caps.tessellation.unwrap_or_default();
+    let precision = if es { "precision highp float;\n" } else { "" };
+    let order = order.name();
+    let stage = |text: &str| {
+        // The first line names another version.
+        let body = text.split_once('\n').map_or(text, |(_, body)| body);
+        format!("#version {version}\n{extensions}{precision}#define ORDER {order}\n{body}")
+    };
+    [
+        (glow::TESS_CONTROL_SHADER, stage(CONTROL_GLSL)),
+        (glow::TESS_EVALUATION_SHADER, stage(EVALUATION_GLSL)),
+    ]
 }
 
 /// Returns a vertex shader in the form that a draw's path asks for.
@@ -312,8 +337,7 @@ fn qualifier(tests: EarlyTests) -> Option<&'static str> {
 fn link(
     context: &Context,
     name: &str,
-    vertex: &str,
-    fragment: Option<&str>,
+    stages: &[(u32, String)],
 ) -> Result<glow::Program, BackendError> {
     let gl = &context.gl;
     let fail = |message: String| BackendError::Shader {
@@ -323,10 +347,9 @@ fn link(
     // SAFETY: the context is current and all objects are its own.
     unsafe {
         let program = gl.create_program().map_err(|e| refused("a program", e))?;
-        let fragment = fragment.map(|text| (glow::FRAGMENT_SHADER, text));
-        for (stage, source) in std::iter::once((glow::VERTEX_SHADER, vertex)).chain(fragment) {
+        for (stage, source) in stages {
             let shader = gl
-                .create_shader(stage)
+                .create_shader(*stage)
                 .map_err(|e| refused("a shader", e))?;
             gl.shader_source(shader, source);
             gl.compile_shader(shader);

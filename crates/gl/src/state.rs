@@ -11,12 +11,15 @@ use etalon_backend::BackendError;
 use etalon_frame::{Feature, PathClip, PathViewport, Requirement};
 use etalon_scene::{
     ColorTarget, CullMode, DepthBias, DepthState, Draw, FrontFace, Multisample, Path, PolygonMode,
-    PrimitiveTopology, RESTART, RESTART_16, SampleCoverage, StencilFace, StencilState, Viewport,
+    PrimitiveTopology, ProvokingVertex, RESTART, RESTART_16, SampleCoverage, StencilFace,
+    StencilState, Viewport,
 };
 use glow::HasContext;
 
 const DEPTH_BOUNDS_TEST: u32 = 0x8890;
 const SAMPLE_SHADING: u32 = 0x8C36;
+const FIRST_VERTEX_CONVENTION: u32 = 0x8E4D;
+const LAST_VERTEX_CONVENTION: u32 = 0x8E4E;
 
 /// The state of a draw, ready to be set.
 #[derive(Clone, Debug)]
@@ -24,6 +27,8 @@ pub(crate) struct DrawState {
     cull: Option<u32>,
     front_face: u32,
     polygon_mode: u32,
+    /// The convention of the provoking vertex.
+    provoking: u32,
     /// The capability that biases the draw's polygons.
     offset: u32,
     /// True if the draw has polygons.
@@ -34,6 +39,8 @@ pub(crate) struct DrawState {
     /// The clip volume's origin, where the draws' differ.
     origin: Option<u32>,
     scissor: Option<[i32; 4]>,
+    /// The bits of the clip distances that clip.
+    clip_distances: u8,
     depth_bias: Option<DepthBias>,
     depth_clamp: bool,
     depth_bounds: Option<[f32; 2]>,
@@ -77,6 +84,10 @@ impl DrawState {
                 PolygonMode::Fill => glow::FILL,
                 PolygonMode::Line => glow::LINE,
             },
+            provoking: match draw.provoking {
+                Some(ProvokingVertex::First) => FIRST_VERTEX_CONVENTION,
+                None | Some(ProvokingVertex::Last) => LAST_VERTEX_CONVENTION,
+            },
             offset: match draw.polygon_mode {
                 PolygonMode::Fill => glow::POLYGON_OFFSET_FILL,
                 PolygonMode::Line => glow::POLYGON_OFFSET_LINE,
@@ -98,6 +109,7 @@ impl DrawState {
                 PathClip::Toggled => Some(glow::UPPER_LEFT),
             },
             scissor: draw.scissor.map(scissor),
+            clip_distances: draw.clipping_distances(),
             depth_bias: (draw.depth_bias != DepthBias::default()).then_some(draw.depth_bias),
             depth_clamp: draw.depth_clamp,
             depth_bounds: draw.depth_bounds,
@@ -136,6 +148,9 @@ impl DrawState {
                 gl.cull_face(face);
             }
             gl.front_face(self.front_face);
+            if let Some(provoking_vertex) = context.entry_points.provoking_vertex {
+                provoking_vertex(self.provoking);
+            }
             if !context.caps.es {
                 gl.polygon_mode(glow::FRONT_AND_BACK, self.polygon_mode);
             }
@@ -153,6 +168,12 @@ impl DrawState {
         }
         if context.caps.depth_clamp {
             set(gl, glow::DEPTH_CLAMP, self.depth_clamp);
+        }
+        if context.caps.clip_distances {
+            for number in 0..u8::BITS {
+                let clips = self.clip_distances & (1 << number) != 0;
+                set(gl, glow::CLIP_DISTANCE0 + number, clips);
+            }
         }
     }
 

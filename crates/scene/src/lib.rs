@@ -18,11 +18,13 @@ mod mesh_source;
 mod on_path;
 mod pass;
 mod path;
+mod provoking;
 mod rasterization;
 mod requirements;
 mod sampler;
 mod scene;
 mod shader;
+mod tessellation;
 
 pub use attachment::{Attachment, Contents};
 pub use blend::{
@@ -43,9 +45,13 @@ pub use pass::{
     ResolveMode, StoreOperation,
 };
 pub use path::Path;
+pub use provoking::ProvokingVertex;
 pub use rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, SampleCoverage, Viewport,
 };
 pub use sampler::{AddressMode, FilterMode, Sampler};
 pub use scene::{Counter, Scene};
 pub use shader::Shader;
+pub use tessellation::{
+    CONTROL_GLSL, CONTROL_SPIRV, DomainOrigin, EVALUATION_GLSL, Tessellation, evaluation_spirv,
+};

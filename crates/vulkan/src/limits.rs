@@ -74,6 +74,8 @@ fn has(device: &Device, feature: Feature) -> bool {
     let first = vk::ResolveModeFlags::SAMPLE_ZERO;
     let flag = match feature {
         Feature::AlphaToOne => features.alpha_to_one,
+        // Every device with the feature has 8 of them (Required Limits, maxClipDistances).
+        Feature::ClipDistances => features.shader_clip_distance,
         Feature::DepthBiasClamp => features.depth_bias_clamp,
         Feature::DepthBounds => features.depth_bounds,
         Feature::DepthClamp => features.depth_clamp,
@@ -91,11 +93,14 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::DualSourceBlending => features.dual_src_blend,
         Feature::FragmentInvocations => features.pipeline_statistics_query,
         Feature::IndependentBlend => features.independent_blend,
+        Feature::LastProvokingVertex => device.provoking.last.into(),
         Feature::LogicOperations => features.logic_op,
+        Feature::MixedProvokingVertices => device.provoking.mixed.into(),
+        Feature::Tessellation | Feature::UpperLeftDomain => features.tessellation_shader,
         Feature::PolygonModeLine => features.fill_mode_non_solid,
         Feature::PreciseOcclusion => features.occlusion_query_precise,
         // Only OpenGL has them.
-        Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
+        Feature::ClipDistanceMask | Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
         Feature::MinSampleShading | Feature::SampleShading => features.sample_rate_shading,
         Feature::StorageCounters => features.fragment_stores_and_atomics,
         Feature::BaseVertex
@@ -104,6 +109,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::ConservativeDepth
         | Feature::ConstantAlphaBlendFactor
         | Feature::FirstInstance
+        | Feature::FirstProvokingVertex
         | Feature::ForcedEarlyTests
         | Feature::FragmentShaderAbsent
         | Feature::FragmentShaderAbsentWithColor

@@ -3,7 +3,7 @@
 use ash::vk;
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, ColorTarget, CompareFunction, CullMode, FrontFace,
-    LogicOperation, PolygonMode, PrimitiveTopology, ResolveMode, StencilOperation,
+    LogicOperation, PolygonMode, PrimitiveTopology, ResolveMode, StencilOperation, Tessellation,
 };
 
 pub(crate) fn compare(function: CompareFunction) -> vk::CompareOp {
@@ -112,8 +112,13 @@ pub(crate) fn front_face(face: FrontFace) -> vk::FrontFace {
     }
 }
 
-pub(crate) fn topology(topology: PrimitiveTopology) -> vk::PrimitiveTopology {
+/// A tessellated list of triangles is one of patches.
+pub(crate) fn topology(
+    topology: PrimitiveTopology,
+    tessellation: Option<Tessellation>,
+) -> vk::PrimitiveTopology {
     match topology {
+        _ if tessellation.is_some() => vk::PrimitiveTopology::PATCH_LIST,
         PrimitiveTopology::PointList => vk::PrimitiveTopology::POINT_LIST,
         PrimitiveTopology::LineList => vk::PrimitiveTopology::LINE_LIST,
         PrimitiveTopology::LineStrip => vk::PrimitiveTopology::LINE_STRIP,

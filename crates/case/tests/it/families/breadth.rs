@@ -1,7 +1,7 @@
 //! Properties of the families that the plain simulation cannot follow: the states that they try.
 
 use etalon_case::{Case, Library, Profile};
-use etalon_scene::{Contents, LogicOperation};
+use etalon_scene::{Contents, LogicOperation, PrimitiveTopology, ProvokingVertex};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The built-in cases below a path, all of them.
@@ -144,4 +144,46 @@ fn all_families(prefix: &str) -> Vec<String> {
         .collect();
     assert!(!found.is_empty(), "{prefix}");
     found
+}
+
+#[test]
+fn tessellated_patches_have_every_order_under_every_face_and_culling() {
+    let mut seen = BTreeSet::new();
+    for case in all_cases("cull/tessellation/facing/") {
+        let draw = &case.scene.passes[0].draws[0];
+        let tessellation = draw.tessellation.expect("the family tessellates");
+        seen.insert((
+            draw.cull,
+            draw.front_face,
+            tessellation.order,
+            tessellation.origin,
+        ));
+    }
+    assert_eq!(seen.len(), 4 * 2 * 2 * 2);
+}
+
+#[test]
+fn no_primitive_hides_which_vertex_provokes() {
+    let families = ["cull/provoking/", "paths/provoking/"];
+    for case in families.into_iter().flat_map(all_cases) {
+        for draw in case.scene.passes.iter().flat_map(|p| &p.draws) {
+            let colors = |vertex| {
+                let mut draw = draw.clone();
+                draw.provoking = Some(vertex);
+                let all = draw.provoking_vertices().into_iter();
+                all.map(|i| draw.mesh.vertices[i].color).collect::<Vec<_>>()
+            };
+            let (first, last) = (
+                colors(ProvokingVertex::First),
+                colors(ProvokingVertex::Last),
+            );
+            let same = first.iter().zip(&last).any(|(a, b)| a == b);
+            assert_eq!(
+                same,
+                draw.topology == PrimitiveTopology::PointList,
+                "{}",
+                case.id
+            );
+        }
+    }
 }

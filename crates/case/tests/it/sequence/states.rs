@@ -19,6 +19,8 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
             indices,
         },
         topology,
+        tessellation,
+        provoking,
         shader,
         params: Params { color, back_color },
         early_tests,
@@ -31,6 +33,7 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
         rasterizer_discard,
         viewport: Viewport { rect, depth: range },
         scissor,
+        clip_distances,
         depth_bias:
             DepthBias {
                 constant,
@@ -56,6 +59,8 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
     } = draw;
     all.put("indices", indices);
     all.put("topology", topology);
+    all.put("tessellation", tessellation);
+    all.put("provoking", provoking);
     all.put("shader", shader);
     all.put("params.color", color);
     all.put("params.back_color", back_color);
@@ -78,6 +83,7 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
     all.put("viewport.rect", rect);
     all.put("viewport.depth", range);
     all.put("scissor", scissor);
+    all.put("clip_distances", clip_distances);
     all.put("depth_bias.constant", constant);
     all.put("depth_bias.slope", slope);
     all.put("depth_bias.clamp", clamp);
