@@ -92,6 +92,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
     multisample(&wire.multisample, samples).map_err(|e| e.key("multisample"))?;
     let color_targets = color_targets(wire, target.color.len())?;
     check_shader(wire, &color_targets)?;
+    check_advanced(wire, target).map_err(|e| e.key("advanced_blend"))?;
     check_integers(wire, target, &color_targets)?;
     if let Some([low, high]) = wire.depth_bounds
         && !(0.0 <= low && low <= high && high <= 1.0)
@@ -317,6 +318,7 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
     let one = |blend, letters: &str| -> Result<ColorTarget, At> {
         Ok(ColorTarget {
             blend,
+            advanced: wire.advanced_blend,
             write_mask: write_mask(letters).map_err(|e| e.key("write_mask"))?,
         })
     };
@@ -336,6 +338,30 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
     let each = list.iter().enumerate();
     each.map(|(i, t)| one(t.blend, &t.write_mask).map_err(|e| e.index(i).key("targets")))
         .collect()
+}
+
+/// Checks what advanced blending is done to, and what stands beside it.
+fn check_advanced(wire: &DrawWire, target: &Target<'_>) -> Result<(), At> {
+    if wire.advanced_blend.is_none() {
+        return Ok(());
+    }
+    if wire.blend.is_some() || wire.targets.is_some() || wire.logic.is_some() {
+        let message = "advanced blending stands instead of `blend`, `targets` and `logic`";
+        return Err(At::new(message));
+    }
+    let [index] = target.color else {
+        return Err(At::new("advanced blending takes one colour attachment"));
+    };
+    if wire.shader.has_second_source() {
+        return Err(At::new("advanced blending takes one source"));
+    }
+    let format = target.attachments[*index].format;
+    if format.is_integer() || format == TextureFormat::Rgba8Snorm {
+        return Err(At::new(format!(
+            "the modes are defined for values from 0 to 1, not for {format}"
+        )));
+    }
+    Ok(())
 }
 
 fn check_shader(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {

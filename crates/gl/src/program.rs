@@ -1,10 +1,11 @@
 //! Programs of the suite's shaders, translated by naga, and of reading attachments back.
 
-use crate::caps::SECOND_VIEWPORT;
+use crate::caps::{ADVANCED_BLEND, SECOND_VIEWPORT};
 use crate::context::{Context, refused};
+use crate::enums::blend_support;
 use crate::path::Variant;
 use etalon_backend::BackendError;
-use etalon_scene::{EarlyTests, Shader};
+use etalon_scene::{AdvancedBlend, EarlyTests, Shader};
 use glow::HasContext;
 use naga::back::glsl;
 use naga::proc::BoundsCheckPolicies;
@@ -31,8 +32,16 @@ const RUNS: ResourceBinding = ResourceBinding {
 /// The programs of a context, created on first use.
 #[derive(Default)]
 pub(crate) struct Programs {
-    shaders: HashMap<(Shader, EarlyTests, Variant), glow::Program>,
+    shaders: HashMap<(Shader, FragmentForm, Variant), glow::Program>,
     readers: HashMap<(Reader, View), (glow::Program, Option<glow::UniformLocation>)>,
+}
+
+/// What a draw asks of a fragment shader beside its function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct FragmentForm {
+    pub(crate) tests: EarlyTests,
+    /// The advanced blend equation that the shader allows.
+    pub(crate) blend: Option<AdvancedBlend>,
 }
 
 /// The type of the values that a read-back program fetches.
@@ -63,19 +72,23 @@ impl Programs {
         &mut self,
         context: &Context,
         shader: Shader,
-        tests: EarlyTests,
+        form: FragmentForm,
         variant: Variant,
     ) -> Result<glow::Program, BackendError> {
-        if let Some(program) = self.shaders.get(&(shader, tests, variant)) {
+        if let Some(program) = self.shaders.get(&(shader, form, variant)) {
             return Ok(*program);
         }
         let fail = |message| BackendError::Shader {
             shader: shader.name().to_owned(),
             message,
         };
-        let translated = Translated::new(context, shader, tests).map_err(fail)?;
+        let translated = Translated::new(context, shader, form.tests).map_err(fail)?;
         let vertex = varied(translated.vertex, variant);
-        let program = link(context, shader.name(), &vertex, &translated.fragment)?;
+        let fragment = match form.blend {
+            Some(mode) => allowing(context, &translated.fragment, mode),
+            None => translated.fragment,
+        };
+        let program = link(context, shader.name(), &vertex, &fragment)?;
         let gl = &context.gl;
         // SAFETY: the context is current and the program is linked.
         unsafe {
@@ -91,7 +104,7 @@ impl Programs {
                 gl.uniform_1_i32(location.as_ref(), *unit as i32);
             }
         }
-        self.shaders.insert((shader, tests, variant), program);
+        self.shaders.insert((shader, form, variant), program);
         Ok(program)
     }
 
@@ -169,6 +182,26 @@ fn varied(vertex: String, variant: Variant) -> String {
         made += "gl_ViewportIndex = 1;\n";
     }
     made + "}\n"
+}
+
+/// Returns a fragment shader that allows an advanced blend equation, of which naga knows nothing.
+fn allowing(context: &Context, fragment: &str, mode: AdvancedBlend) -> String {
+    let Some((version, body)) = fragment.split_once('\n') else {
+        return fragment.to_owned();
+    };
+    // Directives stand before everything else.
+    let directives = body
+        .split_inclusive('\n')
+        .take_while(|line| line.trim().is_empty() || line.starts_with('#'))
+        .map(str::len)
+        .sum();
+    let (directives, rest) = body.split_at(directives);
+    let extension = match context.caps.es && context.caps.version >= (3, 2) {
+        true => String::new(),
+        false => format!("#extension {ADVANCED_BLEND} : require\n"),
+    };
+    let word = blend_support(mode);
+    format!("{version}\n{extension}{directives}layout(blend_support_{word}) out;\n{rest}")
 }
 
 /// Returns true if naga can write a shader in the context's GLSL.

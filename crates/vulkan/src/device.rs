@@ -38,6 +38,8 @@ pub(crate) struct Device {
     pub(crate) second_viewport: bool,
     /// The functions of extended dynamic state 3, if the device has all of it that the suite sets.
     pub(crate) extended: Option<ash::ext::extended_dynamic_state3::Device>,
+    /// Advanced blending: true if it is coherent; `None` if the device lacks it.
+    pub(crate) advanced_blend: Option<bool>,
     /// Valid bits of a timestamp; 0 if timestamps are not supported.
     pub(crate) timestamp_bits: u32,
 }
@@ -179,6 +181,18 @@ fn has_extended(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
     has_all(&offered)
 }
 
+/// Returns whether a device's advanced blending is coherent; `None` if it has none.
+fn advanced_blend(api: &ash::Instance, physical: vk::PhysicalDevice) -> Option<bool> {
+    if !has_extension(api, physical, ash::ext::blend_operation_advanced::NAME) {
+        return None;
+    }
+    let mut offered = vk::PhysicalDeviceBlendOperationAdvancedFeaturesEXT::default();
+    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    // SAFETY: the chained structure is of an extension that the device has.
+    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    Some(offered.advanced_blend_coherent_operations != vk::FALSE)
+}
+
 /// Returns the promises of maintenance5, where the device has it.
 fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Property> {
     if !has_extension(api, physical, ash::khr::maintenance5::NAME) {
@@ -292,7 +306,12 @@ impl Device {
             && properties.limits.max_viewports > 1
             && has_extension(api, physical, ash::ext::shader_viewport_index_layer::NAME);
         let extended = has_extended(api, physical);
+        let advanced_blend = advanced_blend(api, physical);
         let extensions: Vec<_> = [
+            (
+                advanced_blend.is_some(),
+                ash::ext::blend_operation_advanced::NAME,
+            ),
             (second_viewport, ash::ext::shader_viewport_index_layer::NAME),
             (extended, ash::ext::extended_dynamic_state3::NAME),
         ]
@@ -311,6 +330,11 @@ impl Device {
             .push_next(&mut enabled13);
         if extended {
             info = info.push_next(&mut enabled_extended);
+        }
+        let mut coherent = vk::PhysicalDeviceBlendOperationAdvancedFeaturesEXT::default()
+            .advanced_blend_coherent_operations(true);
+        if advanced_blend == Some(true) {
+            info = info.push_next(&mut coherent);
         }
         // SAFETY: every pointer in `info` outlives the call.
         let raw = unsafe { api.create_device(physical, &info, None) }.map_err(|code| {
@@ -338,6 +362,7 @@ impl Device {
             features: enabled,
             second_viewport,
             extended: extended.then(|| ash::ext::extended_dynamic_state3::Device::new(api, &raw)),
+            advanced_blend,
             timestamp_bits: if properties.limits.timestamp_period > 0.0 {
                 family.timestamp_valid_bits
             } else {

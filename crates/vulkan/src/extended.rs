@@ -23,6 +23,7 @@ pub(crate) const COLORLESS: usize = 4;
 pub(crate) fn held(draw: &Draw) -> Draw {
     let opposite = |target: &ColorTarget| ColorTarget {
         blend: None,
+        advanced: None,
         write_mask: !target.write_mask & 0b1111,
     };
     Draw {
