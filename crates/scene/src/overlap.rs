@@ -56,43 +56,80 @@ fn share_area(a: &[[f64; 2]; 3], b: &[[f64; 2]; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh_source::MeshSource;
-    use crate::rasterization::Viewport;
+    use crate::mesh_source::{FieldOf, MeshSource, Splat, Units};
+    use crate::rasterization::{FrontFace, Viewport};
     use crate::shader::Shader;
 
-    fn overlaps(mesh: &str) -> bool {
-        let source: MeshSource = serde_json::from_str(mesh).unwrap();
-        let mesh = source.expand([16, 16]).unwrap();
-        let viewport = Viewport::whole([16, 16]);
-        may_overlap(&Draw::new(Shader::FlatColor, mesh, viewport))
+    const VALUE: Splat = Splat([1.0; 4]);
+
+    fn draw(source: &MeshSource) -> Draw {
+        let mesh = source.expand([16, 16]).expect("the mesh fits");
+        Draw::new(Shader::FlatColor, mesh, Viewport::whole([16, 16]))
+    }
+
+    fn field(count: Option<u32>) -> MeshSource {
+        MeshSource::Field {
+            of: FieldOf::Triangles,
+            cell: None,
+            at: [0, 0],
+            count,
+            z: 0.0,
+            values: vec![VALUE],
+            indexed: false,
+            spare: 0,
+        }
     }
 
     #[test]
-    fn rectangles_are_two_triangles_side_by_side() {
-        assert!(!overlaps(r#"{ "kind": "full" }"#));
-        assert!(!overlaps(r#"{ "kind": "rect", "texels": [1, 2, 9, 5] }"#));
-        assert!(!overlaps(r#"{ "kind": "cover" }"#));
-        assert!(!overlaps(
-            r#"{ "kind": "field", "of": "triangles", "count": 20 }"#
-        ));
+    fn a_rectangle_is_two_triangles_side_by_side() {
+        let full = MeshSource::Full {
+            z: 0.0,
+            value: VALUE,
+            winding: FrontFace::Ccw,
+        };
+        assert!(!may_overlap(&draw(&full)));
+        let columns = MeshSource::Columns {
+            values: vec![VALUE; 16],
+            z: vec![0.0],
+            windings: vec![FrontFace::Ccw, FrontFace::Cw],
+        };
+        assert!(!may_overlap(&draw(&columns)));
+        assert!(!may_overlap(&draw(&field(Some(20)))));
     }
 
     #[test]
     fn layers_lie_over_each_other() {
-        assert!(overlaps(r#"{ "kind": "stack", "z": [0, 0] }"#));
-        let crossed = r#"{ "kind": "vertices", "positions":
-            [[-1, -1, 0], [1, -1, 0], [0, 1, 0], [-1, 0.5, 0], [0, -1.5, 0], [1, 0.5, 0]] }"#;
-        assert!(overlaps(crossed));
+        let stack = MeshSource::Stack {
+            z: vec![0.0; 2],
+            values: vec![VALUE],
+        };
+        assert!(may_overlap(&draw(&stack)));
+        let crossed = MeshSource::Vertices {
+            positions: vec![
+                [-1.0, -1.0, 0.0],
+                [1.0, -1.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [-1.0, 0.5, 0.0],
+                [0.0, -1.5, 0.0],
+                [1.0, 0.5, 0.0],
+            ],
+            units: Units::Clip,
+            indices: None,
+            values: vec![VALUE],
+            uv: vec![[0.0; 2]],
+        };
+        assert!(may_overlap(&draw(&crossed)));
     }
 
     #[test]
     fn what_is_not_compared_may_overlap() {
-        let source: MeshSource =
-            serde_json::from_str(r#"{ "kind": "field", "of": "triangles", "count": 250 }"#)
-                .unwrap();
-        let mesh = source.expand([32, 32]).unwrap();
-        let mut draw = Draw::new(Shader::FlatColor, mesh, Viewport::whole([32, 32]));
-        draw.fetch.instances = 2;
-        assert!(may_overlap(&draw));
+        let mut instanced = draw(&field(Some(20)));
+        instanced.fetch.instances = 2;
+        assert!(may_overlap(&instanced));
+        let mut large = draw(&field(None));
+        assert!(!may_overlap(&large));
+        let again = large.mesh.vertices[..3].to_vec();
+        large.mesh.vertices.extend(again);
+        assert!(may_overlap(&large));
     }
 }
