@@ -432,7 +432,8 @@ fn stencil(wire: &StencilWire) -> StencilState {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_scene::SampleCoverage;
+    use crate::{CaseFile, Profile};
+    use etalon_scene::{AdvancedBlend, SampleCoverage};
 
     #[test]
     fn shares_of_one_sample_are_allowed_and_senseless_ones_are_not() {
@@ -461,5 +462,62 @@ mod tests {
         };
         assert!(multisample(&masked, 4).is_ok());
         assert!(multisample(&masked, 1).is_err());
+    }
+
+    /// Builds a draw with these keys to these attachments.
+    fn build(color: &str, keys: &str) -> Result<etalon_scene::Scene, String> {
+        let text = format!(
+            r#"{{"about":"t","spec":["t"],"scene":{{
+            "attachments":{{"color":{{"format":"rgba8unorm","size":[4,4]}},
+                "other":{{"format":"rgba8unorm"}},"signed":{{"format":"rgba8snorm"}},
+                "integer":{{"format":"rgba8uint"}}}},
+            "passes":[{{"color":{color},"draws":[{{"mesh":{{"kind":"full"}},{keys}}}]}}],
+            "read":["color"]}}}}"#
+        );
+        let file = CaseFile::parse("t.json", &text).map_err(|e| e.to_string())?;
+        let case = file.cases(Profile::Full).next().expect("there is one");
+        let built = case.build().map_err(|e| e.to_string())?;
+        Ok(built.scene)
+    }
+
+    #[test]
+    fn advanced_blending_takes_one_source_onto_one_attachment() {
+        let flat = r#""shader":"flat_color","advanced_blend":"color-burn""#;
+        let scene = build(r#"["color"]"#, flat).expect("it builds");
+        let target = scene.passes[0].draws[0].targets[0];
+        assert_eq!(target.advanced, Some(AdvancedBlend::ColorBurn));
+        let both = r#""shader":"weighted_accumulate","advanced_blend":"screen""#;
+        let uint = r#""shader":"uint_color","advanced_blend":"screen""#;
+        let with = |keys: &str| format!("{flat},{keys}");
+        let one = r#"{"operation":"add","src_factor":"one","dst_factor":"one"}"#;
+        for (color, keys, due) in [
+            (
+                r#"["color"]"#,
+                with(r#""logic":"xor""#),
+                "stands instead of",
+            ),
+            (
+                r#"["color"]"#,
+                with(&format!(r#""blend":{{"color":{one},"alpha":{one}}}"#)),
+                "stands instead of",
+            ),
+            (
+                r#"["color"]"#,
+                with(r#""targets":[{}]"#),
+                "stands instead of",
+            ),
+            (
+                r#"["color","other"]"#,
+                both.to_owned(),
+                "one colour attachment",
+            ),
+            (r#"["signed"]"#, flat.to_owned(), "values from 0 to 1"),
+            (r#"["integer"]"#, uint.to_owned(), "values from 0 to 1"),
+        ] {
+            let error = build(color, &keys).expect_err("it is refused");
+            assert!(error.contains(due), "{error}");
+        }
+        let unknown = flat.replace("color-burn", "hue");
+        assert!(build(r#"["color"]"#, &unknown).is_err());
     }
 }

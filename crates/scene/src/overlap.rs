@@ -89,7 +89,7 @@ mod tests {
         };
         assert!(!may_overlap(&draw(&full)));
         let columns = MeshSource::Columns {
-            values: vec![VALUE; 16],
+            values: vec![VALUE; 2],
             z: vec![0.0],
             windings: vec![FrontFace::Ccw, FrontFace::Cw],
         };

@@ -2,7 +2,7 @@
 //! and the division by alpha.
 
 use crate::hooks::{advanced_blending, faithful_advanced};
-use crate::list::{CONFUSION, List, SMALL};
+use crate::list::{CONFUSION, List, Row, SMALL};
 use crate::plant::{Plant, draws};
 use etalon_frame::ChannelEncoding;
 use etalon_scene::AdvancedBlend;
@@ -10,6 +10,8 @@ use etalon_scene::AdvancedBlend;
 /// Source and destination.
 type Colors = [[f32; 4]; 2];
 type Encodings = [ChannelEncoding; 4];
+/// A whole blend.
+type Whole = fn(AdvancedBlend, Encodings, Colors) -> [f32; 4];
 /// A mode's function, `None` where it is right.
 type Mix = fn(AdvancedBlend, f32, f32) -> Option<f32>;
 /// The weights of both, of the source alone and of the destination alone, of two alphas.
@@ -100,7 +102,7 @@ fn weighed(weights: Weights) -> Plant {
 }
 
 /// Source and destination are taken in another way.
-fn colors(wrong: fn(AdvancedBlend, Encodings, Colors) -> [f32; 4]) -> Plant {
+fn colors(wrong: Whole) -> Plant {
     advanced_blending(wrong)
 }
 
@@ -109,7 +111,7 @@ fn of(mode: AdvancedBlend, this: AdvancedBlend, value: f32) -> Option<f32> {
     (mode == this).then_some(value)
 }
 
-const FUNCTIONS: &[(&str, &str, Mix)] = &[
+const FUNCTIONS: &[Row<Mix>] = &[
     (
         "advanced-dodge-onto-black",
         "Colour dodge makes black white where the source is white.",
@@ -274,7 +276,7 @@ const FUNCTIONS: &[(&str, &str, Mix)] = &[
     ),
 ];
 
-const WEIGHTS: &[(&str, &str, Weights)] = &[
+const WEIGHTS: &[Row<Weights>] = &[
     (
         "advanced-both-dropped",
         "Where source and destination lie together, nothing is left.",
@@ -312,7 +314,7 @@ const WEIGHTS: &[(&str, &str, Weights)] = &[
     ),
 ];
 
-const COLORS: &[(&str, &str, fn(AdvancedBlend, Encodings, Colors) -> [f32; 4])] = &[
+const COLORS: &[Row<Whole>] = &[
     (
         "advanced-source-not-divided",
         "The source is not divided by its alpha.",
