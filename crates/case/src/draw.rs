@@ -99,6 +99,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
     multisample(&wire.multisample, samples).map_err(|e| e.key("multisample"))?;
     let color_targets = color_targets(wire, target.color.len())?;
     check_shader(wire, &color_targets)?;
+    check_advanced(wire, target).map_err(|e| e.key("advanced_blend"))?;
     check_integers(wire, target, &color_targets)?;
     if let Some([low, high]) = wire.depth_bounds
         && !(0.0 <= low && low <= high && high <= 1.0)
@@ -393,6 +394,7 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
     let one = |blend, letters: &str| -> Result<ColorTarget, At> {
         Ok(ColorTarget {
             blend,
+            advanced: wire.advanced_blend,
             write_mask: write_mask(letters).map_err(|e| e.key("write_mask"))?,
         })
     };
@@ -412,6 +414,30 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
     let each = list.iter().enumerate();
     each.map(|(i, t)| one(t.blend, &t.write_mask).map_err(|e| e.index(i).key("targets")))
         .collect()
+}
+
+/// Checks what advanced blending is done to, and what stands beside it.
+fn check_advanced(wire: &DrawWire, target: &Target<'_>) -> Result<(), At> {
+    if wire.advanced_blend.is_none() {
+        return Ok(());
+    }
+    if wire.blend.is_some() || wire.targets.is_some() || wire.logic.is_some() {
+        let message = "advanced blending stands instead of `blend`, `targets` and `logic`";
+        return Err(At::new(message));
+    }
+    let [index] = target.color else {
+        return Err(At::new("advanced blending takes one colour attachment"));
+    };
+    if wire.shader.has_second_source() {
+        return Err(At::new("advanced blending takes one source"));
+    }
+    let format = target.attachments[*index].format;
+    if format.is_integer() || format == TextureFormat::Rgba8Snorm {
+        return Err(At::new(format!(
+            "the modes are defined for values from 0 to 1, not for {format}"
+        )));
+    }
+    Ok(())
 }
 
 fn check_shader(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
@@ -507,7 +533,8 @@ fn stencil(wire: &StencilWire) -> StencilState {
 mod tests {
     use super::*;
     use crate::resolve::parse_scene;
-    use etalon_scene::SampleCoverage;
+    use crate::{CaseFile, Profile};
+    use etalon_scene::{AdvancedBlend, SampleCoverage};
     use serde_json::{Value, json};
 
     /// The fault of a draw with a texture of this format and these texels, all alike.
@@ -657,5 +684,62 @@ mod tests {
         };
         assert!(multisample(&masked, 4).is_ok());
         assert!(multisample(&masked, 1).is_err());
+    }
+
+    /// Builds a draw with these keys to these attachments.
+    fn build(color: &str, keys: &str) -> Result<etalon_scene::Scene, String> {
+        let text = format!(
+            r#"{{"about":"t","spec":["t"],"scene":{{
+            "attachments":{{"color":{{"format":"rgba8unorm","size":[4,4]}},
+                "other":{{"format":"rgba8unorm"}},"signed":{{"format":"rgba8snorm"}},
+                "integer":{{"format":"rgba8uint"}}}},
+            "passes":[{{"color":{color},"draws":[{{"mesh":{{"kind":"full"}},{keys}}}]}}],
+            "read":["color"]}}}}"#
+        );
+        let file = CaseFile::parse("t.json", &text).map_err(|e| e.to_string())?;
+        let case = file.cases(Profile::Full).next().expect("there is one");
+        let built = case.build().map_err(|e| e.to_string())?;
+        Ok(built.scene)
+    }
+
+    #[test]
+    fn advanced_blending_takes_one_source_onto_one_attachment() {
+        let flat = r#""shader":"flat_color","advanced_blend":"color-burn""#;
+        let scene = build(r#"["color"]"#, flat).expect("it builds");
+        let target = scene.passes[0].draws[0].targets[0];
+        assert_eq!(target.advanced, Some(AdvancedBlend::ColorBurn));
+        let both = r#""shader":"weighted_accumulate","advanced_blend":"screen""#;
+        let uint = r#""shader":"uint_color","advanced_blend":"screen""#;
+        let with = |keys: &str| format!("{flat},{keys}");
+        let one = r#"{"operation":"add","src_factor":"one","dst_factor":"one"}"#;
+        for (color, keys, due) in [
+            (
+                r#"["color"]"#,
+                with(r#""logic":"xor""#),
+                "stands instead of",
+            ),
+            (
+                r#"["color"]"#,
+                with(&format!(r#""blend":{{"color":{one},"alpha":{one}}}"#)),
+                "stands instead of",
+            ),
+            (
+                r#"["color"]"#,
+                with(r#""targets":[{}]"#),
+                "stands instead of",
+            ),
+            (
+                r#"["color","other"]"#,
+                both.to_owned(),
+                "one colour attachment",
+            ),
+            (r#"["signed"]"#, flat.to_owned(), "values from 0 to 1"),
+            (r#"["integer"]"#, uint.to_owned(), "values from 0 to 1"),
+        ] {
+            let error = build(color, &keys).expect_err("it is refused");
+            assert!(error.contains(due), "{error}");
+        }
+        let unknown = flat.replace("color-burn", "hue");
+        assert!(build(r#"["color"]"#, &unknown).is_err());
     }
 }

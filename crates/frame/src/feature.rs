@@ -7,6 +7,10 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// A capability that not every adapter has and that a scene may need.
     Feature: array {
+        /// Advanced blending: `multiply`, `screen` and the other modes that take no factors.
+        AdvancedBlend = "advanced-blend",
+        /// Advanced blending of what the same pass has drawn before, in order.
+        AdvancedBlendCoherent = "advanced-blend-coherent",
         /// Alpha counting as 1 after alpha to coverage.
         AlphaToOne = "alpha-to-one",
         /// A number that a draw call adds to every index.

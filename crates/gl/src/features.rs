@@ -26,6 +26,8 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         | Feature::ViewportOutside => true,
         Feature::BaseVertex => entry_points.draw_elements_base_vertex.is_some(),
         Feature::FirstInstance => entry_points.draw_arrays_instanced_base_instance.is_some(),
+        Feature::AdvancedBlend => entry_points.blend_barrier.is_some(),
+        Feature::AdvancedBlendCoherent => caps.coherent_blend,
         Feature::AlphaToOne => caps.alpha_to_one,
         Feature::ConservativeDepth => caps.conservative_depth,
         Feature::DepthBiasClamp => entry_points.polygon_offset_clamp.is_some(),

@@ -1,10 +1,13 @@
 //! Programs of the suite's shaders, translated by naga, and of reading attachments back.
 
-use crate::caps::SECOND_VIEWPORT;
+use crate::caps::{ADVANCED_BLEND, SECOND_VIEWPORT};
 use crate::context::{Context, refused};
+use crate::enums::blend_support;
 use crate::path::Variant;
 use etalon_backend::BackendError;
-use etalon_scene::{CONTROL_GLSL, EVALUATION_GLSL, EarlyTests, FrontFace, Shader, Tessellation};
+use etalon_scene::{
+    AdvancedBlend, CONTROL_GLSL, EVALUATION_GLSL, EarlyTests, FrontFace, Shader, Tessellation,
+};
 use glow::HasContext;
 use naga::back::glsl;
 use naga::proc::BoundsCheckPolicies;
@@ -32,8 +35,16 @@ const RUNS: ResourceBinding = ResourceBinding {
 /// The programs of a context, created on first use.
 #[derive(Default)]
 pub(crate) struct Programs {
-    shaders: HashMap<(Shader, EarlyTests, Variant, Option<FrontFace>), glow::Program>,
+    shaders: HashMap<(Shader, FragmentForm, Variant, Option<FrontFace>), glow::Program>,
     readers: HashMap<(Reader, View), (glow::Program, Option<glow::UniformLocation>)>,
+}
+
+/// What a draw asks of a fragment shader beside its function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct FragmentForm {
+    pub(crate) tests: EarlyTests,
+    /// The advanced blend equation that the shader allows.
+    pub(crate) blend: Option<AdvancedBlend>,
 }
 
 /// The type of the values that a read-back program fetches.
@@ -64,12 +75,12 @@ impl Programs {
         &mut self,
         context: &Context,
         shader: Shader,
-        tests: EarlyTests,
+        form: FragmentForm,
         variant: Variant,
         tessellation: Option<Tessellation>,
     ) -> Result<glow::Program, BackendError> {
         let order = tessellation.map(|t| t.order);
-        let key = (shader, tests, variant, order);
+        let key = (shader, form, variant, order);
         if let Some(program) = self.shaders.get(&key) {
             return Ok(*program);
         }
@@ -77,10 +88,13 @@ impl Programs {
             shader: shader.name().to_owned(),
             message,
         };
-        let translated = Translated::new(context, shader, tests).map_err(fail)?;
+        let translated = Translated::new(context, shader, form.tests).map_err(fail)?;
         let vertex = varied(translated.vertex, variant);
         let mut stages = vec![(glow::VERTEX_SHADER, vertex)];
-        let fragment = translated.fragment;
+        let fragment = translated.fragment.map(|text| match form.blend {
+            Some(mode) => allowing(context, &text, mode),
+            None => text,
+        });
         stages.extend(fragment.map(|text| (glow::FRAGMENT_SHADER, text)));
         stages.extend(order.into_iter().flat_map(|o| patches(context, o)));
         let program = link(context, shader.name(), &stages)?;
@@ -199,6 +213,26 @@ fn varied(vertex: String, variant: Variant) -> String {
         made += "gl_ViewportIndex = 1;\n";
     }
     made + "}\n"
+}
+
+/// Returns a fragment shader that allows an advanced blend equation, of which naga knows nothing.
+fn allowing(context: &Context, fragment: &str, mode: AdvancedBlend) -> String {
+    let Some((version, body)) = fragment.split_once('\n') else {
+        return fragment.to_owned();
+    };
+    // Directives stand before everything else.
+    let directives = body
+        .split_inclusive('\n')
+        .take_while(|line| line.trim().is_empty() || line.starts_with('#'))
+        .map(str::len)
+        .sum();
+    let (directives, rest) = body.split_at(directives);
+    let extension = match context.caps.es && context.caps.version >= (3, 2) {
+        true => String::new(),
+        false => format!("#extension {ADVANCED_BLEND} : require\n"),
+    };
+    let word = blend_support(mode);
+    format!("{version}\n{extension}{directives}layout(blend_support_{word}) out;\n{rest}")
 }
 
 /// Returns true if naga can write a shader in the context's GLSL.

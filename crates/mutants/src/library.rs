@@ -23,6 +23,7 @@ pub fn mutants() -> &'static [Mutant] {
         stencil::add(&mut list);
         blend::add(&mut list);
         blend::precision::add(&mut list);
+        blend::advanced::add(&mut list);
         mask::add(&mut list);
         formats::add(&mut list);
         targets::add(&mut list);

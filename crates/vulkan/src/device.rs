@@ -44,6 +44,8 @@ pub(crate) struct Device {
     pub(crate) logic_enable: bool,
     /// The provoking vertices that the device has besides the first.
     pub(crate) provoking: Provoking,
+    /// Advanced blending: true if it is coherent; `None` if the device lacks it.
+    pub(crate) advanced_blend: Option<bool>,
     /// Valid bits of a timestamp; 0 if timestamps are not supported.
     pub(crate) timestamp_bits: u32,
 }
@@ -212,6 +214,18 @@ fn has_dynamic_logic_enable(api: &ash::Instance, physical: vk::PhysicalDevice) -
     offered.extended_dynamic_state3_logic_op_enable != vk::FALSE
 }
 
+/// Returns whether a device's advanced blending is coherent; `None` if it has none.
+fn advanced_blend(api: &ash::Instance, physical: vk::PhysicalDevice) -> Option<bool> {
+    if !has_extension(api, physical, ash::ext::blend_operation_advanced::NAME) {
+        return None;
+    }
+    let mut offered = vk::PhysicalDeviceBlendOperationAdvancedFeaturesEXT::default();
+    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    // SAFETY: the chained structure is of an extension that the device has.
+    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    Some(offered.advanced_blend_coherent_operations != vk::FALSE)
+}
+
 /// Returns the promises of maintenance5, where the device has it.
 fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Property> {
     if !has_extension(api, physical, ash::khr::maintenance5::NAME) {
@@ -363,7 +377,12 @@ impl Device {
         let dynamic_logic = has_dynamic_logic(api, physical, &enabled);
         let logic_enable = dynamic_logic && extended && has_dynamic_logic_enable(api, physical);
         let provoking = Provoking::of(api, physical);
+        let advanced_blend = advanced_blend(api, physical);
         let extensions: Vec<_> = [
+            (
+                advanced_blend.is_some(),
+                ash::ext::blend_operation_advanced::NAME,
+            ),
             (provoking.last, ash::ext::provoking_vertex::NAME),
             (dynamic_logic, ash::ext::extended_dynamic_state2::NAME),
             (second_viewport, ash::ext::shader_viewport_index_layer::NAME),
@@ -396,6 +415,11 @@ impl Device {
         if dynamic_logic {
             info = info.push_next(&mut enabled_logic);
         }
+        let mut coherent = vk::PhysicalDeviceBlendOperationAdvancedFeaturesEXT::default()
+            .advanced_blend_coherent_operations(true);
+        if advanced_blend == Some(true) {
+            info = info.push_next(&mut coherent);
+        }
         // SAFETY: every pointer in `info` outlives the call.
         let raw = unsafe { api.create_device(physical, &info, None) }.map_err(|code| {
             Unavailable::new(
@@ -426,6 +450,7 @@ impl Device {
             dynamic_logic: dynamic_logic
                 .then(|| ash::ext::extended_dynamic_state2::Device::new(api, &raw)),
             logic_enable,
+            advanced_blend,
             timestamp_bits: if properties.limits.timestamp_period > 0.0 {
                 family.timestamp_valid_bits
             } else {

@@ -162,7 +162,7 @@ fn support(
     })
 }
 
-/// Returns the features that wgpu offers beyond WebGPU's minimum. It lacks or refuses the rest: clears
+/// Returns the features that wgpu offers beyond WebGPU's minimum. It lacks or refuses the rest: advanced blending, clears
 /// within a pass, resolves of depth and stencil, reversed depth ranges, mirrored viewports, scissors beyond the attachments, tessellation, last provoking vertices, clip distances that are off, factors of `min` and
 /// `max`, counts of samples, sample coverage, least shares of sample shading.
 ///
