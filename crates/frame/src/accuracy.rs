@@ -72,8 +72,8 @@ impl<'a> Distances<'a> {
         }
     }
 
-    /// Adds one sample, held against the nearest of the outcomes that the yardstick knows.
-    pub(crate) fn add(&mut self, yardstick: &TexelSet, orders: &[i64]) {
+    /// Adds so many samples of equal codes, held against the nearest of the outcomes that the yardstick knows.
+    pub(crate) fn add(&mut self, yardstick: &TexelSet, orders: &[i64], times: u64) {
         let world = match yardstick.worlds.as_slice() {
             [] => return,
             [only] => only,
@@ -95,10 +95,10 @@ impl<'a> Distances<'a> {
             if *interval == channel.all {
                 continue;
             }
-            channel.asserted += 1;
+            channel.asserted += times;
             let distance = distance(channel.encoding, *interval, *order);
             if distance > 0.0 {
-                channel.sum += distance;
+                channel.sum += distance * times as f64;
                 channel.max = channel.max.max(distance);
             }
         }
@@ -228,13 +228,13 @@ mod tests {
         let edge = TexelSet {
             worlds: vec![world([(0, 0), (0, 0)]), world([(200, 202), (100, 100)])],
         };
-        distances.add(&edge, &[200, 100]);
-        distances.add(&edge, &[0, 0]);
+        distances.add(&edge, &[200, 100], 1);
+        distances.add(&edge, &[0, 0], 1);
         let free = TexelSet {
             worlds: vec![world([(0, 255), (5, 5)])],
         };
-        distances.add(&free, &[77, 8]);
-        distances.add(&TexelSet::default(), &[1, 2]);
+        distances.add(&free, &[77, 8], 1);
+        distances.add(&TexelSet::default(), &[1, 2], 3);
         let mut result = Vec::new();
         distances.into(&mut result);
         assert_eq!(

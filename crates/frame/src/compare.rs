@@ -108,45 +108,58 @@ pub fn compare(
             .enumerate()
             .filter(|(_, i)| i.group == g)
             .collect();
+        let ideal = &yardstick.groups[g];
+        let codes = |(i, info): &(usize, &ImageInfo), at: usize| {
+            let n = info.channels.len();
+            &frame.images[*i].codes[at * n..(at + 1) * n]
+        };
+        let same = |at: usize| images.iter().all(|i| codes(i, at) == codes(i, at - 1));
         let mut distances = Distances::new(&images);
-        for y in 0..group.size[1] {
-            for x in 0..group.size[0] {
-                for sample in 0..group.samples {
-                    orders.clear();
-                    for (i, info) in &images {
-                        let codes = frame.images[*i].sample(x, y, sample);
-                        orders.extend(
-                            codes
-                                .iter()
-                                .zip(&info.channels)
-                                .map(|(code, e)| e.order_of_code(*code)),
-                        );
-                    }
-                    let allowed = group.sample(x, y, sample);
-                    let tight = yardstick.groups[g].sample(x, y, sample);
-                    distances.add(tight, &orders);
-                    result.texels.total += 1;
-                    result.texels.open += u64::from(allowed.is_open());
-                    let describe = |band, set: &TexelSet| WrongTexel {
-                        x,
-                        y,
-                        sample,
-                        band,
-                        channels: mismatches(&images, set, &orders),
-                    };
-                    if !allowed.allows(&orders) {
-                        result.texels.wrong += 1;
-                        if result.wrong.len() < keep {
-                            result.wrong.push(describe(Band::Fail, allowed));
-                        }
-                    } else if !tight.allows(&orders) {
-                        result.texels.imprecise += 1;
-                        if imprecise.len() < keep {
-                            imprecise.push(describe(Band::Imprecise, tight));
-                        }
-                    }
-                }
+        let mut at = 0;
+        let (mut sets, mut ideals) = (group.runs().peekable(), ideal.runs().peekable());
+        while let (Some((end, allowed)), Some((ideal_end, tight))) =
+            (sets.peek().copied(), ideals.peek().copied())
+        {
+            // Most samples equal the one before them, in what they hold and in what they may hold.
+            let most = end.min(ideal_end);
+            let next = (at + 1..most).find(|next| !same(*next)).unwrap_or(most);
+            let run = at..next;
+            orders.clear();
+            for image in &images {
+                let channels = codes(image, at).iter().zip(&image.1.channels);
+                orders.extend(channels.map(|(code, e)| e.order_of_code(*code)));
             }
+            let times = run.len() as u64;
+            distances.add(tight, &orders, times);
+            result.texels.total += times;
+            if allowed.is_open() {
+                result.texels.open += times;
+            }
+            let describe = |band, set: &TexelSet, at: usize| {
+                let [x, y, sample] = group.position(at);
+                WrongTexel {
+                    x,
+                    y,
+                    sample,
+                    band,
+                    channels: mismatches(&images, set, &orders),
+                }
+            };
+            if !allowed.allows(&orders) {
+                result.texels.wrong += times;
+                let left = keep - result.wrong.len();
+                let first = run.clone().take(left);
+                let wrong = first.map(|at| describe(Band::Fail, allowed, at));
+                result.wrong.extend(wrong);
+            } else if !tight.allows(&orders) {
+                result.texels.imprecise += times;
+                let left = keep - imprecise.len();
+                let first = run.clone().take(left);
+                imprecise.extend(first.map(|at| describe(Band::Imprecise, tight, at)));
+            }
+            at = next;
+            sets.next_if(|(end, _)| *end <= at);
+            ideals.next_if(|(end, _)| *end <= at);
         }
         distances.into(&mut result.accuracy);
     }

@@ -32,6 +32,7 @@ pub struct Image {
     /// The way the codes were read.
     pub read: ReadPath,
     /// Codes, index `((y * width + x) * samples + sample) * channels + channel`, row 0 at the top.
+    #[serde(with = "crate::code_bytes")]
     pub codes: Vec<u32>,
 }
 

@@ -169,7 +169,17 @@ pub struct SampleGroup {
     /// Encodings of all channels, image by image.
     pub channels: Vec<ChannelEncoding>,
     palette: Vec<TexelSet>,
-    index: Vec<u32>,
+    /// The samples row by row and texel by texel, as runs of samples that have the same set.
+    runs: Vec<Run>,
+}
+
+/// Samples that follow each other and have the same set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Run {
+    /// The number of the first sample that does not belong to it.
+    end: usize,
+    /// The set's number in the palette.
+    set: u32,
 }
 
 impl SampleGroup {
@@ -177,14 +187,37 @@ impl SampleGroup {
     pub fn sample(&self, x: u32, y: u32, sample: u32) -> &TexelSet {
         let at = (y as usize * self.size[0] as usize + x as usize) * self.samples as usize
             + sample as usize;
-        &self.palette[self.index[at] as usize]
+        let run = self.runs.partition_point(|run| run.end <= at);
+        &self.palette[self.runs[run].set as usize]
+    }
+
+    /// The number of samples.
+    pub(crate) fn len(&self) -> usize {
+        self.runs.last().map_or(0, |run| run.end)
+    }
+
+    /// The runs of samples that have the same set, in order: the number of the first sample beyond it, and
+    /// the set.
+    pub fn runs(&self) -> impl Iterator<Item = (usize, &TexelSet)> {
+        let set = |run: &Run| &self.palette[run.set as usize];
+        self.runs.iter().map(move |run| (run.end, set(run)))
+    }
+
+    /// The column, row and sample within the texel of a sample by its number.
+    pub(crate) fn position(&self, at: usize) -> [u32; 3] {
+        let texel = at / self.samples as usize;
+        let width = self.size[0] as usize;
+        // They were unsigned 32-bit numbers before they made the number.
+        [texel % width, texel / width, at % self.samples as usize].map(|n| n as u32)
     }
 
     /// The distinct sets, each with how many samples have it.
     pub fn distinct(&self) -> Vec<(&TexelSet, u64)> {
         let mut counts = vec![0_u64; self.palette.len()];
-        for i in &self.index {
-            counts[*i as usize] += 1;
+        let mut start = 0;
+        for run in &self.runs {
+            counts[run.set as usize] += (run.end - start) as u64;
+            start = run.end;
         }
         self.palette.iter().zip(counts).collect()
     }
@@ -260,7 +293,7 @@ impl LegalSet {
         self.groups
             .iter()
             .map(|g| {
-                g.index.len() * 4
+                g.runs.len() * size_of::<Run>()
                     + g.palette
                         .iter()
                         .map(|t| 32 + t.worlds.len() * 128)
@@ -301,7 +334,7 @@ impl LegalSetBuilder {
                     samples,
                     channels: Vec::new(),
                     palette: Vec::new(),
-                    index: Vec::new(),
+                    runs: Vec::new(),
                 });
                 self.groups.len() - 1
             });
@@ -344,8 +377,13 @@ impl LegalSetBuilder {
 
     /// Adds the next samples of a group, so many, with a set of this number.
     pub fn samples(&mut self, group: usize, set: u32, count: usize) {
-        let index = &mut self.groups[group].index;
-        index.resize(index.len() + count, set);
+        let group = &mut self.groups[group];
+        let end = group.len() + count;
+        match group.runs.last_mut() {
+            _ if count == 0 => {}
+            Some(last) if last.set == set => last.end = end,
+            _ => group.runs.push(Run { end, set }),
+        }
     }
 
     /// Adds a counter.
@@ -360,7 +398,7 @@ impl LegalSetBuilder {
     pub fn build(self) -> LegalSet {
         for group in &self.groups {
             let due = group.size[0] as usize * group.size[1] as usize * group.samples as usize;
-            assert_eq!(group.index.len(), due, "a group's samples are not complete");
+            assert_eq!(group.len(), due, "a group's samples are not complete");
         }
         LegalSet {
             images: self.images,
@@ -398,6 +436,25 @@ mod tests {
         assert!(s.allows(&[255, 9]));
         assert!(!s.allows(&[255, 0]));
         assert_eq!(s.nearest(&[255, 8]).map(|w| w.channels[1].low), Some(9));
+    }
+
+    #[test]
+    fn samples_are_found_in_runs() {
+        let mut builder = LegalSetBuilder::default();
+        let unorm = ChannelEncoding::Unorm(8);
+        builder.image("c", Aspect::Color, [3, 2], 2, &[unorm], ReadPath::Copy);
+        let numbers = [0, 7].map(|code| builder.set(0, set(&[&[(code, code)]])));
+        for (number, count) in [(0, 1), (0, 2), (1, 0), (1, 4), (0, 1), (1, 4)] {
+            builder.samples(0, numbers[number], count);
+        }
+        let group = &builder.build().groups[0];
+        let low = |x, y, sample| group.sample(x, y, sample).worlds[0].channels[0].low;
+        let all = (0..12).map(|at| group.position(at));
+        let all: Vec<i64> = all.map(|[x, y, sample]| low(x, y, sample)).collect();
+        assert_eq!(all, [0, 0, 0, 7, 7, 7, 7, 0, 7, 7, 7, 7]);
+        assert_eq!(group.runs().count(), 4);
+        let times: Vec<u64> = group.distinct().iter().map(|(_, times)| *times).collect();
+        assert_eq!(times, [4, 8]);
     }
 
     #[test]

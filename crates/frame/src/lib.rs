@@ -8,6 +8,7 @@
 mod accuracy;
 mod api;
 mod band;
+mod code_bytes;
 mod compare;
 mod counter;
 mod distance;

@@ -160,12 +160,39 @@ struct Globs {
     version: Option<VersionReq>,
     /// Whole ids, which most findings name.
     ids: HashSet<String>,
-    cases: Vec<GlobMatcher>,
+    cases: Vec<CaseGlob>,
+}
+
+/// A glob over case ids. Most ids differ from it in the text before its first special character, which
+/// is cheaper to compare than to match.
+#[derive(Clone, Debug)]
+struct CaseGlob {
+    prefix: String,
+    glob: GlobMatcher,
+}
+
+impl CaseGlob {
+    fn new(text: &str, glob: GlobMatcher) -> Self {
+        let prefix = text.split(is_special).next().unwrap_or_default();
+        Self {
+            prefix: prefix.to_owned(),
+            glob,
+        }
+    }
+
+    fn is_match(&self, case: &str) -> bool {
+        case.starts_with(&self.prefix) && self.glob.is_match(case)
+    }
+}
+
+/// True if a character may stand for others in a glob.
+fn is_special(c: char) -> bool {
+    "*?[]{}!\\".contains(c)
 }
 
 /// True if a glob matches its own text alone.
 fn is_plain(glob: &str) -> bool {
-    !glob.contains(['*', '?', '[', ']', '{', '}', '!', '\\'])
+    !glob.contains(is_special)
 }
 
 impl Globs {
@@ -336,7 +363,13 @@ impl Expectations {
             adapters: each(keys[0], &known.adapters)?,
             driver: build("driver", &known.driver)?,
             ids: plain.into_iter().collect(),
-            cases: each(keys[1], &globs)?,
+            cases: {
+                let compiled = each(keys[1], &globs)?;
+                let pairs = globs.iter().zip(compiled);
+                pairs
+                    .map(|(text, glob)| CaseGlob::new(text, glob))
+                    .collect()
+            },
         };
         self.all.push(known);
         self.globs.push(globs);

@@ -3,6 +3,7 @@
 use crate::counting::Tally;
 use crate::notes::{Note, Notes};
 use crate::picture::shapes;
+use crate::read_back::as_read;
 use crate::rules::Rules;
 use crate::sample::{Sample, Shape};
 use crate::states::{OPEN, State};
@@ -10,8 +11,8 @@ use crate::texels::Texels;
 use crate::verdict::verdict;
 use crate::walk::Walk;
 use etalon_frame::{
-    Api, ApiVersion, CountRange, FormatSupport, Frame, LegalSet, LegalSetBuilder, Limits, Story,
-    StoryLine, TexelSet,
+    Api, ApiVersion, CountRange, FormatSupport, Frame, LegalSet, LegalSetBuilder, Limits, ReadPath,
+    Story, StoryLine, TexelSet,
 };
 use etalon_scene::{Draw, Scene};
 use rustc_hash::FxHashMap;
@@ -64,8 +65,9 @@ pub fn judgements_by(
         .map(|limits| {
             let rules = Rules::of(&limits);
             let basis = basis(scene, &limits);
-            let legal = set(&basis, &rules);
-            let yardstick = set(&basis, &Rules::yardstick(&limits));
+            let set = |rules: &Rules| as_read(set(&basis, rules), scene, &limits, rules);
+            let legal = set(&rules);
+            let yardstick = set(&Rules::yardstick(&limits));
             let groups = legal.groups.iter();
             Judgement {
                 looked_at: groups
@@ -90,7 +92,8 @@ fn basis(scene: &Scene, limits: &Limits) -> Limits {
             samples: Vec::new(),
             blendable: false,
             depth: support.depth.clone(),
-            read: support.read,
+            // How it is read comes after the walk.
+            read: ReadPath::Copy,
         };
         Some((format, basis))
     });

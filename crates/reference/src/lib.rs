@@ -25,6 +25,7 @@ mod pass_operations;
 mod picture;
 mod possible;
 mod primitive;
+mod read_back;
 mod rejections;
 pub mod rules;
 mod sample;

@@ -4,10 +4,11 @@
 use crate::bins::PassSetup;
 use crate::clause::Rejection;
 use crate::context::PassContext;
-use crate::judging::{Judging, Range, all_codes};
+use crate::judging::all_codes;
 use crate::notes::{Note, Notes, Skipped};
 use crate::possible::Possible;
 use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
+use crate::read_back::{converted, read_path};
 use crate::rules::{Copies, Rules};
 use crate::sample::{self, Sample};
 use crate::snap::units_per_texel;
@@ -16,7 +17,7 @@ use crate::texels::Texels;
 use crate::undefined::Undefined;
 use crate::world::{Cell, Decision, World, Worlds, merge};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Limits, ReadPath, TexelSet, WorldBox};
-use etalon_pipeline::{Arithmetic, Point};
+use etalon_pipeline::Point;
 use etalon_scene::{Draw, Scene};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
@@ -176,11 +177,7 @@ impl<'a> Walk<'a> {
         aspect: Aspect,
     ) -> (Cow<'static, [ChannelEncoding]>, ReadPath) {
         let format = self.scene.attachments[attachment].format;
-        let read = self
-            .limits
-            .formats
-            .get(&format)
-            .map_or(ReadPath::Copy, |support| support.read);
+        let read = read_path(self.limits, format);
         match aspect {
             Aspect::Color => (Cow::Borrowed(format.color_channels()), read),
             Aspect::Depth => match (read, self.depth_encoding(attachment)) {
@@ -532,9 +529,7 @@ impl<'a> Walk<'a> {
         if read[0] == encoding {
             return stored;
         }
-        let mut judging = Judging::new(self.rules);
-        let value = judging.decode(encoding, stored);
-        judging.encode(read[0], Range::same(value.float))
+        converted(self.rules, (encoding, stored), read[0])
     }
 }
 

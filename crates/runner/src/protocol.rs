@@ -73,13 +73,13 @@ impl Request {
 
 /// The bytes of a message in a pipe.
 pub(crate) fn encode<T: Serialize>(message: &T) -> io::Result<Vec<u8>> {
-    let bytes = postcard::to_stdvec(message).map_err(io::Error::other)?;
-    let length = u32::try_from(bytes.len())
+    const LENGTH: usize = size_of::<u32>();
+    let mut whole = postcard::to_extend(message, vec![0; LENGTH]).map_err(io::Error::other)?;
+    let length = u32::try_from(whole.len() - LENGTH)
         .ok()
         .filter(|n| *n <= MAX_MESSAGE)
         .ok_or_else(|| io::Error::other("the message is too long"))?;
-    let mut whole = length.to_le_bytes().to_vec();
-    whole.extend(bytes);
+    whole[..LENGTH].copy_from_slice(&length.to_le_bytes());
     Ok(whole)
 }
 
@@ -113,6 +113,7 @@ pub(crate) fn receive<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<O
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath};
 
     #[test]
     fn messages_survive_the_pipe_and_garbage_is_refused() {
@@ -124,5 +125,51 @@ mod tests {
         assert!(receive::<Request>(&mut from).expect("end").is_none());
         assert!(receive::<Response>(&mut &b"hello, this is no message"[..]).is_err());
         assert!(receive::<Response>(&mut &[3, 0, 0, 0, 1][..]).is_err());
+    }
+
+    fn image(codes: Vec<u32>) -> Image {
+        Image {
+            attachment: "color".to_owned(),
+            aspect: Aspect::Color,
+            size: [codes.len() as u32, 1],
+            samples: 1,
+            channels: vec![ChannelEncoding::Unorm(8)],
+            read: ReadPath::Copy,
+            codes,
+        }
+    }
+
+    #[test]
+    fn codes_of_any_width_survive_the_pipe() {
+        for codes in [
+            vec![],
+            vec![0, 255],
+            vec![0, 256, 0xffff],
+            vec![7, 0x1_0000, u32::MAX],
+        ] {
+            let sent = image(codes);
+            let mut pipe = Vec::new();
+            send(&mut pipe, &sent).expect("sent");
+            let back: Option<Image> = receive(&mut pipe.as_slice()).expect("received");
+            assert_eq!(back, Some(sent));
+        }
+    }
+
+    #[test]
+    fn codes_of_an_unknown_width_and_parts_of_codes_are_refused() {
+        let bytes = encode(&image(vec![0, 256])).expect("encoded");
+        let width = bytes.len() - 5;
+        assert_eq!(bytes[width..], [2, 0, 0, 0, 1]);
+        for wrong in [0, 3, 4 + 1] {
+            let mut bytes = bytes.clone();
+            bytes[width] = wrong;
+            assert!(receive::<Image>(&mut bytes.as_slice()).is_err(), "{wrong}");
+        }
+        // The length of the codes stands before their width; the last code loses a byte.
+        let mut cut = bytes;
+        cut[width - 1] -= 1;
+        cut[0] -= 1;
+        cut.pop();
+        assert!(receive::<Image>(&mut cut.as_slice()).is_err());
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::common::{APIS, limits};
 use etalon_case::{Library, Profile};
-use etalon_frame::{ApiVersion, LegalSet, Limits};
+use etalon_frame::{ApiVersion, LegalSet, Limits, ReadPath};
 use etalon_reference::{AskedValues, Rules, Texels, judge_some, judgements_by};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -11,15 +11,22 @@ use std::sync::Arc;
 /// A set with the values of the permissions that it was computed by.
 type Known = (AskedValues, Arc<LegalSet>);
 
-/// Limits of every API, with two grids of sub-pixels.
+/// Limits of every API, with two grids of sub-pixels and both ways of reading.
 fn all_limits() -> Vec<Limits> {
     let versions = [(1, 3), (4, 5), (3, 1), (0, 0)];
     let mut all = Vec::new();
     for (api, (major, minor)) in APIS.into_iter().zip(versions) {
-        for bits in [8, 4] {
+        for (bits, read) in [
+            (8, ReadPath::Copy),
+            (4, ReadPath::Copy),
+            (8, ReadPath::Shader),
+        ] {
             let mut one = limits(api);
             one.version = ApiVersion::new(major, minor);
             one.sub_pixel_bits = bits;
+            for support in one.formats.values_mut() {
+                support.read = read;
+            }
             all.push(one);
         }
     }

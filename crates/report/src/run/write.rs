@@ -8,7 +8,9 @@ use crate::files::replace;
 use crate::methods::{self, Methods};
 use etalon_record::{Dead, Run};
 use std::fs;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
+use std::thread;
 
 /// The files that [`write()`] may write into a run folder.
 pub const RUN_FILES: [&str; 5] = [HTML, methods::PAGE, JUNIT, CTRF, SUMMARY];
@@ -61,22 +63,39 @@ impl Written {
 pub fn write(folder: &Path) -> Result<Written, ReportError> {
     let run = Run::read(folder)?;
     let found = Methods::of(&run);
-    let page = index::page(folder, &run, &Dead::read(folder)?, found.as_ref());
-    let html = replace(folder, HTML, page.as_bytes())?;
-    let methods = match &found {
+    let dead = Dead::read(folder)?;
+    // The page reads frames and takes as long as all others together.
+    let (html, others) = thread::scope(|scope| {
+        let html = scope.spawn(|| {
+            let page = index::page(folder, &run, &dead, found.as_ref());
+            replace(folder, HTML, page.as_bytes())
+        });
+        let others = others(folder, &run, found.as_ref());
+        let html = html.join().unwrap_or_else(|panic| resume_unwind(panic));
+        (html, others)
+    });
+    Ok(Written {
+        html: html?,
+        ..others?
+    })
+}
+
+/// All reports but the page, whose path is written where it will stand.
+fn others(folder: &Path, run: &Run, found: Option<&Methods<'_>>) -> Result<Written, ReportError> {
+    let methods = match found {
         Some(found) => {
-            let page = methods::page(folder, &run, found);
+            let page = methods::page(folder, run, found);
             Some(replace(folder, methods::PAGE, page.as_bytes())?)
         }
         None => None,
     };
-    let grid = Grid::new(&run);
-    let junit = replace(folder, JUNIT, junit::xml(&run, &grid)?.as_bytes())?;
-    let ctrf = replace(folder, CTRF, &ctrf::json(&run, &grid)?)?;
-    let summary = replace(folder, SUMMARY, markdown::summary(&run).as_bytes())?;
-    let results = lists(folder, &run, &grid)?;
+    let grid = Grid::new(run);
+    let junit = replace(folder, JUNIT, junit::xml(run, &grid)?.as_bytes())?;
+    let ctrf = replace(folder, CTRF, &ctrf::json(run, &grid)?)?;
+    let summary = replace(folder, SUMMARY, markdown::summary(run).as_bytes())?;
+    let results = lists(folder, run, &grid)?;
     Ok(Written {
-        html,
+        html: folder.join(HTML),
         methods,
         junit,
         ctrf,

@@ -1,0 +1,62 @@
+//! Codes between processes: in a binary format the bytes of the narrowest width that holds them all, in a
+//! readable one a list of numbers. A number at a time costs more than drawing a small picture does.
+
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+
+/// Writes codes. The first byte is the width of a code in bytes: 1, 2 or 4.
+pub(crate) fn serialize<S: Serializer>(codes: &[u32], to: S) -> Result<S::Ok, S::Error> {
+    if to.is_human_readable() {
+        return codes.serialize(to);
+    }
+    let all = codes.iter().fold(0, |all, code| all | code);
+    let width = match all {
+        0..=0xff => 1,
+        0x100..=0xffff => 2,
+        _ => 4,
+    };
+    let mut bytes = Vec::with_capacity(1 + codes.len() * width);
+    bytes.push(width as u8);
+    match width {
+        1 => bytes.extend(codes.iter().map(|code| *code as u8)),
+        2 => bytes.extend(codes.iter().flat_map(|code| (*code as u16).to_le_bytes())),
+        _ => bytes.extend(codes.iter().flat_map(|code| code.to_le_bytes())),
+    }
+    to.serialize_bytes(&bytes)
+}
+
+/// Reads codes.
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<u32>, D::Error> {
+    if from.is_human_readable() {
+        return Vec::deserialize(from);
+    }
+    from.deserialize_bytes(Bytes)
+}
+
+struct Bytes;
+
+impl<'de> Visitor<'de> for Bytes {
+    type Value = Vec<u32>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a width of 1, 2 or 4 and codes of as many bytes")
+    }
+
+    fn visit_bytes<E: Error>(self, bytes: &[u8]) -> Result<Vec<u32>, E> {
+        let codes = match bytes.split_first() {
+            Some((1, rest)) => Some(rest.iter().map(|byte| u32::from(*byte)).collect()),
+            Some((2, rest)) => wide(rest, |pair| u32::from(u16::from_le_bytes(pair))),
+            Some((4, rest)) => wide(rest, u32::from_le_bytes),
+            _ => None,
+        };
+        codes.ok_or_else(|| E::custom("codes of an unknown width, or a part of a code"))
+    }
+}
+
+/// Returns the codes of so many bytes each; `None` where a part of one is left.
+fn wide<const N: usize>(bytes: &[u8], code: impl Fn([u8; N]) -> u32) -> Option<Vec<u32>> {
+    let (codes, rest) = bytes.as_chunks::<N>();
+    rest.is_empty()
+        .then(|| codes.iter().map(|bytes| code(*bytes)).collect())
+}
