@@ -10,11 +10,11 @@ use crate::surface::Surface;
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{Kept, SampleMask};
 use etalon_pipeline::{
-    Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
+    Arithmetic, BlendInput, Plain, advanced_blend, blend, compare, stencil_passes, stencil_write,
 };
 use etalon_scene::{
-    BlendState, Clear, CompareFunction, DepthBias, LogicOperation, Multisample, ResolveMode,
-    Sampler, Scene, Shader, StencilFace, StencilOperation,
+    AdvancedBlend, BlendState, Clear, CompareFunction, DepthBias, LogicOperation, Multisample,
+    ResolveMode, Sampler, Scene, Shader, StencilFace, StencilOperation,
 };
 
 /// The outcome of a fragment's stencil and depth test.
@@ -235,6 +235,18 @@ pub trait Steps {
     #[inline(always)]
     fn color_value(&self, encoding: ChannelEncoding, codes: Codes) -> Real {
         Plain::<LANES>.decode(encoding, codes)
+    }
+
+    /// Blends colours by an advanced mode.
+    #[inline(always)]
+    fn advanced_blend(
+        &self,
+        mode: AdvancedBlend,
+        encodings: [ChannelEncoding; 4],
+        src: [Real; 4],
+        dst: [Real; 4],
+    ) -> [Real; 4] {
+        advanced_blend(&mut Plain::<LANES>, mode, encodings, src, dst)
     }
 
     /// Returns the alpha of a format without alpha, for blending.

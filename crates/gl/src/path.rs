@@ -149,6 +149,7 @@ pub(crate) fn other(draw: &Draw) -> Draw {
             color: sum,
             alpha: sum,
         }),
+        advanced: None,
         write_mask: !target.write_mask & 0b1111,
     };
     Draw {

@@ -4,9 +4,10 @@ use etalon_cpu::Surface;
 use etalon_cpu::steps::{Codes, Faithful, LANES, Mask, Path, Real, Steps, Tests, Written};
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::shader::{Kept, SampleMask};
-use etalon_pipeline::{Arithmetic, BlendInput, Plain, blend};
+use etalon_pipeline::{Arithmetic, BlendInput, Plain, advanced_blend, blend};
 use etalon_scene::{
-    BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Shader, StencilFace,
+    AdvancedBlend, BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Shader,
+    StencilFace,
 };
 
 /// Declares the replaceable steps: each is a field of [`Hooks`] and a function that replaces it. The
@@ -49,6 +50,8 @@ hooks! {
     written([bool; 3]) -> [bool; 2];
     /// Blending.
     blending(&BlendState, [ChannelEncoding; 4], &BlendInput<[f32; 1]>) -> [f32; 4];
+    /// Advanced blending of source and destination.
+    advanced_blending(AdvancedBlend, [ChannelEncoding; 4], [[f32; 4]; 2]) -> [f32; 4];
     /// The conversion of colours at the store.
     color_code(ChannelEncoding, f32) -> u32;
     /// The conversion of clear values, colour and depth.
@@ -113,6 +116,16 @@ pub(super) fn faithful_blend(
     input: &BlendInput<[f32; 1]>,
 ) -> [f32; 4] {
     blend(&mut Plain::<1>, state, encodings, input).map(|[v]| v)
+}
+
+/// Returns the correct result of advanced blending.
+pub(super) fn faithful_advanced(
+    mode: AdvancedBlend,
+    encodings: [ChannelEncoding; 4],
+    [src, dst]: [[f32; 4]; 2],
+) -> [f32; 4] {
+    let lanes = |color: [f32; 4]| color.map(|v| [v]);
+    advanced_blend(&mut Plain::<1>, mode, encodings, lanes(src), lanes(dst)).map(|[v]| v)
 }
 
 impl Steps for &Hooks {
@@ -204,6 +217,26 @@ impl Steps for &Hooks {
             }
         }
         result
+    }
+
+    fn advanced_blend(
+        &self,
+        mode: AdvancedBlend,
+        encodings: [ChannelEncoding; 4],
+        src: [Real; 4],
+        dst: [Real; 4],
+    ) -> [Real; 4] {
+        let Some(bug) = &self.advanced_blending else {
+            return Faithful.advanced_blend(mode, encodings, src, dst);
+        };
+        let lanes: [[f32; 4]; LANES] = std::array::from_fn(|lane| {
+            bug(
+                mode,
+                encodings,
+                [src, dst].map(|color| color.map(|v| v[lane])),
+            )
+        });
+        std::array::from_fn(|c| lanes.map(|texel| texel[c]))
     }
 
     fn color_codes(&self, encoding: ChannelEncoding, value: Real) -> Codes {

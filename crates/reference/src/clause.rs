@@ -16,6 +16,8 @@ pub(crate) enum Rejection {
     Viewport,
     /// The near or the far plane clips it.
     NearFar,
+    /// A clip distance clips it.
+    ClipDistance,
     /// Its face is culled.
     Culling,
     /// The scissor rectangle leaves the texel out.
@@ -45,7 +47,7 @@ impl Rejection {
             Self::RasterizerDiscard => "rasterizer discard",
             Self::Coverage => "coverage",
             Self::Viewport => "viewport",
-            Self::NearFar => "clipping",
+            Self::NearFar | Self::ClipDistance => "clipping",
             Self::Culling => "culling",
             Self::Scissor => "scissor",
             Self::SampleCoverage => "sample coverage",
@@ -65,7 +67,7 @@ impl Rejection {
             Self::RasterizerDiscard => "is discarded before rasterization".to_owned(),
             Self::Coverage => "does not cover it".to_owned(),
             Self::Viewport | Self::Scissor => format!("is {detail}"),
-            Self::NearFar => format!("is clipped there: {detail}"),
+            Self::NearFar | Self::ClipDistance => format!("is clipped there: {detail}"),
             Self::Culling => format!("is culled: {detail}"),
             Self::SampleCoverage => format!("loses it to sample coverage: {detail}"),
             Self::SampleMask => format!("is masked: {detail}"),
@@ -141,6 +143,9 @@ impl Rejection {
             Self::NearFar => {
                 "Primitive Clipping: primitives are clipped to the view volume, 0 to 1 in depth"
             }
+            Self::ClipDistance => {
+                "Primitive Clipping: clip half-space i holds the points whose distance is 0 or more"
+            }
             Self::Culling => "Basic Polygon Rasterization: culled by facing and cullMode",
             Self::Scissor => {
                 "Scissor Test: coverage of samples outside of the rectangle is set to 0"
@@ -167,6 +172,9 @@ impl Rejection {
             },
             Self::Viewport => "Primitive Clipping: -w to w in x and y, the viewport's sides",
             Self::NearFar => "Primitive Clipping: depth is clipped to 0 to w",
+            Self::ClipDistance => {
+                "Primitive Clipping: what has an interpolated distance below 0 is clipped"
+            }
             Self::Culling => "Polygon Rasterization: culled by facing and cullMode",
             Self::Scissor => {
                 "setScissorRect, Rasterization: fragments outside of the rectangle are discarded"
@@ -207,6 +215,10 @@ impl Rejection {
             }
             .to_owned();
         }
+        if self == Self::ClipDistance && matches!(edition, Es30 | Es31 | Es32) {
+            return "GL_EXT_clip_cull_distance: half-space i holds the points whose distance is 0 or more"
+                .to_owned();
+        }
         // Sections in the order of the editions.
         let (sections, words) = match self {
             Self::RasterizerDiscard => (
@@ -234,6 +246,10 @@ impl Rejection {
             Self::NearFar => (
                 ["2.19", "13.5", "13.7", "2.18", "12.4", "12.5"],
                 "Primitive Clipping: to the view volume, near to far",
+            ),
+            Self::ClipDistance => (
+                ["2.19", "13.5", "13.7", "2.18", "12.4", "12.5"],
+                "Primitive Clipping: half-space i holds the points whose distance is 0 or more",
             ),
             Self::Culling => (
                 ["3.6.1", "14.6.1", "14.6.1", "3.6.1", "13.5.1", "13.7.1"],

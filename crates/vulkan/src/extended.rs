@@ -96,6 +96,7 @@ pub(crate) fn held_by(further: Further, draw: &Draw) -> Draw {
 pub(crate) fn held(draw: &Draw) -> Draw {
     let opposite = |target: &ColorTarget| ColorTarget {
         blend: None,
+        advanced: None,
         write_mask: !target.write_mask & 0b1111,
     };
     Draw {

@@ -178,6 +178,7 @@ pub(crate) fn other(draw: &Draw) -> Draw {
             .iter()
             .map(|_| ColorTarget {
                 blend: None,
+                advanced: None,
                 write_mask: 0,
             })
             .collect(),

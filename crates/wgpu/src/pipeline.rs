@@ -251,7 +251,11 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x2];
     const TEXTURED: [wgpu::VertexAttribute; 2] = [ALL[0], ALL[2]];
     match shader {
-        Shader::EdgeAlpha | Shader::LinearDepth | Shader::LogarithmicDepth => &ALL,
+        Shader::ClipFlat
+        | Shader::ClipUniform
+        | Shader::EdgeAlpha
+        | Shader::LinearDepth
+        | Shader::LogarithmicDepth => &ALL,
         Shader::Centroid | Shader::SampledColor | Shader::SampledDiscard => &TEXTURED,
         Shader::CountedDepth
         | Shader::DualPeel

@@ -4,6 +4,8 @@
 
 mod arithmetic;
 mod centroid;
+mod clip_flat;
+mod clip_uniform;
 mod counted_color;
 mod counted_depth;
 mod counted_discard;
@@ -48,7 +50,7 @@ pub use expensive_color::cost;
 pub use interface::{FragmentInput, FragmentOutput, Kept, SampleMask};
 
 use crate::arithmetic::Arithmetic;
-use etalon_scene::Shader;
+use etalon_scene::{Shader, Vertex};
 
 /// Runs a fragment shader.
 #[inline(always)]
@@ -59,6 +61,8 @@ pub fn fragment<A: Arithmetic>(
 ) -> FragmentOutput<A::Real> {
     match shader {
         Shader::Centroid => centroid::fragment(a, input),
+        Shader::ClipFlat => clip_flat::fragment::<A>(input),
+        Shader::ClipUniform => clip_uniform::fragment(a, input),
         Shader::CountedColor => counted_color::fragment(a, input),
         Shader::CountedDepth => counted_depth::fragment(a, input),
         Shader::CountedDiscard => counted_discard::fragment(a, input),
@@ -97,5 +101,14 @@ pub fn fragment<A: Arithmetic>(
         Shader::VertexOnly => vertex_only::fragment(a),
         Shader::WeightedAccumulate => weighted_accumulate::fragment(a, input),
         Shader::WeightedResolve => weighted_resolve::fragment(a, input),
+    }
+}
+
+/// Returns the clip distances of a vertex.
+pub fn clip_distances(shader: Shader, vertex: &Vertex) -> Vec<f32> {
+    match shader {
+        Shader::ClipFlat => clip_flat::distances(vertex).to_vec(),
+        Shader::ClipUniform => clip_uniform::distances(vertex).to_vec(),
+        _ => Vec::new(),
     }
 }

@@ -114,6 +114,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 2.3.5.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
             ]),
         ),
+        advanced_blend: permit(
+            BlendPrecision::DestinationCodes,
+            "KHR_blend_equation_advanced: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
+        ),
         blend: permit(
             BlendPrecision::DestinationCodes,
             text.cite([

@@ -385,6 +385,8 @@ rules! {
     store: Rounding,
     /// Blending.
     blend: BlendPrecision,
+    /// Advanced blending, which 16-bit floats are precise enough for.
+    advanced_blend: BlendPrecision,
     /// Clamping of what is blended into signed normalized formats.
     signed_clamp: SignedClamp,
     /// Clamping of what a shader or a blend stores into signed normalized formats.

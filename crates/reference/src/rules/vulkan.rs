@@ -66,6 +66,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized Fixed-Point: one of \
              the two closest values, an integer exactly",
         ),
+        advanced_blend: permit(
+            BlendPrecision::DestinationCodes,
+            "Vulkan: Blending: advanced operations with precision and dynamic range no lower than the \
+             smaller of the destination's and that of 16-bit floats",
+        ),
         blend: permit(
             BlendPrecision::DestinationCodes,
             "Vulkan: Blending: precision and dynamic range no lower than that used to represent \

@@ -42,6 +42,10 @@ pub(super) fn rules() -> Rules {
             "WebGPU: silent on the rounding of stores; Vulkan and OpenGL: one of the two closest \
              values, an integer exactly",
         ),
+        advanced_blend: permit(
+            BlendPrecision::DestinationCodes,
+            "WebGPU: has no advanced blending; Vulkan and OpenGL: no lower than 16-bit floats",
+        ),
         blend: permit(
             BlendPrecision::DestinationCodes,
             "WebGPU: silent on blend precision; Vulkan and OpenGL: no lower than the destination's",

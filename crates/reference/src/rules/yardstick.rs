@@ -38,6 +38,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             Rounding::Within(0.6),
             "Direct3D 11.3: 3.2.3.6 FLOAT to UNORM: 0.6 ULP",
         ),
+        advanced_blend: permit(BlendPrecision::Float32, "Yardstick: in 32-bit floats"),
         blend: permit(
             BlendPrecision::Float32,
             "Direct3D 11.3: 17.5 Blending Precision, held to 32-bit float",
