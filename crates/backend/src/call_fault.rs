@@ -33,16 +33,25 @@ macro_rules! faults {
                 }
             }
 
-            /// True if only Vulkan has the call.
-            pub fn is_vulkan_only(self) -> bool {
+            /// True if Vulkan has the call.
+            pub fn is_in_vulkan(self) -> bool {
                 match self {
-                    $(Self::$fault => faults!(@only $($only)?),)+
+                    $(Self::$fault => faults!(@vulkan $($only)?),)+
+                }
+            }
+
+            /// True if OpenGL has the call.
+            pub fn is_in_opengl(self) -> bool {
+                match self {
+                    $(Self::$fault => faults!(@opengl $($only)?),)+
                 }
             }
         }
     };
-    (@only vulkan) => { true };
-    (@only) => { false };
+    (@vulkan opengl) => { false };
+    (@vulkan $($only:ident)?) => { true };
+    (@opengl vulkan) => { false };
+    (@opengl $($only:ident)?) => { true };
 }
 
 faults! {
@@ -114,10 +123,10 @@ faults! {
     LoadStencilIgnored = "load-stencil-ignored" in "paths", vulkan;
     /// What is drawn in a render pass that is an object is not stored.
     StoreDropped = "store-dropped" in "paths", vulkan;
-    /// Views are of layer 0.
-    LayerDropped = "layer-dropped" in "paths", vulkan;
-    /// Views are of level 0.
-    LevelDropped = "level-dropped" in "paths", vulkan;
+    /// Attachments are layer 0.
+    LayerDropped = "layer-dropped" in "paths";
+    /// Attachments are level 0.
+    LevelDropped = "level-dropped" in "paths";
     /// Of several targets, the second is not resolved.
     ResolveSecondDropped = "resolve-second-dropped" in "paths", vulkan;
     /// The second target receives what the first is resolved to.
@@ -129,11 +138,17 @@ faults! {
     /// The first draw of a secondary command buffer is lost.
     SecondaryFirstDraw = "secondary-first-draw" in "paths", vulkan;
     /// The second viewport is the first.
-    ViewportFirst = "viewport-first" in "paths", vulkan;
+    ViewportFirst = "viewport-first" in "paths";
     /// The first index is 0.
-    IndexOffset = "index-offset" in "paths", vulkan;
+    IndexOffset = "index-offset" in "paths";
     /// Blits leave their target's last column.
-    BlitColumn = "blit-column" in "paths", vulkan;
+    BlitColumn = "blit-column" in "paths";
+    /// Attachments are the first face of a cube.
+    FaceDropped = "face-dropped" in "paths", opengl;
+    /// The clip volume's origin is the upper left.
+    ClipOriginKept = "clip-origin-kept" in "paths", opengl;
+    /// No index restarts a primitive.
+    RestartIgnored = "restart-ignored" in "paths", opengl;
 }
 
 impl CallFault {

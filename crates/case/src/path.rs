@@ -5,7 +5,8 @@
 
 use crate::error::At;
 use etalon_frame::{
-    ChannelEncoding, PathArea, PathDraws, PathEnd, PathStart, PathTarget, PathValue, TextureFormat,
+    ChannelEncoding, PathArea, PathDraws, PathEnd, PathStart, PathTarget, PathValue, PathViewport,
+    TextureFormat,
 };
 use etalon_scene::{Attachment, Scene};
 
@@ -33,7 +34,14 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
     };
     let draws = || scene.passes.iter().flat_map(|p| &p.draws);
     let made = || scene.on_path();
+    let tessellated = draws().any(|d| d.tessellation.is_some());
     let (applies, reason) = match value {
+        // Only the last stage before rasterization chooses a viewport, and no restart parts patches.
+        PathValue::Viewport(PathViewport::Array) | PathValue::Draws(PathDraws::Restart)
+            if tessellated =>
+        {
+            (false, "a draw is tessellated")
+        }
         PathValue::Start(PathStart::Transfer) => return None,
         PathValue::Start(_) => (
             made().attachments != scene.attachments,

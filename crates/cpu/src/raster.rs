@@ -6,6 +6,7 @@ use crate::span::{Counted, Span, SpanState};
 use crate::steps::Steps;
 use crate::surface::Surface;
 use etalon_frame::{ChannelEncoding, standard_sample_positions};
+use etalon_pipeline::shader::clip_distances;
 use etalon_pipeline::{
     DepthPlane, Plain, Point, SnappedTriangle, front_facing, is_culled, signed_area, slope,
     window_position,
@@ -25,7 +26,12 @@ struct Vertex {
     clip_z: f32,
     color: [f32; 4],
     uv: [f32; 2],
+    /// The clip distances that clip, from the first on.
+    distances: [f32; MOST_DISTANCES],
 }
+
+/// The most clip distances of a vertex (Vulkan, Required Limits; OpenGL 4.6, table 23.56).
+const MOST_DISTANCES: usize = 8;
 
 /// The linear values over a primitive, window depth first, and its clipping.
 struct Planes {
@@ -38,6 +44,8 @@ struct Planes {
     bias: f64,
     clamp: Option<[f32; 2]>,
     clips: bool,
+    /// The clip distances that are negative somewhere.
+    distances: Vec<DepthPlane>,
     /// True if the primitive may extend beyond the viewport.
     leaves: bool,
     /// The viewport's left, top, right and bottom edges in sub-texel units.
@@ -68,6 +76,7 @@ impl Planes {
             bias,
             clamp: draw.depth_clamp.then_some([near.min(far), near.max(far)]),
             clips: out && !draw.depth_clamp,
+            distances: distances(draw, points, vertices),
             leaves: wide || !points.iter().all(inside),
             viewport,
         }
@@ -108,6 +117,11 @@ impl Planes {
                 *covered &= (left..right).contains(&at.x) && (top..bottom).contains(&at.y);
             }
         }
+        for distance in &self.distances {
+            for (lane, covered) in mask.iter_mut().enumerate() {
+                *covered &= distance.at(position(x + lane, y, sample)) >= 0.0;
+            }
+        }
         if self.clips {
             for (lane, covered) in mask.iter_mut().enumerate() {
                 let z = self.clip.at(position(x + lane, y, sample));
@@ -116,6 +130,32 @@ impl Planes {
             }
         }
     }
+}
+
+/// Returns the planes of the clip distances that are negative at a vertex of a triangle, or of a line or
+/// point, whose last vertices are its first again.
+fn distances(draw: &Draw, points: [Point; 3], vertices: [Vertex; 3]) -> Vec<DepthPlane> {
+    let count = draw.clipping_distances().count_ones() as usize;
+    let all = (0..count).map(|n| vertices.map(|v| f64::from(v.distances[n])));
+    all.filter(|values| values.iter().any(|v| *v < 0.0))
+        .map(|values| {
+            if signed_area(points) == 0 {
+                return DepthPlane::along([points[0], points[1]], [values[0], values[1]]);
+            }
+            DepthPlane::new(points, values)
+        })
+        .collect()
+}
+
+/// Returns the clip distances of a vertex that clip.
+fn clipping(draw: &Draw, vertex: &etalon_scene::Vertex) -> [f32; MOST_DISTANCES] {
+    let mut result = [0.0; MOST_DISTANCES];
+    let all = clip_distances(draw.shader, vertex).into_iter().enumerate();
+    let clip = all.filter(|(n, _)| draw.clipping_distances() & (1 << n) != 0);
+    for (slot, (_, distance)) in result.iter_mut().zip(clip) {
+        *slot = distance;
+    }
+    result
 }
 
 /// Returns the least and the greatest of three numbers.
@@ -165,13 +205,21 @@ pub(crate) fn draw<S: Steps>(
                 clip_z: v.position[2] / v.position[3],
                 color: v.color,
                 uv: v.uv,
+                distances: clipping(draw, v),
             }
         })
         .collect();
     let mut state = SpanState::new(scene, pass, draw, &samples, surfaces, counters, steps);
     let encoding = state.depth_encoding();
     let front = steps.lines_face_front();
-    for primitive in draw.mesh.primitives(draw.topology) {
+    let provoking = draw.provoking_vertices();
+    for (primitive, provoking) in draw.primitives().into_iter().zip(provoking) {
+        // The colour is flat.
+        let color = vertices[provoking].color;
+        let vertex = |i: usize| Vertex {
+            color,
+            ..vertices[i]
+        };
         match primitive {
             PrimitiveVertices::Point(i) => {
                 let v = vertices[i];
@@ -180,7 +228,7 @@ pub(crate) fn draw<S: Steps>(
                 point(v, front, &planes, &samples, bounds, &mut state);
             }
             PrimitiveVertices::Line(ends) => {
-                let ends = ends.map(|i| vertices[i]);
+                let ends = ends.map(vertex);
                 let [a, b] = ends;
                 let points = [a.at, b.at, a.at];
                 let bias = line_bias(draw, points, [a.z, b.z, a.z], encoding, steps);
@@ -188,7 +236,7 @@ pub(crate) fn draw<S: Steps>(
                 line(ends, front, &planes, samples.len(), bounds, &mut state);
             }
             PrimitiveVertices::Triangle(triangle) => {
-                let corners = triangle.map(|i| vertices[i]);
+                let corners = triangle.map(vertex);
                 let points = corners.map(|v| v.at);
                 let front = front_facing(signed_area(points), draw.front_face);
                 if is_culled(draw.cull, front) {

@@ -7,6 +7,10 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// A capability that not every adapter has and that a scene may need.
     Feature: array {
+        /// Advanced blending: `multiply`, `screen` and the other modes that take no factors.
+        AdvancedBlend = "advanced-blend",
+        /// Advanced blending of what the same pass has drawn before, in order.
+        AdvancedBlendCoherent = "advanced-blend-coherent",
         /// Alpha counting as 1 after alpha to coverage.
         AlphaToOne = "alpha-to-one",
         /// A number that a draw call adds to every index.
@@ -15,6 +19,10 @@ state_enum! {
         CentroidInterpolation = "centroid-interpolation",
         /// Clears between the draws of a pass, of all texels or a rectangle.
         ClearCommands = "clear-commands",
+        /// Switching single clip distances of a shader off.
+        ClipDistanceMask = "clip-distance-mask",
+        /// Shaders that clip by distances of their own.
+        ClipDistances = "clip-distances",
         /// Shaders that promise on which side of the fragment's own depth theirs lies.
         ConservativeDepth = "conservative-depth",
         /// The factors `constant-alpha` and `one-minus-constant-alpha` for colour.
@@ -37,10 +45,16 @@ state_enum! {
         DualSourceBlending = "dual-source-blending",
         /// Instances that start from another than the first.
         FirstInstance = "first-instance",
+        /// Flat attributes of a primitive's first vertex.
+        FirstProvokingVertex = "first-provoking-vertex",
         /// Shaders that run after the depth and stencil tests, whatever they do.
         ForcedEarlyTests = "forced-early-tests",
         /// Pipeline statistics of fragment shader runs.
         FragmentInvocations = "fragment-invocations",
+        /// Draws without a fragment shader.
+        FragmentShaderAbsent = "fragment-shader-absent",
+        /// The same where there are colour attachments, whose channels are all masked.
+        FragmentShaderAbsentWithColor = "fragment-shader-absent-with-color",
         /// Culling front and back faces together.
         FrontAndBackCulling = "front-and-back-culling",
         /// Blending and write masks that differ between colour attachments.
@@ -49,6 +63,8 @@ state_enum! {
         IndependentResolve = "independent-resolve",
         /// Resolving one of depth and stencil, and not the other.
         IndependentResolveNone = "independent-resolve-none",
+        /// Flat attributes of a primitive's last vertex.
+        LastProvokingVertex = "last-provoking-vertex",
         /// Logic operations.
         LogicOperations = "logic-operations",
         /// Clear commands that leave masked channels and bits.
@@ -59,6 +75,8 @@ state_enum! {
         MinSampleShading = "min-sample-shading",
         /// A viewport of negative height, which turns the picture over.
         MirroredViewport = "mirrored-viewport",
+        /// Flat attributes of the first vertex in one draw and of the last in another of the same pass.
+        MixedProvokingVertices = "mixed-provoking-vertices",
         /// Drawing the edges of polygons.
         PolygonModeLine = "polygon-mode-line",
         /// Occlusion queries that count samples exactly.
@@ -69,6 +87,10 @@ state_enum! {
         ReversedDepthRange = "reversed-depth-range",
         /// Drawing a share of a texel's samples, or the others, whatever the fragment.
         SampleCoverage = "sample-coverage",
+        /// Sample masks that fragment shaders write.
+        SampleMaskOutput = "sample-mask-output",
+        /// The same together with alpha to coverage.
+        SampleMaskOutputWithAlphaToCoverage = "sample-mask-output-with-alpha-to-coverage",
         /// Shaders that run once per sample and know which.
         SampleShading = "sample-shading",
         /// A scissor rectangle that reaches beyond the attachments.
@@ -81,8 +103,12 @@ state_enum! {
         StencilResolveMin = "stencil-resolve-min",
         /// Fragment shaders that count in storage buffers.
         StorageCounters = "storage-counters",
+        /// Tessellation of triangles.
+        Tessellation = "tessellation",
         /// Triangle fans.
         TriangleFans = "triangle-fans",
+        /// A tessellation domain whose origin is the upper left corner.
+        UpperLeftDomain = "upper-left-domain",
         /// A viewport that reaches beyond the attachments.
         ViewportOutside = "viewport-outside",
     }

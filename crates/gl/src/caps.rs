@@ -6,6 +6,9 @@ use naga::back::glsl;
 /// The extension by which vertex shaders name a viewport.
 pub(crate) const SECOND_VIEWPORT: &str = "GL_ARB_shader_viewport_layer_array";
 
+/// The extension by which fragment shaders allow advanced blend equations.
+pub(crate) const ADVANCED_BLEND: &str = "GL_KHR_blend_equation_advanced";
+
 /// The capabilities that this backend uses.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Caps {
@@ -18,6 +21,8 @@ pub(crate) struct Caps {
     pub(crate) indexed_blend: bool,
     /// Blend factors may use the fragment shader's second source.
     pub(crate) dual_source: bool,
+    /// What draws have written is seen by advanced blends without a barrier.
+    pub(crate) coherent_blend: bool,
     /// 32-bit float attachments can be blended.
     pub(crate) float_blend: bool,
     /// Signed normalized attachments can be drawn to.
@@ -38,6 +43,10 @@ pub(crate) struct Caps {
     pub(crate) stencil_textures: bool,
     /// Shaders can force early fragment tests.
     pub(crate) early_tests: bool,
+    /// Shaders have clip distances.
+    pub(crate) clip_distances: bool,
+    /// The lines of a tessellation shader that name its extensions; `None` if there are none such.
+    pub(crate) tessellation: Option<&'static str>,
     /// Shaders can declare conservative depth.
     pub(crate) conservative_depth: bool,
     /// The offset alignment of storage buffers; `None` if fragment shaders have none.
@@ -101,6 +110,7 @@ impl Caps {
             clip_control: false,
             indexed_blend: since((4, 0), (3, 2)) || (!es && has("GL_ARB_draw_buffers_blend")),
             dual_source: dual_source && dual_targets,
+            coherent_blend: has("GL_KHR_blend_equation_advanced_coherent"),
             float_blend: since(ALWAYS, NEVER) || has("GL_EXT_float_blend"),
             snorm_attachments: !es || has("GL_EXT_render_snorm"),
             depth_clamp: since(ALWAYS, NEVER) || has("GL_EXT_depth_clamp"),
@@ -118,6 +128,16 @@ impl Caps {
             conservative_depth: since((4, 2), NEVER)
                 || has("GL_ARB_conservative_depth")
                 || (es && has("GL_EXT_conservative_depth")),
+            clip_distances: !es || has("GL_EXT_clip_cull_distance"),
+            tessellation: if since((4, 0), (3, 2)) {
+                Some("")
+            } else if !es && has("GL_ARB_tessellation_shader") {
+                Some("#extension GL_ARB_tessellation_shader : require\n")
+            } else if es && version >= (3, 1) && has("GL_EXT_tessellation_shader") {
+                Some("#extension GL_EXT_tessellation_shader : require\n")
+            } else {
+                None
+            },
             storage_alignment,
             indirect: since((4, 0), (3, 1)) || (!es && has("GL_ARB_draw_indirect")),
             copy_image: since((4, 3), (3, 2)) || (!es && has("GL_ARB_copy_image")),

@@ -1,5 +1,6 @@
 //! Entry points that glow lacks.
 
+use crate::caps::ADVANCED_BLEND;
 use crate::egl::{EglContext, function_at};
 use std::collections::HashSet;
 use std::ffi::{c_char, c_void};
@@ -32,6 +33,7 @@ entry_points! {
     min_sample_shading: fn(f32);
     logic_op: fn(u32);
     clamp_color: fn(u32, u32);
+    blend_barrier: fn();
     polygon_offset_clamp: fn(f32, f32, f32);
     depth_bounds: fn(f64, f64);
     viewport_indexed: fn(u32, f32, f32, f32, f32);
@@ -39,6 +41,7 @@ entry_points! {
     scissor_array: fn(u32, i32, *const i32);
     depth_range_array: fn(u32, i32, *const f64);
     primitive_restart_index: fn(u32);
+    provoking_vertex: fn(u32);
     draw_elements_base_vertex: fn(u32, i32, u32, Offset, i32);
     draw_elements_instanced_base_vertex: fn(u32, i32, u32, Offset, i32, i32);
     draw_arrays_instanced_base_instance: fn(u32, i32, i32, i32, u32);
@@ -90,6 +93,9 @@ impl EntryPoints {
             } else if has("GL_OES_sample_shading") {
                 load!(min_sample_shading, c"glMinSampleShadingOES");
             }
+            if has("GL_ANGLE_provoking_vertex") {
+                load!(provoking_vertex, c"glProvokingVertexANGLE");
+            }
             if has("GL_OES_viewport_array") {
                 load!(viewport_indexed, c"glViewportIndexedfOES");
             }
@@ -104,6 +110,7 @@ impl EntryPoints {
             load!(logic_op, c"glLogicOp");
             load!(clamp_color, c"glClampColor");
             load!(primitive_restart_index, c"glPrimitiveRestartIndex");
+            load!(provoking_vertex, c"glProvokingVertex");
             if version >= (4, 3) || has("GL_KHR_debug") {
                 load!(debug_callback, c"glDebugMessageCallback");
             }
@@ -164,6 +171,11 @@ impl EntryPoints {
             load!(polygon_offset_clamp, c"glPolygonOffsetClamp");
         } else if has("GL_EXT_polygon_offset_clamp") {
             load!(polygon_offset_clamp, c"glPolygonOffsetClampEXT");
+        }
+        if es && version >= (3, 2) {
+            load!(blend_barrier, c"glBlendBarrier");
+        } else if has(ADVANCED_BLEND) {
+            load!(blend_barrier, c"glBlendBarrierKHR");
         }
         if !es && has("GL_EXT_depth_bounds_test") {
             load!(depth_bounds, c"glDepthBoundsEXT");

@@ -8,11 +8,13 @@ use std::collections::BTreeSet;
 pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
     let (caps, entry_points) = (&context.caps, &context.entry_points);
     let known = |feature: &Feature| match feature {
+        Feature::ClipDistances | Feature::ClipDistanceMask => caps.clip_distances,
         // Part of version 3.
         Feature::CentroidInterpolation
         | Feature::ClearCommands
         | Feature::ConstantAlphaBlendFactor
         | Feature::FrontAndBackCulling
+        | Feature::LastProvokingVertex
         | Feature::MaskedClears
         | Feature::MinMaxBlendFactors
         | Feature::RasterizerDiscard
@@ -24,6 +26,8 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         | Feature::ViewportOutside => true,
         Feature::BaseVertex => entry_points.draw_elements_base_vertex.is_some(),
         Feature::FirstInstance => entry_points.draw_arrays_instanced_base_instance.is_some(),
+        Feature::AdvancedBlend => entry_points.blend_barrier.is_some(),
+        Feature::AdvancedBlendCoherent => caps.coherent_blend,
         Feature::AlphaToOne => caps.alpha_to_one,
         Feature::ConservativeDepth => caps.conservative_depth,
         Feature::DepthBiasClamp => entry_points.polygon_offset_clamp.is_some(),
@@ -33,8 +37,14 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         Feature::ForcedEarlyTests => caps.early_tests,
         Feature::FragmentInvocations => caps.fragment_invocations,
         Feature::IndependentBlend => caps.indexed_blend,
+        Feature::FirstProvokingVertex | Feature::MixedProvokingVertices => {
+            entry_points.provoking_vertex.is_some()
+        }
         Feature::LogicOperations => entry_points.logic_op.is_some(),
         Feature::MinSampleShading => entry_points.min_sample_shading.is_some(),
+        Feature::Tessellation => caps.tessellation.is_some(),
+        // The origin of the domain is its lower left corner (OpenGL 4.6, figure 11.1).
+        Feature::UpperLeftDomain => false,
         // Viewport heights are positive.
         Feature::MirroredViewport => false,
         // A blit leaves the sample open (OpenGL 4.6, 18.3.1; ES 3.2, 16.2.1).
@@ -49,7 +59,11 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         // ES has no `glPolygonMode`.
         Feature::PolygonModeLine => !caps.es,
         Feature::PreciseOcclusion => caps.samples_passed,
-        Feature::SampleShading => caps.sample_variables,
+        Feature::SampleMaskOutput
+        | Feature::SampleMaskOutputWithAlphaToCoverage
+        | Feature::SampleShading => caps.sample_variables,
+        // A program of ES has a fragment shader, or does not link (OpenGL ES 3.2, 7.3).
+        Feature::FragmentShaderAbsent | Feature::FragmentShaderAbsentWithColor => !caps.es,
         Feature::StorageCounters => caps.storage_alignment.is_some(),
     };
     Feature::ALL.into_iter().filter(known).collect()

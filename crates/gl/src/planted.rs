@@ -63,6 +63,12 @@ functions! {
     clear_both ClearBoth clear_both: b"glClearBufferfi" = (u32, i32, f32, i32);
     blit Blit blit: b"glBlitFramebuffer" =
         (i32, i32, i32, i32, i32, i32, i32, i32, u32, u32);
+    attach_layer AttachLayer attach_layer: b"glFramebufferTextureLayer" = (u32, u32, u32, i32, i32);
+    attach_image AttachImage attach_image: b"glFramebufferTexture2D" = (u32, u32, u32, u32, i32);
+    viewport_array ViewportArray viewport_array:
+        b"glViewportArrayv" | b"glViewportArrayvOES" = (u32, i32, *const f32);
+    clip_control ClipControl clip_control:
+        b"glClipControl" | b"glClipControlEXT" = (u32, u32);
     begin_query BeginQuery begin_query: b"glBeginQuery" = (u32, u32);
     end_query EndQuery end_query: b"glEndQuery" = (u32);
     query_u64 QueryU64 query_u64:
@@ -224,6 +230,11 @@ impl Planted {
             CallFault::SecondInstance => call.instances = call.instances.min(1),
             CallFault::BaseVertex => call.base_vertex = 0,
             CallFault::FirstInstance => call.first_instance = 0,
+            CallFault::IndexOffset => {
+                if let Some((_, at)) = &mut call.indices {
+                    *at = std::ptr::null();
+                }
+            }
             CallFault::FirstIndex => {
                 if let Some((kind, at)) = &mut call.indices
                     && !at.is_null()
@@ -332,6 +343,8 @@ fn switch(p: &mut Planted, capability: u32, mut on: bool) {
     if capability == glow::CULL_FACE && p.has(CallFault::CullKept) {
         on = lag(&mut p.kept.culls, on);
     }
+    let restart = [glow::PRIMITIVE_RESTART, glow::PRIMITIVE_RESTART_FIXED_INDEX];
+    on &= !(restart.contains(&capability) && p.has(CallFault::RestartIgnored));
     if on {
         driver!(p.driver, enable(capability));
     } else {
@@ -375,6 +388,65 @@ unsafe extern "system" fn viewport_indexed(index: u32, x: f32, y: f32, w: f32, h
         }
         let [x, y, w, h] = rect;
         driver!(p.driver, viewport_indexed(index, x, y, w, h));
+    });
+}
+
+unsafe extern "system" fn viewport_array(first: u32, count: i32, viewports: *const f32) {
+    with(|p| {
+        if p.has(CallFault::ViewportFirst) && count == 2 {
+            // SAFETY: a viewport has four components.
+            let same = [[0, 1, 2, 3].map(|c| unsafe { *viewports.add(c) }); 2];
+            driver!(p.driver, viewport_array(first, count, same.as_ptr().cast()));
+        } else {
+            driver!(p.driver, viewport_array(first, count, viewports));
+        }
+    });
+}
+
+unsafe extern "system" fn clip_control(origin: u32, depth: u32) {
+    with(|p| {
+        let kept = p.has(CallFault::ClipOriginKept);
+        let origin = if kept { glow::UPPER_LEFT } else { origin };
+        driver!(p.driver, clip_control(origin, depth));
+    });
+}
+
+unsafe extern "system" fn attach_layer(
+    target: u32,
+    point: u32,
+    texture: u32,
+    level: i32,
+    layer: i32,
+) {
+    with(|p| {
+        let (mut level, mut layer) = (level, layer);
+        if p.has(CallFault::LayerDropped) {
+            layer = 0;
+        }
+        if p.has(CallFault::LevelDropped) {
+            level = 0;
+        }
+        driver!(p.driver, attach_layer(target, point, texture, level, layer));
+    });
+}
+
+unsafe extern "system" fn attach_image(
+    target: u32,
+    point: u32,
+    image: u32,
+    texture: u32,
+    level: i32,
+) {
+    with(|p| {
+        let (mut image, mut level) = (image, level);
+        let faces = glow::TEXTURE_CUBE_MAP_POSITIVE_X..=glow::TEXTURE_CUBE_MAP_NEGATIVE_Z;
+        if p.has(CallFault::FaceDropped) && faces.contains(&image) {
+            image = glow::TEXTURE_CUBE_MAP_POSITIVE_X;
+        }
+        if p.has(CallFault::LevelDropped) {
+            level = 0;
+        }
+        driver!(p.driver, attach_image(target, point, image, texture, level));
     });
 }
 
@@ -509,6 +581,8 @@ unsafe extern "system" fn blit(
         if p.has(CallFault::ResolveFirst) && p.blits > 1 && p.all_draws > 0 {
             return;
         }
+        let column = i32::from(p.has(CallFault::BlitColumn));
+        let (x1, to_x1) = (x1 - column, to_x1 - column);
         driver!(
             p.driver,
             blit(x0, y0, x1, y1, to_x0, to_y0, to_x1, to_y1, mask, filter)

@@ -10,6 +10,7 @@ use crate::enums::topology;
 use crate::objects::Objects;
 use crate::path;
 use crate::pool::Pool;
+use crate::program::FragmentForm;
 use crate::read::{Reading, Source};
 use crate::state::{self, DrawState};
 use crate::surface::{Surface, SurfaceKind, upload};
@@ -279,8 +280,12 @@ impl<'a> PreparedScene<'a> {
             program: self.objects.programs.borrow_mut().shader(
                 context,
                 draw.shader,
-                draw.early_tests,
+                FragmentForm {
+                    tests: draw.early_tests,
+                    blend: draw.targets.iter().find_map(|t| t.advanced),
+                },
                 variant,
+                draw.tessellation,
             )?,
             state: DrawState::new(context, draw, read_only, &self.path, variant)?,
             other: match self.path.state {
@@ -297,7 +302,10 @@ impl<'a> PreparedScene<'a> {
             queries: self.counters.queries(context, pool, draw)?,
             runs: self.counters.runs(draw),
             params: block,
-            mode: topology(draw.topology),
+            mode: match draw.tessellation {
+                None => topology(draw.topology),
+                Some(_) => glow::PATCHES,
+            },
             fetched,
             arguments,
             flushed: self.path.commands == PathCommands::Several,

@@ -77,6 +77,10 @@ fn can_be_written(context: &Context, feature: Feature) -> bool {
     let shader = Shader::FlatColorDepth;
     let needed: &[_] = match feature {
         Feature::CentroidInterpolation => &[(Shader::Centroid, EarlyTests::Implicit)],
+        Feature::ClipDistances => &[
+            (Shader::ClipFlat, EarlyTests::Implicit),
+            (Shader::ClipUniform, EarlyTests::Implicit),
+        ],
         Feature::ConservativeDepth => &[
             (shader, EarlyTests::GreaterEqual),
             (shader, EarlyTests::LessEqual),

@@ -5,18 +5,21 @@
 //! enabled must not pass by chance.
 
 use crate::context::Context;
-use crate::enums::{compare, equations, logic_operation, mask, operation};
+use crate::enums::{advanced_equation, compare, equations, logic_operation, mask, operation};
 use crate::path::Variant;
 use etalon_backend::BackendError;
 use etalon_frame::{Feature, PathClip, PathViewport, Requirement};
 use etalon_scene::{
     ColorTarget, CullMode, DepthBias, DepthState, Draw, FrontFace, Multisample, Path, PolygonMode,
-    PrimitiveTopology, RESTART, RESTART_16, SampleCoverage, StencilFace, StencilState, Viewport,
+    PrimitiveTopology, ProvokingVertex, RESTART, RESTART_16, SampleCoverage, StencilFace,
+    StencilState, Viewport,
 };
 use glow::HasContext;
 
 const DEPTH_BOUNDS_TEST: u32 = 0x8890;
 const SAMPLE_SHADING: u32 = 0x8C36;
+const FIRST_VERTEX_CONVENTION: u32 = 0x8E4D;
+const LAST_VERTEX_CONVENTION: u32 = 0x8E4E;
 
 /// The state of a draw, ready to be set.
 #[derive(Clone, Debug)]
@@ -24,6 +27,8 @@ pub(crate) struct DrawState {
     cull: Option<u32>,
     front_face: u32,
     polygon_mode: u32,
+    /// The convention of the provoking vertex.
+    provoking: u32,
     /// The capability that biases the draw's polygons.
     offset: u32,
     /// True if the draw has polygons.
@@ -34,6 +39,8 @@ pub(crate) struct DrawState {
     /// The clip volume's origin, where the draws' differ.
     origin: Option<u32>,
     scissor: Option<[i32; 4]>,
+    /// The bits of the clip distances that clip.
+    clip_distances: u8,
     depth_bias: Option<DepthBias>,
     depth_clamp: bool,
     depth_bounds: Option<[f32; 2]>,
@@ -77,6 +84,10 @@ impl DrawState {
                 PolygonMode::Fill => glow::FILL,
                 PolygonMode::Line => glow::LINE,
             },
+            provoking: match draw.provoking {
+                Some(ProvokingVertex::First) => FIRST_VERTEX_CONVENTION,
+                None | Some(ProvokingVertex::Last) => LAST_VERTEX_CONVENTION,
+            },
             offset: match draw.polygon_mode {
                 PolygonMode::Fill => glow::POLYGON_OFFSET_FILL,
                 PolygonMode::Line => glow::POLYGON_OFFSET_LINE,
@@ -98,6 +109,7 @@ impl DrawState {
                 PathClip::Toggled => Some(glow::UPPER_LEFT),
             },
             scissor: draw.scissor.map(scissor),
+            clip_distances: draw.clipping_distances(),
             depth_bias: (draw.depth_bias != DepthBias::default()).then_some(draw.depth_bias),
             depth_clamp: draw.depth_clamp,
             depth_bounds: draw.depth_bounds,
@@ -136,6 +148,9 @@ impl DrawState {
                 gl.cull_face(face);
             }
             gl.front_face(self.front_face);
+            if let Some(provoking_vertex) = context.entry_points.provoking_vertex {
+                provoking_vertex(self.provoking);
+            }
             if !context.caps.es {
                 gl.polygon_mode(glow::FRONT_AND_BACK, self.polygon_mode);
             }
@@ -153,6 +168,12 @@ impl DrawState {
         }
         if context.caps.depth_clamp {
             set(gl, glow::DEPTH_CLAMP, self.depth_clamp);
+        }
+        if context.caps.clip_distances {
+            for number in 0..u8::BITS {
+                let clips = self.clip_distances & (1 << number) != 0;
+                set(gl, glow::CLIP_DISTANCE0 + number, clips);
+            }
         }
     }
 
@@ -295,6 +316,37 @@ impl DrawState {
         }
     }
 
+    /// Returns the advanced blend equation of a draw, which has one target.
+    fn advanced(&self) -> Option<u32> {
+        let mode = self.targets.first().and_then(|t| t.advanced);
+        mode.map(advanced_equation)
+    }
+
+    /// Sets the advanced blend equation, if the draw has one.
+    pub(crate) fn begin_advanced(&self, context: &Context) {
+        let Some(equation) = self.advanced() else {
+            return;
+        };
+        // SAFETY: the context is current and has the equation.
+        unsafe { context.gl.blend_equation(equation) };
+        if let (false, Some(barrier)) = (
+            context.caps.coherent_blend,
+            context.entry_points.blend_barrier,
+        ) {
+            // SAFETY: the context is current and has the function.
+            unsafe { barrier() };
+        }
+    }
+
+    /// Takes the advanced blend equation back: with several targets or another shader it is an error even
+    /// where blending is off (OpenGL ES 3.2, 15.1.5.3, Errors).
+    pub(crate) fn end_advanced(&self, context: &Context) {
+        if self.advanced().is_some() {
+            // SAFETY: the context is current.
+            unsafe { context.gl.blend_equation(glow::FUNC_ADD) };
+        }
+    }
+
     fn apply_targets(&self, context: &Context) {
         let gl = &context.gl;
         if let Some(set_logic) = context.entry_points.logic_op {
@@ -312,8 +364,9 @@ impl DrawState {
             if let [target] = self.targets.as_slice() {
                 let [r, g, b, a] = mask(target);
                 gl.color_mask(r, g, b, a);
-                set(gl, glow::BLEND, target.blend.is_some());
+                set(gl, glow::BLEND, target.blends());
                 match target.blend {
+                    _ if self.advanced().is_some() => {}
                     Some(blend) => {
                         let (color, alpha) = equations(blend);
                         gl.blend_equation_separate(color.0, alpha.0);

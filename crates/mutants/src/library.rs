@@ -3,10 +3,11 @@
 use crate::list::List;
 use crate::mutant::Mutant;
 use crate::{
-    bias, blend, bounds, capability, carried, clear, counter, cull, depth, depth_range, discard,
-    dual_source, early, fetch, formats, geometry, hierarchy, invariance, logic, mask, read_only,
-    readback, resolve, sample_coverage, sample_shading, samples, scissor, sequence, size, stencil,
-    sticky, targets, texture, tiled, topology, upload, viewport,
+    bias, blend, bounds, capability, carried, clear, clip_distance, counter, cull, depth,
+    depth_range, discard, dual_source, early, fetch, formats, geometry, held, hierarchy,
+    invariance, logic, mask, provoking, read_only, readback, resolve, sample_coverage,
+    sample_shading, samples, scissor, sequence, shader_mask, size, stencil, sticky, targets,
+    tessellation, texture, tiled, topology, upload, viewport,
 };
 use std::sync::LazyLock;
 
@@ -22,6 +23,7 @@ pub fn mutants() -> &'static [Mutant] {
         stencil::add(&mut list);
         blend::add(&mut list);
         blend::precision::add(&mut list);
+        blend::advanced::add(&mut list);
         mask::add(&mut list);
         formats::add(&mut list);
         targets::add(&mut list);
@@ -29,12 +31,15 @@ pub fn mutants() -> &'static [Mutant] {
         logic::add(&mut list);
         cull::add(&mut list);
         topology::add(&mut list);
+        tessellation::add(&mut list);
+        provoking::add(&mut list);
         samples::add(&mut list);
         sample_shading::add(&mut list);
         sample_coverage::add(&mut list);
         resolve::add(&mut list);
         scissor::add(&mut list);
         viewport::add(&mut list);
+        clip_distance::add(&mut list);
         capability::add(&mut list);
         clear::add(&mut list);
         geometry::add(&mut list);
@@ -52,6 +57,8 @@ pub fn mutants() -> &'static [Mutant] {
         carried::add(&mut list);
         sequence::add(&mut list);
         size::add(&mut list);
+        shader_mask::add(&mut list);
+        held::add(&mut list);
         list.mutants
     });
     &ALL

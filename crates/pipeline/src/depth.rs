@@ -38,6 +38,23 @@ impl DepthPlane {
         }
     }
 
+    /// Returns the plane that is linear along a line and the same across it; flat if the line has no
+    /// length.
+    pub fn along([a, b]: [Point; 2], z: [f64; 2]) -> Self {
+        let (x, y) = ((b.x - a.x) as f64, (b.y - a.y) as f64);
+        let square = x * x + y * y;
+        let growth = match square == 0.0 {
+            true => 0.0,
+            false => (z[1] - z[0]) / square,
+        };
+        Self {
+            origin: a,
+            z: z[0],
+            dx: growth * x,
+            dy: growth * y,
+        }
+    }
+
     /// Returns the depth at a point.
     pub fn at(&self, point: Point) -> f64 {
         let dx = (point.x - self.origin.x) as f64 * self.dx;
@@ -67,5 +84,19 @@ mod tests {
             assert!((plane.at(point) - z).abs() < 1e-12);
         }
         assert_eq!(slope(3.0, -4.0), (4.0, 5.0));
+    }
+
+    #[test]
+    fn a_line_has_the_values_of_its_ends() {
+        let [a, b] = [(3, 1), (7, 4)].map(|(x, y)| Point { x, y });
+        let line = DepthPlane::along([a, b], [-1.0, 4.0]);
+        assert!((line.at(a) + 1.0).abs() < 1e-12 && (line.at(b) - 4.0).abs() < 1e-12);
+        // Across, nothing changes.
+        let beside = Point {
+            x: a.x - 3,
+            y: a.y + 4,
+        };
+        assert!((line.at(beside) + 1.0).abs() < 1e-12);
+        assert_eq!(DepthPlane::along([a, a], [2.0, 3.0]).at(b), 2.0);
     }
 }

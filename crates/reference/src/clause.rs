@@ -16,6 +16,8 @@ pub(crate) enum Rejection {
     Viewport,
     /// The near or the far plane clips it.
     NearFar,
+    /// A clip distance clips it.
+    ClipDistance,
     /// Its face is culled.
     Culling,
     /// The scissor rectangle leaves the texel out.
@@ -26,6 +28,8 @@ pub(crate) enum Rejection {
     SampleMask,
     /// The shader discards the fragment.
     Discard,
+    /// The shader's own sample mask leaves the sample out.
+    ShaderMask,
     /// Alpha to coverage leaves the sample out.
     AlphaToCoverage,
     /// The stored depth is out of bounds.
@@ -43,12 +47,13 @@ impl Rejection {
             Self::RasterizerDiscard => "rasterizer discard",
             Self::Coverage => "coverage",
             Self::Viewport => "viewport",
-            Self::NearFar => "clipping",
+            Self::NearFar | Self::ClipDistance => "clipping",
             Self::Culling => "culling",
             Self::Scissor => "scissor",
             Self::SampleCoverage => "sample coverage",
             Self::SampleMask => "sample mask",
             Self::Discard => "discard",
+            Self::ShaderMask => "shader's sample mask",
             Self::AlphaToCoverage => "alpha to coverage",
             Self::DepthBounds => "depth bounds",
             Self::Stencil => "stencil test",
@@ -62,11 +67,12 @@ impl Rejection {
             Self::RasterizerDiscard => "is discarded before rasterization".to_owned(),
             Self::Coverage => "does not cover it".to_owned(),
             Self::Viewport | Self::Scissor => format!("is {detail}"),
-            Self::NearFar => format!("is clipped there: {detail}"),
+            Self::NearFar | Self::ClipDistance => format!("is clipped there: {detail}"),
             Self::Culling => format!("is culled: {detail}"),
             Self::SampleCoverage => format!("loses it to sample coverage: {detail}"),
             Self::SampleMask => format!("is masked: {detail}"),
             Self::Discard => format!("is discarded by its shader: {detail}"),
+            Self::ShaderMask => format!("is masked by its shader: {detail}"),
             Self::AlphaToCoverage => format!("loses it to alpha to coverage: {detail}"),
             Self::DepthBounds => format!("fails its depth bounds test: {detail}"),
             Self::Stencil => format!("fails its stencil test: {detail}"),
@@ -137,11 +143,15 @@ impl Rejection {
             Self::NearFar => {
                 "Primitive Clipping: primitives are clipped to the view volume, 0 to 1 in depth"
             }
+            Self::ClipDistance => {
+                "Primitive Clipping: clip half-space i holds the points whose distance is 0 or more"
+            }
             Self::Culling => "Basic Polygon Rasterization: culled by facing and cullMode",
             Self::Scissor => {
                 "Scissor Test: coverage of samples outside of the rectangle is set to 0"
             }
             Self::SampleMask => "Sample Mask Test: coverage is ANDed with the sample mask",
+            Self::ShaderMask => "Multisample Coverage: coverage is ANDed with SampleMask",
             Self::Discard => {
                 "Shader Termination and Demotion: a terminated or demoted fragment leaves no coverage"
             }
@@ -162,11 +172,14 @@ impl Rejection {
             },
             Self::Viewport => "Primitive Clipping: -w to w in x and y, the viewport's sides",
             Self::NearFar => "Primitive Clipping: depth is clipped to 0 to w",
+            Self::ClipDistance => {
+                "Primitive Clipping: what has an interpolated distance below 0 is clipped"
+            }
             Self::Culling => "Polygon Rasterization: culled by facing and cullMode",
             Self::Scissor => {
                 "setScissorRect, Rasterization: fragments outside of the rectangle are discarded"
             }
-            Self::SampleMask => {
+            Self::SampleMask | Self::ShaderMask => {
                 "Sample Masking: a sample whose bit is 0 is neither tested nor written"
             }
             Self::Discard => "Fragment Processing; WGSL: Discard Statement",
@@ -190,6 +203,20 @@ impl Rejection {
         }
         if self == Self::DepthBounds {
             return "GL_EXT_depth_bounds_test: a stored depth outside of the bounds discards the fragment"
+                .to_owned();
+        }
+        if self == Self::ShaderMask {
+            return match edition {
+                Gl33 => "GL_ARB_sample_shading: gl_SampleMask: bits that are 0 leave samples uncovered",
+                Gl45 => "OpenGL 4.5: 15.2.3 Shader Outputs: gl_SampleMask: bits that are 0 leave samples uncovered",
+                Gl46 => "OpenGL 4.6: 15.2.3 Shader Outputs: gl_SampleMask: bits that are 0 leave samples uncovered",
+                Es30 | Es31 => "GL_OES_sample_variables: gl_SampleMask: bits that are 0 leave samples uncovered",
+                Es32 => "OpenGL ES 3.2: 14.2.3 Shader Outputs: gl_SampleMask: bits that are 0 leave samples uncovered",
+            }
+            .to_owned();
+        }
+        if self == Self::ClipDistance && matches!(edition, Es30 | Es31 | Es32) {
+            return "GL_EXT_clip_cull_distance: half-space i holds the points whose distance is 0 or more"
                 .to_owned();
         }
         // Sections in the order of the editions.
@@ -219,6 +246,10 @@ impl Rejection {
             Self::NearFar => (
                 ["2.19", "13.5", "13.7", "2.18", "12.4", "12.5"],
                 "Primitive Clipping: to the view volume, near to far",
+            ),
+            Self::ClipDistance => (
+                ["2.19", "13.5", "13.7", "2.18", "12.4", "12.5"],
+                "Primitive Clipping: half-space i holds the points whose distance is 0 or more",
             ),
             Self::Culling => (
                 ["3.6.1", "14.6.1", "14.6.1", "3.6.1", "13.5.1", "13.7.1"],

@@ -15,6 +15,7 @@ mod counting;
 mod coverage;
 mod depth;
 mod depth_resolve;
+mod distance;
 mod fit;
 mod fragment;
 mod interval;

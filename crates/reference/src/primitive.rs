@@ -1,11 +1,13 @@
 //! Snapped primitives: the samples they can and must cover, and their depth there.
 
 use crate::depth::Depth;
+use crate::distance::Distance;
 use crate::interval::Interval;
 use crate::judging::Range as Values;
 use crate::possible::Possible;
 use crate::snap::{SnapBox, area};
 use etalon_pipeline::{Point, edge_value};
+use smallvec::SmallVec;
 use std::ops::Range;
 
 /// The shape of a primitive.
@@ -62,6 +64,8 @@ pub(crate) struct SnappedPrimitive {
     pub(crate) all: SnapBox,
     /// Texture coordinates, where the shader reads them.
     pub(crate) uv: Option<[Depth; 2]>,
+    /// The clip distances that clip.
+    pub(crate) distances: SmallVec<[Distance; 0]>,
     /// A number that is equal for the same vertices under the same viewport; none if the draw tests no
     /// depth, or no other fragment of the scene can have the same.
     pub(crate) geometry: Option<u64>,
@@ -252,6 +256,21 @@ impl SnappedPrimitive {
             depth.high >= 0.0 && depth.low <= 1.0,
             depth.low >= 0.0 && depth.high <= 1.0,
         )
+    }
+}
+
+impl SnappedPrimitive {
+    /// Returns whether clip distances leave a covered sample at a point, or anywhere in its texel of so
+    /// many units.
+    pub(crate) fn inside_distances(&self, at: Point, spread: Option<i64>) -> Possible {
+        let mut inside = Possible::Always;
+        for distance in &self.distances {
+            inside = inside.and(match spread {
+                None => distance.keeps(at),
+                Some(units) => distance.keeps_in_texel(at, units),
+            });
+        }
+        inside
     }
 }
 

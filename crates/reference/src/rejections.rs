@@ -3,7 +3,7 @@
 
 use crate::clause::Rejection;
 use crate::notes::{Effect, Note, Notes, Origin, Skipped};
-use crate::walk::{Place, Walk};
+use crate::walk::{Hit, Place, Walk};
 use etalon_frame::StoryLine;
 use etalon_scene::Draw;
 
@@ -82,14 +82,19 @@ impl Walk<'_> {
     /// texel.
     pub(crate) fn note_skipped(&self, notes: &mut Notes<'_>, draw: Numbered<'_>, skipped: Skipped) {
         let Some(all) = skipped.0 else { return };
-        let count = draw.2.mesh.primitives(draw.2.topology).len();
+        let count = draw.2.primitives().len();
         let mut reasons = vec![Some(Rejection::Coverage); count];
         for (primitive, reason) in all {
             if let Some(slot) = reasons.get_mut(primitive as usize) {
                 *slot = reason;
             }
         }
-        for rejection in [Rejection::Coverage, Rejection::Viewport, Rejection::NearFar] {
+        for rejection in [
+            Rejection::Coverage,
+            Rejection::Viewport,
+            Rejection::NearFar,
+            Rejection::ClipDistance,
+        ] {
             let of = |i: &u32| reasons[*i as usize] == Some(rejection);
             let which: Vec<u32> = (0..count as u32).filter(of).collect();
             if which.is_empty() {
@@ -116,6 +121,7 @@ impl Walk<'_> {
                     }
                 }
                 Rejection::NearFar => format!("{who} {lie} beyond the near or far plane"),
+                Rejection::ClipDistance => format!("{who} {lie} behind a clip distance"),
                 _ => format!("{who} {cover} the sample"),
             };
             self.note_primitives(notes, draw, which, rejection, || detail);
@@ -149,10 +155,11 @@ impl Walk<'_> {
     }
 
     /// Notes a primitive that the sides of the view volume, or else its near and far planes, may clip.
-    pub(crate) fn note_clipping(&self, notes: &mut Notes<'_>, place: Place<'_>, by_sides: bool) {
-        let (rejection, plane) = match by_sides {
-            true => (Rejection::Viewport, "an edge of the viewport"),
-            false => (Rejection::NearFar, "the near or far plane"),
+    pub(crate) fn note_clipping(&self, notes: &mut Notes<'_>, place: Place<'_>, hit: Hit) {
+        let (rejection, plane) = match (hit.in_viewport, hit.in_depth) {
+            (false, _) => (Rejection::Viewport, "an edge of the viewport"),
+            (true, false) => (Rejection::NearFar, "the near or far plane"),
+            (true, true) => (Rejection::ClipDistance, "where a clip distance is 0"),
         };
         self.note_rejection(notes, place, rejection, false, &|| {
             format!("too near {plane} to tell: two worlds, clipped away at the sample or not")

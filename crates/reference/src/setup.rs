@@ -3,13 +3,14 @@
 use crate::bias::depth_bias;
 use crate::context::PassContext;
 use crate::depth::Depth;
+use crate::distance::Distance;
 use crate::interval::Interval;
 use crate::judging::{Judging, Range};
 use crate::primitive::{Shape, SnappedPrimitive, Triangle, VertexId};
 use crate::rules::Snap;
 use crate::snap::{SnapBox, units_per_texel};
 use crate::texels::Lattice;
-use etalon_pipeline::{Arithmetic, Plain, Point, window_position};
+use etalon_pipeline::{Arithmetic, Plain, Point, shader, window_position};
 use etalon_scene::{Draw, PolygonMode, PrimitiveVertices};
 use smallvec::{SmallVec, smallvec};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -28,14 +29,17 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
     if draw.rasterizer_discard {
         return primitives;
     }
-    for (index, one) in draw.mesh.primitives(draw.topology).into_iter().enumerate() {
+    let provoking = draw.provoking.map(|_| draw.provoking_vertices());
+    for (index, one) in draw.primitives().into_iter().enumerate() {
         if is_far(context, draw, one) {
             continue;
         }
-        let own: SmallVec<[usize; 3]> = match one {
-            PrimitiveVertices::Point(i) => smallvec![i],
-            PrimitiveVertices::Line(line) => SmallVec::from_slice(&line),
-            PrimitiveVertices::Triangle(triangle) => SmallVec::from_slice(&triangle),
+        // Without a convention, the flat colour may be that of any vertex.
+        let own: SmallVec<[usize; 3]> = match (&provoking, one) {
+            (Some(all), _) => smallvec![all[index]],
+            (None, PrimitiveVertices::Point(i)) => smallvec![i],
+            (None, PrimitiveVertices::Line(line)) => SmallVec::from_slice(&line),
+            (None, PrimitiveVertices::Triangle(triangle)) => SmallVec::from_slice(&triangle),
         };
         let color = std::array::from_fn(|c| {
             let value = |i: &usize| Interval::exact(f64::from(draw.mesh.vertices[*i].color[c]));
@@ -44,6 +48,7 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
         });
         let mut primitive = primitive(context, draw, one, color, index as u32);
         primitive.uv = texture_coordinates(context, draw, &primitive.shape, one);
+        primitive.distances = distances(context, draw, &primitive.shape, one);
         primitives.push(primitive);
     }
     primitives
@@ -167,6 +172,7 @@ fn primitive(
         bias,
         all,
         uv: None,
+        distances: SmallVec::new(),
         geometry: match (context.depth, draw.depth) {
             (Some(_), Some(_)) => Some(geometry(draw, one)),
             _ => None,
@@ -193,6 +199,7 @@ fn geometry(draw: &Draw, one: PrimitiveVertices) -> u64 {
     let bias = draw.depth_bias;
     (bias.constant, bias.slope.to_bits(), bias.clamp.to_bits()).hash(&mut hasher);
     (draw.topology, draw.polygon_mode, draw.depth_clamp).hash(&mut hasher);
+    draw.tessellation.hash(&mut hasher);
     hasher.finish()
 }
 
@@ -238,6 +245,44 @@ fn texture_coordinates(
         (_, PrimitiveVertices::Line(own)) => Depth::flat(&own.map(|i| value(i, axis))),
         (_, PrimitiveVertices::Triangle(own)) => Depth::flat(&own.map(|i| value(i, axis))),
     }))
+}
+
+/// Returns the clip distances over a primitive, those that clip.
+fn distances(
+    context: &PassContext<'_>,
+    draw: &Draw,
+    shape: &Shape,
+    one: PrimitiveVertices,
+) -> SmallVec<[Distance; 0]> {
+    let clipping = draw.clipping_distances();
+    if clipping == 0 {
+        return SmallVec::new();
+    }
+    let units = units_per_texel(context.limits);
+    let grid = units >> context.limits.sub_pixel_bits;
+    let error = context.rules.float_error.value();
+    let of = |i: usize| shader::clip_distances(draw.shader, &draw.mesh.vertices[i]);
+    let w = |i: usize| draw.mesh.vertices[i].position[3];
+    let numbers = (0..draw.shader.clip_distances() as usize).filter(|n| clipping & (1 << n) != 0);
+    numbers
+        .map(|n| {
+            let value = |i: usize| of(i)[n];
+            match (shape, one) {
+                (Shape::Triangle(triangle), PrimitiveVertices::Triangle(own))
+                    if w(own[0]) == w(own[1]) && w(own[1]) == w(own[2]) =>
+                {
+                    Distance::over(triangle.vertices, own.map(value), [units, grid], error)
+                }
+                (Shape::Line(ends), PrimitiveVertices::Line(own)) if w(own[0]) == w(own[1]) => {
+                    Distance::along(*ends, own.map(value), units)
+                }
+                // Under a perspective they are not linear in the picture.
+                (_, PrimitiveVertices::Triangle(own)) => Distance::between(&own.map(value)),
+                (_, PrimitiveVertices::Line(own)) => Distance::between(&own.map(value)),
+                (_, PrimitiveVertices::Point(own)) => Distance::between(&[value(own)]),
+            }
+        })
+        .collect()
 }
 
 fn vertex(context: &PassContext<'_>, draw: &Draw, position: [f32; 4]) -> Vertex {

@@ -110,6 +110,7 @@ impl Walk<'_> {
             sample: masked
                 || *state != plain
                 || draw.shader.runs_per_sample()
+                || draw.shader.writes_mask()
                 || draw.shader.interpolates_at_centroid(),
             primitives: !draw.counters.is_empty(),
             textures: draw
@@ -233,13 +234,15 @@ impl Walk<'_> {
         signature: &mut Signature,
     ) {
         let primitive = place.primitive;
-        let flags = u64::from(hit.in_viewport) | u64::from(hit.in_depth) << 1;
+        let flags = u64::from(hit.in_viewport)
+            | u64::from(hit.in_depth) << 1
+            | u64::from(hit.in_distances) << 2;
         let mut word = u64::from(kind) | flags << 32;
         let mut names_itself = inputs.primitives;
         signature.constant &= hit.is_certain();
         if let Shape::Triangle(triangle) = &primitive.shape {
             for (i, side) in hit.sides.into_iter().enumerate() {
-                word |= (side as u64) << (34 + 2 * i);
+                word |= (side as u64) << (35 + 2 * i);
             }
             let (least, most) = triangle.area;
             let certain = |side: Side| matches!(side, Side::Positive | Side::Negative);
@@ -248,7 +251,7 @@ impl Walk<'_> {
             signature.constant &= certain;
         } else {
             let (least, most) = primitive.times(place.point, self.units);
-            word |= u64::from(least) << 34 | u64::from(most) << 36;
+            word |= u64::from(least) << 35 | u64::from(most) << 37;
             signature.constant = false;
         }
         signature.words.push(word);

@@ -62,12 +62,14 @@ pub(crate) struct Hit {
     pub(crate) in_viewport: bool,
     /// True if it is not clipped by the near and far planes for certain.
     pub(crate) in_depth: bool,
+    /// True if no clip distance takes it away for certain.
+    pub(crate) in_distances: bool,
 }
 
 impl Hit {
     /// True if the fragment is not clipped away for certain.
     pub(crate) fn is_certain(self) -> bool {
-        self.in_viewport && self.in_depth
+        self.in_viewport && self.in_depth && self.in_distances
     }
 }
 
@@ -273,7 +275,7 @@ impl<'a> Walk<'a> {
             };
             skipped.add(primitive.index, None);
             if !hit.is_certain() {
-                self.note_clipping(notes, place, !hit.in_viewport);
+                self.note_clipping(notes, place, hit);
             }
             let before = (!hit.is_certain()).then(|| worlds.clone());
             worlds = self.primitive(place, worlds, notes);
@@ -331,10 +333,17 @@ impl<'a> Walk<'a> {
         if !in_depth.can() {
             return Err(Rejection::NearFar);
         }
+        let samples = self.scene.pass_samples(&self.scene.passes[p]);
+        let anywhere = samples > 1 && !self.rules.covers_at_positions.value();
+        let in_distances = primitive.inside_distances(point, anywhere.then_some(self.units));
+        if !in_distances.can() {
+            return Err(Rejection::ClipDistance);
+        }
         Ok(Hit {
             sides,
             in_viewport: in_viewport.must(),
             in_depth: in_depth.must(),
+            in_distances: in_distances.must(),
         })
     }
 

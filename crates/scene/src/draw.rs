@@ -5,11 +5,13 @@ use crate::depth_stencil::{DepthBias, DepthState, StencilState};
 use crate::early_tests::EarlyTests;
 use crate::fetch::Fetch;
 use crate::mesh::Mesh;
+use crate::provoking::ProvokingVertex;
 use crate::rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, Viewport,
 };
 use crate::sampler::Sampler;
 use crate::shader::Shader;
+use crate::tessellation::Tessellation;
 use serde::{Deserialize, Serialize};
 
 /// One draw call with all its state.
@@ -21,6 +23,12 @@ pub struct Draw {
     pub fetch: Fetch,
     /// The topology.
     pub topology: PrimitiveTopology,
+    /// The tessellation of patches of three vertices, which the topology's triangles are; `None` is off.
+    #[serde(default)]
+    pub tessellation: Option<Tessellation>,
+    /// The vertex whose attributes are flat over a primitive; with `None` it is open.
+    #[serde(default)]
+    pub provoking: Option<ProvokingVertex>,
     /// Vertex and fragment shader.
     pub shader: Shader,
     /// The shader's parameters.
@@ -47,6 +55,9 @@ pub struct Draw {
     pub viewport: Viewport,
     /// Left, top, width and height of the texels that may be written; `None` is all.
     pub scissor: Option<[u32; 4]>,
+    /// Bit `i` lets the shader's clip distance `i` clip.
+    #[serde(default = "all_clip_distances")]
+    pub clip_distances: u8,
     /// The depth bias of polygons.
     pub depth_bias: DepthBias,
     /// True if depths beyond the viewport's range are clamped instead of clipped.
@@ -68,12 +79,21 @@ pub struct Draw {
 }
 
 impl Draw {
+    /// The bits of the shader's clip distances that clip.
+    pub fn clipping_distances(&self) -> u8 {
+        // A shader has eight at most.
+        let own = (1_u32 << self.shader.clip_distances()) - 1;
+        self.clip_distances & own as u8
+    }
+
     /// A draw of triangles with every test off and no blending, to one colour attachment.
     pub fn new(shader: Shader, mesh: Mesh, viewport: Viewport) -> Self {
         Self {
             mesh,
             fetch: Fetch::default(),
             topology: PrimitiveTopology::TriangleList,
+            tessellation: None,
+            provoking: None,
             shader,
             params: Params::default(),
             early_tests: EarlyTests::Implicit,
@@ -86,6 +106,7 @@ impl Draw {
             rasterizer_discard: false,
             viewport,
             scissor: None,
+            clip_distances: all_clip_distances(),
             depth_bias: DepthBias::default(),
             depth_clamp: false,
             depth_bounds: None,
@@ -97,6 +118,10 @@ impl Draw {
             blend_constant: [0.0; 4],
         }
     }
+}
+
+fn all_clip_distances() -> u8 {
+    u8::MAX
 }
 
 /// The parameter block: 32 bytes of uniform memory, in this order.

@@ -16,17 +16,21 @@ mod invariance;
 mod mesh;
 mod mesh_source;
 mod on_path;
+mod overlap;
 mod pass;
 mod path;
+mod provoking;
 mod rasterization;
 mod requirements;
 mod sampler;
 mod scene;
 mod shader;
+mod tessellation;
 
 pub use attachment::{Attachment, Contents};
 pub use blend::{
-    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, LogicOperation,
+    AdvancedBlend, BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget,
+    LogicOperation,
 };
 pub use call::Call;
 pub use depth_stencil::{
@@ -43,9 +47,13 @@ pub use pass::{
     ResolveMode, StoreOperation,
 };
 pub use path::Path;
+pub use provoking::ProvokingVertex;
 pub use rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, SampleCoverage, Viewport,
 };
 pub use sampler::{AddressMode, FilterMode, Sampler};
 pub use scene::{Counter, Scene};
 pub use shader::Shader;
+pub use tessellation::{
+    CONTROL_GLSL, CONTROL_SPIRV, DomainOrigin, EVALUATION_GLSL, Tessellation, evaluation_spirv,
+};

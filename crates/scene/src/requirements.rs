@@ -4,9 +4,12 @@ use crate::blend::{BlendFactor, BlendOperation};
 use crate::depth_stencil::StencilFace;
 use crate::draw::Draw;
 use crate::early_tests::EarlyTests;
-use crate::pass::{DepthStencilResolve, ResolveMode};
+use crate::overlap::may_overlap;
+use crate::pass::{DepthStencilResolve, Pass, ResolveMode};
+use crate::provoking::ProvokingVertex;
 use crate::rasterization::{CullMode, PolygonMode, PrimitiveTopology};
 use crate::scene::Scene;
+use crate::tessellation::DomainOrigin;
 use etalon_frame::{CounterKind, Feature, Requirement};
 use std::collections::BTreeSet;
 
@@ -54,10 +57,13 @@ impl Scene {
             if pass.clears.iter().any(|c| c.target.is_masked()) {
                 needed.insert(Requirement::Feature(Feature::MaskedClears));
             }
+            if mixes_provoking_vertices(pass) {
+                needed.insert(Requirement::Feature(Feature::MixedProvokingVertices));
+            }
             for draw in &pass.draws {
                 needed.extend(features(draw, size).into_iter().map(Requirement::Feature));
                 for (target, index) in draw.targets.iter().zip(&pass.color) {
-                    if target.blend.is_some() {
+                    if target.blends() {
                         needed.insert(Requirement::Blending(self.attachments[*index].format));
                     }
                 }
@@ -68,6 +74,15 @@ impl Scene {
         }
         needed
     }
+}
+
+/// True if draws of a pass differ in their provoking vertex. Those that name none may have that of a
+/// pipeline that says nothing, which in Vulkan is the first.
+fn mixes_provoking_vertices(pass: &Pass) -> bool {
+    let last = |draw: &Draw| draw.provoking == Some(ProvokingVertex::Last);
+    pass.draws
+        .windows(2)
+        .any(|two| last(&two[0]) != last(&two[1]))
 }
 
 /// The features that a resolve of depth and stencil needs; `both` is true if the format has both.
@@ -109,6 +124,26 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
     need(
         draw.topology == PrimitiveTopology::TriangleFan,
         Feature::TriangleFans,
+    );
+    let distances = draw.shader.clip_distances();
+    need(distances > 0, Feature::ClipDistances);
+    need(
+        draw.clipping_distances().count_ones() < distances,
+        Feature::ClipDistanceMask,
+    );
+    need(draw.tessellation.is_some(), Feature::Tessellation);
+    need(
+        draw.tessellation
+            .is_some_and(|t| t.origin == DomainOrigin::UpperLeft),
+        Feature::UpperLeftDomain,
+    );
+    need(
+        draw.provoking == Some(ProvokingVertex::First),
+        Feature::FirstProvokingVertex,
+    );
+    need(
+        draw.provoking == Some(ProvokingVertex::Last),
+        Feature::LastProvokingVertex,
     );
     need(
         draw.polygon_mode == PolygonMode::Line,
@@ -152,6 +187,18 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
         Feature::SampleCoverage,
     );
     need(draw.shader.has_second_source(), Feature::DualSourceBlending);
+    let masks = draw.shader.writes_mask();
+    need(masks, Feature::SampleMaskOutput);
+    need(
+        masks && draw.multisample.alpha_to_coverage,
+        Feature::SampleMaskOutputWithAlphaToCoverage,
+    );
+    let shaderless = !draw.shader.has_fragment();
+    need(shaderless, Feature::FragmentShaderAbsent);
+    need(
+        shaderless && !draw.targets.is_empty(),
+        Feature::FragmentShaderAbsentWithColor,
+    );
     need(
         draw.targets.windows(2).any(|pair| pair[0] != pair[1]),
         Feature::IndependentBlend,
@@ -162,6 +209,10 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
             key(&stencil.front) != key(&stencil.back),
             Feature::SeparateStencilMasks,
         );
+    }
+    if draw.targets.iter().any(|t| t.advanced.is_some()) {
+        need(true, Feature::AdvancedBlend);
+        need(may_overlap(draw), Feature::AdvancedBlendCoherent);
     }
     for blend in draw.targets.iter().filter_map(|t| t.blend) {
         let constant_alpha = [

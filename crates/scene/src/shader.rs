@@ -13,8 +13,12 @@ use std::borrow::Cow;
 struct Facts {
     /// The WGSL text.
     wgsl: &'static str,
+    /// False if it is a vertex shader alone.
+    fragment: bool,
     /// True if it reads the parameter block.
     params: bool,
+    /// True if nothing but a position leaves its vertex shader.
+    position_only: bool,
     /// True if it reads interpolated texture coordinates as numbers.
     uv: bool,
     /// True if it interpolates these inside the part of a texel that a primitive covers.
@@ -29,10 +33,14 @@ struct Facts {
     integers: bool,
     /// True if it writes a second source for blending.
     second_source: bool,
+    /// True if it writes a sample mask.
+    mask: bool,
     /// The depth that it writes.
     depth: Depth,
     /// True if it may discard fragments.
     discards: bool,
+    /// The number of clip distances that its vertices have.
+    clip_distances: u32,
     /// True if it counts its runs in a storage buffer.
     counter: bool,
     /// True if it runs once per sample.
@@ -58,7 +66,9 @@ impl Facts {
     /// A shader that reads no more than vertex attributes and writes one colour.
     const PLAIN: Self = Self {
         wgsl: "",
+        fragment: true,
         params: false,
+        position_only: false,
         uv: false,
         centroid: false,
         textures: 0,
@@ -66,8 +76,10 @@ impl Facts {
         outputs: 1,
         integers: false,
         second_source: false,
+        mask: false,
         depth: Depth::Fixed,
         discards: false,
+        clip_distances: 0,
         counter: false,
         per_sample: false,
         coordinates: false,
@@ -100,7 +112,7 @@ impl Shader {
         &FACTS[self as usize]
     }
 
-    /// The WGSL text: a vertex entry point `vs` and a fragment entry point `fs`. Vertex inputs are
+    /// The WGSL text: a vertex entry point `vs` and, unless it is a vertex shader alone, a fragment entry point `fs`. Vertex inputs are
     /// location 0 position, 1 colour, 2 uv; group 0 holds the parameters at binding 0, textures at
     /// bindings 1 and 2, the counter of runs at binding 3 and a sampler at binding 4.
     pub fn wgsl(self) -> &'static str {
@@ -139,9 +151,24 @@ impl Shader {
         self.facts().depth == Depth::VertexRed
     }
 
+    /// True if the shader writes a sample mask: the red of texture 0.
+    pub fn writes_mask(self) -> bool {
+        self.facts().mask
+    }
+
+    /// True if there is a fragment shader; otherwise a vertex shader alone.
+    pub fn has_fragment(self) -> bool {
+        self.facts().fragment
+    }
+
     /// True if the shader may discard fragments.
     pub fn discards(self) -> bool {
         self.facts().discards
+    }
+
+    /// The number of clip distances that the shader's vertices have.
+    pub fn clip_distances(self) -> u32 {
+        self.facts().clip_distances
     }
 
     /// True if the shader counts its runs in a storage buffer.
@@ -157,6 +184,11 @@ impl Shader {
     /// The number of colour locations that the shader writes.
     pub fn outputs(self) -> usize {
         self.facts().outputs
+    }
+
+    /// True if nothing but a position leaves the vertex shader: no attribute reaches the fragments.
+    pub fn passes_position_alone(self) -> bool {
+        self.facts().position_only
     }
 
     /// True if the shader reads the interpolated texture coordinates, to sample a texture or as
@@ -202,19 +234,24 @@ shaders! {
     /// `params.color` where the first texture coordinate, interpolated inside the primitive, is
     /// not negative; `params.back_color` where it is.
     Centroid = "centroid" { params: true, uv: true, centroid: true },
+    /// The vertex colour, flat; clipped by both texture coordinates.
+    ClipFlat = "clip_flat" { clip_distances: 2 },
+    /// `params.color`; clipped by the vertex colour, the texture coordinates, alpha less the first and
+    /// blue less the second.
+    ClipUniform = "clip_uniform" { params: true, clip_distances: 8 },
     /// `params.color`; counts its runs.
-    CountedColor = "counted_color" { params: true, counter: true },
+    CountedColor = "counted_color" { params: true, counter: true, position_only: true },
     /// As `flat_color_depth`; counts its runs.
     CountedDepth = "counted_depth" { params: true, depth: Depth::VertexRed, counter: true },
     /// As `texel_discard`; counts its runs.
-    CountedDiscard = "counted_discard" { params: true, textures: 1, discards: true, counter: true },
+    CountedDiscard = "counted_discard" { params: true, textures: 1, discards: true, counter: true, position_only: true },
     /// The fragment's own window depth as grey.
-    DepthGrey = "depth_grey" { reads_depth: true },
+    DepthGrey = "depth_grey" { reads_depth: true, position_only: true },
     /// The distance behind the window depth of a perspective projection as grey, between the near
     /// and far planes in `params.color`'s red and green.
-    DepthLinearized = "depth_linearized" { params: true, reads_depth: true },
+    DepthLinearized = "depth_linearized" { params: true, reads_depth: true, position_only: true },
     /// Minus the fragment's depth, its depth, 0 and 1.
-    DepthRange = "depth_range" { reads_depth: true },
+    DepthRange = "depth_range" { reads_depth: true, position_only: true },
     /// One step of dual depth peeling: depths, front and back to locations 0 to 2.
     DualPeel = "dual_peel" { textures: 2, outputs: 3, reads_depth: true },
     /// The vertex colour with its alpha weighted by the first texture coordinate, the distance from
@@ -234,26 +271,36 @@ shaders! {
     /// planes in `params.color`'s red and green.
     Fog = "fog" { params: true, reads_depth: true },
     /// The fragment's window coordinates times `params.color`'s red and green; its blue and alpha.
-    FragCoordColor = "frag_coord_color" { params: true, coordinates: true },
+    FragCoordColor = "frag_coord_color" { params: true, coordinates: true, position_only: true },
     /// The vertex colour, flat; writes the fragment's own window depth as depth.
     FragCoordDepth = "frag_coord_depth" { depth: Depth::Computed, reads_depth: true },
     /// `params.color` on front faces, `params.back_color` on back faces.
-    FrontFacing = "front_facing" { params: true },
+    FrontFacing = "front_facing" { params: true, position_only: true },
     /// The vertex colour; writes a depth that grows linearly with the distance, 1 over the first
     /// texture coordinate, between the planes in `params.color`'s red and green.
     LinearDepth = "linear_depth" { params: true, uv: true, depth: Depth::Computed },
     /// The vertex colour; writes as depth the binary logarithm of the distance, 1 over the first
     /// texture coordinate, over `params.color`'s red, times its blue.
     LogarithmicDepth = "logarithmic_depth" { params: true, uv: true, depth: Depth::Computed },
+    /// `params.color` with the alpha of the texel of texture 0 under the fragment; writes the texel's red as
+    /// sample mask.
+    MaskedColor = "masked_color" { params: true, textures: 1, mask: true },
+    /// As `masked_color`; writes the texel's green as depth.
+    MaskedDepth = "masked_depth" { params: true, textures: 1, mask: true, depth: Depth::Computed },
+    /// As `masked_color`; discards where the texel's blue is below `params.color`'s.
+    MaskedDiscard = "masked_discard" { params: true, textures: 1, discards: true, mask: true },
+    /// As `sample_index`; writes the red of the texel of texture 0 under the fragment as sample mask, with
+    /// all bits but the sample's own turned. Runs once per sample.
+    MaskedSample = "masked_sample" { textures: 1, mask: true, per_sample: true },
     /// One step of depth peeling: the vertex colour and, to location 1, the depth of fragments behind
     /// the depth in texture 0; discards all others.
     Peel = "peel" { textures: 1, outputs: 2, discards: true, reads_depth: true },
     /// `params.color`; writes the number of the sample being shaded plus 1, in 32nds, as depth. Runs
     /// once per sample.
-    SampleDepth = "sample_depth" { params: true, depth: Depth::Computed, per_sample: true },
+    SampleDepth = "sample_depth" { params: true, depth: Depth::Computed, per_sample: true, position_only: true },
     /// The number of the sample being shaded in binary: red its lowest bit, alpha 1. Runs once
     /// per sample.
-    SampleIndex = "sample_index" { per_sample: true },
+    SampleIndex = "sample_index" { per_sample: true, position_only: true },
     /// Texture 0 sampled at the interpolated texture coordinates.
     SampledColor = "sampled_color" { textures: 1, sampler: true },
     /// As `sampled_color`; discards where the alpha is below `params.color`'s.
@@ -262,22 +309,24 @@ shaders! {
     /// belongs to the sample. Runs once per sample.
     Stochastic = "stochastic" { textures: 1, discards: true, per_sample: true },
     /// The texel of texture 0 under the fragment.
-    TexelColor = "texel_color" { textures: 1 },
+    TexelColor = "texel_color" { textures: 1, position_only: true },
     /// The texel of texture 0 under the fragment, to colour locations 0 to 3 alike.
-    TexelColorAll = "texel_color_all" { textures: 1, outputs: 4 },
+    TexelColorAll = "texel_color_all" { textures: 1, outputs: 4, position_only: true },
     /// The texel of texture 0 under the fragment; discards where its alpha is below
     /// `params.color`'s.
-    TexelDiscard = "texel_discard" { params: true, textures: 1, discards: true },
+    TexelDiscard = "texel_discard" { params: true, textures: 1, discards: true, position_only: true },
     /// The texel of texture 0 under the fragment as source, that of texture 1 as second source.
-    TexelDualSource = "texel_dual_source" { textures: 2, second_source: true },
+    TexelDualSource = "texel_dual_source" { textures: 2, second_source: true, position_only: true },
     /// `params.color` as integers.
-    UintColor = "uint_color" { params: true, integers: true },
+    UintColor = "uint_color" { params: true, integers: true, position_only: true },
     /// `params.color`.
-    UniformColor = "uniform_color" { params: true },
+    UniformColor = "uniform_color" { params: true, position_only: true },
+    /// No fragment shader, and so no colour.
+    VertexOnly = "vertex_only" { fragment: false, outputs: 0 },
     /// Weighted blended transparency: weighted colour to location 0, alpha to location 1.
     WeightedAccumulate = "weighted_accumulate" { outputs: 2, reads_depth: true },
     /// Weighted blended transparency: the mean of texture 0's sums, and texture 1's red as alpha.
-    WeightedResolve = "weighted_resolve" { textures: 2 },
+    WeightedResolve = "weighted_resolve" { textures: 2, position_only: true },
 }
 
 #[cfg(test)]
@@ -297,10 +346,21 @@ mod tests {
                 "{name}"
             );
             assert_eq!(shader.counts_runs(), has("@binding(3)"), "{name}");
+            assert_eq!(
+                shader.passes_position_alone(),
+                has("-> @builtin(position) vec4f"),
+                "{name}"
+            );
             assert_eq!(shader.samples_texture(), has("@binding(4)"), "{name}");
             assert_eq!(shader.writes_depth(), has("@builtin(frag_depth)"), "{name}");
             assert_eq!(shader.discards(), has("discard;"), "{name}");
+            assert_eq!(shader.writes_mask(), has("@builtin(sample_mask)"), "{name}");
+            assert_eq!(shader.has_fragment(), has("@fragment"), "{name}");
             assert_eq!(shader.has_second_source(), has("@blend_src(1)"), "{name}");
+            let distances = format!("distances: array<f32, {}>,", shader.clip_distances());
+            let clips = has("@builtin(clip_distances)");
+            assert_eq!((clips, has(&distances)), (clips, clips), "{name}");
+            assert_eq!(clips, shader.clip_distances() > 0, "{name}");
             assert_eq!(
                 shader.interpolates_at_centroid(),
                 has("centroid)"),

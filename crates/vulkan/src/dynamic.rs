@@ -7,14 +7,14 @@
 use crate::clear::intersection;
 use crate::device::Device;
 use crate::error::internal;
-use crate::extended;
+use crate::extended::Further;
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::PathViewport;
 use etalon_scene::{
     CompareFunction, CullMode, DepthBias, DepthState, Draw, FrontFace, PrimitiveTopology,
-    StencilFace, StencilOperation, StencilState, Viewport,
+    StencilFace, StencilOperation, StencilState, Tessellation, Viewport,
 };
 
 /// The dynamic states of a pipeline besides viewports. The topology stays in the class of the pipeline's own.
@@ -44,8 +44,7 @@ const STATES: [vk::DynamicState; 18] = [
 pub(crate) struct Setting {
     /// True if all of it is in the pipeline.
     pub(crate) fixed: bool,
-    /// True if [`extended::STATES`] are dynamic too.
-    pub(crate) extended: bool,
+    pub(crate) further: Further,
     pub(crate) viewport: PathViewport,
 }
 
@@ -61,12 +60,7 @@ impl Setting {
             (_, false) => &[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR],
         };
         let rest: &[_] = if self.fixed { &[] } else { &STATES };
-        let extended: &[_] = match (self.extended, colored) {
-            (false, _) => &[],
-            (true, false) => &extended::STATES[..extended::COLORLESS],
-            (true, true) => &extended::STATES,
-        };
-        [viewports, rest, extended].concat()
+        [viewports, rest, &self.further.states(colored)].concat()
     }
 }
 
@@ -77,6 +71,7 @@ pub(crate) struct Dynamic {
     viewport: vk::Viewport,
     scissor: vk::Rect2D,
     topology: PrimitiveTopology,
+    tessellation: Option<Tessellation>,
     restart: bool,
     cull: CullMode,
     front_face: FrontFace,
@@ -115,6 +110,7 @@ impl Dynamic {
                 Some(given) => intersection(given, area).unwrap_or_default(),
             },
             topology: draw.topology,
+            tessellation: draw.tessellation,
             restart,
             cull: draw.cull,
             front_face: draw.front_face,
@@ -209,7 +205,7 @@ impl Dynamic {
     /// Returns the state of input assembly for a pipeline.
     pub(crate) fn assembly(&self) -> vk::PipelineInputAssemblyStateCreateInfo<'static> {
         vk::PipelineInputAssemblyStateCreateInfo::default()
-            .topology(state::topology(self.topology))
+            .topology(state::topology(self.topology, self.tessellation))
             .primitive_restart_enable(self.restart)
     }
 
@@ -273,7 +269,10 @@ impl Dynamic {
         let depth = self.depth.unwrap_or(IDLE_DEPTH);
         // SAFETY: as above.
         unsafe {
-            api.cmd_set_primitive_topology(commands, state::topology(self.topology));
+            api.cmd_set_primitive_topology(
+                commands,
+                state::topology(self.topology, self.tessellation),
+            );
             api.cmd_set_primitive_restart_enable(commands, self.restart);
             api.cmd_set_cull_mode(commands, state::cull(self.cull));
             api.cmd_set_front_face(commands, state::front_face(self.front_face));

@@ -42,6 +42,7 @@ mod shader;
 mod slot;
 mod state;
 mod targets;
+mod tessellation;
 mod viewport;
 
 pub use backend::{Options, VulkanBackend, enumerate, open};

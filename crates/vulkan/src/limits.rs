@@ -73,7 +73,11 @@ fn has(device: &Device, feature: Feature) -> bool {
     let stencil = |mode| vk::Bool32::from(resolves.stencil.contains(mode));
     let first = vk::ResolveModeFlags::SAMPLE_ZERO;
     let flag = match feature {
+        Feature::AdvancedBlend => device.advanced_blend.is_some().into(),
+        Feature::AdvancedBlendCoherent => device.advanced_blend.unwrap_or(false).into(),
         Feature::AlphaToOne => features.alpha_to_one,
+        // Every device with the feature has 8 of them (Required Limits, maxClipDistances).
+        Feature::ClipDistances => features.shader_clip_distance,
         Feature::DepthBiasClamp => features.depth_bias_clamp,
         Feature::DepthBounds => features.depth_bounds,
         Feature::DepthClamp => features.depth_clamp,
@@ -91,11 +95,14 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::DualSourceBlending => features.dual_src_blend,
         Feature::FragmentInvocations => features.pipeline_statistics_query,
         Feature::IndependentBlend => features.independent_blend,
+        Feature::LastProvokingVertex => device.provoking.last.into(),
         Feature::LogicOperations => features.logic_op,
+        Feature::MixedProvokingVertices => device.provoking.mixed.into(),
+        Feature::Tessellation | Feature::UpperLeftDomain => features.tessellation_shader,
         Feature::PolygonModeLine => features.fill_mode_non_solid,
         Feature::PreciseOcclusion => features.occlusion_query_precise,
         // Only OpenGL has them.
-        Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
+        Feature::ClipDistanceMask | Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
         Feature::MinSampleShading | Feature::SampleShading => features.sample_rate_shading,
         Feature::StorageCounters => features.fragment_stores_and_atomics,
         Feature::BaseVertex
@@ -104,12 +111,17 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::ConservativeDepth
         | Feature::ConstantAlphaBlendFactor
         | Feature::FirstInstance
+        | Feature::FirstProvokingVertex
         | Feature::ForcedEarlyTests
+        | Feature::FragmentShaderAbsent
+        | Feature::FragmentShaderAbsentWithColor
         | Feature::FrontAndBackCulling
         | Feature::MinMaxBlendFactors
         | Feature::MirroredViewport
         | Feature::RasterizerDiscard
         | Feature::ReversedDepthRange
+        | Feature::SampleMaskOutput
+        | Feature::SampleMaskOutputWithAlphaToCoverage
         | Feature::ScissorOutside
         | Feature::SeparateStencilMasks
         | Feature::TriangleFans

@@ -4,15 +4,16 @@ use crate::device::Device;
 use crate::dynamic::{Dynamic, Setting};
 use crate::error::{Check, internal};
 use crate::render_pass::{Compatible, RenderPass};
-use crate::shader::{Module, Modules};
+use crate::shader::Modules;
 use crate::state;
 use crate::targets::Targets;
+use crate::tessellation;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::PathViewport;
 use etalon_scene::{
     ColorTarget, Draw, EarlyTests, LogicOperation, Multisample, PolygonMode, PrimitiveTopology,
-    Shader,
+    ProvokingVertex, Shader, Tessellation,
 };
 use std::collections::HashMap;
 use std::mem::{offset_of, size_of};
@@ -30,6 +31,9 @@ struct Key {
     early_tests: EarlyTests,
     /// The first topology of its class (Vulkan, Topology Class): within it, topology is dynamic.
     class: PrimitiveTopology,
+    tessellation: Option<Tessellation>,
+    /// True if the last vertex of a primitive provokes, and not the first.
+    last_provokes: bool,
     /// True if the vertex colour advances once an instance.
     instanced: bool,
     polygon_mode: PolygonMode,
@@ -119,6 +123,7 @@ pub(crate) struct Pipeline {
 #[derive(Debug, Default)]
 pub(crate) struct Pipelines {
     modules: Modules,
+    tessellation: tessellation::Stages,
     cache: vk::PipelineCache,
     layouts: HashMap<Bindings, Layout>,
     pipelines: HashMap<Key, Rc<Pipeline>>,
@@ -192,6 +197,8 @@ impl Pipelines {
             shader: draw.shader,
             early_tests: draw.early_tests,
             class: class(draw.topology),
+            tessellation: draw.tessellation,
+            last_provokes: draw.provoking == Some(ProvokingVertex::Last),
             instanced: draw.fetch.instances > 0,
             pass: way.pass.map(|p| p.compatible.clone()),
             setting: way.setting,
@@ -215,7 +222,22 @@ impl Pipelines {
             way.setting.viewport == PathViewport::Array,
         )?;
         let layout = self.layout(device, Bindings::of(draw.shader))?;
-        let raw = create(device, self.cache, &key, &module, layout.pipeline, way)?;
+        let stage = |stage, name| {
+            vk::PipelineShaderStageCreateInfo::default()
+                .stage(stage)
+                .module(module.raw)
+                .name(name)
+        };
+        let mut stages = vec![stage(vk::ShaderStageFlags::VERTEX, c"vs")];
+        if draw.shader.has_fragment() {
+            stages.push(stage(vk::ShaderStageFlags::FRAGMENT, c"fs"));
+        }
+        if let Some(tessellation) = draw.tessellation {
+            stages.extend(self.tessellation.get(device, tessellation)?);
+        }
+        let attributes = attributes(&module.attributes, key.instanced)?;
+        let inputs = (stages.as_slice(), attributes.as_slice());
+        let raw = create(device, self.cache, &key, inputs, layout.pipeline, way)?;
         let pipeline = Rc::new(Pipeline {
             raw,
             layout: layout.pipeline,
@@ -239,6 +261,7 @@ impl Pipelines {
     pub(crate) fn destroy(&mut self, device: &Device) {
         self.drop_unused(device);
         self.modules.destroy(device);
+        self.tessellation.destroy(device);
         // SAFETY: nothing uses these any more; a null cache is ignored.
         unsafe {
             for (_, layout) in self.layouts.drain() {
@@ -275,20 +298,13 @@ fn create(
     device: &Device,
     cache: vk::PipelineCache,
     key: &Key,
-    module: &Module,
+    (stages, attributes): (
+        &[vk::PipelineShaderStageCreateInfo<'_>],
+        &[vk::VertexInputAttributeDescription],
+    ),
     layout: vk::PipelineLayout,
     way: Way<'_>,
 ) -> Result<vk::Pipeline, BackendError> {
-    let stage = |stage, name| {
-        vk::PipelineShaderStageCreateInfo::default()
-            .stage(stage)
-            .module(module.raw)
-            .name(name)
-    };
-    let stages = [
-        stage(vk::ShaderStageFlags::VERTEX, c"vs"),
-        stage(vk::ShaderStageFlags::FRAGMENT, c"fs"),
-    ];
     let bindings = [
         vk::VertexInputBindingDescription {
             binding: 0,
@@ -301,16 +317,16 @@ fn create(
             input_rate: vk::VertexInputRate::INSTANCE,
         },
     ];
-    let attributes = attributes(&module.attributes, key.instanced)?;
     let used = if key.instanced { 2 } else { 1 };
     let vertex_input = vk::PipelineVertexInputStateCreateInfo::default()
         .vertex_binding_descriptions(&bindings[..used])
-        .vertex_attribute_descriptions(&attributes);
+        .vertex_attribute_descriptions(attributes);
     let fixed = way.setting.fixed.then_some(way.state);
     let assembly = match fixed {
         Some(state) => state.assembly(),
         None => {
-            vk::PipelineInputAssemblyStateCreateInfo::default().topology(state::topology(key.class))
+            let topology = state::topology(key.class, key.tessellation);
+            vk::PipelineInputAssemblyStateCreateInfo::default().topology(topology)
         }
     };
     let (viewports, scissors, count) = way.state.viewports();
@@ -322,10 +338,21 @@ fn create(
             .scissors(&scissors[..count]);
     }
     let raster = fixed.map(Dynamic::rasterization).unwrap_or_default();
-    let raster = raster
+    let mut provoking = vk::PipelineRasterizationProvokingVertexStateCreateInfoEXT::default()
+        .provoking_vertex_mode(vk::ProvokingVertexModeEXT::LAST_VERTEX);
+    let mut raster = raster
         .polygon_mode(state::polygon_mode(key.polygon_mode))
         .depth_clamp_enable(key.depth_clamp)
         .line_width(1.0);
+    if key.last_provokes {
+        raster = raster.push_next(&mut provoking);
+    }
+    let mut origin = key.tessellation.and_then(tessellation::origin);
+    let mut patches = vk::PipelineTessellationStateCreateInfo::default()
+        .patch_control_points(tessellation::PATCH_VERTICES);
+    if let Some(origin) = &mut origin {
+        patches = patches.push_next(origin);
+    }
     // One word holds the masks of up to 32 samples.
     let mask = [key.multisample.mask];
     let min_sample_shading = key.multisample.min_sample_shading.map(f32::from_bits);
@@ -352,7 +379,7 @@ fn create(
         .depth_attachment_format(key.targets.depth)
         .stencil_attachment_format(key.targets.stencil);
     let mut info = vk::GraphicsPipelineCreateInfo::default()
-        .stages(&stages)
+        .stages(stages)
         .vertex_input_state(&vertex_input)
         .input_assembly_state(&assembly)
         .viewport_state(&viewport)
@@ -362,6 +389,9 @@ fn create(
         .color_blend_state(&blend)
         .dynamic_state(&dynamic)
         .layout(layout);
+    if key.tessellation.is_some() {
+        info = info.tessellation_state(&patches);
+    }
     info = match way.pass {
         Some(pass) => info.render_pass(pass.raw).subpass(pass.compatible.subpass),
         None => info.push_next(&mut rendering),

@@ -40,6 +40,7 @@ pub(crate) fn translate(name: &str, source: &str) -> Result<Translated, BackendE
     let module =
         naga::front::wgsl::parse_str(source).map_err(|e| fail(e.emit_to_string(source)))?;
     let capabilities = Capabilities::DUAL_SOURCE_BLENDING
+        | Capabilities::CLIP_DISTANCES
         | Capabilities::MULTISAMPLED_SHADING
         | Capabilities::EARLY_DEPTH_TEST;
     let info = Validator::new(ValidationFlags::all(), capabilities)
@@ -148,7 +149,8 @@ mod tests {
         };
         for shader in Shader::ALL {
             for tests in EarlyTests::ALL {
-                if tests.is_conservative() && !shader.writes_depth() {
+                let without = !shader.has_fragment() && *tests != EarlyTests::Implicit;
+                if without || tests.is_conservative() && !shader.writes_depth() {
                     continue;
                 }
                 let source = shader.wgsl_with(*tests);

@@ -30,6 +30,7 @@ pub(crate) fn used_features() -> Features {
         | Features::PIPELINE_STATISTICS_QUERY
         | Features::SHADER_EARLY_DEPTH_TEST
         | Features::INDIRECT_FIRST_INSTANCE
+        | Features::CLIP_DISTANCES
 }
 
 /// Abilities of an adapter that [`Limits`] do not contain.
@@ -161,8 +162,8 @@ fn support(
     })
 }
 
-/// Returns the features that wgpu offers beyond WebGPU's minimum. It lacks or refuses the rest: clears
-/// within a pass, resolves of depth and stencil, reversed depth ranges, mirrored viewports, scissors beyond the attachments, factors of `min` and
+/// Returns the features that wgpu offers beyond WebGPU's minimum. It lacks or refuses the rest: advanced blending, clears
+/// within a pass, resolves of depth and stencil, reversed depth ranges, mirrored viewports, scissors beyond the attachments, tessellation, last provoking vertices, clip distances that are off, factors of `min` and
 /// `max`, counts of samples, sample coverage, least shares of sample shading.
 ///
 /// Shaders with early-test attributes keep them in translation, since the wgpu feature requires the
@@ -174,6 +175,7 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
     let all = [
         (Feature::BaseVertex, flag(DownlevelFlags::BASE_VERTEX)),
         (Feature::CentroidInterpolation, true),
+        (Feature::ClipDistances, feature(Features::CLIP_DISTANCES)),
         (
             Feature::ConservativeDepth,
             feature(Features::SHADER_EARLY_DEPTH_TEST),
@@ -189,10 +191,15 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
         ),
         // Only the arguments of indirect draws need a feature of their own.
         (Feature::FirstInstance, true),
+        // `@interpolate(flat)` is that of the first vertex (WGSL, Interpolation); there is no other.
+        (Feature::FirstProvokingVertex, true),
         (
             Feature::ForcedEarlyTests,
             feature(Features::SHADER_EARLY_DEPTH_TEST),
         ),
+        // A pipeline without targets fits no pass with colour attachments (render pass layouts).
+        (Feature::FragmentShaderAbsent, true),
+        (Feature::FragmentShaderAbsentWithColor, false),
         (
             Feature::FragmentInvocations,
             feature(Features::PIPELINE_STATISTICS_QUERY),
@@ -203,6 +210,9 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
         ),
         // WebGPU has no polygon modes; a native feature of wgpu answers to no text.
         (Feature::PolygonModeLine, false),
+        (Feature::SampleMaskOutput, true),
+        // A pipeline that writes one has alpha to coverage off (GPURenderPipelineDescriptor).
+        (Feature::SampleMaskOutputWithAlphaToCoverage, false),
         (
             Feature::SampleShading,
             flag(DownlevelFlags::MULTISAMPLED_SHADING),

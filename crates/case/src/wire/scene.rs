@@ -4,9 +4,10 @@ use super::fetch::{FetchWire, InstancesWire};
 use super::tiles::TilesWire;
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
-    BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace,
-    LogicOperation, MeshSource, Multisample, PassOperations, Path, PolygonMode, PrimitiveTopology,
-    ResolveMode, Sampler, Shader, Splat, StencilOperation, Viewport,
+    AdvancedBlend, BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests,
+    FrontFace, LogicOperation, MeshSource, Multisample, PassOperations, Path, PolygonMode,
+    PrimitiveTopology, ProvokingVertex, ResolveMode, Sampler, Shader, Splat, StencilOperation,
+    Tessellation, Viewport,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -205,6 +206,10 @@ pub(crate) struct DrawWire {
     pub(crate) tiles: Option<TilesWire>,
     #[serde(default = "triangle_list")]
     pub(crate) topology: PrimitiveTopology,
+    /// Patches of three vertices with all levels 1; without it, no tessellation.
+    pub(crate) tessellation: Option<Tessellation>,
+    /// The vertex whose attributes are flat over a primitive; without it, either.
+    pub(crate) provoking: Option<ProvokingVertex>,
     pub(crate) shader: Shader,
     #[serde(default)]
     pub(crate) params: ParamsWire,
@@ -231,6 +236,9 @@ pub(crate) struct DrawWire {
     pub(crate) viewport: Option<Viewport>,
     /// Left, top, width and height in texels; without it, everything.
     pub(crate) scissor: Option<[u32; 4]>,
+    /// Bits of the shader's clip distances that clip; without it, all.
+    #[serde(default = "all_bits")]
+    pub(crate) clip_distances: u8,
     #[serde(default)]
     pub(crate) depth_bias: DepthBias,
     #[serde(default)]
@@ -243,6 +251,8 @@ pub(crate) struct DrawWire {
     pub(crate) stencil: Option<StencilWire>,
     /// Blending; without it, off.
     pub(crate) blend: Option<BlendState>,
+    /// Advanced blending instead, to the only colour attachment; without it, off.
+    pub(crate) advanced_blend: Option<AdvancedBlend>,
     /// Written channels, as letters of `rgba`.
     #[serde(default = "all_channels")]
     pub(crate) write_mask: String,

@@ -28,8 +28,8 @@ impl PlantedFault {
         match self {
             Self::Read(_) => backend != BackendName::Cpu,
             Self::Call(fault) => match backend {
-                BackendName::Vulkan => true,
-                BackendName::Gl | BackendName::GlEs => !fault.is_vulkan_only(),
+                BackendName::Vulkan => fault.is_in_vulkan(),
+                BackendName::Gl | BackendName::GlEs => fault.is_in_opengl(),
                 _ => false,
             },
         }

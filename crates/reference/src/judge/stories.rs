@@ -124,7 +124,7 @@ proptest! {
             let own = || notes.iter().filter(|n| {
                 n.effect != Effect::Plain && n.origin.as_ref().is_some_and(|o| o.draw == d)
             });
-            for primitive in 0..draw.mesh.primitives(draw.topology).len() as u32 {
+            for primitive in 0..draw.primitives().len() as u32 {
                 let mut of_primitive = own().filter_map(|n| n.origin.as_ref());
                 prop_assert!(
                     of_primitive.any(|o| o.primitives.is_empty() || o.primitives.contains(&primitive)),

@@ -49,7 +49,7 @@ pub(crate) fn triangles(draw: &Draw, size: [u32; 2]) -> Vec<[[f64; 2]; 3]> {
 
 /// The vertices of each triangle.
 fn indices(draw: &Draw) -> Vec<[usize; 3]> {
-    let primitives = draw.mesh.primitives(draw.topology).into_iter();
+    let primitives = draw.primitives().into_iter();
     let triangles = primitives.filter_map(|p| match p {
         PrimitiveVertices::Triangle(t) => Some(t),
         _ => None,
@@ -91,7 +91,7 @@ pub(crate) fn knows(scene: &Scene) -> bool {
             });
             pass.color.len() == 1
                 && shaders.contains(&draw.shader)
-                && draw.mesh.primitives(draw.topology).len() == indices(draw).len()
+                && draw.primitives().len() == indices(draw).len()
                 && draw
                     .mesh
                     .vertices
@@ -102,6 +102,7 @@ pub(crate) fn knows(scene: &Scene) -> bool {
                 && draw.scissor.is_none()
                 && draw.early_tests == EarlyTests::Implicit
                 && draw.logic.is_none()
+                && draw.targets.iter().all(|t| t.advanced.is_none())
                 && draw.depth_bounds.is_none()
                 && draw.depth_bias == Default::default()
                 && !draw.rasterizer_discard

@@ -19,6 +19,8 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
             indices,
         },
         topology,
+        tessellation,
+        provoking,
         shader,
         params: Params { color, back_color },
         early_tests,
@@ -31,6 +33,7 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
         rasterizer_discard,
         viewport: Viewport { rect, depth: range },
         scissor,
+        clip_distances,
         depth_bias:
             DepthBias {
                 constant,
@@ -56,6 +59,8 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
     } = draw;
     all.put("indices", indices);
     all.put("topology", topology);
+    all.put("tessellation", tessellation);
+    all.put("provoking", provoking);
     all.put("shader", shader);
     all.put("params.color", color);
     all.put("params.back_color", back_color);
@@ -78,6 +83,7 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
     all.put("viewport.rect", rect);
     all.put("viewport.depth", range);
     all.put("scissor", scissor);
+    all.put("clip_distances", clip_distances);
     all.put("depth_bias.constant", constant);
     all.put("depth_bias.slope", slope);
     all.put("depth_bias.clamp", clamp);
@@ -93,7 +99,13 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
         all.face("front", front);
         all.face("back", back);
     }
-    for (i, ColorTarget { blend, write_mask }) in targets.iter().enumerate() {
+    for (i, target) in targets.iter().enumerate() {
+        let ColorTarget {
+            blend,
+            advanced,
+            write_mask,
+        } = target;
+        all.put(&format!("targets.{i}.advanced"), advanced);
         all.put(&format!("targets.{i}.write_mask"), write_mask);
         all.put(&format!("targets.{i}.blend"), &blend.is_some());
         if let Some(BlendState { color, alpha }) = blend {
@@ -154,6 +166,7 @@ pub(super) fn every_state() -> BTreeSet<String> {
                 color: component,
                 alpha: component,
             }),
+            advanced: None,
             write_mask: 15,
         }],
         logic: Some(LogicOperation::Copy),

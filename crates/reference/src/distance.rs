@@ -1,0 +1,148 @@
+//! Clip distances over a primitive: where they are negative it is clipped.
+//!
+//! The vertices that clipping makes are computed and snapped like any others, so an edge that it makes
+//! lies within some steps of the grid of where the distance is 0, and a sample nearer than that may lie on
+//! either side. The ends of a line are open by two texels whatever ends it (Vulkan, Bresenham
+//! Line Segment Rasterization; OpenGL 4.6, 14.5.1).
+
+use crate::depth::Depth;
+use crate::interval::Interval;
+use crate::possible::Possible;
+use crate::snap::SnapBox;
+use etalon_pipeline::{DepthPlane, Point};
+
+/// The steps of the grid by which an edge that clipping makes may be off.
+const EDGE_STEPS: f64 = 2.0;
+
+/// One clip distance over a primitive.
+#[derive(Clone, Debug)]
+pub(crate) enum Distance {
+    /// The least and the greatest that it has anywhere.
+    Between(Interval),
+    /// Linear over a triangle.
+    Over {
+        plane: Depth,
+        /// What an edge's own place may add or take.
+        error: f64,
+    },
+    /// Linear along a line.
+    Along { plane: DepthPlane, error: f64 },
+}
+
+impl Distance {
+    /// The same everywhere, or of an unknown course between the vertices.
+    pub(crate) fn between(values: &[f32]) -> Self {
+        let all = values.iter().map(|v| Interval::exact(f64::from(*v)));
+        let hull = all.reduce(Interval::hull);
+        Self::Between(hull.unwrap_or(Interval::exact(0.0)))
+    }
+
+    pub(crate) fn over(
+        vertices: [SnapBox; 3],
+        values: [f32; 3],
+        [units, grid]: [i64; 2],
+        float_error: f64,
+    ) -> Self {
+        // Of one sign, nothing is clipped, or all.
+        if values.iter().all(|v| *v >= 0.0) || values.iter().all(|v| *v < 0.0) {
+            return Self::between(&values);
+        }
+        let exact = values.map(|v| Interval::exact(f64::from(v)));
+        let plane = Depth::over(vertices, exact, [units, grid], float_error);
+        let error = plane.steepest * grid as f64 * EDGE_STEPS;
+        Self::Over { plane, error }
+    }
+
+    pub(crate) fn along(ends: [SnapBox; 2], values: [f32; 2], units: i64) -> Self {
+        if values.iter().all(|v| *v >= 0.0) || values.iter().all(|v| *v < 0.0) {
+            return Self::between(&values);
+        }
+        let plane = DepthPlane::along(ends.map(|e| e.low), values.map(f64::from));
+        let error = (plane.dx.abs() + plane.dy.abs()) * units as f64 * 2.0;
+        Self::Along { plane, error }
+    }
+
+    /// As [`Distance::keeps`] for a point anywhere in the texel that holds this one.
+    pub(crate) fn keeps_in_texel(&self, at: Point, units: i64) -> Possible {
+        let corner = |v: i64, step: i64| v.div_euclid(units) * units + step;
+        let corners = [(0, 0), (units, 0), (0, units), (units, units)].map(|(dx, dy)| {
+            self.keeps(Point {
+                x: corner(at.x, dx),
+                y: corner(at.y, dy),
+            })
+        });
+        let can = corners.iter().any(|c| c.can());
+        Possible::of(can, corners.iter().all(|c| c.must()))
+    }
+
+    /// Returns whether a covered point is left. A distance of 0 is inside (Vulkan, Primitive Clipping;
+    /// OpenGL 4.6, 13.7; WebGPU, 23.2.4).
+    pub(crate) fn keeps(&self, at: Point) -> Possible {
+        let Interval { low, high } = match self {
+            Self::Between(all) => *all,
+            Self::Over { plane, error } => plane.beyond(at).widen(*error),
+            Self::Along { plane, error } => Interval::exact(plane.at(at)).widen(*error),
+        };
+        Possible::of(high >= 0.0, low >= 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UNITS: i64 = 256;
+
+    fn exact(x: i64, y: i64) -> SnapBox {
+        let at = Point {
+            x: x * UNITS,
+            y: y * UNITS,
+        };
+        SnapBox { low: at, high: at }
+    }
+
+    /// The centre of a texel of the row 3.
+    fn at(x: i64) -> Point {
+        Point {
+            x: x * UNITS + UNITS / 2,
+            y: 3 * UNITS + UNITS / 2,
+        }
+    }
+
+    #[test]
+    fn a_plane_is_open_only_where_an_edge_may_lie() {
+        let corners = [exact(0, 0), exact(16, 0), exact(0, 16)];
+        let over = |values| Distance::over(corners, values, [UNITS, UNITS / 16], 1e-5);
+        // Between columns 5 and 6, half a texel from either centre.
+        let between = over([-6.0, 10.0, -6.0]);
+        assert_eq!(between.keeps(at(5)), Possible::Never);
+        assert_eq!(between.keeps(at(6)), Possible::Always);
+        // Through the centres of column 6.
+        let through = over([-6.5, 9.5, -6.5]);
+        assert_eq!(through.keeps(at(6)), Possible::Maybe);
+        assert_eq!(
+            (through.keeps(at(5)), through.keeps(at(7))),
+            (Possible::Never, Possible::Always)
+        );
+        assert_eq!(between.keeps_in_texel(at(6), UNITS), Possible::Maybe);
+        assert_eq!(between.keeps_in_texel(at(7), UNITS), Possible::Always);
+    }
+
+    #[test]
+    fn zero_is_inside_and_all_negative_is_outside() {
+        let corners = [exact(0, 0), exact(16, 0), exact(0, 16)];
+        let over = |values| Distance::over(corners, values, [UNITS, UNITS / 16], 1e-5);
+        assert_eq!(over([0.0; 3]).keeps(at(4)), Possible::Always);
+        assert_eq!(over([0.0, 1.0, -0.0]).keeps(at(0)), Possible::Always);
+        assert_eq!(over([-1.0, -0.5, -2.0]).keeps(at(4)), Possible::Never);
+    }
+
+    #[test]
+    fn a_line_is_open_within_two_texels_of_its_cut() {
+        let ends = [exact(0, 3), exact(16, 3)];
+        let line = Distance::along(ends, [-8.0, 8.0], UNITS);
+        assert_eq!(line.keeps(at(4)), Possible::Never);
+        assert_eq!(line.keeps(at(8)), Possible::Maybe);
+        assert_eq!(line.keeps(at(11)), Possible::Always);
+    }
+}
