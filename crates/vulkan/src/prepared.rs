@@ -249,7 +249,7 @@ fn check_advanced(device: &Device, pass: &Pass, setting: Setting) -> Result<(), 
         let needed = Requirement::Feature(Feature::AdvancedBlendCoherent);
         return Err(BackendError::NotSupported(needed));
     }
-    if setting.extended {
+    if setting.further.extended {
         // Such a blend is another state than the equation (VUID-VkColorBlendEquationEXT-colorBlendOp-07361).
         let path = PathValue::State(PathState::ExtendedDynamic3);
         return Err(BackendError::NotSupported(Requirement::Path(path)));
