@@ -6,8 +6,9 @@ use crate::fetch::fetch;
 use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
-    Attachment, ColorTarget, Counter, Draw, MAX_VERTICES, Mesh, Multisample, Params, PolygonMode,
-    PrimitiveTopology, RESTART, Shader, StencilFace, StencilOperation, StencilState, Viewport,
+    Attachment, ColorTarget, Contents, Counter, Draw, EarlyTests, MAX_VERTICES, Mesh, Multisample,
+    Params, PolygonMode, PrimitiveTopology, RESTART, Shader, StencilFace, StencilOperation,
+    StencilState, Viewport,
 };
 
 /// The target of a draw, and the names that it can use.
@@ -74,6 +75,10 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
         };
         textures.push(check().map_err(|e| e.index(i).key("textures"))?);
     }
+    if wire.shader.writes_mask() {
+        let masks = textures.first().map(|i| &attachments[*i]);
+        check_masks(masks).map_err(|e| e.key("textures"))?;
+    }
     if textures.len() != wire.shader.textures() {
         return Err(At::new(format!(
             "shader {} fetches from {} textures, {} are given",
@@ -94,6 +99,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
     multisample(&wire.multisample, samples).map_err(|e| e.key("multisample"))?;
     let color_targets = color_targets(wire, target.color.len())?;
     check_shader(wire, &color_targets)?;
+    check_advanced(wire, target).map_err(|e| e.key("advanced_blend"))?;
     check_integers(wire, target, &color_targets)?;
     if let Some([low, high]) = wire.depth_bounds
         && !(0.0 <= low && low <= high && high <= 1.0)
@@ -332,6 +338,30 @@ fn check_vertices(mesh: &Mesh, shader: Shader) -> Result<(), At> {
     Ok(())
 }
 
+/// Checks the texture from which a shader takes its sample mask, and perhaps its depth.
+fn check_masks(texture: Option<&Attachment>) -> Result<(), At> {
+    let Some(texture) = texture else {
+        return Ok(());
+    };
+    let texels = match &texture.contents {
+        Contents::Texels(texels) if texture.format == TextureFormat::Rgba32Float => texels,
+        _ => {
+            let message = "a sample mask comes from uploaded texels of rgba32float";
+            return Err(At::new(message));
+        }
+    };
+    let fits = |texel: &[u32]| {
+        let (mask, depth) = (f32::from_bits(texel[0]), f32::from_bits(texel[1]));
+        mask.fract() == 0.0 && (0.0..=65535.0).contains(&mask) && (0.0..=1.0).contains(&depth)
+    };
+    match texels.chunks_exact(4).all(fits) {
+        true => Ok(()),
+        false => Err(At::new(
+            "a sample mask is a whole number from 0 to 65535, and a written depth lies between 0 and 1",
+        )),
+    }
+}
+
 /// True if a draw can change depth or stencil.
 pub(crate) fn writes_depth_stencil(draw: &Draw) -> bool {
     let changes = |face: &StencilFace| {
@@ -364,6 +394,7 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
     let one = |blend, letters: &str| -> Result<ColorTarget, At> {
         Ok(ColorTarget {
             blend,
+            advanced: wire.advanced_blend,
             write_mask: write_mask(letters).map_err(|e| e.key("write_mask"))?,
         })
     };
@@ -385,7 +416,34 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
         .collect()
 }
 
+/// Checks what advanced blending is done to, and what stands beside it.
+fn check_advanced(wire: &DrawWire, target: &Target<'_>) -> Result<(), At> {
+    if wire.advanced_blend.is_none() {
+        return Ok(());
+    }
+    if wire.blend.is_some() || wire.targets.is_some() || wire.logic.is_some() {
+        let message = "advanced blending stands instead of `blend`, `targets` and `logic`";
+        return Err(At::new(message));
+    }
+    let [index] = target.color else {
+        return Err(At::new("advanced blending takes one colour attachment"));
+    };
+    if wire.shader.has_second_source() {
+        return Err(At::new("advanced blending takes one source"));
+    }
+    let format = target.attachments[*index].format;
+    if format.is_integer() || format == TextureFormat::Rgba8Snorm {
+        return Err(At::new(format!(
+            "the modes are defined for values from 0 to 1, not for {format}"
+        )));
+    }
+    Ok(())
+}
+
 fn check_shader(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
+    if !wire.shader.has_fragment() {
+        return check_shaderless(wire, targets);
+    }
     if targets.len() > wire.shader.outputs() {
         return Err(At::new(format!(
             "shader {} writes {} colours, the pass has {} colour attachments",
@@ -406,6 +464,27 @@ fn check_shader(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
     }
     if wire.logic.is_some() && targets.iter().any(|t| t.blend.is_some()) {
         return Err(At::new("a logic operation stands instead of blending").key("logic"));
+    }
+    Ok(())
+}
+
+/// Refuses what asks for the colours of a fragment shader where there is none.
+fn check_shaderless(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
+    let refuse = |message: &str, key| Err(At::new(message.to_owned()).key(key));
+    if targets.iter().any(|t| t.write_mask != 0) {
+        let message = "without a fragment shader, colours are undefined: mask all channels";
+        return refuse(message, "write_mask");
+    }
+    if targets.iter().any(|t| t.blend.is_some()) || wire.logic.is_some() {
+        return refuse("without a fragment shader, nothing is blended", "shader");
+    }
+    if wire.multisample.alpha_to_coverage || wire.multisample.alpha_to_one {
+        let message = "without a fragment shader, alpha is undefined";
+        return refuse(message, "multisample");
+    }
+    if wire.early_tests != EarlyTests::Implicit {
+        let message = "without a fragment shader, no test is early";
+        return refuse(message, "early_tests");
     }
     Ok(())
 }
@@ -454,8 +533,53 @@ fn stencil(wire: &StencilWire) -> StencilState {
 mod tests {
     use super::*;
     use crate::resolve::parse_scene;
-    use etalon_scene::SampleCoverage;
+    use crate::{CaseFile, Profile};
+    use etalon_scene::{AdvancedBlend, SampleCoverage};
     use serde_json::{Value, json};
+
+    /// The fault of a draw with a texture of this format and these texels, all alike.
+    fn fault(draw: Value, format: &str, texel: [f64; 4]) -> Option<String> {
+        let values = [texel; 4];
+        let scene = json!({
+            "attachments": {
+                "c": { "format": "rgba8unorm", "size": [4, 4] },
+                "t": { "format": format, "size": [4, 4], "texels": { "kind": "rows", "values": values } }
+            },
+            "passes": [{ "color": ["c"], "draws": [draw] }], "read": ["c"]
+        });
+        parse_scene(&scene).err().map(|e| format!("{e:?}"))
+    }
+
+    #[test]
+    fn sample_masks_are_whole_numbers_of_uploaded_floats() {
+        let draw =
+            json!({ "mesh": { "kind": "full" }, "shader": "masked_depth", "textures": ["t"] });
+        let faulty = |format, texel| fault(draw.clone(), format, texel).is_some();
+        assert!(!faulty("rgba32float", [65535.0, 1.0, 0.0, 0.0]));
+        assert!(faulty("rgba32float", [0.5, 1.0, 0.0, 0.0]));
+        assert!(faulty("rgba32float", [-1.0, 1.0, 0.0, 0.0]));
+        assert!(faulty("rgba32float", [1.0, 1.5, 0.0, 0.0]));
+        assert!(faulty("rgba8unorm", [1.0, 1.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn without_a_fragment_shader_nothing_asks_for_its_colours() {
+        let draw = json!({ "mesh": { "kind": "full" }, "shader": "vertex_only", "write_mask": "" });
+        let with = |key: &str, value: Value| {
+            let mut draw = draw.clone();
+            draw[key] = value;
+            fault(draw, "rgba8unorm", [0.0; 4])
+        };
+        assert_eq!(with("cull", json!("none")), None);
+        for (key, value) in [
+            ("write_mask", json!("a")),
+            ("logic", json!("xor")),
+            ("early_tests", json!("forced")),
+            ("counters", json!(["c"])),
+        ] {
+            assert!(with(key, value).is_some(), "{key}");
+        }
+    }
 
     /// What is wrong with a scene of one draw.
     fn wrong(draw: Value) -> Option<String> {
@@ -560,5 +684,62 @@ mod tests {
         };
         assert!(multisample(&masked, 4).is_ok());
         assert!(multisample(&masked, 1).is_err());
+    }
+
+    /// Builds a draw with these keys to these attachments.
+    fn build(color: &str, keys: &str) -> Result<etalon_scene::Scene, String> {
+        let text = format!(
+            r#"{{"about":"t","spec":["t"],"scene":{{
+            "attachments":{{"color":{{"format":"rgba8unorm","size":[4,4]}},
+                "other":{{"format":"rgba8unorm"}},"signed":{{"format":"rgba8snorm"}},
+                "integer":{{"format":"rgba8uint"}}}},
+            "passes":[{{"color":{color},"draws":[{{"mesh":{{"kind":"full"}},{keys}}}]}}],
+            "read":["color"]}}}}"#
+        );
+        let file = CaseFile::parse("t.json", &text).map_err(|e| e.to_string())?;
+        let case = file.cases(Profile::Full).next().expect("there is one");
+        let built = case.build().map_err(|e| e.to_string())?;
+        Ok(built.scene)
+    }
+
+    #[test]
+    fn advanced_blending_takes_one_source_onto_one_attachment() {
+        let flat = r#""shader":"flat_color","advanced_blend":"color-burn""#;
+        let scene = build(r#"["color"]"#, flat).expect("it builds");
+        let target = scene.passes[0].draws[0].targets[0];
+        assert_eq!(target.advanced, Some(AdvancedBlend::ColorBurn));
+        let both = r#""shader":"weighted_accumulate","advanced_blend":"screen""#;
+        let uint = r#""shader":"uint_color","advanced_blend":"screen""#;
+        let with = |keys: &str| format!("{flat},{keys}");
+        let one = r#"{"operation":"add","src_factor":"one","dst_factor":"one"}"#;
+        for (color, keys, due) in [
+            (
+                r#"["color"]"#,
+                with(r#""logic":"xor""#),
+                "stands instead of",
+            ),
+            (
+                r#"["color"]"#,
+                with(&format!(r#""blend":{{"color":{one},"alpha":{one}}}"#)),
+                "stands instead of",
+            ),
+            (
+                r#"["color"]"#,
+                with(r#""targets":[{}]"#),
+                "stands instead of",
+            ),
+            (
+                r#"["color","other"]"#,
+                both.to_owned(),
+                "one colour attachment",
+            ),
+            (r#"["signed"]"#, flat.to_owned(), "values from 0 to 1"),
+            (r#"["integer"]"#, uint.to_owned(), "values from 0 to 1"),
+        ] {
+            let error = build(color, &keys).expect_err("it is refused");
+            assert!(error.contains(due), "{error}");
+        }
+        let unknown = flat.replace("color-burn", "hue");
+        assert!(build(r#"["color"]"#, &unknown).is_err());
     }
 }

@@ -88,6 +88,7 @@ fn tests_early(draw: &Draw) -> bool {
     let same = !(shader.discards()
         || shader.writes_depth()
         || shader.counts_runs()
+        || shader.writes_mask()
         || draw.multisample.alpha_to_coverage);
     same || draw.early_tests == EarlyTests::Forced
 }
@@ -99,12 +100,16 @@ fn reads_depth(shader: Shader) -> bool {
         Shader::ExpensiveColor
             | Shader::FlatColor
             | Shader::FragCoordColor
+            | Shader::MaskedColor
+            | Shader::MaskedDiscard
+            | Shader::MaskedSample
             | Shader::SampledColor
             | Shader::SampledDiscard
             | Shader::TexelColor
             | Shader::TexelColorAll
             | Shader::TexelDiscard
             | Shader::UniformColor
+            | Shader::VertexOnly
     )
 }
 
@@ -211,6 +216,9 @@ impl<'a, S: Steps> SpanState<'a, S> {
             shaded = Some(output);
             if let Some(kept) = &output.kept {
                 mask = and(mask, self.steps.kept(kept));
+            }
+            if let Some(written) = &output.mask {
+                mask = and(mask, self.steps.mask_keeps(written, sample, samples));
             }
             if self.draw.multisample.alpha_to_coverage {
                 let covers = self.steps.alpha_covers(output.color[3], sample, samples);
@@ -436,18 +444,22 @@ impl<'a, S: Steps> SpanState<'a, S> {
             let at = self.at(*index, span);
             let surface = &mut self.surfaces[*index];
             let channels = surface.encodings.len();
-            let value = match &target.blend {
-                None => color,
-                Some(state) => {
-                    // Missing colour channels of the destination are 0, a missing alpha is 1.
-                    let dst = std::array::from_fn(|c| match c {
-                        _ if c < channels => {
-                            let stored = load(surface.plane(c, seen), at);
-                            self.steps.color_value(encodings[c], stored)
-                        }
-                        3 => [self.steps.missing_alpha(state); LANES],
-                        _ => [0.0; LANES],
-                    });
+            // Missing colour channels of the destination are 0, a missing alpha is 1.
+            let dst = |alpha: f32| {
+                std::array::from_fn(|c| match c {
+                    _ if c < channels => {
+                        let stored = load(surface.plane(c, seen), at);
+                        self.steps.color_value(encodings[c], stored)
+                    }
+                    3 => [alpha; LANES],
+                    _ => [0.0; LANES],
+                })
+            };
+            let value = match (&target.blend, target.advanced) {
+                (None, None) => color,
+                (None, Some(mode)) => self.steps.advanced_blend(mode, encodings, color, dst(1.0)),
+                (Some(state), _) => {
+                    let dst = dst(self.steps.missing_alpha(state));
                     let input = BlendInput {
                         src: color,
                         src1: second,

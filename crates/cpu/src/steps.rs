@@ -8,13 +8,13 @@ pub use crate::lanes::{Codes, LANES, Mask, Real};
 use crate::sampling::sample;
 use crate::surface::Surface;
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
-use etalon_pipeline::shader::Kept;
+use etalon_pipeline::shader::{Kept, SampleMask};
 use etalon_pipeline::{
-    Arithmetic, BlendInput, Plain, blend, compare, stencil_passes, stencil_write,
+    Arithmetic, BlendInput, Plain, advanced_blend, blend, compare, stencil_passes, stencil_write,
 };
 use etalon_scene::{
-    BlendState, Clear, CompareFunction, DepthBias, LogicOperation, Multisample, ResolveMode,
-    Sampler, Scene, Shader, StencilFace, StencilOperation,
+    AdvancedBlend, BlendState, Clear, CompareFunction, DepthBias, LogicOperation, Multisample,
+    ResolveMode, Sampler, Scene, Shader, StencilFace, StencilOperation,
 };
 
 /// The outcome of a fragment's stencil and depth test.
@@ -155,6 +155,14 @@ pub trait Steps {
         }
     }
 
+    /// Returns the texels whose sample the mask that a shader writes keeps. Of one sample, its first bit
+    /// counts.
+    #[inline(always)]
+    fn mask_keeps(&self, mask: &SampleMask<Real>, sample: usize, _samples: usize) -> Mask {
+        mask.bits
+            .map(|bits| mask.written(bits as u32) & (1 << sample) != 0)
+    }
+
     /// Returns the increment of a counter for a span of samples that passed, or of texels whose
     /// shader ran.
     #[inline(always)]
@@ -227,6 +235,18 @@ pub trait Steps {
     #[inline(always)]
     fn color_value(&self, encoding: ChannelEncoding, codes: Codes) -> Real {
         Plain::<LANES>.decode(encoding, codes)
+    }
+
+    /// Blends colours by an advanced mode.
+    #[inline(always)]
+    fn advanced_blend(
+        &self,
+        mode: AdvancedBlend,
+        encodings: [ChannelEncoding; 4],
+        src: [Real; 4],
+        dst: [Real; 4],
+    ) -> [Real; 4] {
+        advanced_blend(&mut Plain::<LANES>, mode, encodings, src, dst)
     }
 
     /// Returns the alpha of a format without alpha, for blending.

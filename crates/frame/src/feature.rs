@@ -7,6 +7,10 @@ use serde::{Deserialize, Serialize};
 state_enum! {
     /// A capability that not every adapter has and that a scene may need.
     Feature: array {
+        /// Advanced blending: `multiply`, `screen` and the other modes that take no factors.
+        AdvancedBlend = "advanced-blend",
+        /// Advanced blending of what the same pass has drawn before, in order.
+        AdvancedBlendCoherent = "advanced-blend-coherent",
         /// Alpha counting as 1 after alpha to coverage.
         AlphaToOne = "alpha-to-one",
         /// A number that a draw call adds to every index.
@@ -47,6 +51,10 @@ state_enum! {
         ForcedEarlyTests = "forced-early-tests",
         /// Pipeline statistics of fragment shader runs.
         FragmentInvocations = "fragment-invocations",
+        /// Draws without a fragment shader.
+        FragmentShaderAbsent = "fragment-shader-absent",
+        /// The same where there are colour attachments, whose channels are all masked.
+        FragmentShaderAbsentWithColor = "fragment-shader-absent-with-color",
         /// Culling front and back faces together.
         FrontAndBackCulling = "front-and-back-culling",
         /// Blending and write masks that differ between colour attachments.
@@ -79,6 +87,10 @@ state_enum! {
         ReversedDepthRange = "reversed-depth-range",
         /// Drawing a share of a texel's samples, or the others, whatever the fragment.
         SampleCoverage = "sample-coverage",
+        /// Sample masks that fragment shaders write.
+        SampleMaskOutput = "sample-mask-output",
+        /// The same together with alpha to coverage.
+        SampleMaskOutputWithAlphaToCoverage = "sample-mask-output-with-alpha-to-coverage",
         /// Shaders that run once per sample and know which.
         SampleShading = "sample-shading",
         /// A scissor rectangle that reaches beyond the attachments.

@@ -84,6 +84,8 @@ path_values! {
         Static = "static",
         /// Between the draws, with extended dynamic state 3 too.
         ExtendedDynamic3 = "extended-dynamic-3",
+        /// Between the draws, with the logic operation too.
+        DynamicLogic = "dynamic-logic",
         /// Twice before every draw, to other values first.
         Overwritten = "overwritten",
         /// Before another pipeline is bound, and the draw's own again.

@@ -6,6 +6,9 @@ use naga::back::glsl;
 /// The extension by which vertex shaders name a viewport.
 pub(crate) const SECOND_VIEWPORT: &str = "GL_ARB_shader_viewport_layer_array";
 
+/// The extension by which fragment shaders allow advanced blend equations.
+pub(crate) const ADVANCED_BLEND: &str = "GL_KHR_blend_equation_advanced";
+
 /// The capabilities that this backend uses.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Caps {
@@ -18,6 +21,8 @@ pub(crate) struct Caps {
     pub(crate) indexed_blend: bool,
     /// Blend factors may use the fragment shader's second source.
     pub(crate) dual_source: bool,
+    /// What draws have written is seen by advanced blends without a barrier.
+    pub(crate) coherent_blend: bool,
     /// 32-bit float attachments can be blended.
     pub(crate) float_blend: bool,
     /// Signed normalized attachments can be drawn to.
@@ -105,6 +110,7 @@ impl Caps {
             clip_control: false,
             indexed_blend: since((4, 0), (3, 2)) || (!es && has("GL_ARB_draw_buffers_blend")),
             dual_source: dual_source && dual_targets,
+            coherent_blend: has("GL_KHR_blend_equation_advanced_coherent"),
             float_blend: since(ALWAYS, NEVER) || has("GL_EXT_float_blend"),
             snorm_attachments: !es || has("GL_EXT_render_snorm"),
             depth_clamp: since(ALWAYS, NEVER) || has("GL_EXT_depth_clamp"),

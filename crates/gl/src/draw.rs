@@ -171,7 +171,9 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
             gl.bind_buffer(glow::DRAW_INDIRECT_BUFFER, Some(buffer));
         }
         let place = arguments.map(|(place, _)| place);
+        draw.state.begin_advanced(context);
         draw.fetched.draw(context, draw.mode, place);
+        draw.state.end_advanced(context);
         for query in &draw.queries {
             gl.end_query(query.target);
         }

@@ -1,5 +1,6 @@
 //! Entry points that glow lacks.
 
+use crate::caps::ADVANCED_BLEND;
 use crate::egl::{EglContext, function_at};
 use std::collections::HashSet;
 use std::ffi::{c_char, c_void};
@@ -32,6 +33,7 @@ entry_points! {
     min_sample_shading: fn(f32);
     logic_op: fn(u32);
     clamp_color: fn(u32, u32);
+    blend_barrier: fn();
     polygon_offset_clamp: fn(f32, f32, f32);
     depth_bounds: fn(f64, f64);
     viewport_indexed: fn(u32, f32, f32, f32, f32);
@@ -169,6 +171,11 @@ impl EntryPoints {
             load!(polygon_offset_clamp, c"glPolygonOffsetClamp");
         } else if has("GL_EXT_polygon_offset_clamp") {
             load!(polygon_offset_clamp, c"glPolygonOffsetClampEXT");
+        }
+        if es && version >= (3, 2) {
+            load!(blend_barrier, c"glBlendBarrier");
+        } else if has(ADVANCED_BLEND) {
+            load!(blend_barrier, c"glBlendBarrierKHR");
         }
         if !es && has("GL_EXT_depth_bounds_test") {
             load!(depth_bounds, c"glDepthBoundsEXT");

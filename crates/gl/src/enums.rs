@@ -1,8 +1,8 @@
 //! GL's values of the model's enumerations.
 
 use etalon_scene::{
-    AddressMode, BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget,
-    CompareFunction, LogicOperation, PrimitiveTopology, StencilOperation,
+    AddressMode, AdvancedBlend, BlendComponent, BlendFactor, BlendOperation, BlendState,
+    ColorTarget, CompareFunction, LogicOperation, PrimitiveTopology, StencilOperation,
 };
 
 pub(crate) fn topology(topology: PrimitiveTopology) -> u32 {
@@ -89,6 +89,40 @@ pub(crate) fn factor(factor: BlendFactor) -> u32 {
         BlendFactor::OneMinusSrc1 => glow::ONE_MINUS_SRC1_COLOR,
         BlendFactor::Src1Alpha => glow::SRC1_ALPHA,
         BlendFactor::OneMinusSrc1Alpha => glow::ONE_MINUS_SRC1_ALPHA,
+    }
+}
+
+/// The equation of an advanced mode (KHR_blend_equation_advanced, New Tokens).
+pub(crate) fn advanced_equation(mode: AdvancedBlend) -> u32 {
+    match mode {
+        AdvancedBlend::Multiply => 0x9294,
+        AdvancedBlend::Screen => 0x9295,
+        AdvancedBlend::Overlay => 0x9296,
+        AdvancedBlend::Darken => 0x9297,
+        AdvancedBlend::Lighten => 0x9298,
+        AdvancedBlend::ColorDodge => 0x9299,
+        AdvancedBlend::ColorBurn => 0x929A,
+        AdvancedBlend::HardLight => 0x929B,
+        AdvancedBlend::SoftLight => 0x929C,
+        AdvancedBlend::Difference => 0x929E,
+        AdvancedBlend::Exclusion => 0x92A0,
+    }
+}
+
+/// The word of a mode in the layout qualifier that allows it (GLSL ES 3.20, 4.4.2.2).
+pub(crate) fn blend_support(mode: AdvancedBlend) -> &'static str {
+    match mode {
+        AdvancedBlend::Multiply => "multiply",
+        AdvancedBlend::Screen => "screen",
+        AdvancedBlend::Overlay => "overlay",
+        AdvancedBlend::Darken => "darken",
+        AdvancedBlend::Lighten => "lighten",
+        AdvancedBlend::ColorDodge => "colordodge",
+        AdvancedBlend::ColorBurn => "colorburn",
+        AdvancedBlend::HardLight => "hardlight",
+        AdvancedBlend::SoftLight => "softlight",
+        AdvancedBlend::Difference => "difference",
+        AdvancedBlend::Exclusion => "exclusion",
     }
 }
 

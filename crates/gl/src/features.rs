@@ -26,6 +26,8 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         | Feature::ViewportOutside => true,
         Feature::BaseVertex => entry_points.draw_elements_base_vertex.is_some(),
         Feature::FirstInstance => entry_points.draw_arrays_instanced_base_instance.is_some(),
+        Feature::AdvancedBlend => entry_points.blend_barrier.is_some(),
+        Feature::AdvancedBlendCoherent => caps.coherent_blend,
         Feature::AlphaToOne => caps.alpha_to_one,
         Feature::ConservativeDepth => caps.conservative_depth,
         Feature::DepthBiasClamp => entry_points.polygon_offset_clamp.is_some(),
@@ -57,7 +59,11 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         // ES has no `glPolygonMode`.
         Feature::PolygonModeLine => !caps.es,
         Feature::PreciseOcclusion => caps.samples_passed,
-        Feature::SampleShading => caps.sample_variables,
+        Feature::SampleMaskOutput
+        | Feature::SampleMaskOutputWithAlphaToCoverage
+        | Feature::SampleShading => caps.sample_variables,
+        // A program of ES has a fragment shader, or does not link (OpenGL ES 3.2, 7.3).
+        Feature::FragmentShaderAbsent | Feature::FragmentShaderAbsentWithColor => !caps.es,
         Feature::StorageCounters => caps.storage_alignment.is_some(),
     };
     Feature::ALL.into_iter().filter(known).collect()

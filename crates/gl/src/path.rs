@@ -42,6 +42,7 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
             PathState::Dynamic
             | PathState::Static
             | PathState::ExtendedDynamic3
+            | PathState::DynamicLogic
             | PathState::OtherPipeline,
         )
         | PathValue::Commands(PathCommands::One | PathCommands::Secondary)
@@ -148,6 +149,7 @@ pub(crate) fn other(draw: &Draw) -> Draw {
             color: sum,
             alpha: sum,
         }),
+        advanced: None,
         write_mask: !target.write_mask & 0b1111,
     };
     Draw {

@@ -10,6 +10,7 @@ use crate::enums::topology;
 use crate::objects::Objects;
 use crate::path;
 use crate::pool::Pool;
+use crate::program::FragmentForm;
 use crate::read::{Reading, Source};
 use crate::state::{self, DrawState};
 use crate::surface::{Surface, SurfaceKind, upload};
@@ -279,7 +280,10 @@ impl<'a> PreparedScene<'a> {
             program: self.objects.programs.borrow_mut().shader(
                 context,
                 draw.shader,
-                draw.early_tests,
+                FragmentForm {
+                    tests: draw.early_tests,
+                    blend: draw.targets.iter().find_map(|t| t.advanced),
+                },
                 variant,
                 draw.tessellation,
             )?,

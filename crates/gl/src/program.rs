@@ -1,10 +1,13 @@
 //! Programs of the suite's shaders, translated by naga, and of reading attachments back.
 
-use crate::caps::SECOND_VIEWPORT;
+use crate::caps::{ADVANCED_BLEND, SECOND_VIEWPORT};
 use crate::context::{Context, refused};
+use crate::enums::blend_support;
 use crate::path::Variant;
 use etalon_backend::BackendError;
-use etalon_scene::{CONTROL_GLSL, EVALUATION_GLSL, EarlyTests, FrontFace, Shader, Tessellation};
+use etalon_scene::{
+    AdvancedBlend, CONTROL_GLSL, EVALUATION_GLSL, EarlyTests, FrontFace, Shader, Tessellation,
+};
 use glow::HasContext;
 use naga::back::glsl;
 use naga::proc::BoundsCheckPolicies;
@@ -32,8 +35,16 @@ const RUNS: ResourceBinding = ResourceBinding {
 /// The programs of a context, created on first use.
 #[derive(Default)]
 pub(crate) struct Programs {
-    shaders: HashMap<(Shader, EarlyTests, Variant, Option<FrontFace>), glow::Program>,
+    shaders: HashMap<(Shader, FragmentForm, Variant, Option<FrontFace>), glow::Program>,
     readers: HashMap<(Reader, View), (glow::Program, Option<glow::UniformLocation>)>,
+}
+
+/// What a draw asks of a fragment shader beside its function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct FragmentForm {
+    pub(crate) tests: EarlyTests,
+    /// The advanced blend equation that the shader allows.
+    pub(crate) blend: Option<AdvancedBlend>,
 }
 
 /// The type of the values that a read-back program fetches.
@@ -64,12 +75,12 @@ impl Programs {
         &mut self,
         context: &Context,
         shader: Shader,
-        tests: EarlyTests,
+        form: FragmentForm,
         variant: Variant,
         tessellation: Option<Tessellation>,
     ) -> Result<glow::Program, BackendError> {
         let order = tessellation.map(|t| t.order);
-        let key = (shader, tests, variant, order);
+        let key = (shader, form, variant, order);
         if let Some(program) = self.shaders.get(&key) {
             return Ok(*program);
         }
@@ -77,12 +88,14 @@ impl Programs {
             shader: shader.name().to_owned(),
             message,
         };
-        let translated = Translated::new(context, shader, tests).map_err(fail)?;
+        let translated = Translated::new(context, shader, form.tests).map_err(fail)?;
         let vertex = varied(translated.vertex, variant);
-        let mut stages = vec![
-            (glow::VERTEX_SHADER, vertex),
-            (glow::FRAGMENT_SHADER, translated.fragment),
-        ];
+        let mut stages = vec![(glow::VERTEX_SHADER, vertex)];
+        let fragment = translated.fragment.map(|text| match form.blend {
+            Some(mode) => allowing(context, &text, mode),
+            None => text,
+        });
+        stages.extend(fragment.map(|text| (glow::FRAGMENT_SHADER, text)));
         stages.extend(order.into_iter().flat_map(|o| patches(context, o)));
         let program = link(context, shader.name(), &stages)?;
         let gl = &context.gl;
@@ -202,6 +215,26 @@ fn varied(vertex: String, variant: Variant) -> String {
     made + "}\n"
 }
 
+/// Returns a fragment shader that allows an advanced blend equation, of which naga knows nothing.
+fn allowing(context: &Context, fragment: &str, mode: AdvancedBlend) -> String {
+    let Some((version, body)) = fragment.split_once('\n') else {
+        return fragment.to_owned();
+    };
+    // Directives stand before everything else.
+    let directives = body
+        .split_inclusive('\n')
+        .take_while(|line| line.trim().is_empty() || line.starts_with('#'))
+        .map(str::len)
+        .sum();
+    let (directives, rest) = body.split_at(directives);
+    let extension = match context.caps.es && context.caps.version >= (3, 2) {
+        true => String::new(),
+        false => format!("#extension {ADVANCED_BLEND} : require\n"),
+    };
+    let word = blend_support(mode);
+    format!("{version}\n{extension}{directives}layout(blend_support_{word}) out;\n{rest}")
+}
+
 /// Returns true if naga can write a shader in the context's GLSL.
 pub(crate) fn translates(context: &Context, shader: Shader, tests: EarlyTests) -> bool {
     Translated::new(context, shader, tests).is_ok()
@@ -210,7 +243,8 @@ pub(crate) fn translates(context: &Context, shader: Shader, tests: EarlyTests) -
 /// A shader in GLSL.
 struct Translated {
     vertex: String,
-    fragment: String,
+    /// `None` for a vertex shader alone.
+    fragment: Option<String>,
     /// The names of uniform blocks.
     blocks: Vec<String>,
     /// The names of textures with their units: the binding less one.
@@ -226,20 +260,27 @@ impl Translated {
             .map_err(|e| e.emit_to_string(source))?;
         let mut translated = Self {
             vertex: String::new(),
-            fragment: String::new(),
+            fragment: None,
             blocks: Vec::new(),
             textures: Vec::new(),
         };
         translated.vertex = translated.stage(context, &module, &info, ShaderStage::Vertex)?;
+        if !shader.has_fragment() {
+            return Ok(translated);
+        }
         let fragment = translated.stage(context, &module, &info, ShaderStage::Fragment)?;
         // naga uses GLSL's signed sample index where WGSL's is unsigned; ES does not convert.
-        translated.fragment = fragment.replace("gl_SampleID", "uint(gl_SampleID)");
+        let mut fragment = fragment.replace("gl_SampleID", "uint(gl_SampleID)");
+        if shader.writes_mask() {
+            fragment = with_mask(&fragment, context.caps.es)?;
+        }
         // naga omits qualifiers that the version lacks.
         if let Some(word) = qualifier(tests)
-            && !translated.fragment.contains(word)
+            && !fragment.contains(word)
         {
             return Err(format!("GLSL {} has no `{word}`", context.caps.glsl));
         }
+        translated.fragment = Some(fragment);
         Ok(translated)
     }
 
@@ -300,6 +341,22 @@ impl Translated {
     }
 }
 
+/// Returns a fragment shader that assigns its sample mask as GLSL has it: naga assigns an unsigned number to
+/// what is an array of signed ones, and leaves the extension of ES out.
+fn with_mask(fragment: &str, es: bool) -> Result<String, String> {
+    const EXTENSION: &str = "#extension GL_OES_sample_variables : require\n";
+    let assigned = fragment
+        .split_once("gl_SampleMask = ")
+        .and_then(|(before, rest)| Some((before, rest.split_once(';')?)));
+    let (before, (value, rest)) = assigned.ok_or("naga assigns no sample mask")?;
+    let text = format!("{before}gl_SampleMask[0] = int({value});{rest}");
+    let (version, body) = text.split_once('\n').ok_or("naga writes no version")?;
+    Ok(match es && !text.contains(EXTENSION) {
+        true => format!("{version}\n{EXTENSION}{body}"),
+        false => text,
+    })
+}
+
 /// Returns GLSL's layout qualifier of an early-test mode.
 fn qualifier(tests: EarlyTests) -> Option<&'static str> {
     match tests {
@@ -347,5 +404,30 @@ fn link(
             return Err(fail(log.trim().to_owned()));
         }
         Ok(program)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sample_mask_is_assigned_as_the_first_word_of_an_array() {
+        let text = "#version 310 es\nvoid main() {\ngl_SampleMask = _e1.mask;\nreturn;\n}\n";
+        let made = with_mask(text, true).expect("it assigns one");
+        let expected = "#version 310 es\n#extension GL_OES_sample_variables : require\nvoid main() {\n\
+                        gl_SampleMask[0] = int(_e1.mask);\nreturn;\n}\n";
+        assert_eq!(made, expected);
+        let twice = with_mask(
+            &text.replace("void", "#extension GL_OES_sample_variables : require\nvoid"),
+            true,
+        );
+        assert_eq!(twice.as_deref(), Ok(expected));
+        assert!(
+            !with_mask(text, false)
+                .expect("as before")
+                .contains("#extension")
+        );
+        assert!(with_mask("#version 450\nvoid main() {}\n", false).is_err());
     }
 }

@@ -5,7 +5,7 @@
 //! enabled must not pass by chance.
 
 use crate::context::Context;
-use crate::enums::{compare, equations, logic_operation, mask, operation};
+use crate::enums::{advanced_equation, compare, equations, logic_operation, mask, operation};
 use crate::path::Variant;
 use etalon_backend::BackendError;
 use etalon_frame::{Feature, PathClip, PathViewport, Requirement};
@@ -316,6 +316,37 @@ impl DrawState {
         }
     }
 
+    /// Returns the advanced blend equation of a draw, which has one target.
+    fn advanced(&self) -> Option<u32> {
+        let mode = self.targets.first().and_then(|t| t.advanced);
+        mode.map(advanced_equation)
+    }
+
+    /// Sets the advanced blend equation, if the draw has one.
+    pub(crate) fn begin_advanced(&self, context: &Context) {
+        let Some(equation) = self.advanced() else {
+            return;
+        };
+        // SAFETY: the context is current and has the equation.
+        unsafe { context.gl.blend_equation(equation) };
+        if let (false, Some(barrier)) = (
+            context.caps.coherent_blend,
+            context.entry_points.blend_barrier,
+        ) {
+            // SAFETY: the context is current and has the function.
+            unsafe { barrier() };
+        }
+    }
+
+    /// Takes the advanced blend equation back: with several targets or another shader it is an error even
+    /// where blending is off (OpenGL ES 3.2, 15.1.5.3, Errors).
+    pub(crate) fn end_advanced(&self, context: &Context) {
+        if self.advanced().is_some() {
+            // SAFETY: the context is current.
+            unsafe { context.gl.blend_equation(glow::FUNC_ADD) };
+        }
+    }
+
     fn apply_targets(&self, context: &Context) {
         let gl = &context.gl;
         if let Some(set_logic) = context.entry_points.logic_op {
@@ -333,8 +364,9 @@ impl DrawState {
             if let [target] = self.targets.as_slice() {
                 let [r, g, b, a] = mask(target);
                 gl.color_mask(r, g, b, a);
-                set(gl, glow::BLEND, target.blend.is_some());
+                set(gl, glow::BLEND, target.blends());
                 match target.blend {
+                    _ if self.advanced().is_some() => {}
                     Some(blend) => {
                         let (color, alpha) = equations(blend);
                         gl.blend_equation_separate(color.0, alpha.0);

@@ -1,5 +1,6 @@
 //! Bugs of blending.
 
+pub(super) mod advanced;
 pub(super) mod precision;
 
 use super::hooks::{blending, faithful_blend};

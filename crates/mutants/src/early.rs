@@ -22,7 +22,7 @@ fn tests(list: &mut List) {
         }),
     );
     type When = fn(&Draw) -> bool;
-    let early: [(&str, &'static str, &str, When); 5] = [
+    let early: [(&str, &'static str, &str, When); 6] = [
         (
             "tested-before-discard",
             "panfrost: early tests despite alpha test; Adreno, Mali: discard still touching depth and stencil",
@@ -40,6 +40,12 @@ fn tests(list: &mut List) {
             "ANGLE, turnip: early tests despite alpha to coverage",
             "Draws with alpha to coverage are tested early.",
             |draw| draw.multisample.alpha_to_coverage,
+        ),
+        (
+            "tested-before-discard-without-depth",
+            "a late test decided by the depth test alone",
+            "Shaders that discard are tested early where the depth test is off.",
+            |draw| draw.depth.is_none() && draw.shader.discards(),
         ),
         (
             "tested-before-side-effects",

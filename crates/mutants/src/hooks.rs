@@ -3,10 +3,11 @@
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{Codes, Faithful, LANES, Mask, Path, Real, Steps, Tests, Written};
 use etalon_frame::{Aspect, ChannelEncoding};
-use etalon_pipeline::shader::Kept;
-use etalon_pipeline::{Arithmetic, BlendInput, Plain, blend};
+use etalon_pipeline::shader::{Kept, SampleMask};
+use etalon_pipeline::{Arithmetic, BlendInput, Plain, advanced_blend, blend};
 use etalon_scene::{
-    BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Shader, StencilFace,
+    AdvancedBlend, BlendState, CompareFunction, DepthBias, LogicOperation, Multisample, Shader,
+    StencilFace,
 };
 
 /// Declares the replaceable steps: each is a field of [`Hooks`] and a function that replaces it. The
@@ -49,6 +50,8 @@ hooks! {
     written([bool; 3]) -> [bool; 2];
     /// Blending.
     blending(&BlendState, [ChannelEncoding; 4], &BlendInput<[f32; 1]>) -> [f32; 4];
+    /// Advanced blending of source and destination.
+    advanced_blending(AdvancedBlend, [ChannelEncoding; 4], [[f32; 4]; 2]) -> [f32; 4];
     /// The conversion of colours at the store.
     color_code(ChannelEncoding, f32) -> u32;
     /// The conversion of clear values, colour and depth.
@@ -93,6 +96,9 @@ hooks! {
     depth_sample(usize, usize) -> usize;
     /// True if a shader keeps a fragment, given the value and its limit.
     kept(f32, f32) -> bool;
+    /// True if the sample mask of a shader keeps a sample, given the mask as it is written, the sample's
+    /// index and the number of samples.
+    mask_keeps(u32, usize, usize) -> bool;
     /// A channel of a resolved texel.
     resolve(ChannelEncoding, &[u32]) -> u32;
 }
@@ -110,6 +116,16 @@ pub(super) fn faithful_blend(
     input: &BlendInput<[f32; 1]>,
 ) -> [f32; 4] {
     blend(&mut Plain::<1>, state, encodings, input).map(|[v]| v)
+}
+
+/// Returns the correct result of advanced blending.
+pub(super) fn faithful_advanced(
+    mode: AdvancedBlend,
+    encodings: [ChannelEncoding; 4],
+    [src, dst]: [[f32; 4]; 2],
+) -> [f32; 4] {
+    let lanes = |color: [f32; 4]| color.map(|v| [v]);
+    advanced_blend(&mut Plain::<1>, mode, encodings, lanes(src), lanes(dst)).map(|[v]| v)
 }
 
 impl Steps for &Hooks {
@@ -201,6 +217,26 @@ impl Steps for &Hooks {
             }
         }
         result
+    }
+
+    fn advanced_blend(
+        &self,
+        mode: AdvancedBlend,
+        encodings: [ChannelEncoding; 4],
+        src: [Real; 4],
+        dst: [Real; 4],
+    ) -> [Real; 4] {
+        let Some(bug) = &self.advanced_blending else {
+            return Faithful.advanced_blend(mode, encodings, src, dst);
+        };
+        let lanes: [[f32; 4]; LANES] = std::array::from_fn(|lane| {
+            bug(
+                mode,
+                encodings,
+                [src, dst].map(|color| color.map(|v| v[lane])),
+            )
+        });
+        std::array::from_fn(|c| lanes.map(|texel| texel[c]))
     }
 
     fn color_codes(&self, encoding: ChannelEncoding, value: Real) -> Codes {
@@ -340,6 +376,15 @@ impl Steps for &Hooks {
         match &self.depth_sample {
             None => sample,
             Some(bug) => bug(sample, samples),
+        }
+    }
+
+    fn mask_keeps(&self, mask: &SampleMask<Real>, sample: usize, samples: usize) -> Mask {
+        match &self.mask_keeps {
+            None => Faithful.mask_keeps(mask, sample, samples),
+            Some(bug) => mask
+                .bits
+                .map(|bits| bug(mask.written(bits as u32), sample, samples)),
         }
     }
 

@@ -4,10 +4,10 @@ use crate::list::List;
 use crate::mutant::Mutant;
 use crate::{
     bias, blend, bounds, capability, carried, clear, clip_distance, counter, cull, depth,
-    depth_range, discard, dual_source, early, fetch, formats, geometry, hierarchy, invariance,
-    logic, mask, provoking, read_only, readback, resolve, sample_coverage, sample_shading, samples,
-    scissor, sequence, size, stencil, sticky, targets, tessellation, texture, tiled, topology,
-    upload, viewport,
+    depth_range, discard, dual_source, early, fetch, formats, geometry, held, hierarchy,
+    invariance, logic, mask, provoking, read_only, readback, resolve, sample_coverage,
+    sample_shading, samples, scissor, sequence, shader_mask, size, stencil, sticky, targets,
+    tessellation, texture, tiled, topology, upload, viewport,
 };
 use std::sync::LazyLock;
 
@@ -23,6 +23,7 @@ pub fn mutants() -> &'static [Mutant] {
         stencil::add(&mut list);
         blend::add(&mut list);
         blend::precision::add(&mut list);
+        blend::advanced::add(&mut list);
         mask::add(&mut list);
         formats::add(&mut list);
         targets::add(&mut list);
@@ -56,6 +57,8 @@ pub fn mutants() -> &'static [Mutant] {
         carried::add(&mut list);
         sequence::add(&mut list);
         size::add(&mut list);
+        shader_mask::add(&mut list);
+        held::add(&mut list);
         list.mutants
     });
     &ALL

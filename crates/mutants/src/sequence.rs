@@ -96,7 +96,7 @@ fn dst_factor(before: BlendComponent, component: &mut BlendComponent) {
 }
 
 /// Each state, and the copy of it from the draw before.
-const STATES: [(&str, Stay); 63] = [
+const STATES: [(&str, Stay); 64] = [
     ("indices", |before, draw| {
         draw.mesh.indices.clone_from(&before.mesh.indices);
     }),
@@ -311,6 +311,11 @@ const STATES: [(&str, Stay); 63] = [
         blends(before, draw, |before, blend| {
             dst_factor(before.alpha, &mut blend.alpha)
         });
+    }),
+    ("advanced-blend", |before, draw| {
+        for (target, before) in draw.targets.iter_mut().zip(&before.targets) {
+            target.advanced = before.advanced;
+        }
     }),
     ("write-mask", |before, draw| {
         for (target, before) in draw.targets.iter_mut().zip(&before.targets) {

@@ -7,7 +7,7 @@ use etalon_scene::{DepthBias, Draw};
 type Leftover = fn(&Draw, &mut Draw);
 
 /// The state that persists, the area that must catch it, and the copy from the previous draw.
-pub(super) const LEFTOVERS: [(&str, &str, Leftover); 35] = [
+pub(super) const LEFTOVERS: [(&str, &str, Leftover); 36] = [
     ("depth-test", "depth", |before, draw| {
         draw.depth = before.depth
     }),
@@ -62,6 +62,11 @@ pub(super) const LEFTOVERS: [(&str, &str, Leftover); 35] = [
     ("blend-when-off", "blend", |before, draw| {
         for (target, before) in draw.targets.iter_mut().zip(&before.targets) {
             target.blend = target.blend.or(before.blend);
+        }
+    }),
+    ("advanced-blend", "blend", |before, draw| {
+        for (target, before) in draw.targets.iter_mut().zip(&before.targets) {
+            target.advanced = before.advanced;
         }
     }),
     ("blend-constant", "blend", |before, draw| {

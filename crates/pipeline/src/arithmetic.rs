@@ -74,6 +74,31 @@ pub trait Arithmetic {
         b: Self::Real,
         subtract: bool,
     ) -> Self::Real;
+    /// A colour divided by its alpha for advanced blending; 0 where alpha is 0.
+    fn blend_quotient(
+        &mut self,
+        encoding: ChannelEncoding,
+        color: Self::Real,
+        alpha: Self::Real,
+    ) -> Self::Real;
+    /// The smaller of 1 and `a / b` in advanced blending, where neither is negative and `b` is not 0; anything
+    /// elsewhere.
+    fn blend_ratio(
+        &mut self,
+        encoding: ChannelEncoding,
+        a: Self::Real,
+        b: Self::Real,
+    ) -> Self::Real;
+    /// A square root in advanced blending; anything where the value is negative.
+    fn blend_root(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
+    /// The third in advanced blending where the first is at most the second, else the fourth.
+    fn blend_select(
+        &mut self,
+        a: Self::Real,
+        b: Self::Real,
+        at_most: Self::Real,
+        otherwise: Self::Real,
+    ) -> Self::Real;
     /// The code that a logic operation leaves, from the codes of source and destination.
     fn logic(
         &mut self,

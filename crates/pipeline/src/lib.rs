@@ -7,6 +7,7 @@
 //! Values that are exact in every specification (stencil values, write masks, the edge functions of
 //! snapped vertices) are computed in integers and have no number system.
 
+mod advanced;
 mod arithmetic;
 mod blend;
 mod coverage;
@@ -18,6 +19,7 @@ pub mod shader;
 mod stencil;
 mod viewport;
 
+pub use advanced::advanced_blend;
 pub use arithmetic::Arithmetic;
 pub use blend::{BlendInput, blend};
 pub use coverage::{Point, SnappedTriangle, edge_value, is_top_left, signed_area};

@@ -214,6 +214,43 @@ impl<const N: usize> Arithmetic for Plain<N> {
     }
 
     #[inline(always)]
+    fn blend_quotient(
+        &mut self,
+        _encoding: ChannelEncoding,
+        color: [f32; N],
+        alpha: [f32; N],
+    ) -> [f32; N] {
+        zip(color, alpha, |c, a| if a == 0.0 { 0.0 } else { c / a })
+    }
+
+    #[inline(always)]
+    fn blend_ratio(&mut self, _encoding: ChannelEncoding, a: [f32; N], b: [f32; N]) -> [f32; N] {
+        zip(a, b, |a, b| (a / b).min(1.0))
+    }
+
+    #[inline(always)]
+    fn blend_root(&mut self, _encoding: ChannelEncoding, value: [f32; N]) -> [f32; N] {
+        each(value, f32::sqrt)
+    }
+
+    #[inline(always)]
+    fn blend_select(
+        &mut self,
+        a: [f32; N],
+        b: [f32; N],
+        at_most: [f32; N],
+        otherwise: [f32; N],
+    ) -> [f32; N] {
+        std::array::from_fn(|i| {
+            if a[i] <= b[i] {
+                at_most[i]
+            } else {
+                otherwise[i]
+            }
+        })
+    }
+
+    #[inline(always)]
     fn logic(
         &mut self,
         encoding: ChannelEncoding,

@@ -28,6 +28,8 @@ pub(crate) enum Rejection {
     SampleMask,
     /// The shader discards the fragment.
     Discard,
+    /// The shader's own sample mask leaves the sample out.
+    ShaderMask,
     /// Alpha to coverage leaves the sample out.
     AlphaToCoverage,
     /// The stored depth is out of bounds.
@@ -51,6 +53,7 @@ impl Rejection {
             Self::SampleCoverage => "sample coverage",
             Self::SampleMask => "sample mask",
             Self::Discard => "discard",
+            Self::ShaderMask => "shader's sample mask",
             Self::AlphaToCoverage => "alpha to coverage",
             Self::DepthBounds => "depth bounds",
             Self::Stencil => "stencil test",
@@ -69,6 +72,7 @@ impl Rejection {
             Self::SampleCoverage => format!("loses it to sample coverage: {detail}"),
             Self::SampleMask => format!("is masked: {detail}"),
             Self::Discard => format!("is discarded by its shader: {detail}"),
+            Self::ShaderMask => format!("is masked by its shader: {detail}"),
             Self::AlphaToCoverage => format!("loses it to alpha to coverage: {detail}"),
             Self::DepthBounds => format!("fails its depth bounds test: {detail}"),
             Self::Stencil => format!("fails its stencil test: {detail}"),
@@ -147,6 +151,7 @@ impl Rejection {
                 "Scissor Test: coverage of samples outside of the rectangle is set to 0"
             }
             Self::SampleMask => "Sample Mask Test: coverage is ANDed with the sample mask",
+            Self::ShaderMask => "Multisample Coverage: coverage is ANDed with SampleMask",
             Self::Discard => {
                 "Shader Termination and Demotion: a terminated or demoted fragment leaves no coverage"
             }
@@ -174,7 +179,7 @@ impl Rejection {
             Self::Scissor => {
                 "setScissorRect, Rasterization: fragments outside of the rectangle are discarded"
             }
-            Self::SampleMask => {
+            Self::SampleMask | Self::ShaderMask => {
                 "Sample Masking: a sample whose bit is 0 is neither tested nor written"
             }
             Self::Discard => "Fragment Processing; WGSL: Discard Statement",
@@ -199,6 +204,16 @@ impl Rejection {
         if self == Self::DepthBounds {
             return "GL_EXT_depth_bounds_test: a stored depth outside of the bounds discards the fragment"
                 .to_owned();
+        }
+        if self == Self::ShaderMask {
+            return match edition {
+                Gl33 => "GL_ARB_sample_shading: gl_SampleMask: bits that are 0 leave samples uncovered",
+                Gl45 => "OpenGL 4.5: 15.2.3 Shader Outputs: gl_SampleMask: bits that are 0 leave samples uncovered",
+                Gl46 => "OpenGL 4.6: 15.2.3 Shader Outputs: gl_SampleMask: bits that are 0 leave samples uncovered",
+                Es30 | Es31 => "GL_OES_sample_variables: gl_SampleMask: bits that are 0 leave samples uncovered",
+                Es32 => "OpenGL ES 3.2: 14.2.3 Shader Outputs: gl_SampleMask: bits that are 0 leave samples uncovered",
+            }
+            .to_owned();
         }
         if self == Self::ClipDistance && matches!(edition, Es30 | Es31 | Es32) {
             return "GL_EXT_clip_cull_distance: half-space i holds the points whose distance is 0 or more"

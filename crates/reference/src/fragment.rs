@@ -6,7 +6,7 @@ use crate::judging::{Judging, Range};
 use crate::notes::{Effect, Notes};
 use crate::possible::Possible;
 use crate::primitive::Shape;
-use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, SameDepth};
+use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, MaskOfOne, SameDepth};
 use crate::walk::{Place, Walk};
 use crate::world::{Cell, Event, World, Worlds};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, CounterKind};
@@ -63,11 +63,18 @@ impl Walk<'_> {
     ) {
         let draw = place.draw;
         let output = self.shader(place, &world, front, notes);
-        let own_depth = place.primitive.depth_at(place.point);
+        let own_depth = match self.goes_on(place) {
+            true => place.primitive.depth_at(place.point),
+            false => Range::same(Interval {
+                low: 0.0,
+                high: 1.0,
+            }),
+        };
         let covered = match drawn {
             true => self.covered_after_shading(place, &output, notes),
             false => Covered {
                 kept: Possible::Always,
+                masked: Possible::Always,
                 coverage: Possible::Never,
             },
         };
@@ -181,6 +188,9 @@ impl Walk<'_> {
             || {
                 let color = output.color.map(|c| c.hull().to_string()).join(", ");
                 let face = if front { "front" } else { "back" };
+                if !draw.shader.has_fragment() {
+                    return format!("{face} face, without a fragment shader");
+                }
                 let read = (0..draw.textures.len()).map(|t| {
                     let name = &self.scene.attachments[draw.textures[t]].name;
                     let texel = input.texels[t].map(|c| c.hull().to_string()).join(", ");
@@ -236,6 +246,7 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) -> Covered {
         let kept = match output.kept {
+            None if !self.goes_on(place) => Possible::Maybe,
             None => Possible::Always,
             Some(kept) => {
                 let (value, limit) = (kept.value.hull(), kept.limit.hull());
@@ -264,6 +275,16 @@ impl Walk<'_> {
         }
         let state = place.draw.multisample;
         let (sample, alpha) = (place.at.sample, output.color[3]);
+        let masked = self.shader_mask_keeps(place, output);
+        if let (Some(mask), false) = (&output.mask, masked.must()) {
+            self.note_rejection(notes, place, Rejection::ShaderMask, !masked.can(), &|| {
+                let bits = mask.bits.hull().low;
+                match masked.can() {
+                    true => format!("the mask {bits} may or may not keep the sample: two worlds"),
+                    false => format!("the mask {bits} leaves it out"),
+                }
+            });
+        }
         let coverage = self.sample_passes(place, alpha);
         if state.mask & (1 << sample) == 0 {
             // Whether forced early tests come before the mask is for the rules to say.
@@ -284,7 +305,11 @@ impl Walk<'_> {
                 }
             });
         }
-        Covered { kept, coverage }
+        Covered {
+            kept,
+            masked,
+            coverage,
+        }
     }
 
     /// A fragment that passed forced early tests: one that the shader then discards may still have
@@ -333,6 +358,7 @@ impl Walk<'_> {
         let may_not_happen =
             |lost: bool, updates: EarlyUpdates| lost && updates == EarlyUpdates::Either;
         if may_not_happen(!covered.kept.must(), self.rules.early_updates.value())
+            || may_not_happen(!covered.masked.must(), self.rules.early_mask.value())
             || may_not_happen(!covered.coverage.must(), self.rules.early_coverage.value())
         {
             // As if the fragment had never been tested, but for what it counted.
@@ -483,6 +509,35 @@ impl Walk<'_> {
             depth: Range::same(depth),
             origin: (place.primitive.geometry).filter(|_| same && place.at.samples == 1),
         }
+    }
+
+    /// Returns whether the sample mask that the shader writes keeps the sample.
+    fn shader_mask_keeps(&self, place: Place<'_>, output: &FragmentOutput<Range>) -> Possible {
+        let Some(mask) = &output.mask else {
+            return Possible::Always;
+        };
+        let bits = mask.bits.hull();
+        if bits.low.to_bits() != bits.high.to_bits() {
+            return Possible::Maybe;
+        }
+        let bits = mask.written(bits.low as u32);
+        if bits & (1 << place.at.sample) != 0 {
+            return Possible::Always;
+        }
+        let ignored = match place.at.samples {
+            1 => self.rules.mask_of_one.value(),
+            _ => MaskOfOne::Acts,
+        };
+        match ignored {
+            MaskOfOne::Acts => Possible::Never,
+            MaskOfOne::Ignored => Possible::Always,
+            MaskOfOne::Either => Possible::Maybe,
+        }
+    }
+
+    /// True if the fragment has a shader, or goes on without one as it was rasterized.
+    fn goes_on(&self, place: Place<'_>) -> bool {
+        place.draw.shader.has_fragment() || self.rules.goes_on_unshaded.value()
     }
 
     /// Returns whether mask and alpha to coverage keep the sample.
@@ -655,16 +710,17 @@ impl Walk<'_> {
 }
 
 /// The outcomes of shading for a sample: whether it can survive and whether it must, by the shader's
-/// discard, and by sample mask and alpha to coverage.
+/// discard, by its own sample mask, and by the draw's and alpha to coverage.
 #[derive(Clone, Copy, Debug)]
 struct Covered {
     kept: Possible,
+    masked: Possible,
     coverage: Possible,
 }
 
 impl Covered {
     fn survives(self) -> Possible {
-        self.kept.and(self.coverage)
+        self.kept.and(self.masked).and(self.coverage)
     }
 }
 

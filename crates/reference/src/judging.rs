@@ -57,6 +57,8 @@ impl Range {
 pub struct Judging<'r> {
     /// The rules.
     pub rules: &'r Rules,
+    /// True if blends are advanced, which may be done at the precision of 16-bit floats.
+    advanced: bool,
 }
 
 /// A code position that is an integer but for the rounding of 64-bit floats counts as one. No 32-bit
@@ -66,7 +68,18 @@ const INTEGER_SLACK: f64 = 1e-10;
 impl<'r> Judging<'r> {
     /// Returns arithmetic under these rules.
     pub fn new(rules: &'r Rules) -> Self {
-        Self { rules }
+        Self {
+            rules,
+            advanced: false,
+        }
+    }
+
+    /// Returns arithmetic under these rules whose blends are advanced.
+    pub fn of_advanced_blends(rules: &'r Rules) -> Self {
+        Self {
+            rules,
+            advanced: true,
+        }
     }
 
     fn error(&self) -> f64 {
@@ -113,10 +126,15 @@ impl<'r> Judging<'r> {
 
     /// Widens to the destination's codes on either side, where blending may round to them.
     fn round_outward(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
-        if self.rules.blend.value() != BlendPrecision::DestinationCodes {
+        let precision = match self.advanced {
+            true => &self.rules.advanced_blend,
+            false => &self.rules.blend,
+        };
+        if precision.value() != BlendPrecision::DestinationCodes {
             return value;
         }
         match encoding {
+            ChannelEncoding::Float16 | ChannelEncoding::Float32 if self.advanced => to_half(value),
             ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => {
                 let scale = encoding.max_order() as f64;
                 Interval {
@@ -232,6 +250,23 @@ impl<'r> Judging<'r> {
             false => order,
         };
         CodeInterval::new(flush(low, low.min(0)), flush(high, high.max(0)))
+    }
+}
+
+/// Widens to 16-bit floats on either side, of which the subnormal ones may be missing.
+fn to_half(value: Interval) -> Interval {
+    let half = ChannelEncoding::Float16;
+    let normal = 1 << 10;
+    let (low, high) = (half.order_below(value.low), half.order_above(value.high));
+    let low = if (0..normal).contains(&low) { 0 } else { low };
+    let high = if (1 - normal..=0).contains(&high) {
+        0
+    } else {
+        high
+    };
+    Interval {
+        low: half.value_of_order(low).min(value.low),
+        high: half.value_of_order(high).max(value.high),
     }
 }
 
@@ -398,7 +433,7 @@ impl Arithmetic for Judging<'_> {
         }
     }
 
-    fn blend_complement(&mut self, _encoding: ChannelEncoding, value: Range) -> Range {
+    fn blend_complement(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
         let one = Range::exact(1.0);
         let exact = one.zip(value, Interval::minus);
         let float = if value.float.is(0.0) || value.float.is(1.0) {
@@ -408,7 +443,10 @@ impl Arithmetic for Judging<'_> {
         };
         Range {
             float,
-            coarse: exact.coarse,
+            coarse: match self.advanced {
+                true => self.round_outward(encoding, exact.coarse),
+                false => exact.coarse,
+            },
         }
     }
 
@@ -461,11 +499,89 @@ impl Arithmetic for Judging<'_> {
             float,
             coarse: match encoding {
                 // A sum of floats is rounded like any result; one of integers is an integer.
+                _ if self.advanced => self.round_outward(encoding, sum.coarse),
                 ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) | ChannelEncoding::Srgb8 => {
                     self.round_outward(encoding, sum.coarse)
                 }
                 _ => sum.coarse,
             },
+        }
+    }
+
+    /// An exact 0 and a divisor of 1 leave the quotient exact. A colour that is not 0 where alpha may be
+    /// is undefined (OpenGL ES 3.2, 15.1.5.3: ill-formed). At the precision of a normalized destination,
+    /// quotients above 1 may be beyond its range.
+    fn blend_quotient(&mut self, encoding: ChannelEncoding, color: Range, alpha: Range) -> Range {
+        let exact = color.zip(alpha, |c, a| match (c.is(0.0), a.contains(0.0)) {
+            (true, _) => c,
+            (false, true) => Interval::EVERYTHING,
+            (false, false) => c.corners(a, |c, a| c / a),
+        });
+        let float = match alpha.float.is(1.0) {
+            true => exact.float,
+            false => exact.float.widen_relative(self.error()),
+        };
+        let mut coarse = self.round_outward(encoding, exact.coarse);
+        if let Some((low, high)) = encoding.normalized_range() {
+            coarse = coarse.hull(coarse.clamp(f64::from(low), f64::from(high)));
+        }
+        Range { float, coarse }
+    }
+
+    /// Where a divisor may be 0, only what is above counts: 0 itself is not divided by.
+    fn blend_ratio(&mut self, encoding: ChannelEncoding, a: Range, b: Range) -> Range {
+        let exact = a.zip(b, |a, b| {
+            if a.may_be_nan() || b.may_be_nan() {
+                return Interval::EVERYTHING;
+            }
+            let least = |v: f64| v.clamp(0.0, 1.0);
+            let low = least(a.low.max(0.0) / b.high.max(f64::MIN_POSITIVE));
+            let high = match (a.high <= 0.0, b.low <= 0.0) {
+                (true, _) => 0.0,
+                (false, true) => 1.0,
+                (false, false) => least(a.high / b.low),
+            };
+            Interval { low, high }
+        });
+        let float = match b.float.is(1.0) {
+            true => exact.float,
+            false => exact.float.widen_relative(self.error()),
+        };
+        let held = |v: Interval| match v.may_be_nan() {
+            true => v,
+            false => v.map_increasing(|v| v.min(1.0)),
+        };
+        Range {
+            float: held(float),
+            coarse: held(self.round_outward(encoding, exact.coarse)),
+        }
+    }
+
+    fn blend_root(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
+        let exact = value.zip(value, |v, _| match v.may_be_nan() {
+            true => v,
+            false => v.map_increasing(|v| v.max(0.0).sqrt()),
+        });
+        Range {
+            float: exact.float.widen_relative(self.error()),
+            coarse: self.round_outward(encoding, exact.coarse),
+        }
+    }
+
+    /// Each way of computing decides for itself.
+    fn blend_select(&mut self, a: Range, b: Range, at_most: Range, otherwise: Range) -> Range {
+        let one = |[a, b, at_most, otherwise]: [Interval; 4]| {
+            let unknown = a.may_be_nan() || b.may_be_nan();
+            match (a.high <= b.low && !unknown, a.low <= b.high || unknown) {
+                (true, _) => at_most,
+                (false, false) => otherwise,
+                (false, true) => at_most.hull(otherwise),
+            }
+        };
+        let all = [a, b, at_most, otherwise];
+        Range {
+            float: one(all.map(|r| r.float)),
+            coarse: one(all.map(|r| r.coarse)),
         }
     }
 

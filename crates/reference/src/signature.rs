@@ -110,6 +110,7 @@ impl Walk<'_> {
             sample: masked
                 || *state != plain
                 || draw.shader.runs_per_sample()
+                || draw.shader.writes_mask()
                 || draw.shader.interpolates_at_centroid(),
             primitives: !draw.counters.is_empty(),
             textures: draw

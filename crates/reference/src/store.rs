@@ -8,7 +8,8 @@ use crate::walk::{Place, Walk, codes_text};
 use crate::world::World;
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, TextureFormat};
 use etalon_pipeline::shader::FragmentOutput;
-use etalon_pipeline::{Arithmetic, BlendInput, blend, takes_logic};
+use etalon_pipeline::{Arithmetic, BlendInput, advanced_blend, blend, takes_logic};
+use etalon_scene::AdvancedBlend;
 
 impl Walk<'_> {
     /// Stores the depth of a fragment that passed all tests.
@@ -84,6 +85,35 @@ impl Walk<'_> {
         }
     }
 
+    /// Returns the colour of an advanced blend of source and destination.
+    fn advanced(
+        &self,
+        place: Place<'_>,
+        mode: AdvancedBlend,
+        encodings: [ChannelEncoding; 4],
+        [src, dst]: [[Range; 4]; 2],
+        notes: &mut Notes<'_>,
+    ) -> [Range; 4] {
+        let mut judging = Judging::of_advanced_blends(self.rules);
+        let value = advanced_blend(&mut judging, mode, encodings, src, dst);
+        notes.add(
+            || place.name(),
+            "blend",
+            || {
+                let text = |color: [Range; 4]| color.map(|v| v.hull().to_string()).join(", ");
+                format!(
+                    "{} of [{}] onto [{}] = [{}]",
+                    mode.name(),
+                    text(src),
+                    text(dst),
+                    text(value)
+                )
+            },
+            Some(self.rules.advanced_blend.citation),
+        );
+        value
+    }
+
     /// Stores the colours of a fragment that passed all tests.
     pub(crate) fn write_colors(
         &self,
@@ -112,13 +142,17 @@ impl Walk<'_> {
                 std::array::from_fn(|c| encodings[c.min(encodings.len() - 1)]);
             let missing = missing_channels(encodings.len());
             let cell = &mut world.cells[*index];
-            let value = match &target.blend {
-                None => color,
-                Some(state) => {
-                    let dst = std::array::from_fn(|c| match missing[c] {
-                        Some(value) => Range::exact(value),
-                        None => judging.decode(all[c], cell.channels[c]),
-                    });
+            let mut dst = || {
+                std::array::from_fn(|c| match missing[c] {
+                    Some(value) => Range::exact(value),
+                    None => judging.decode(all[c], cell.channels[c]),
+                })
+            };
+            let value = match (&target.blend, target.advanced) {
+                (None, None) => color,
+                (None, Some(mode)) => self.advanced(place, mode, all, [color, dst()], notes),
+                (Some(state), _) => {
+                    let dst = dst();
                     let constant = place.draw.blend_constant.map(|v| {
                         let plain = judging.constant(v);
                         let clamped = v.clamp(0.0, 1.0);

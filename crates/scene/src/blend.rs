@@ -96,13 +96,51 @@ pub struct BlendState {
     pub alpha: BlendComponent,
 }
 
+state_enum! {
+    /// A separable mode of advanced blending: a function f of source and destination, each divided by its
+    /// alpha. Source and destination are premultiplied; each counts in full where it lies alone.
+    AdvancedBlend {
+        /// Source times destination.
+        Multiply = "multiply",
+        /// Both inverted, multiplied and inverted again.
+        Screen = "screen",
+        /// Multiply or screen, twice as strong, as the destination decides.
+        Overlay = "overlay",
+        /// The smaller of the two.
+        Darken = "darken",
+        /// The larger of the two.
+        Lighten = "lighten",
+        /// The destination divided by the inverted source.
+        ColorDodge = "color-dodge",
+        /// The inverted destination divided by the source, inverted.
+        ColorBurn = "color-burn",
+        /// Multiply or screen, twice as strong, as the source decides.
+        HardLight = "hard-light",
+        /// The destination darkened or lightened, as the source decides.
+        SoftLight = "soft-light",
+        /// The distance between the two.
+        Difference = "difference",
+        /// As `difference`, with less contrast.
+        Exclusion = "exclusion",
+    }
+}
+
 /// The state of a draw for one colour attachment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct ColorTarget {
     /// Blending; `None` is off.
     pub blend: Option<BlendState>,
+    /// Advanced blending instead; `None` is off.
+    pub advanced: Option<AdvancedBlend>,
     /// Written channels: bit 0 red to bit 3 alpha.
     pub write_mask: u8,
+}
+
+impl ColorTarget {
+    /// True if what is stored depends on the destination's colour.
+    pub fn blends(&self) -> bool {
+        self.blend.is_some() || self.advanced.is_some()
+    }
 }
 
 impl Default for ColorTarget {
@@ -110,6 +148,7 @@ impl Default for ColorTarget {
     fn default() -> Self {
         Self {
             blend: None,
+            advanced: None,
             write_mask: 0b1111,
         }
     }

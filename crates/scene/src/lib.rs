@@ -16,6 +16,7 @@ mod invariance;
 mod mesh;
 mod mesh_source;
 mod on_path;
+mod overlap;
 mod pass;
 mod path;
 mod provoking;
@@ -28,7 +29,8 @@ mod tessellation;
 
 pub use attachment::{Attachment, Contents};
 pub use blend::{
-    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, LogicOperation,
+    AdvancedBlend, BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget,
+    LogicOperation,
 };
 pub use call::Call;
 pub use depth_stencil::{

@@ -4,6 +4,7 @@ use crate::blend::{BlendFactor, BlendOperation};
 use crate::depth_stencil::StencilFace;
 use crate::draw::Draw;
 use crate::early_tests::EarlyTests;
+use crate::overlap::may_overlap;
 use crate::pass::{DepthStencilResolve, Pass, ResolveMode};
 use crate::provoking::ProvokingVertex;
 use crate::rasterization::{CullMode, PolygonMode, PrimitiveTopology};
@@ -62,7 +63,7 @@ impl Scene {
             for draw in &pass.draws {
                 needed.extend(features(draw, size).into_iter().map(Requirement::Feature));
                 for (target, index) in draw.targets.iter().zip(&pass.color) {
-                    if target.blend.is_some() {
+                    if target.blends() {
                         needed.insert(Requirement::Blending(self.attachments[*index].format));
                     }
                 }
@@ -186,6 +187,18 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
         Feature::SampleCoverage,
     );
     need(draw.shader.has_second_source(), Feature::DualSourceBlending);
+    let masks = draw.shader.writes_mask();
+    need(masks, Feature::SampleMaskOutput);
+    need(
+        masks && draw.multisample.alpha_to_coverage,
+        Feature::SampleMaskOutputWithAlphaToCoverage,
+    );
+    let shaderless = !draw.shader.has_fragment();
+    need(shaderless, Feature::FragmentShaderAbsent);
+    need(
+        shaderless && !draw.targets.is_empty(),
+        Feature::FragmentShaderAbsentWithColor,
+    );
     need(
         draw.targets.windows(2).any(|pair| pair[0] != pair[1]),
         Feature::IndependentBlend,
@@ -196,6 +209,10 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
             key(&stencil.front) != key(&stencil.back),
             Feature::SeparateStencilMasks,
         );
+    }
+    if draw.targets.iter().any(|t| t.advanced.is_some()) {
+        need(true, Feature::AdvancedBlend);
+        need(may_overlap(draw), Feature::AdvancedBlendCoherent);
     }
     for blend in draw.targets.iter().filter_map(|t| t.blend) {
         let constant_alpha = [

@@ -13,6 +13,8 @@ use std::borrow::Cow;
 struct Facts {
     /// The WGSL text.
     wgsl: &'static str,
+    /// False if it is a vertex shader alone.
+    fragment: bool,
     /// True if it reads the parameter block.
     params: bool,
     /// True if nothing but a position leaves its vertex shader.
@@ -31,6 +33,8 @@ struct Facts {
     integers: bool,
     /// True if it writes a second source for blending.
     second_source: bool,
+    /// True if it writes a sample mask.
+    mask: bool,
     /// The depth that it writes.
     depth: Depth,
     /// True if it may discard fragments.
@@ -62,6 +66,7 @@ impl Facts {
     /// A shader that reads no more than vertex attributes and writes one colour.
     const PLAIN: Self = Self {
         wgsl: "",
+        fragment: true,
         params: false,
         position_only: false,
         uv: false,
@@ -71,6 +76,7 @@ impl Facts {
         outputs: 1,
         integers: false,
         second_source: false,
+        mask: false,
         depth: Depth::Fixed,
         discards: false,
         clip_distances: 0,
@@ -106,7 +112,7 @@ impl Shader {
         &FACTS[self as usize]
     }
 
-    /// The WGSL text: a vertex entry point `vs` and a fragment entry point `fs`. Vertex inputs are
+    /// The WGSL text: a vertex entry point `vs` and, unless it is a vertex shader alone, a fragment entry point `fs`. Vertex inputs are
     /// location 0 position, 1 colour, 2 uv; group 0 holds the parameters at binding 0, textures at
     /// bindings 1 and 2, the counter of runs at binding 3 and a sampler at binding 4.
     pub fn wgsl(self) -> &'static str {
@@ -143,6 +149,16 @@ impl Shader {
     /// True if the depth that the shader writes is the vertex colour's red.
     pub fn depth_from_vertex_color(self) -> bool {
         self.facts().depth == Depth::VertexRed
+    }
+
+    /// True if the shader writes a sample mask: the red of texture 0.
+    pub fn writes_mask(self) -> bool {
+        self.facts().mask
+    }
+
+    /// True if there is a fragment shader; otherwise a vertex shader alone.
+    pub fn has_fragment(self) -> bool {
+        self.facts().fragment
     }
 
     /// True if the shader may discard fragments.
@@ -266,6 +282,16 @@ shaders! {
     /// The vertex colour; writes as depth the binary logarithm of the distance, 1 over the first
     /// texture coordinate, over `params.color`'s red, times its blue.
     LogarithmicDepth = "logarithmic_depth" { params: true, uv: true, depth: Depth::Computed },
+    /// `params.color` with the alpha of the texel of texture 0 under the fragment; writes the texel's red as
+    /// sample mask.
+    MaskedColor = "masked_color" { params: true, textures: 1, mask: true },
+    /// As `masked_color`; writes the texel's green as depth.
+    MaskedDepth = "masked_depth" { params: true, textures: 1, mask: true, depth: Depth::Computed },
+    /// As `masked_color`; discards where the texel's blue is below `params.color`'s.
+    MaskedDiscard = "masked_discard" { params: true, textures: 1, discards: true, mask: true },
+    /// As `sample_index`; writes the red of the texel of texture 0 under the fragment as sample mask, with
+    /// all bits but the sample's own turned. Runs once per sample.
+    MaskedSample = "masked_sample" { textures: 1, mask: true, per_sample: true },
     /// One step of depth peeling: the vertex colour and, to location 1, the depth of fragments behind
     /// the depth in texture 0; discards all others.
     Peel = "peel" { textures: 1, outputs: 2, discards: true, reads_depth: true },
@@ -295,6 +321,8 @@ shaders! {
     UintColor = "uint_color" { params: true, integers: true, position_only: true },
     /// `params.color`.
     UniformColor = "uniform_color" { params: true, position_only: true },
+    /// No fragment shader, and so no colour.
+    VertexOnly = "vertex_only" { fragment: false, outputs: 0 },
     /// Weighted blended transparency: weighted colour to location 0, alpha to location 1.
     WeightedAccumulate = "weighted_accumulate" { outputs: 2, reads_depth: true },
     /// Weighted blended transparency: the mean of texture 0's sums, and texture 1's red as alpha.
@@ -326,6 +354,8 @@ mod tests {
             assert_eq!(shader.samples_texture(), has("@binding(4)"), "{name}");
             assert_eq!(shader.writes_depth(), has("@builtin(frag_depth)"), "{name}");
             assert_eq!(shader.discards(), has("discard;"), "{name}");
+            assert_eq!(shader.writes_mask(), has("@builtin(sample_mask)"), "{name}");
+            assert_eq!(shader.has_fragment(), has("@fragment"), "{name}");
             assert_eq!(shader.has_second_source(), has("@blend_src(1)"), "{name}");
             let distances = format!("distances: array<f32, {}>,", shader.clip_distances());
             let clips = has("@builtin(clip_distances)");

@@ -38,8 +38,14 @@ pub(crate) struct Device {
     pub(crate) second_viewport: bool,
     /// The functions of extended dynamic state 3, if the device has all of it that the suite sets.
     pub(crate) extended: Option<ash::ext::extended_dynamic_state3::Device>,
+    /// The function behind dynamic logic operations, where the device has them.
+    pub(crate) dynamic_logic: Option<ash::ext::extended_dynamic_state2::Device>,
+    /// True if logic operations can be enabled between draws.
+    pub(crate) logic_enable: bool,
     /// The provoking vertices that the device has besides the first.
     pub(crate) provoking: Provoking,
+    /// Advanced blending: true if it is coherent; `None` if the device lacks it.
+    pub(crate) advanced_blend: Option<bool>,
     /// Valid bits of a timestamp; 0 if timestamps are not supported.
     pub(crate) timestamp_bits: u32,
 }
@@ -179,6 +185,45 @@ fn has_extended(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
     // SAFETY: the chained structure is of an extension that the device has.
     unsafe { api.get_physical_device_features2(physical, &mut both) };
     has_all(&offered)
+}
+
+/// True if logic operations can be dynamic.
+fn has_dynamic_logic(
+    api: &ash::Instance,
+    physical: vk::PhysicalDevice,
+    features: &vk::PhysicalDeviceFeatures,
+) -> bool {
+    if features.logic_op == vk::FALSE
+        || !has_extension(api, physical, ash::ext::extended_dynamic_state2::NAME)
+    {
+        return false;
+    }
+    let mut offered = vk::PhysicalDeviceExtendedDynamicState2FeaturesEXT::default();
+    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    // SAFETY: the chained structure is of an extension that the device has.
+    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    offered.extended_dynamic_state2_logic_op != vk::FALSE
+}
+
+/// True if a device with extended dynamic state 3 can enable logic operations between draws.
+fn has_dynamic_logic_enable(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
+    let mut offered = vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT::default();
+    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    // SAFETY: the chained structure is of an extension that the device has.
+    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    offered.extended_dynamic_state3_logic_op_enable != vk::FALSE
+}
+
+/// Returns whether a device's advanced blending is coherent; `None` if it has none.
+fn advanced_blend(api: &ash::Instance, physical: vk::PhysicalDevice) -> Option<bool> {
+    if !has_extension(api, physical, ash::ext::blend_operation_advanced::NAME) {
+        return None;
+    }
+    let mut offered = vk::PhysicalDeviceBlendOperationAdvancedFeaturesEXT::default();
+    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    // SAFETY: the chained structure is of an extension that the device has.
+    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    Some(offered.advanced_blend_coherent_operations != vk::FALSE)
 }
 
 /// Returns the promises of maintenance5, where the device has it.
@@ -329,16 +374,27 @@ impl Device {
             && properties.limits.max_viewports > 1
             && has_extension(api, physical, ash::ext::shader_viewport_index_layer::NAME);
         let extended = has_extended(api, physical);
+        let dynamic_logic = has_dynamic_logic(api, physical, &enabled);
+        let logic_enable = dynamic_logic && extended && has_dynamic_logic_enable(api, physical);
         let provoking = Provoking::of(api, physical);
+        let advanced_blend = advanced_blend(api, physical);
         let extensions: Vec<_> = [
+            (
+                advanced_blend.is_some(),
+                ash::ext::blend_operation_advanced::NAME,
+            ),
             (provoking.last, ash::ext::provoking_vertex::NAME),
+            (dynamic_logic, ash::ext::extended_dynamic_state2::NAME),
             (second_viewport, ash::ext::shader_viewport_index_layer::NAME),
             (extended, ash::ext::extended_dynamic_state3::NAME),
         ]
         .into_iter()
         .filter_map(|(used, name)| used.then_some(name.as_ptr()))
         .collect();
-        let mut enabled_extended = extended_features(extended);
+        let mut enabled_extended =
+            extended_features(extended).extended_dynamic_state3_logic_op_enable(logic_enable);
+        let mut enabled_logic = vk::PhysicalDeviceExtendedDynamicState2FeaturesEXT::default()
+            .extended_dynamic_state2_logic_op(true);
         // Both are mandatory in Vulkan 1.3.
         let mut enabled13 = vk::PhysicalDeviceVulkan13Features::default()
             .dynamic_rendering(true)
@@ -355,6 +411,14 @@ impl Device {
         }
         if extended {
             info = info.push_next(&mut enabled_extended);
+        }
+        if dynamic_logic {
+            info = info.push_next(&mut enabled_logic);
+        }
+        let mut coherent = vk::PhysicalDeviceBlendOperationAdvancedFeaturesEXT::default()
+            .advanced_blend_coherent_operations(true);
+        if advanced_blend == Some(true) {
+            info = info.push_next(&mut coherent);
         }
         // SAFETY: every pointer in `info` outlives the call.
         let raw = unsafe { api.create_device(physical, &info, None) }.map_err(|code| {
@@ -383,6 +447,10 @@ impl Device {
             second_viewport,
             provoking,
             extended: extended.then(|| ash::ext::extended_dynamic_state3::Device::new(api, &raw)),
+            dynamic_logic: dynamic_logic
+                .then(|| ash::ext::extended_dynamic_state2::Device::new(api, &raw)),
+            logic_enable,
+            advanced_blend,
             timestamp_bits: if properties.limits.timestamp_period > 0.0 {
                 family.timestamp_valid_bits
             } else {

@@ -7,7 +7,7 @@
 use crate::clear::intersection;
 use crate::device::Device;
 use crate::error::internal;
-use crate::extended;
+use crate::extended::Further;
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
@@ -44,8 +44,7 @@ const STATES: [vk::DynamicState; 18] = [
 pub(crate) struct Setting {
     /// True if all of it is in the pipeline.
     pub(crate) fixed: bool,
-    /// True if [`extended::STATES`] are dynamic too.
-    pub(crate) extended: bool,
+    pub(crate) further: Further,
     pub(crate) viewport: PathViewport,
 }
 
@@ -61,12 +60,7 @@ impl Setting {
             (_, false) => &[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR],
         };
         let rest: &[_] = if self.fixed { &[] } else { &STATES };
-        let extended: &[_] = match (self.extended, colored) {
-            (false, _) => &[],
-            (true, false) => &extended::STATES[..extended::COLORLESS],
-            (true, true) => &extended::STATES,
-        };
-        [viewports, rest, extended].concat()
+        [viewports, rest, &self.further.states(colored)].concat()
     }
 }
 

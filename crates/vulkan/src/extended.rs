@@ -1,12 +1,12 @@
-//! Extended dynamic state 3: what else of a pipeline is set for each draw, where the path asks for it.
+//! Extended dynamic state 2 and 3: what else of a pipeline is set for each draw, where the path asks for it.
 
 use crate::device::Device;
 use crate::state;
 use ash::vk;
-use etalon_scene::{ColorTarget, Draw, Multisample, PolygonMode};
+use etalon_scene::{ColorTarget, Draw, LogicOperation, Multisample, PolygonMode};
 
 /// The further dynamic states.
-pub(crate) const STATES: [vk::DynamicState; 7] = [
+const STATES: [vk::DynamicState; 7] = [
     vk::DynamicState::POLYGON_MODE_EXT,
     vk::DynamicState::DEPTH_CLAMP_ENABLE_EXT,
     vk::DynamicState::SAMPLE_MASK_EXT,
@@ -17,12 +17,86 @@ pub(crate) const STATES: [vk::DynamicState; 7] = [
 ];
 
 /// The number of [`STATES`] that a pass without colour attachments has.
-pub(crate) const COLORLESS: usize = 4;
+const COLORLESS: usize = 4;
+
+/// The dynamic part of logic operations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum DynamicLogic {
+    /// Nothing.
+    Nothing,
+    /// The operation.
+    Operation,
+    /// The operation, and whether it is on.
+    All,
+}
+
+impl DynamicLogic {
+    /// Returns the dynamic states.
+    pub(crate) fn states(self) -> &'static [vk::DynamicState] {
+        const ALL: [vk::DynamicState; 2] = [
+            vk::DynamicState::LOGIC_OP_EXT,
+            vk::DynamicState::LOGIC_OP_ENABLE_EXT,
+        ];
+        match self {
+            Self::Nothing => &[],
+            Self::Operation => &ALL[..1],
+            Self::All => &ALL,
+        }
+    }
+}
+
+/// The states beyond Vulkan 1.3's that are dynamic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Further {
+    /// True if all of [`STATES`] are.
+    pub(crate) extended: bool,
+    pub(crate) logic: DynamicLogic,
+}
+
+impl Further {
+    /// True if any is.
+    pub(crate) fn any(self) -> bool {
+        self.extended || self.logic != DynamicLogic::Nothing
+    }
+
+    /// Returns the dynamic states of a pipeline with colour attachments, or without.
+    pub(crate) fn states(self, colored: bool) -> Vec<vk::DynamicState> {
+        let extended: &[_] = match (self.extended, colored) {
+            (false, _) => &[],
+            (true, false) => &STATES[..COLORLESS],
+            (true, true) => &STATES,
+        };
+        let logic = match colored {
+            true => self.logic.states(),
+            false => &[],
+        };
+        [extended, logic].concat()
+    }
+}
+
+/// The logic operation of pipelines whose own must not act.
+const HELD: LogicOperation = LogicOperation::Equivalent;
+
+/// Returns a draw whose pipeline holds other values of the further dynamic states, which must not act.
+/// Draws of all logic operations share a pipeline.
+pub(crate) fn held_by(further: Further, draw: &Draw) -> Draw {
+    let logic = match further.logic {
+        DynamicLogic::All if !draw.targets.is_empty() => Some(HELD),
+        DynamicLogic::Operation => draw.logic.map(|_| HELD),
+        DynamicLogic::All | DynamicLogic::Nothing => draw.logic,
+    };
+    let rest = match further.extended {
+        true => held(draw),
+        false => draw.clone(),
+    };
+    Draw { logic, ..rest }
+}
 
 /// Returns a draw whose pipeline holds other values of [`STATES`], which must not act.
 pub(crate) fn held(draw: &Draw) -> Draw {
     let opposite = |target: &ColorTarget| ColorTarget {
         blend: None,
+        advanced: None,
         write_mask: !target.write_mask & 0b1111,
     };
     Draw {
@@ -38,8 +112,10 @@ pub(crate) fn held(draw: &Draw) -> Draw {
     }
 }
 
-/// The values of [`STATES`] of one draw.
+/// The values of the further dynamic states of one draw.
 pub(crate) struct Extended {
+    further: Further,
+    logic: Option<LogicOperation>,
     polygon_mode: PolygonMode,
     depth_clamp: bool,
     samples: u32,
@@ -49,8 +125,10 @@ pub(crate) struct Extended {
 }
 
 impl Extended {
-    pub(crate) fn new(draw: &Draw, samples: u32) -> Self {
+    pub(crate) fn new(draw: &Draw, samples: u32, further: Further) -> Self {
         Self {
+            further,
+            logic: draw.logic,
             polygon_mode: draw.polygon_mode,
             depth_clamp: draw.depth_clamp,
             samples,
@@ -60,14 +138,27 @@ impl Extended {
         }
     }
 
-    /// Records all of [`STATES`].
+    /// Records all further dynamic states.
     ///
     /// # Safety
     /// `commands` is recording.
     pub(crate) unsafe fn set(&self, device: &Device, commands: vk::CommandBuffer) {
-        let Some(api) = &device.extended else {
+        let colored = !self.targets.is_empty();
+        if let (Some(api), true) = (&device.dynamic_logic, colored)
+            && self.further.logic != DynamicLogic::Nothing
+        {
+            // One that is off would be seen.
+            let operation = self.logic.unwrap_or(LogicOperation::Invert);
+            // SAFETY: the caller's; the feature is enabled wherever the function is loaded.
+            unsafe { api.cmd_set_logic_op(commands, state::logic(operation)) };
+        }
+        let Some(api) = device.extended.as_ref().filter(|_| self.further.extended) else {
             return;
         };
+        if colored && self.further.logic == DynamicLogic::All {
+            // SAFETY: as above.
+            unsafe { api.cmd_set_logic_op_enable(commands, self.logic.is_some()) };
+        }
         let all = || self.targets.iter();
         let enables: Vec<_> = all().map(|t| t.blend_enable).collect();
         let masks: Vec<_> = all().map(|t| t.color_write_mask).collect();
@@ -93,5 +184,37 @@ impl Extended {
                 api.cmd_set_color_write_mask(commands, 0, &masks);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_scene::{Mesh, Shader, Viewport};
+
+    #[test]
+    fn draws_of_all_logic_operations_share_a_pipeline_that_holds_another() {
+        let draw = |logic| {
+            let mesh = Mesh {
+                vertices: Vec::new(),
+                indices: None,
+            };
+            Draw {
+                logic,
+                ..Draw::new(Shader::FlatColor, mesh, Viewport::whole([4, 4]))
+            }
+        };
+        let held = |logic: DynamicLogic, extended, own| {
+            held_by(Further { extended, logic }, &draw(own)).logic
+        };
+        let (xor, nor) = (Some(LogicOperation::Xor), Some(LogicOperation::Nor));
+        for own in [xor, nor] {
+            assert_eq!(held(DynamicLogic::Nothing, false, own), own);
+            assert_eq!(held(DynamicLogic::Operation, false, own), Some(HELD));
+            assert_eq!(held(DynamicLogic::All, true, own), Some(HELD));
+        }
+        // Off is no operation: that it is on or off is dynamic only where all is.
+        assert_eq!(held(DynamicLogic::Operation, false, None), None);
+        assert_eq!(held(DynamicLogic::All, true, None), Some(HELD));
     }
 }

@@ -73,6 +73,8 @@ fn has(device: &Device, feature: Feature) -> bool {
     let stencil = |mode| vk::Bool32::from(resolves.stencil.contains(mode));
     let first = vk::ResolveModeFlags::SAMPLE_ZERO;
     let flag = match feature {
+        Feature::AdvancedBlend => device.advanced_blend.is_some().into(),
+        Feature::AdvancedBlendCoherent => device.advanced_blend.unwrap_or(false).into(),
         Feature::AlphaToOne => features.alpha_to_one,
         // Every device with the feature has 8 of them (Required Limits, maxClipDistances).
         Feature::ClipDistances => features.shader_clip_distance,
@@ -111,11 +113,15 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::FirstInstance
         | Feature::FirstProvokingVertex
         | Feature::ForcedEarlyTests
+        | Feature::FragmentShaderAbsent
+        | Feature::FragmentShaderAbsentWithColor
         | Feature::FrontAndBackCulling
         | Feature::MinMaxBlendFactors
         | Feature::MirroredViewport
         | Feature::RasterizerDiscard
         | Feature::ReversedDepthRange
+        | Feature::SampleMaskOutput
+        | Feature::SampleMaskOutputWithAlphaToCoverage
         | Feature::ScissorOutside
         | Feature::SeparateStencilMasks
         | Feature::TriangleFans

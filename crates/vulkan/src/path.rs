@@ -4,7 +4,7 @@
 //! Everything else asks the functions here and not the path. A new value is a new answer of one of them.
 
 use crate::device::Device;
-use crate::extended;
+use crate::extended::{self, DynamicLogic, Further};
 use crate::format::{self, Native};
 use crate::image::ImageKey;
 use crate::samples;
@@ -21,6 +21,7 @@ use std::collections::BTreeSet;
 pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
     let has = |value: &PathValue| match *value {
         PathValue::State(PathState::ExtendedDynamic3) => device.extended.is_some(),
+        PathValue::State(PathState::DynamicLogic) => device.dynamic_logic.is_some(),
         PathValue::Viewport(PathViewport::Array) => device.second_viewport,
         PathValue::End(PathEnd::ShaderRead) => device.compute,
         // Only OpenGL has them.
@@ -28,6 +29,17 @@ pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
         _ => true,
     };
     PathValue::all().into_iter().filter(has).collect()
+}
+
+/// Returns the states beyond Vulkan 1.3's that are dynamic where state is set in a way.
+pub(crate) fn further(device: &Device, state: PathState) -> Further {
+    let extended = state == PathState::ExtendedDynamic3;
+    let logic = match state {
+        PathState::DynamicLogic => DynamicLogic::Operation,
+        _ if extended && device.logic_enable => DynamicLogic::All,
+        _ => DynamicLogic::Nothing,
+    };
+    Further { extended, logic }
 }
 
 /// Returns the part of a texture that an attachment is. What an attachment cannot be is left plain: several

@@ -228,10 +228,10 @@ impl Pipelines {
                 .module(module.raw)
                 .name(name)
         };
-        let mut stages = vec![
-            stage(vk::ShaderStageFlags::VERTEX, c"vs"),
-            stage(vk::ShaderStageFlags::FRAGMENT, c"fs"),
-        ];
+        let mut stages = vec![stage(vk::ShaderStageFlags::VERTEX, c"vs")];
+        if draw.shader.has_fragment() {
+            stages.push(stage(vk::ShaderStageFlags::FRAGMENT, c"fs"));
+        }
         if let Some(tessellation) = draw.tessellation {
             stages.extend(self.tessellation.get(device, tessellation)?);
         }

@@ -20,7 +20,7 @@ use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{PathEnd, PathTarget, Requirement};
-use etalon_scene::{Attachment, ClearTarget, Contents, Pass, Scene};
+use etalon_scene::{Attachment, ClearTarget, Contents, Draw, Pass, Scene};
 use std::rc::Rc;
 
 /// The plan of a scene.
@@ -76,11 +76,18 @@ pub(crate) enum Role {
     Idle,
 }
 
+/// True if a draw has an advanced blend.
+pub(crate) fn is_advanced(draw: &Draw) -> bool {
+    draw.targets.iter().any(|t| t.advanced.is_some())
+}
+
 /// The plan of a pass.
 pub(crate) struct PassPlan {
     pub(crate) size: [u32; 2],
     pub(crate) area: vk::Rect2D,
     pub(crate) targets: Targets,
+    /// True if a draw has an advanced blend.
+    pub(crate) advanced: bool,
     /// The object that the pass is; `None` for dynamic rendering.
     pub(crate) object: Option<RenderPass>,
     /// The attachments that the pass uses, each once, with their roles.
@@ -195,6 +202,7 @@ impl PassPlan {
             size: scene.pass_size(pass),
             area,
             targets,
+            advanced: pass.draws.iter().any(is_advanced),
             object: None,
             roles: roles(pass),
             color: Vec::with_capacity(pass.color.len()),

@@ -3,6 +3,7 @@
 use crate::buffer::{Buffer, BufferUse};
 use crate::counting::Counting;
 use crate::descriptors::Descriptors;
+use crate::device::Device;
 use crate::dynamic::{Dynamic, Setting};
 use crate::error::internal;
 use crate::extended::{self, Extended};
@@ -13,14 +14,17 @@ use crate::inputs::Inputs;
 use crate::path;
 use crate::pipeline::Way;
 use crate::plan::{
-    AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role, copy_key, image_key, targets,
+    AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan, Role, copy_key, image_key,
+    is_advanced, targets,
 };
 use crate::read::ReadPlan;
 use crate::record::{self, Recorder};
 use crate::render_pass::RenderPass;
 use crate::slot::{Needs, Slot};
 use etalon_backend::{BackendError, FrameTime, Prepared};
-use etalon_frame::{Frame, PathCommands, PathEnd, PathPass, PathState};
+use etalon_frame::{
+    Feature, Frame, PathCommands, PathEnd, PathPass, PathState, PathValue, Requirement,
+};
 use etalon_scene::{Contents, Draw, Pass, Scene};
 use std::time::Instant;
 
@@ -157,7 +161,7 @@ impl<'a> PreparedScene<'a> {
 
         let setting = Setting {
             fixed: scene.path.state == PathState::Static,
-            extended: scene.path.state == PathState::ExtendedDynamic3,
+            further: path::further(device, scene.path.state),
             viewport: scene.path.viewport,
         };
         let mut sets = Descriptors::new(input, self.counts.as_ref(), &self.images);
@@ -171,6 +175,7 @@ impl<'a> PreparedScene<'a> {
         });
         for (pass, places, area, whole) in parts {
             let targets = targets(self.gpu, scene, pass)?;
+            check_advanced(device, pass, setting)?;
             let planned = PassPlan::new(scene, pass, &self.images, area, targets.clone())?;
             self.plan.passes.push(planned);
             let Some(planned) = self.plan.passes.last_mut() else {
@@ -197,10 +202,11 @@ impl<'a> PreparedScene<'a> {
                 };
                 let mut get = |draw: &Draw| pipelines.get(device, &targets, draw, way);
                 let extended = setting
-                    .extended
-                    .then(|| Extended::new(draw, targets.samples));
+                    .further
+                    .any()
+                    .then(|| Extended::new(draw, targets.samples, setting.further));
                 let pipeline = match extended {
-                    Some(_) => get(&extended::held(draw))?,
+                    Some(_) => get(&extended::held_by(setting.further, draw))?,
                     None => get(draw)?,
                 };
                 let other = match scene.path.state {
@@ -230,6 +236,25 @@ impl<'a> PreparedScene<'a> {
         }
         Ok(())
     }
+}
+
+/// Refuses advanced blends of what is written in the same pass, if nothing orders the two, and those that
+/// would have to be dynamic.
+fn check_advanced(device: &Device, pass: &Pass, setting: Setting) -> Result<(), BackendError> {
+    let Some(last) = pass.draws.iter().rposition(is_advanced) else {
+        return Ok(());
+    };
+    let written = last > 0 || pass.clears.iter().any(|c| c.before <= last);
+    if written && device.advanced_blend != Some(true) {
+        let needed = Requirement::Feature(Feature::AdvancedBlendCoherent);
+        return Err(BackendError::NotSupported(needed));
+    }
+    if setting.further.extended {
+        // Such a blend is another state than the equation (VUID-VkColorBlendEquationEXT-colorBlendOp-07361).
+        let path = PathValue::State(PathState::ExtendedDynamic3);
+        return Err(BackendError::NotSupported(Requirement::Path(path)));
+    }
+    Ok(())
 }
 
 impl Prepared for PreparedScene<'_> {

@@ -222,6 +222,19 @@ fn between_passes(device: &Device, commands: vk::CommandBuffer) {
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
 }
 
+/// Makes what was written visible to advanced blends, which are not among ordinary reads (Vulkan, Access
+/// Types).
+fn before_advanced(device: &Device, commands: vk::CommandBuffer) {
+    let barriers = [vk::MemoryBarrier2::default()
+        .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+        .src_access_mask(vk::AccessFlags2::MEMORY_WRITE)
+        .dst_stage_mask(vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT)
+        .dst_access_mask(vk::AccessFlags2::COLOR_ATTACHMENT_READ_NONCOHERENT_EXT)];
+    let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+    // SAFETY: recording, outside of a render pass.
+    unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
+}
+
 /// The command buffers of a submission.
 pub(crate) struct Recorder<'a> {
     pub(crate) slot: &'a mut Slot,
@@ -292,6 +305,9 @@ fn pass(
     input: vk::Buffer,
 ) -> Result<(), BackendError> {
     let commands = recorder.slot.commands();
+    if pass.advanced {
+        before_advanced(device, commands);
+    }
     // SAFETY: recording, outside of a pass; the attachments are in the layouts of their roles.
     unsafe {
         match &pass.object {

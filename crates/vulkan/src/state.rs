@@ -2,8 +2,9 @@
 
 use ash::vk;
 use etalon_scene::{
-    BlendComponent, BlendFactor, BlendOperation, ColorTarget, CompareFunction, CullMode, FrontFace,
-    LogicOperation, PolygonMode, PrimitiveTopology, ResolveMode, StencilOperation, Tessellation,
+    AdvancedBlend, BlendComponent, BlendFactor, BlendOperation, ColorTarget, CompareFunction,
+    CullMode, FrontFace, LogicOperation, PolygonMode, PrimitiveTopology, ResolveMode,
+    StencilOperation, Tessellation,
 };
 
 pub(crate) fn compare(function: CompareFunction) -> vk::CompareOp {
@@ -149,7 +150,25 @@ pub(crate) fn resolve_mode(mode: ResolveMode) -> vk::ResolveModeFlags {
     }
 }
 
-/// Returns Vulkan's state of a colour attachment.
+/// Returns Vulkan's operation of an advanced mode.
+fn advanced_operation(mode: AdvancedBlend) -> vk::BlendOp {
+    match mode {
+        AdvancedBlend::Multiply => vk::BlendOp::MULTIPLY_EXT,
+        AdvancedBlend::Screen => vk::BlendOp::SCREEN_EXT,
+        AdvancedBlend::Overlay => vk::BlendOp::OVERLAY_EXT,
+        AdvancedBlend::Darken => vk::BlendOp::DARKEN_EXT,
+        AdvancedBlend::Lighten => vk::BlendOp::LIGHTEN_EXT,
+        AdvancedBlend::ColorDodge => vk::BlendOp::COLORDODGE_EXT,
+        AdvancedBlend::ColorBurn => vk::BlendOp::COLORBURN_EXT,
+        AdvancedBlend::HardLight => vk::BlendOp::HARDLIGHT_EXT,
+        AdvancedBlend::SoftLight => vk::BlendOp::SOFTLIGHT_EXT,
+        AdvancedBlend::Difference => vk::BlendOp::DIFFERENCE_EXT,
+        AdvancedBlend::Exclusion => vk::BlendOp::EXCLUSION_EXT,
+    }
+}
+
+/// Returns Vulkan's state of a colour attachment. Without a structure that says otherwise, an advanced
+/// operation takes premultiplied colours of uncorrelated coverage, as OpenGL's does.
 pub(crate) fn color_target(target: &ColorTarget) -> vk::PipelineColorBlendAttachmentState {
     let mut native = vk::PipelineColorBlendAttachmentState::default()
         .color_write_mask(write_mask(target.write_mask));
@@ -171,6 +190,13 @@ pub(crate) fn color_target(target: &ColorTarget) -> vk::PipelineColorBlendAttach
             .src_alpha_blend_factor(src_alpha)
             .dst_alpha_blend_factor(dst_alpha)
             .alpha_blend_op(alpha_operation);
+    }
+    if let Some(mode) = target.advanced {
+        let operation = advanced_operation(mode);
+        native = native
+            .blend_enable(true)
+            .color_blend_op(operation)
+            .alpha_blend_op(operation);
     }
     native
 }

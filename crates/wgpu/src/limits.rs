@@ -162,7 +162,7 @@ fn support(
     })
 }
 
-/// Returns the features that wgpu offers beyond WebGPU's minimum. It lacks or refuses the rest: clears
+/// Returns the features that wgpu offers beyond WebGPU's minimum. It lacks or refuses the rest: advanced blending, clears
 /// within a pass, resolves of depth and stencil, reversed depth ranges, mirrored viewports, scissors beyond the attachments, tessellation, last provoking vertices, clip distances that are off, factors of `min` and
 /// `max`, counts of samples, sample coverage, least shares of sample shading.
 ///
@@ -197,6 +197,9 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
             Feature::ForcedEarlyTests,
             feature(Features::SHADER_EARLY_DEPTH_TEST),
         ),
+        // A pipeline without targets fits no pass with colour attachments (render pass layouts).
+        (Feature::FragmentShaderAbsent, true),
+        (Feature::FragmentShaderAbsentWithColor, false),
         (
             Feature::FragmentInvocations,
             feature(Features::PIPELINE_STATISTICS_QUERY),
@@ -207,6 +210,9 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
         ),
         // WebGPU has no polygon modes; a native feature of wgpu answers to no text.
         (Feature::PolygonModeLine, false),
+        (Feature::SampleMaskOutput, true),
+        // A pipeline that writes one has alpha to coverage off (GPURenderPipelineDescriptor).
+        (Feature::SampleMaskOutputWithAlphaToCoverage, false),
         (
             Feature::SampleShading,
             flag(DownlevelFlags::MULTISAMPLED_SHADING),

@@ -26,7 +26,12 @@ pub(crate) fn offered(flags: DownlevelFlags, features: &BTreeSet<Feature>) -> BT
         PathValue::State(PathState::Overwritten | PathState::OtherPipeline) => true,
         // Viewports, scissor rectangles, the blend constant and the stencil reference are never part of a
         // pipeline, everything else always is.
-        PathValue::State(PathState::Dynamic | PathState::Static | PathState::ExtendedDynamic3)
+        PathValue::State(
+            PathState::Dynamic
+            | PathState::Static
+            | PathState::ExtendedDynamic3
+            | PathState::DynamicLogic,
+        )
         | PathValue::Start(PathStart::Transfer | PathStart::ClearCommand)
         | PathValue::Pass(_)
         | PathValue::Area(_)
@@ -173,6 +178,7 @@ pub(crate) fn other(draw: &Draw) -> Draw {
             .iter()
             .map(|_| ColorTarget {
                 blend: None,
+                advanced: None,
                 write_mask: 0,
             })
             .collect(),

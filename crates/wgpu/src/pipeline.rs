@@ -87,6 +87,7 @@ impl DrawKey {
             shader = match shader {
                 Shader::FlatColorDepth => Shader::UniformColor,
                 Shader::CountedDepth => Shader::CountedColor,
+                Shader::MaskedDepth => Shader::MaskedColor,
                 Shader::FragCoordDepth => Shader::FlatColor,
                 Shader::ExpensiveDepth => Shader::ExpensiveColor,
                 Shader::LinearDepth | Shader::LogarithmicDepth => Shader::FlatColor,
@@ -214,7 +215,7 @@ impl Pipelines {
                     mask: key.sample_mask.into(),
                     alpha_to_coverage_enabled: key.alpha_to_coverage,
                 },
-                fragment: Some(wgpu::FragmentState {
+                fragment: shader.has_fragment().then_some(wgpu::FragmentState {
                     module: &module,
                     entry_point: Some("fs"),
                     compilation_options: wgpu::PipelineCompilationOptions::default(),
@@ -275,6 +276,10 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::DepthRange
         | Shader::FragCoordColor
         | Shader::FrontFacing
+        | Shader::MaskedColor
+        | Shader::MaskedDepth
+        | Shader::MaskedDiscard
+        | Shader::MaskedSample
         | Shader::SampleDepth
         | Shader::SampleIndex
         | Shader::TexelColor
@@ -283,6 +288,7 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::TexelDualSource
         | Shader::UintColor
         | Shader::UniformColor
+        | Shader::VertexOnly
         | Shader::WeightedResolve => &ALL[..1],
     }
 }

@@ -4,9 +4,10 @@ use super::fetch::{FetchWire, InstancesWire};
 use super::tiles::TilesWire;
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
-    BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests, FrontFace,
-    LogicOperation, MeshSource, Multisample, PassOperations, Path, PolygonMode, PrimitiveTopology,
-    ProvokingVertex, ResolveMode, Sampler, Shader, Splat, StencilOperation, Tessellation, Viewport,
+    AdvancedBlend, BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests,
+    FrontFace, LogicOperation, MeshSource, Multisample, PassOperations, Path, PolygonMode,
+    PrimitiveTopology, ProvokingVertex, ResolveMode, Sampler, Shader, Splat, StencilOperation,
+    Tessellation, Viewport,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -250,6 +251,8 @@ pub(crate) struct DrawWire {
     pub(crate) stencil: Option<StencilWire>,
     /// Blending; without it, off.
     pub(crate) blend: Option<BlendState>,
+    /// Advanced blending instead, to the only colour attachment; without it, off.
+    pub(crate) advanced_blend: Option<AdvancedBlend>,
     /// Written channels, as letters of `rgba`.
     #[serde(default = "all_channels")]
     pub(crate) write_mask: String,

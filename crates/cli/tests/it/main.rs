@@ -8,6 +8,7 @@ mod ci_files;
 mod circles;
 mod commands;
 mod diff;
+mod driver_releases;
 mod etalon;
 mod expectations;
 mod findings;

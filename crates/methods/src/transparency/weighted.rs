@@ -22,7 +22,7 @@ pub(super) fn weighted_blended(glass: &Glass, polygons: &[Polygon]) -> Scene {
     ]
     .map(|component| ColorTarget {
         blend: both(component),
-        write_mask: 0b1111,
+        ..ColorTarget::default()
     })
     .to_vec();
     let draws = opaque_depth(glass, Shader::WeightedAccumulate)

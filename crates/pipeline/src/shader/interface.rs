@@ -1,4 +1,4 @@
-//! The interface of fragment shaders: inputs, outputs, and the condition to discard.
+//! The interface of fragment shaders: inputs, outputs, the condition to discard, and the sample mask.
 
 use etalon_scene::Params;
 
@@ -37,6 +37,8 @@ pub struct FragmentOutput<R> {
     pub depth: Option<R>,
     /// The condition that keeps the fragment, where the shader may discard.
     pub kept: Option<Kept<R>>,
+    /// The sample mask, where the shader writes one.
+    pub mask: Option<SampleMask<R>>,
 }
 
 impl<R: Copy> FragmentOutput<R> {
@@ -48,6 +50,7 @@ impl<R: Copy> FragmentOutput<R> {
             second: None,
             depth: None,
             kept: None,
+            mask: None,
         }
     }
 
@@ -89,6 +92,34 @@ impl<R> Kept<R> {
             value,
             limit,
             strict: true,
+        }
+    }
+}
+
+/// The sample mask that a shader writes.
+#[derive(Clone, Copy, Debug)]
+pub struct SampleMask<R> {
+    /// The bits, as a whole number.
+    pub bits: R,
+    /// The sample whose bit stays where all others are turned; `None` where none is.
+    pub turned_but: Option<u32>,
+}
+
+impl<R> SampleMask<R> {
+    /// Returns a mask of these bits.
+    pub fn of(bits: R) -> Self {
+        Self {
+            bits,
+            turned_but: None,
+        }
+    }
+
+    /// Returns the mask as it is written, given its bits.
+    #[inline(always)]
+    pub fn written(&self, bits: u32) -> u32 {
+        match self.turned_but {
+            None => bits,
+            Some(own) => !bits ^ (1 << own),
         }
     }
 }

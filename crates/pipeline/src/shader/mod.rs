@@ -26,6 +26,10 @@ mod front_facing;
 mod interface;
 mod linear_depth;
 mod logarithmic_depth;
+mod masked_color;
+mod masked_depth;
+mod masked_discard;
+mod masked_sample;
 mod peel;
 mod sample_depth;
 mod sample_index;
@@ -38,11 +42,12 @@ mod texel_discard;
 mod texel_dual_source;
 mod uint_color;
 mod uniform_color;
+mod vertex_only;
 mod weighted_accumulate;
 mod weighted_resolve;
 
 pub use expensive_color::cost;
-pub use interface::{FragmentInput, FragmentOutput, Kept};
+pub use interface::{FragmentInput, FragmentOutput, Kept, SampleMask};
 
 use crate::arithmetic::Arithmetic;
 use etalon_scene::{Shader, Vertex};
@@ -77,6 +82,10 @@ pub fn fragment<A: Arithmetic>(
         Shader::FrontFacing => front_facing::fragment(a, input),
         Shader::LinearDepth => linear_depth::fragment(a, input),
         Shader::LogarithmicDepth => logarithmic_depth::fragment(a, input),
+        Shader::MaskedColor => masked_color::fragment(a, input),
+        Shader::MaskedDepth => masked_depth::fragment(a, input),
+        Shader::MaskedDiscard => masked_discard::fragment(a, input),
+        Shader::MaskedSample => masked_sample::fragment(a, input),
         Shader::Peel => peel::fragment(a, input),
         Shader::SampleDepth => sample_depth::fragment(a, input),
         Shader::SampleIndex => sample_index::fragment(a, input),
@@ -89,6 +98,7 @@ pub fn fragment<A: Arithmetic>(
         Shader::TexelDualSource => texel_dual_source::fragment::<A>(input),
         Shader::UintColor => uint_color::fragment(a, input),
         Shader::UniformColor => uniform_color::fragment(a, input),
+        Shader::VertexOnly => vertex_only::fragment(a),
         Shader::WeightedAccumulate => weighted_accumulate::fragment(a, input),
         Shader::WeightedResolve => weighted_resolve::fragment(a, input),
     }

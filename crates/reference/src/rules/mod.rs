@@ -17,8 +17,8 @@ mod yardstick;
 
 pub use permission::{
     AlphaToCoverage, AskedValues, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange,
-    EarlyUpdates, FactorClamp, FragCoord, Permission, Resolve, Rounding, Rules, SameDepth,
-    SamplesCounted, SharedEdge, SignedClamp, Snap, SrgbLogic,
+    EarlyUpdates, FactorClamp, FragCoord, MaskOfOne, Permission, Resolve, Rounding, Rules,
+    SameDepth, SamplesCounted, SharedEdge, SignedClamp, Snap, SrgbLogic,
 };
 
 use etalon_frame::{Api, Limits};

@@ -2,8 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, FragCoord, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted,
-    SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
+    FactorClamp, FragCoord, MaskOfOne, Permission, Resolve, Rounding, Rules, SameDepth,
+    SamplesCounted, SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits};
 
@@ -113,6 +113,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.5: 2.3.5.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
                 "OpenGL 4.6: 2.3.5.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
             ]),
+        ),
+        advanced_blend: permit(
+            BlendPrecision::DestinationCodes,
+            "OpenGL with KHR_blend_equation_advanced: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
         ),
         blend: permit(
             BlendPrecision::DestinationCodes,
@@ -250,6 +254,34 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
                 "OpenGL 4.5: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
                 "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
+            ]),
+        ),
+        early_mask: permit(
+            EarlyUpdates::Either,
+            text.cite([
+                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for samples discarded afterwards",
+                "OpenGL 4.5: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for samples discarded afterwards",
+                "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for samples discarded afterwards",
+            ]),
+        ),
+        mask_of_one: narrowed(
+            MaskOfOne::Ignored,
+            MaskOfOne::Either,
+            Grade::RequiredByCts,
+            text.cite([
+                "OpenGL 3.3 with GL_ARB_sample_shading: Multisample Fragment Operations: skipped where SAMPLE_BUFFERS is not one; GLSL: coverage becomes the AND; dEQP-GL45-ES31.functional.shaders.sample_variables.sample_mask.*.singlesample_* demands that nothing is lost",
+                "OpenGL 4.5: 14.9.3 Multisample Fragment Operations, with the mask that a shader writes, is skipped where SAMPLE_BUFFERS is not one; GLSL 4.50 7.1: coverage becomes the AND; dEQP-GL45-ES31.functional.shaders.sample_variables.sample_mask.*.singlesample_* demands that nothing is lost",
+                "OpenGL 4.6: 14.9.3 Multisample Fragment Operations, with the mask that a shader writes, is skipped where SAMPLE_BUFFERS is not one; GLSL 4.60 7.1.5: coverage becomes the AND; dEQP-GL45-ES31.functional.shaders.sample_variables.sample_mask.*.singlesample_* demands that nothing is lost",
+            ]),
+        ),
+        goes_on_unshaded: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            text.cite([
+                "OpenGL 3.3: 3.9 Fragment Shaders: without a fragment shader the results of its execution are undefined, read as those that a shader would write: colours, not the depth that rasterization made",
+                "OpenGL 4.5: chapter 15: without a fragment shader the results of its execution are undefined, read as those that a shader would write: 14.9.4 has the tests performed, 15.2.3 with the depth of rasterization",
+                "OpenGL 4.6: chapter 15: without a fragment shader the results of its execution are undefined, read as those that a shader would write: 14.9.4 has the tests performed, 15.2.3 with the depth of rasterization",
             ]),
         ),
         mask_acts_first: permit(

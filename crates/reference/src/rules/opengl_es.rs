@@ -2,8 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, FragCoord, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
-    SignedClamp, Snap, SrgbLogic, narrowed, permit,
+    FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth, SamplesCounted,
+    SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits};
 
@@ -91,6 +91,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.0: 2.1.6.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
                 "OpenGL ES 3.1: 2.3.4.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
                 "OpenGL ES 3.2: 2.3.5.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
+            ]),
+        ),
+        advanced_blend: permit(
+            BlendPrecision::DestinationCodes,
+            text.cite([
+                "OpenGL ES with KHR_blend_equation_advanced: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
+                "OpenGL ES with KHR_blend_equation_advanced: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
+                "OpenGL ES 3.2: 15.1.5.1 Blend Equation: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
             ]),
         ),
         blend: permit(
@@ -192,6 +200,28 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
                 "OpenGL ES 3.2: 13.8.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for fragments discarded afterwards",
             ]),
+        ),
+        early_mask: permit(
+            EarlyUpdates::Either,
+            text.cite([
+                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for samples discarded afterwards",
+                "OpenGL ES 3.1: 13.6.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for samples discarded afterwards",
+                "OpenGL ES 3.2: 13.8.4 The Early Fragment Test Qualifier: depth and stencil may be updated even for samples discarded afterwards",
+            ]),
+        ),
+        mask_of_one: narrowed(
+            MaskOfOne::Ignored,
+            MaskOfOne::Either,
+            Grade::RequiredByCts,
+            text.cite([
+                "OpenGL ES with GL_OES_sample_variables: the fragment's coverage becomes the AND; dEQP-GLES31.functional.shaders.sample_variables.sample_mask.*.singlesample_* demands that nothing is lost",
+                "OpenGL ES with GL_OES_sample_variables: the fragment's coverage becomes the AND; dEQP-GLES31.functional.shaders.sample_variables.sample_mask.*.singlesample_* demands that nothing is lost",
+                "OpenGL ES 3.2: 14.2.3 Shader Outputs, 15.1.8 Additional Multisample Fragment Operations: coverage bits act where SAMPLE_BUFFERS is one; dEQP-GLES31.functional.shaders.sample_variables.sample_mask.*.singlesample_* demands that nothing is lost",
+            ]),
+        ),
+        goes_on_unshaded: permit(
+            false,
+            "OpenGL ES: 7.3 Program Objects (3.0: 2.11.3): a program has a fragment shader, or does not link",
         ),
         mask_acts_first: permit(
             true,

@@ -260,6 +260,17 @@ pub enum Resolve {
     Average,
 }
 
+/// The effect of a sample mask that a shader writes where a texel has one sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MaskOfOne {
+    /// Its first bit decides.
+    Acts,
+    /// None.
+    Ignored,
+    /// Either.
+    Either,
+}
+
 /// Updates of depth, stencil and counters by fragments that pass forced early tests and are then
 /// discarded by the shader or by alpha to coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -374,6 +385,8 @@ rules! {
     store: Rounding,
     /// Blending.
     blend: BlendPrecision,
+    /// Advanced blending, which 16-bit floats are precise enough for.
+    advanced_blend: BlendPrecision,
     /// Clamping of what is blended into signed normalized formats.
     signed_clamp: SignedClamp,
     /// Clamping of what a shader or a blend stores into signed normalized formats.
@@ -405,6 +418,13 @@ rules! {
     early_updates: EarlyUpdates,
     /// Updates of depth and stencil by samples that alpha to coverage removes after forced early tests.
     early_coverage: EarlyUpdates,
+    /// Updates of depth and stencil by samples that the shader's own mask removes after forced early tests.
+    early_mask: EarlyUpdates,
+    /// The sample mask that a shader writes for a single sample.
+    mask_of_one: MaskOfOne,
+    /// True if without a fragment shader fragments go on as they were rasterized; otherwise they may be
+    /// lost or have any depth.
+    goes_on_unshaded: bool,
     /// True if the sample mask excludes samples before forced early tests; otherwise before or after.
     mask_acts_first: bool,
     /// Counting of fragments discarded after forced early tests.

@@ -2,8 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, FragCoord, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
-    SignedClamp, Snap, SrgbLogic, narrowed, permit,
+    FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth, SamplesCounted,
+    SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{Grade, Limits, Property};
 
@@ -65,6 +65,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             Rounding::EitherNeighbour,
             "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized Fixed-Point: one of \
              the two closest values, an integer exactly",
+        ),
+        advanced_blend: permit(
+            BlendPrecision::DestinationCodes,
+            "Vulkan: Blending: advanced operations with precision and dynamic range no lower than the \
+             smaller of the destination's and that of 16-bit floats",
         ),
         blend: permit(
             BlendPrecision::DestinationCodes,
@@ -141,6 +146,23 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         },
         early_coverage: happens(
             "Vulkan: Fragment Operations: with EarlyFragmentTests multisample coverage should follow sample counting, but may precede it",
+        ),
+        early_mask: match coverage_last {
+            true => happens(""),
+            false => narrowed(
+                EarlyUpdates::Happen,
+                EarlyUpdates::Either,
+                Grade::RequiredByCts,
+                "Vulkan: Fragment Operations: with EarlyFragmentTests multisample coverage should follow sample counting, but may precede it; dEQP-VK.fragment_operations.early_fragment.samplemask_early_fragment_tests_depth_samples_* demands the updates",
+            ),
+        },
+        mask_of_one: permit(
+            MaskOfOne::Acts,
+            "Vulkan: Multisample Coverage: the coverage mask is ANDed with SampleMask, whatever the number of samples",
+        ),
+        goes_on_unshaded: permit(
+            true,
+            "Vulkan: Fragment Shading: without a fragment shader none is executed, and the values of colour attachments alone are undefined",
         ),
         mask_acts_first: match mask_first {
             true => permit(

@@ -2,8 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, Copies, DepthOrder, DepthRange, EarlyUpdates,
-    FactorClamp, FragCoord, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
-    SignedClamp, Snap, SrgbLogic, narrowed, permit,
+    FactorClamp, FragCoord, MaskOfOne, Resolve, Rounding, Rules, SameDepth, SamplesCounted,
+    SharedEdge, SignedClamp, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::Grade;
 
@@ -41,6 +41,10 @@ pub(super) fn rules() -> Rules {
             Rounding::EitherNeighbour,
             "WebGPU: silent on the rounding of stores; Vulkan and OpenGL: one of the two closest \
              values, an integer exactly",
+        ),
+        advanced_blend: permit(
+            BlendPrecision::DestinationCodes,
+            "WebGPU: has no advanced blending; Vulkan and OpenGL: no lower than 16-bit floats",
         ),
         blend: permit(
             BlendPrecision::DestinationCodes,
@@ -116,6 +120,18 @@ pub(super) fn rules() -> Rules {
         early_coverage: permit(
             EarlyUpdates::Either,
             "WebGPU: has no forced early tests; OpenGL: depth and stencil may be updated",
+        ),
+        early_mask: permit(
+            EarlyUpdates::Either,
+            "WebGPU: has no forced early tests; OpenGL: depth and stencil may be updated",
+        ),
+        mask_of_one: permit(
+            MaskOfOne::Acts,
+            "WebGPU: 23.2.11 Sample Masking: the final mask is ANDed with the shader's, of which the lower count bits are considered",
+        ),
+        goes_on_unshaded: permit(
+            true,
+            "WebGPU: 23.2.8 No Color Output: depth test and stencil operations use the depth of the vertex position output",
         ),
         mask_acts_first: permit(
             false,

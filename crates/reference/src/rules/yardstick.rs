@@ -38,6 +38,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             Rounding::Within(0.6),
             "Direct3D 11.3: 3.2.3.6 FLOAT to UNORM: 0.6 ULP",
         ),
+        advanced_blend: permit(BlendPrecision::Float32, "Yardstick: in 32-bit floats"),
         blend: permit(
             BlendPrecision::Float32,
             "Direct3D 11.3: 17.5 Blending Precision, held to 32-bit float",
@@ -92,6 +93,12 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             EarlyUpdates::Happen,
             "Yardstick: forced early tests come first, as Direct3D 11.3 has them (17.3)",
         ),
+        early_mask: permit(
+            EarlyUpdates::Happen,
+            "Yardstick: forced early tests come first, as Direct3D 11.3 has them (17.3)",
+        ),
+        mask_of_one: permit(text.mask_of_one.value, "Yardstick: as the API's text says"),
+        goes_on_unshaded: permit(true, "Yardstick: without a shader, as it was rasterized"),
         mask_acts_first: permit(true, "Yardstick: the sample mask comes before all tests"),
         early_counts: permit(
             EarlyUpdates::Happen,

@@ -135,6 +135,69 @@ fn the_cts_wants_early_updates_of_fragments_that_are_discarded() {
     }
 }
 
+/// A draw on a stencil of 5 whose shader writes the mask 13, which excludes sample 1.
+fn masked(early: &str, samples: u32, mask: u32) -> Scene {
+    scene(&format!(
+        r#"{{"attachments":{{"c":{{"format":"rgba8unorm","size":[4,4],"samples":{samples},"clear":[0,0,0,0]}},
+             "s":{{"format":"stencil8","samples":{samples},"clear":5}},
+             "t":{{"format":"rgba32float","texels":{{"kind":"columns","values":
+               [[{mask},0,0,1],[{mask},0,0,1],[{mask},0,0,1],[{mask},0,0,1]]}}}}}},
+            "passes":[{{"color":["c"],"depth_stencil":"s","draws":[{{"mesh":{{"kind":"full"}},"shader":"masked_color",
+              "textures":["t"],"early_tests":"{early}",
+              "stencil":{{"front":{{"compare":"always","pass_op":"increment-clamp"}}}}}}]}}],
+            "read":["s"]}}"#
+    ))
+}
+
+#[test]
+fn the_cts_wants_early_updates_of_samples_that_a_shader_masks() {
+    let scene = masked("forced", 4, 13);
+    let mut vulkan = version(Api::Vulkan, 1, 3);
+    assert_eq!(allowed(&scene, &vulkan, 1, &[6]), ALWAYS);
+    assert_eq!(allowed(&scene, &vulkan, 1, &[5]), BY_CTS);
+    vulkan.properties.insert(Property::CoverageAfterCounting);
+    assert_eq!(allowed(&scene, &vulkan, 1, &[5]), NEVER);
+    for order in [5, 6] {
+        let gl = version(Api::OpenGl, 4, 6);
+        assert_eq!(allowed(&scene, &gl, 1, &[order]), ALWAYS, "{order}");
+    }
+    let late = masked("implicit", 4, 13);
+    for limits in [version(Api::OpenGlEs, 3, 2), limits(Api::WebGpu), vulkan] {
+        assert_eq!(allowed(&late, &limits, 1, &[6]), NEVER);
+        assert_eq!(allowed(&late, &limits, 1, &[5]), ALWAYS);
+        assert_eq!(allowed(&late, &limits, 2, &[5]), NEVER);
+    }
+}
+
+#[test]
+fn the_mask_that_a_shader_writes_acts_on_one_sample_as_each_text_says() {
+    let scene = masked("implicit", 1, 2);
+    for limits in [version(Api::Vulkan, 1, 0), limits(Api::WebGpu)] {
+        assert_eq!(allowed(&scene, &limits, 0, &[5]), ALWAYS);
+        assert_eq!(allowed(&scene, &limits, 0, &[6]), NEVER);
+    }
+    for limits in [version(Api::OpenGl, 4, 6), version(Api::OpenGlEs, 3, 2)] {
+        assert_eq!(allowed(&scene, &limits, 0, &[6]), ALWAYS);
+        assert_eq!(allowed(&scene, &limits, 0, &[5]), BY_CTS);
+    }
+}
+
+#[test]
+fn without_a_fragment_shader_stencil_runs_and_opengl_says_so_by_a_reading_alone() {
+    let scene = scene(
+        r#"{"attachments":{"s":{"format":"stencil8","size":[4,4],"clear":5}},
+            "passes":[{"depth_stencil":"s","draws":[{"mesh":{"kind":"full"},"shader":"vertex_only",
+              "stencil":{"front":{"compare":"always","pass_op":"increment-clamp"}}}]}],"read":["s"]}"#,
+    );
+    for limits in [version(Api::Vulkan, 1, 0), limits(Api::WebGpu)] {
+        assert_eq!(allowed(&scene, &limits, 0, &[6]), ALWAYS);
+        assert_eq!(allowed(&scene, &limits, 0, &[5]), NEVER);
+    }
+    let gl = version(Api::OpenGl, 3, 3);
+    assert_eq!(allowed(&scene, &gl, 0, &[6]), ALWAYS);
+    assert_eq!(allowed(&scene, &gl, 0, &[5]), DISPUTED);
+}
+
 #[test]
 fn webgpu_does_not_say_that_the_stencil_reference_is_masked() {
     let scene = scene(

@@ -1,6 +1,7 @@
 //! Properties of the judge for any input: plain arithmetic lies inside judging arithmetic, the
 //! rasterizer's frames are legal, and wider rules never forbid what tighter ones allow.
 
+mod advanced;
 mod arithmetic;
 mod asked;
 mod common;

@@ -118,6 +118,9 @@ fn pairs(
     if let (Some(p), Some(j)) = (plain.depth, judged.depth) {
         all.push(("depth".to_owned(), j, p));
     }
+    if let (Some(p), Some(j)) = (&plain.mask, &judged.mask) {
+        all.push(("sample mask".to_owned(), j.bits, p.bits));
+    }
     if let (Some(p), Some(j)) = (&plain.kept, &judged.kept) {
         all.push(("kept value".to_owned(), j.value, p.value));
         all.push(("kept limit".to_owned(), j.limit, p.limit));
@@ -147,6 +150,7 @@ proptest! {
                 prop_assert_eq!(plain.others.is_some(), judged.others.is_some());
                 prop_assert_eq!(plain.depth.is_some(), shader.writes_depth());
                 prop_assert_eq!(plain.kept.is_some(), shader.discards());
+                prop_assert_eq!(plain.mask.is_some(), shader.writes_mask());
                 for (what, range, value) in pairs(&plain, &judged) {
                     prop_assert!(
                         holds(range, value),

@@ -1,7 +1,8 @@
 //! Properties of the families that the plain simulation cannot follow: the states that they try.
 
 use etalon_case::{Case, Library, Profile};
-use etalon_scene::{Contents, LogicOperation, PrimitiveTopology, ProvokingVertex};
+use etalon_frame::{ChannelEncoding, Feature, Requirement};
+use etalon_scene::{AdvancedBlend, Contents, LogicOperation, PrimitiveTopology, ProvokingVertex};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The built-in cases below a path, all of them.
@@ -114,6 +115,56 @@ fn every_logic_operation_is_told_from_every_other() {
             assert!(pairs.iter().eq(due.iter().flatten()), "{}", case.id);
         }
     }
+}
+
+#[test]
+fn advanced_blends_meet_premultiplied_colours_of_every_kind() {
+    let cases = all_cases("blend/advanced");
+    let mode = |case: &Case| {
+        let mut draws = case.scene.passes.iter().flat_map(|p| &p.draws);
+        draws.find_map(|d| d.targets[0].advanced)
+    };
+    let modes: BTreeSet<_> = all_cases("blend/advanced/")
+        .iter()
+        .filter_map(mode)
+        .collect();
+    assert_eq!(modes.len(), AdvancedBlend::ALL.len());
+    for case in cases {
+        let mut uploads = 0;
+        for attachment in &case.scene.attachments {
+            let Contents::Texels(codes) = &attachment.contents else {
+                continue;
+            };
+            uploads += 1;
+            let encodings = attachment.format.color_channels();
+            let value =
+                |(code, e): (&u32, &ChannelEncoding)| e.value_of_order(e.order_of_code(*code));
+            let mut alphas = BTreeSet::new();
+            for texel in codes.chunks(encodings.len()) {
+                let color: Vec<f64> = texel.iter().zip(encodings).map(value).collect();
+                let alpha = color.get(3).copied().unwrap_or(1.0);
+                assert!(color.iter().all(|v| *v <= alpha), "{}: {color:?}", case.id);
+                alphas.insert((alpha * 100.0) as u32);
+            }
+            let due: &[u32] = if encodings.len() == 4 {
+                &[0, 100]
+            } else {
+                &[100]
+            };
+            assert!(due.iter().all(|a| alphas.contains(a)), "{}", case.id);
+        }
+        let samples = case.scene.attachments[0].samples;
+        assert!(uploads > 0 || samples > 1, "{}", case.id);
+    }
+}
+
+#[test]
+fn one_case_alone_needs_advanced_blends_that_are_coherent() {
+    let coherent = Requirement::Feature(Feature::AdvancedBlendCoherent);
+    let needs = |case: &Case| case.requirements().contains(&coherent);
+    let cases = all_cases("blend/advanced").into_iter().filter(needs);
+    let ids: Vec<String> = cases.map(|c| c.id).collect();
+    assert_eq!(ids, ["blend/advanced-order/over=primitive"]);
 }
 
 fn target_logic(case: &Case) -> Option<LogicOperation> {

@@ -102,6 +102,7 @@ pub(crate) fn knows(scene: &Scene) -> bool {
                 && draw.scissor.is_none()
                 && draw.early_tests == EarlyTests::Implicit
                 && draw.logic.is_none()
+                && draw.targets.iter().all(|t| t.advanced.is_none())
                 && draw.depth_bounds.is_none()
                 && draw.depth_bias == Default::default()
                 && !draw.rasterizer_discard

@@ -99,7 +99,13 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
         all.face("front", front);
         all.face("back", back);
     }
-    for (i, ColorTarget { blend, write_mask }) in targets.iter().enumerate() {
+    for (i, target) in targets.iter().enumerate() {
+        let ColorTarget {
+            blend,
+            advanced,
+            write_mask,
+        } = target;
+        all.put(&format!("targets.{i}.advanced"), advanced);
         all.put(&format!("targets.{i}.write_mask"), write_mask);
         all.put(&format!("targets.{i}.blend"), &blend.is_some());
         if let Some(BlendState { color, alpha }) = blend {
@@ -160,6 +166,7 @@ pub(super) fn every_state() -> BTreeSet<String> {
                 color: component,
                 alpha: component,
             }),
+            advanced: None,
             write_mask: 15,
         }],
         logic: Some(LogicOperation::Copy),
