@@ -284,14 +284,14 @@ shaders! {
     LogarithmicDepth = "logarithmic_depth" { params: true, uv: true, depth: Depth::Computed },
     /// `params.color` with the alpha of the texel of texture 0 under the fragment; writes the texel's red as
     /// sample mask.
-    MaskedColor = "masked_color" { params: true, textures: 1, mask: true },
+    MaskedColor = "masked_color" { params: true, textures: 1, mask: true, position_only: true },
     /// As `masked_color`; writes the texel's green as depth.
-    MaskedDepth = "masked_depth" { params: true, textures: 1, mask: true, depth: Depth::Computed },
+    MaskedDepth = "masked_depth" { params: true, textures: 1, mask: true, depth: Depth::Computed, position_only: true },
     /// As `masked_color`; discards where the texel's blue is below `params.color`'s.
-    MaskedDiscard = "masked_discard" { params: true, textures: 1, discards: true, mask: true },
+    MaskedDiscard = "masked_discard" { params: true, textures: 1, discards: true, mask: true, position_only: true },
     /// As `sample_index`; writes the red of the texel of texture 0 under the fragment as sample mask, with
     /// all bits but the sample's own turned. Runs once per sample.
-    MaskedSample = "masked_sample" { textures: 1, mask: true, per_sample: true },
+    MaskedSample = "masked_sample" { textures: 1, mask: true, per_sample: true, position_only: true },
     /// One step of depth peeling: the vertex colour and, to location 1, the depth of fragments behind
     /// the depth in texture 0; discards all others.
     Peel = "peel" { textures: 1, outputs: 2, discards: true, reads_depth: true },
@@ -322,7 +322,7 @@ shaders! {
     /// `params.color`.
     UniformColor = "uniform_color" { params: true, position_only: true },
     /// No fragment shader, and so no colour.
-    VertexOnly = "vertex_only" { fragment: false, outputs: 0 },
+    VertexOnly = "vertex_only" { fragment: false, outputs: 0, position_only: true },
     /// Weighted blended transparency: weighted colour to location 0, alpha to location 1.
     WeightedAccumulate = "weighted_accumulate" { outputs: 2, reads_depth: true },
     /// Weighted blended transparency: the mean of texture 0's sums, and texture 1's red as alpha.
