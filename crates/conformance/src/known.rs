@@ -109,7 +109,7 @@ const EVERY_FORMAT: &str = "r8unorm rg8unorm rgba8unorm rgba8unorm-srgb bgra8uno
 
 const VULKAN: Lacks = Lacks {
     features: &[
-        "depth-bounds depth-resolve-max depth-resolve-min independent-resolve \
+        "clip-distance-mask depth-bounds depth-resolve-max depth-resolve-min independent-resolve \
         independent-resolve-none masked-clears sample-coverage stencil-resolve-max stencil-resolve-min",
     ],
     blending: &["rgba8snorm"],
@@ -125,7 +125,7 @@ const RESOLVES: &str = "depth-resolve-average depth-resolve-max depth-resolve-mi
 /// The core profile of llvmpipe and zink. No driver of OpenGL stores blue first. No fetch
 /// tells 24 bits for certain.
 const GL: Lacks = Lacks {
-    features: &["depth-bounds mirrored-viewport", RESOLVES],
+    features: &["depth-bounds mirrored-viewport upper-left-domain", RESOLVES],
     formats: &["bgra8unorm"],
     samples: &["depth24plus depth24plus-stencil8"],
     ..NOTHING
@@ -133,15 +133,16 @@ const GL: Lacks = Lacks {
 const GL_SOFTPIPE: Lacks = Lacks {
     features: &[
         "depth-bias-clamp min-sample-shading mirrored-viewport sample-shading \
-        storage-counters",
+        storage-counters tessellation upper-left-domain",
         RESOLVES,
     ],
     samples: &[EVERY_FORMAT],
     ..GL
 };
 
-const ES_FEATURES: &str = "alpha-to-one conservative-depth depth-bounds fragment-invocations \
-    logic-operations mirrored-viewport polygon-mode-line precise-occlusion";
+const ES_FEATURES: &str = "alpha-to-one conservative-depth depth-bounds first-provoking-vertex \
+    fragment-invocations logic-operations mirrored-viewport mixed-provoking-vertices polygon-mode-line \
+    precise-occlusion upper-left-domain";
 /// OpenGL ES of llvmpipe and zink.
 const ES: Lacks = Lacks {
     features: &[ES_FEATURES, RESOLVES],
@@ -152,16 +153,17 @@ const ES_SOFTPIPE: Lacks = Lacks {
     features: &[
         ES_FEATURES,
         RESOLVES,
-        "depth-bias-clamp independent-blend min-sample-shading sample-shading",
+        "depth-bias-clamp independent-blend min-sample-shading sample-shading tessellation",
     ],
     samples: &[EVERY_FORMAT],
     ..ES
 };
 
-const WGPU_FEATURES: &str = "alpha-to-one clear-commands constant-alpha-blend-factor depth-bounds \
-    front-and-back-culling logic-operations masked-clears min-max-blend-factors min-sample-shading \
-    mirrored-viewport polygon-mode-line precise-occlusion rasterizer-discard reversed-depth-range \
-    sample-coverage scissor-outside separate-stencil-masks triangle-fans";
+const WGPU_FEATURES: &str = "alpha-to-one clear-commands clip-distance-mask \
+    constant-alpha-blend-factor depth-bounds front-and-back-culling last-provoking-vertex \
+    logic-operations masked-clears min-max-blend-factors min-sample-shading mirrored-viewport \
+    mixed-provoking-vertices polygon-mode-line precise-occlusion rasterizer-discard reversed-depth-range \
+    sample-coverage scissor-outside separate-stencil-masks tessellation triangle-fans upper-left-domain";
 /// Codes of two formats' samples could not be told for certain; WebGPU does not resolve integers.
 const WGPU_VULKAN: Lacks = Lacks {
     features: &[WGPU_FEATURES, RESOLVES],

@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn every_mode_of_every_coverage_is_the_texts() {
         let values = [0.0, 0.125, 0.25, 0.4, 0.5, 0.75, 0.9, 1.0];
-        for mode in AdvancedBlend::ALL {
+        for mode in AdvancedBlend::ALL.iter().copied() {
             for (s, d) in values.iter().flat_map(|s| values.map(|d| (*s, d))) {
                 for (sa, da) in [(1.0, 1.0), (0.5, 1.0), (1.0, 0.25), (0.5, 0.75)] {
                     let [r, _, _, alpha] =
@@ -225,7 +225,7 @@ mod tests {
     #[test]
     fn nothing_blends_with_transparent_black() {
         let color = [0.25, 0.5, 0.125, 0.5];
-        for mode in AdvancedBlend::ALL {
+        for mode in AdvancedBlend::ALL.iter().copied() {
             assert_eq!(run(mode, color, [0.0; 4]), color, "{mode:?}");
             assert_eq!(run(mode, [0.0; 4], color), color, "{mode:?}");
         }

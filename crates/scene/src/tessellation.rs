@@ -125,7 +125,7 @@ mod tests {
             }
             found
         };
-        assert_eq!(orders(CONTROL_SPIRV), []);
+        assert!(orders(CONTROL_SPIRV).is_empty());
         assert_eq!(orders(evaluation_spirv(FrontFace::Cw)), [4]);
         assert_eq!(orders(evaluation_spirv(FrontFace::Ccw)), [5]);
     }

@@ -116,7 +116,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         advanced_blend: permit(
             BlendPrecision::DestinationCodes,
-            "KHR_blend_equation_advanced: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
+            "OpenGL with KHR_blend_equation_advanced: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
         ),
         blend: permit(
             BlendPrecision::DestinationCodes,

@@ -96,8 +96,8 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         advanced_blend: permit(
             BlendPrecision::DestinationCodes,
             text.cite([
-                "KHR_blend_equation_advanced: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
-                "KHR_blend_equation_advanced: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
+                "OpenGL ES with KHR_blend_equation_advanced: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
+                "OpenGL ES with KHR_blend_equation_advanced: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
                 "OpenGL ES 3.2: 15.1.5.1 Blend Equation: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
             ]),
         ),
