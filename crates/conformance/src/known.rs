@@ -109,7 +109,7 @@ const EVERY_FORMAT: &str = "r8unorm rg8unorm rgba8unorm rgba8unorm-srgb bgra8uno
 
 const VULKAN: Lacks = Lacks {
     features: &[
-        "clip-distance-mask depth-bounds depth-resolve-max depth-resolve-min independent-resolve \
+        "advanced-blend advanced-blend-coherent clip-distance-mask depth-bounds depth-resolve-max depth-resolve-min independent-resolve \
         independent-resolve-none masked-clears sample-coverage stencil-resolve-max stencil-resolve-min",
     ],
     blending: &["rgba8snorm"],
@@ -132,8 +132,9 @@ const GL: Lacks = Lacks {
 };
 const GL_SOFTPIPE: Lacks = Lacks {
     features: &[
-        "depth-bias-clamp min-sample-shading mirrored-viewport sample-shading \
-        storage-counters tessellation upper-left-domain",
+        "advanced-blend advanced-blend-coherent depth-bias-clamp min-sample-shading \
+        mirrored-viewport sample-mask-output sample-mask-output-with-alpha-to-coverage \
+        sample-shading storage-counters tessellation upper-left-domain",
         RESOLVES,
     ],
     samples: &[EVERY_FORMAT],
@@ -141,8 +142,8 @@ const GL_SOFTPIPE: Lacks = Lacks {
 };
 
 const ES_FEATURES: &str = "alpha-to-one conservative-depth depth-bounds first-provoking-vertex \
-    fragment-invocations logic-operations mirrored-viewport mixed-provoking-vertices polygon-mode-line \
-    precise-occlusion upper-left-domain";
+    fragment-invocations fragment-shader-absent fragment-shader-absent-with-color logic-operations \
+    mirrored-viewport mixed-provoking-vertices polygon-mode-line precise-occlusion upper-left-domain";
 /// OpenGL ES of llvmpipe and zink.
 const ES: Lacks = Lacks {
     features: &[ES_FEATURES, RESOLVES],
@@ -153,14 +154,17 @@ const ES_SOFTPIPE: Lacks = Lacks {
     features: &[
         ES_FEATURES,
         RESOLVES,
-        "depth-bias-clamp independent-blend min-sample-shading sample-shading tessellation",
+        "advanced-blend advanced-blend-coherent depth-bias-clamp independent-blend \
+        min-sample-shading sample-mask-output sample-mask-output-with-alpha-to-coverage \
+        sample-shading tessellation",
     ],
     samples: &[EVERY_FORMAT],
     ..ES
 };
 
-const WGPU_FEATURES: &str = "alpha-to-one clear-commands clip-distance-mask \
-    constant-alpha-blend-factor depth-bounds front-and-back-culling last-provoking-vertex \
+const WGPU_FEATURES: &str = "advanced-blend advanced-blend-coherent alpha-to-one clear-commands \
+    clip-distance-mask fragment-shader-absent-with-color \
+    sample-mask-output-with-alpha-to-coverage constant-alpha-blend-factor depth-bounds front-and-back-culling last-provoking-vertex \
     logic-operations masked-clears min-max-blend-factors min-sample-shading mirrored-viewport \
     mixed-provoking-vertices polygon-mode-line precise-occlusion rasterizer-discard reversed-depth-range \
     sample-coverage scissor-outside separate-stencil-masks tessellation triangle-fans upper-left-domain";

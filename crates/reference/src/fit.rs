@@ -5,9 +5,9 @@
 //! only if all parts are.
 
 use crate::judge::{Judgement, judge_some};
+use crate::read_back::depth_encoding;
 use crate::rules::Rules;
 use crate::texels::Texels;
-use crate::walk::depth_encoding;
 use etalon_frame::{ChannelEncoding, Frame, FrameError, LegalSet, Limits, compare};
 use etalon_scene::Scene;
 use std::borrow::Cow;

@@ -5,7 +5,6 @@
 use crate::judging::{Judging, Range, all_codes};
 use crate::rules::Rules;
 use crate::undefined::Undefined;
-use crate::walk::depth_encoding;
 use etalon_frame::{
     Aspect, ChannelEncoding, CodeInterval, ImageInfo, LegalSet, LegalSetBuilder, Limits, ReadPath,
     TexelSet, TextureFormat,
@@ -19,6 +18,18 @@ use std::sync::Arc;
 pub(crate) fn read_path(limits: &Limits, format: TextureFormat) -> ReadPath {
     let support = limits.formats.get(&format);
     support.map_or(ReadPath::Copy, |support| support.read)
+}
+
+/// Returns the encoding in which an attachment stores its depth.
+pub(crate) fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {
+    let format = scene.attachments[attachment].format;
+    let of = |encodings: &[ChannelEncoding]| encodings.first().copied();
+    limits
+        .formats
+        .get(&format)
+        .and_then(|support| of(&support.depth))
+        .or_else(|| of(format.depth_encodings()))
+        .unwrap_or(ChannelEncoding::Float32)
 }
 
 /// Returns the codes that reading a stored depth may give, in another encoding than the stored one.

@@ -8,7 +8,7 @@ use crate::judging::all_codes;
 use crate::notes::{Note, Notes, Skipped};
 use crate::possible::Possible;
 use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
-use crate::read_back::{converted, read_path};
+use crate::read_back::{converted, depth_encoding, read_path};
 use crate::rules::{Copies, Rules};
 use crate::sample::{self, Sample};
 use crate::snap::units_per_texel;
@@ -594,17 +594,6 @@ fn note_other_attachments(
         },
         None,
     );
-}
-
-pub(crate) fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {
-    let format = scene.attachments[attachment].format;
-    let of = |encodings: &[ChannelEncoding]| encodings.first().copied();
-    limits
-        .formats
-        .get(&format)
-        .and_then(|support| of(&support.depth))
-        .or_else(|| of(format.depth_encodings()))
-        .unwrap_or(ChannelEncoding::Float32)
 }
 
 /// Returns codes as stories tell them: of a float its value, of wide codes both.

@@ -4,7 +4,7 @@ use crate::blend::{ColorTarget, LogicOperation};
 use crate::depth_stencil::{DepthBias, DepthState, StencilState};
 use crate::early_tests::EarlyTests;
 use crate::fetch::Fetch;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, PrimitiveVertices};
 use crate::provoking::ProvokingVertex;
 use crate::rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, Viewport,
@@ -79,6 +79,20 @@ pub struct Draw {
 }
 
 impl Draw {
+    /// Returns the vertex indices of each primitive that is rasterized, in order: the mesh's own, which
+    /// tessellation may turn over.
+    pub fn primitives(&self) -> Vec<PrimitiveVertices> {
+        let mut all = self.mesh.primitives(self.topology);
+        if self.tessellation.is_some_and(|t| !t.keeps_order()) {
+            for primitive in &mut all {
+                if let PrimitiveVertices::Triangle([_, second, third]) = primitive {
+                    std::mem::swap(second, third);
+                }
+            }
+        }
+        all
+    }
+
     /// The bits of the shader's clip distances that clip.
     pub fn clipping_distances(&self) -> u8 {
         // A shader has eight at most.

@@ -4,8 +4,6 @@
 //! on the patch's own positions. Nothing is left to a driver but the order of its vertices, and with it
 //! the side that it shows: the one thing that these draws are for.
 
-use crate::draw::Draw;
-use crate::mesh::PrimitiveVertices;
 use crate::rasterization::FrontFace;
 use etalon_frame::state_enum;
 use schemars::JsonSchema;
@@ -58,22 +56,6 @@ pub fn evaluation_spirv(order: FrontFace) -> &'static [u8] {
     match order {
         FrontFace::Ccw => CCW_SPIRV,
         FrontFace::Cw => CW_SPIRV,
-    }
-}
-
-impl Draw {
-    /// Returns the vertex indices of each primitive that is rasterized, in order: the mesh's own, which
-    /// tessellation may turn over.
-    pub fn primitives(&self) -> Vec<PrimitiveVertices> {
-        let mut all = self.mesh.primitives(self.topology);
-        if self.tessellation.is_some_and(|t| !t.keeps_order()) {
-            for primitive in &mut all {
-                if let PrimitiveVertices::Triangle([_, second, third]) = primitive {
-                    std::mem::swap(second, third);
-                }
-            }
-        }
-        all
     }
 }
 

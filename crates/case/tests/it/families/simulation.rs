@@ -91,6 +91,7 @@ pub(crate) fn knows(scene: &Scene) -> bool {
             });
             pass.color.len() == 1
                 && shaders.contains(&draw.shader)
+                && draw.provoking.is_none()
                 && draw.primitives().len() == indices(draw).len()
                 && draw
                     .mesh
