@@ -23,6 +23,7 @@ fn every_mutant_is_named_explained_and_sourced() {
         "capabilities",
         "size",
         "sequence",
+        "paths",
     ];
     let mut names = HashSet::new();
     assert!(mutants().len() >= 1000, "{}", mutants().len());

@@ -529,7 +529,8 @@ fn results_do_not_depend_on_order_or_the_number_of_workers() {
         let out = folder();
         etalon(&[
             "run",
-            "cull/*",
+            // But for outlines, which softpipe gives the face of what was drawn before them.
+            "cull/{changed,depth,lines,needles,points,slivers,stencil,topologies,two}*",
             "scissor/*",
             "--adapter",
             "cpu",
