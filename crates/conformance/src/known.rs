@@ -5,15 +5,17 @@ use crate::subject::Subject;
 use etalon_backend::Backend;
 use etalon_frame::{Api, Feature};
 
-/// A check and its defect in a driver; or [`FOUR_SAMPLES`] or [`COUNTING_SHADERS`].
+/// A check and its defect in a driver; or [`FOUR_SAMPLES`], [`COUNTING_SHADERS`] or [`SAMPLE_MASKS`].
 pub type Defect = (&'static str, &'static str);
 
 /// The name of a defect of four samples: all scenes that need them are left out.
 pub const FOUR_SAMPLES: &str = "four samples";
 /// The name of a defect of shaders that count: all scenes that need them are left out.
 pub const COUNTING_SHADERS: &str = "counting shaders";
+/// The name of a defect of sample masks: all scenes whose shaders write one are left out.
+pub(crate) const SAMPLE_MASKS: &str = "sample masks";
 /// The names of defects that are no check's.
-pub(crate) const WHOLE: [&str; 2] = [FOUR_SAMPLES, COUNTING_SHADERS];
+pub(crate) const WHOLE: [&str; 3] = [FOUR_SAMPLES, COUNTING_SHADERS, SAMPLE_MASKS];
 
 /// What is known of a driver.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +39,7 @@ impl Known {
             |subject, (name, _)| match *name {
                 FOUR_SAMPLES => subject.without_four_samples(),
                 COUNTING_SHADERS => subject.without_feature(Feature::StorageCounters),
+                SAMPLE_MASKS => subject.without_feature(Feature::SampleMaskOutput),
                 _ => subject,
             },
         )
@@ -241,6 +244,7 @@ const WGPU_GL_WRONG: &[Defect] = &[
     ("formats::uploads_come_back", "negative codes of rgba8snorm that come back as 0"),
     // It offers them also where the driver has one, and makes no texture of which a shader could read them.
     (FOUR_SAMPLES, "textures of four samples that stay empty"),
+    (SAMPLE_MASKS, "gl_SampleMask as one integer, which does not compile"),
 ];
 /// wgpu's OpenGL leaves the factors of a draw with two sources behind, and Mesa refuses later draws to
 /// several targets with GL_INVALID_OPERATION.

@@ -2,6 +2,7 @@
 
 use crate::device::Device;
 use crate::error::Check;
+use crate::mask_array;
 use crate::viewport;
 use ash::vk;
 use etalon_backend::BackendError;
@@ -91,6 +92,9 @@ impl Modules {
             return Ok(module.clone());
         }
         let mut translated = translate(shader.name(), &shader.wgsl_with(tests))?;
+        if shader.writes_mask() {
+            translated.words = mask_array::as_array(&translated.words);
+        }
         if second_viewport {
             translated.words = viewport::choose_second(&translated.words);
         }

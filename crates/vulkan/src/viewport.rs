@@ -3,43 +3,18 @@
 //! WGSL has no viewport index, so the built-in output is added to naga's SPIR-V: a capability with its
 //! extension, an output variable, and a store of 1 before each return of the vertex entry point.
 
-/// The opcodes in question (SPIR-V, Instructions).
-const EXTENSION: u32 = 10;
-const ENTRY_POINT: u32 = 15;
-const CAPABILITY: u32 = 17;
-const TYPE_INT: u32 = 21;
-const TYPE_POINTER: u32 = 32;
-const CONSTANT: u32 = 43;
-const FUNCTION: u32 = 54;
-const FUNCTION_END: u32 = 56;
-const VARIABLE: u32 = 59;
-const STORE: u32 = 62;
-const DECORATE: u32 = 71;
-const RETURN: u32 = 253;
+use crate::spirv::{
+    BUILT_IN, CAPABILITY, CONSTANT, DECORATE, ENTRY_POINT, EXTENSION, FUNCTION, FUNCTION_END,
+    OUTPUT, RETURN, STORE, TYPE_INT, TYPE_POINTER, VARIABLE, instruction, instructions,
+};
 
 /// The capability ShaderViewportIndexLayerEXT of SPV_EXT_shader_viewport_index_layer.
 const VIEWPORT_INDEX_LAYER: u32 = 5254;
-const BUILT_IN: u32 = 11;
 const VIEWPORT_INDEX: u32 = 10;
-const OUTPUT: u32 = 3;
-
-/// Returns an instruction.
-fn instruction(opcode: u32, operands: &[u32]) -> Vec<u32> {
-    let mut words = vec![((operands.len() as u32 + 1) << 16) | opcode];
-    words.extend(operands);
-    words
-}
 
 /// Returns a module whose vertex entry point draws to the second viewport.
 pub(crate) fn choose_second(words: &[u32]) -> Vec<u32> {
-    let (header, body) = words.split_at(5);
-    let mut all = Vec::new();
-    let mut rest = body;
-    while let [head, ..] = rest {
-        let (one, behind) = rest.split_at((head >> 16).max(1) as usize);
-        all.push(one);
-        rest = behind;
-    }
+    let (header, all) = instructions(words);
     let opcode = |one: &[u32]| one[0] & 0xffff;
     let is = |one: &[u32], code: u32| opcode(one) == code;
     let vertex = all

@@ -1,0 +1,89 @@
+//! Sample masks as arrays.
+//!
+//! naga declares the built-in output SampleMask as one integer. Vulkan asks for an array of them
+//! (VUID-SampleMask-SampleMask-04359), so the variable becomes one of a single element, and each store
+//! goes to that.
+
+use crate::spirv::{
+    ACCESS_CHAIN, BUILT_IN, CONSTANT, DECORATE, OUTPUT, STORE, TYPE_ARRAY, TYPE_POINTER, VARIABLE,
+    instruction, instructions,
+};
+
+/// The built-in SampleMask.
+const SAMPLE_MASK: u32 = 20;
+
+/// Returns a module whose sample mask is an array; the same, if it writes none or one already.
+pub(crate) fn as_array(words: &[u32]) -> Vec<u32> {
+    let (header, all) = instructions(words);
+    let is = |one: &[u32], code: u32| one[0] & 0xffff == code;
+    let mask = all
+        .iter()
+        .find(|one| is(one, DECORATE) && one[2..] == [BUILT_IN, SAMPLE_MASK])
+        .map(|one| one[1]);
+    let pointer = all
+        .iter()
+        .find(|one| is(one, VARIABLE) && Some(one[2]) == mask && one[3] == OUTPUT)
+        .map(|one| one[1]);
+    let integer = all
+        .iter()
+        .find(|one| is(one, TYPE_POINTER) && Some(one[1]) == pointer)
+        .map(|one| one[3]);
+    let (Some(mask), Some(pointer), Some(integer)) = (mask, pointer, integer) else {
+        return words.to_vec();
+    };
+    if all
+        .iter()
+        .any(|one| is(one, TYPE_ARRAY) && one[1] == integer)
+    {
+        return words.to_vec();
+    }
+    let first = header[3];
+    let [zero, one, array, to_array] = [first, first + 1, first + 2, first + 3];
+    let mut next = first + 4;
+    let mut out = header.to_vec();
+    for line in all {
+        if is(line, VARIABLE) && line[2] == mask {
+            out.extend(instruction(CONSTANT, &[integer, zero, 0]));
+            out.extend(instruction(CONSTANT, &[integer, one, 1]));
+            out.extend(instruction(TYPE_ARRAY, &[array, integer, one]));
+            out.extend(instruction(TYPE_POINTER, &[to_array, OUTPUT, array]));
+            out.extend(instruction(VARIABLE, &[to_array, mask, OUTPUT]));
+        } else if is(line, STORE) && line[1] == mask {
+            out.extend(instruction(ACCESS_CHAIN, &[pointer, next, mask, zero]));
+            out.extend(instruction(STORE, &[next, line[2]]));
+            next += 1;
+        } else {
+            out.extend(line);
+        }
+    }
+    out[3] = next;
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mask_is_stored_to_the_element_of_an_array() {
+        let lines = [
+            instruction(DECORATE, &[4, BUILT_IN, SAMPLE_MASK]),
+            instruction(TYPE_POINTER, &[2, OUTPUT, 1]),
+            instruction(VARIABLE, &[2, 4, OUTPUT]),
+            instruction(STORE, &[4, 9]),
+            instruction(STORE, &[5, 9]),
+        ];
+        let words = [vec![0, 0, 0, 10, 0], lines.concat()].concat();
+        let changed = as_array(&words);
+        let (header, all) = instructions(&changed);
+        assert_eq!(header[3], 15);
+        assert_eq!(all[4], instruction(TYPE_ARRAY, &[12, 1, 11]));
+        assert_eq!(all[6], instruction(VARIABLE, &[13, 4, OUTPUT]));
+        assert_eq!(all[7], instruction(ACCESS_CHAIN, &[2, 14, 4, 10]));
+        assert_eq!(all[8], instruction(STORE, &[14, 9]));
+        assert_eq!(all[9], instruction(STORE, &[5, 9]));
+        assert_eq!(as_array(&changed), changed);
+        let none = [vec![0, 0, 0, 10, 0], instruction(STORE, &[5, 9])].concat();
+        assert_eq!(as_array(&none), none);
+    }
+}

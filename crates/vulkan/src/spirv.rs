@@ -1,0 +1,41 @@
+//! SPIR-V as words: the instructions of a module, and new ones.
+
+/// Opcodes (SPIR-V, Instructions).
+pub(crate) const EXTENSION: u32 = 10;
+pub(crate) const ENTRY_POINT: u32 = 15;
+pub(crate) const CAPABILITY: u32 = 17;
+pub(crate) const TYPE_INT: u32 = 21;
+pub(crate) const TYPE_ARRAY: u32 = 28;
+pub(crate) const TYPE_POINTER: u32 = 32;
+pub(crate) const CONSTANT: u32 = 43;
+pub(crate) const FUNCTION: u32 = 54;
+pub(crate) const FUNCTION_END: u32 = 56;
+pub(crate) const VARIABLE: u32 = 59;
+pub(crate) const STORE: u32 = 62;
+pub(crate) const ACCESS_CHAIN: u32 = 65;
+pub(crate) const DECORATE: u32 = 71;
+pub(crate) const RETURN: u32 = 253;
+
+/// The decoration BuiltIn.
+pub(crate) const BUILT_IN: u32 = 11;
+/// The storage class Output.
+pub(crate) const OUTPUT: u32 = 3;
+
+/// Returns an instruction.
+pub(crate) fn instruction(opcode: u32, operands: &[u32]) -> Vec<u32> {
+    let mut words = vec![((operands.len() as u32 + 1) << 16) | opcode];
+    words.extend(operands);
+    words
+}
+
+/// Returns a module's header and its instructions.
+pub(crate) fn instructions(words: &[u32]) -> (&[u32], Vec<&[u32]>) {
+    let (header, mut rest) = words.split_at(5);
+    let mut all = Vec::new();
+    while let [head, ..] = rest {
+        let (one, behind) = rest.split_at((head >> 16).max(1) as usize);
+        all.push(one);
+        rest = behind;
+    }
+    (header, all)
+}
