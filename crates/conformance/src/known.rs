@@ -5,7 +5,7 @@ use crate::subject::Subject;
 use etalon_backend::Backend;
 use etalon_frame::{Api, Feature};
 
-/// A check and its defect in a driver; or [`FOUR_SAMPLES`], [`COUNTING_SHADERS`] or [`SAMPLE_MASKS`].
+/// A check and its defect in a driver; or [`FOUR_SAMPLES`], [`COUNTING_SHADERS`] or sample masks.
 pub type Defect = (&'static str, &'static str);
 
 /// The name of a defect of four samples: all scenes that need them are left out.
