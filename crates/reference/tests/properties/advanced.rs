@@ -2,7 +2,7 @@
 //! at lies there too, and what the texts pin is exact.
 
 use crate::arithmetic::wider;
-use crate::common::{all_rules, config};
+use crate::common::{all_rules, assert_inside, assert_within, config};
 use etalon_frame::{Api, ChannelEncoding, CodeInterval};
 use etalon_pipeline::{Arithmetic, Plain, advanced_blend};
 use etalon_reference::{Judging, Rules};
@@ -119,12 +119,7 @@ proptest! {
         let codes = plain(BYTE, &blend);
         for rules in all_rules() {
             let intervals = judged(&rules, BYTE, &blend);
-            for c in 0..4 {
-                prop_assert!(
-                    intervals[c].contains(codes[c]),
-                    "{}, channel {c}: {} is not in {:?}", rules.name, codes[c], intervals[c]
-                );
-            }
+            assert_inside(rules.name, codes, intervals)?;
         }
     }
 
@@ -138,12 +133,7 @@ proptest! {
         let codes = plain(encoding, &blend);
         for rules in all_rules() {
             let intervals = judged(&rules, encoding, &blend);
-            for c in 0..4 {
-                prop_assert!(
-                    intervals[c].contains(codes[c]),
-                    "{}, channel {c}: {} is not in {:?}", rules.name, codes[c], intervals[c]
-                );
-            }
+            assert_inside(rules.name, codes, intervals)?;
         }
     }
 
@@ -166,12 +156,7 @@ proptest! {
     fn wider_rules_give_wider_advanced_blends(blend in blends()) {
         for (tight, wide) in wider() {
             let (inner, outer) = (judged(&tight, BYTE, &blend), judged(&wide, BYTE, &blend));
-            for c in 0..4 {
-                prop_assert!(
-                    outer[c].low <= inner[c].low && inner[c].high <= outer[c].high,
-                    "channel {c}: {:?} is not in {:?} of {wide:?}", inner[c], outer[c]
-                );
-            }
+            assert_within(inner, outer, &wide)?;
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Plain results lie inside judging ones, and wider rules give wider intervals.
 
-use crate::common::{all_rules, config};
+use crate::common::{all_rules, assert_inside, assert_within, config};
 use etalon_frame::{ChannelEncoding, CodeInterval};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, blend, window_position};
 use etalon_reference::rules::{BlendPrecision, Rounding};
@@ -168,12 +168,7 @@ proptest! {
         let codes = plain(encoding, &blend);
         for rules in all_rules() {
             let intervals = judged(&rules, encoding, &blend);
-            for c in 0..4 {
-                prop_assert!(
-                    intervals[c].contains(codes[c]),
-                    "{}, channel {c}: {} is not in {:?}", rules.name, codes[c], intervals[c]
-                );
-            }
+            assert_inside(rules.name, codes, intervals)?;
         }
     }
 
@@ -188,12 +183,7 @@ proptest! {
         let codes = plain(encoding, &blend);
         for rules in all_rules() {
             let intervals = judged(&rules, encoding, &blend);
-            for c in 0..4 {
-                prop_assert!(
-                    intervals[c].contains(codes[c]),
-                    "{}, channel {c}: {} is not in {:?}", rules.name, codes[c], intervals[c]
-                );
-            }
+            assert_inside(rules.name, codes, intervals)?;
         }
     }
 
@@ -203,12 +193,7 @@ proptest! {
         for (tight, wide) in wider() {
             let (inner, outer) =
                 (judged(&tight, encoding, &blend), judged(&wide, encoding, &blend));
-            for c in 0..4 {
-                prop_assert!(
-                    outer[c].low <= inner[c].low && inner[c].high <= outer[c].high,
-                    "channel {c}: {:?} is not in {:?} of {wide:?}", inner[c], outer[c]
-                );
-            }
+            assert_within(inner, outer, &wide)?;
         }
     }
 

@@ -3,10 +3,11 @@
 use etalon_backend::Backend;
 use etalon_case::{CaseFile, Profile};
 use etalon_cpu::CpuBackend;
-use etalon_frame::{Api, Frame, Limits};
+use etalon_frame::{Api, CodeInterval, Frame, Limits};
 use etalon_reference::Rules;
 use etalon_scene::Scene;
-use proptest::test_runner::{Config, RngSeed};
+use proptest::prop_assert;
+use proptest::test_runner::{Config, RngSeed, TestCaseError};
 
 /// Every API.
 pub(crate) const APIS: [Api; 4] = [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu];
@@ -54,4 +55,38 @@ pub(crate) fn config(cases: u32) -> Config {
         failure_persistence: None,
         ..Config::default()
     }
+}
+
+/// Asserts that the codes of a colour lie inside intervals, by some rules.
+pub(crate) fn assert_inside(
+    rules: &str,
+    codes: [i64; 4],
+    intervals: [CodeInterval; 4],
+) -> Result<(), TestCaseError> {
+    for c in 0..4 {
+        prop_assert!(
+            intervals[c].contains(codes[c]),
+            "{rules}, channel {c}: {} is not in {:?}",
+            codes[c],
+            intervals[c]
+        );
+    }
+    Ok(())
+}
+
+/// Asserts that the intervals of a colour lie within those of wider rules.
+pub(crate) fn assert_within(
+    inner: [CodeInterval; 4],
+    outer: [CodeInterval; 4],
+    wide: &Rules,
+) -> Result<(), TestCaseError> {
+    for c in 0..4 {
+        prop_assert!(
+            outer[c].low <= inner[c].low && inner[c].high <= outer[c].high,
+            "channel {c}: {:?} is not in {:?} of {wide:?}",
+            inner[c],
+            outer[c]
+        );
+    }
+    Ok(())
 }
