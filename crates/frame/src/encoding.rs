@@ -156,21 +156,42 @@ impl ChannelEncoding {
 
     /// The largest order whose value is not above a number; the lowest where all are above.
     pub fn order_below(self, value: f64) -> i64 {
-        self.search(|order| self.value_of_order(order) <= value)
+        self.search(value, |order| self.value_of_order(order) <= value)
     }
 
     /// The smallest order whose value is not below a number; the highest where all are below.
     pub fn order_above(self, value: f64) -> i64 {
-        let below = self.search(|order| self.value_of_order(order) < value);
+        let below = self.search(value, |order| self.value_of_order(order) < value);
         match self.value_of_order(below) {
             v if v >= value => below,
             _ => (below + 1).min(self.max_order()),
         }
     }
 
-    /// The largest order for which a condition holds that holds up to some order and not beyond.
-    fn search(self, holds: impl Fn(i64) -> bool) -> i64 {
+    /// An order near that of a number, where one is cheaply found.
+    fn guess(self, value: f64) -> Option<i64> {
+        match self {
+            // `as` saturates.
+            Self::Unorm(_) | Self::Snorm(_) => Some((value * self.max_order() as f64) as i64),
+            Self::Uint(_) => Some(value as i64),
+            Self::Float16 => Some(self.order_of_code(f16::from_f64(value).to_bits().into())),
+            Self::Float32 => Some(self.order_of_code((value as f32).to_bits())),
+            Self::Srgb8 | Self::Ufloat(_) => None,
+        }
+    }
+
+    /// The largest order for which a condition holds that holds up to some order near that of a number
+    /// and not beyond.
+    fn search(self, value: f64, holds: impl Fn(i64) -> bool) -> i64 {
         let (mut low, mut high) = (self.min_order(), self.max_order());
+        if let Some(guess) = self.guess(value) {
+            let near =
+                (guess.clamp(low, high) - 2).max(low)..(guess.clamp(low, high) + 2).min(high);
+            let is_below = near.start == low || holds(near.start);
+            if is_below && (near.end == high || !holds(near.end + 1)) {
+                (low, high) = (near.start, near.end);
+            }
+        }
         while low < high {
             let middle = low + (high - low + 1) / 2;
             if holds(middle) {

@@ -109,6 +109,9 @@ impl TexelSet {
 
     /// Returns the number of codes of one channel that lie in some box.
     pub fn count(&self, channel: usize) -> u64 {
+        if let [world] = &self.worlds[..] {
+            return world.channels[channel].count();
+        }
         let mut intervals: Vec<CodeInterval> =
             self.worlds.iter().map(|w| w.channels[channel]).collect();
         intervals.sort_unstable();
@@ -232,10 +235,11 @@ pub struct LegalSet {
     pub groups: Vec<SampleGroup>,
     /// The counters, in the order of the scene's.
     pub counters: Vec<CounterSet>,
+    statistics: Vec<(Aspect, AspectStatistics)>,
 }
 
 /// The share of one aspect of which a legal set asserts something.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AspectStatistics {
     /// Channel values in all samples of the aspect.
     pub channels: u64,
@@ -259,10 +263,15 @@ impl AspectStatistics {
 
 impl LegalSet {
     /// Figures per aspect, in the order colour, depth, stencil; aspects not read are absent.
-    pub fn statistics(&self) -> Vec<(Aspect, AspectStatistics)> {
+    pub fn statistics(&self) -> &[(Aspect, AspectStatistics)] {
+        &self.statistics
+    }
+
+    /// Returns the figures per aspect of images and groups that are complete.
+    fn count(images: &[ImageInfo], groups: &[SampleGroup]) -> Vec<(Aspect, AspectStatistics)> {
         let mut result: Vec<(Aspect, AspectStatistics)> = Vec::new();
-        for image in &self.images {
-            let group = &self.groups[image.group];
+        for image in images {
+            let group = &groups[image.group];
             let mut sum = AspectStatistics::default();
             for (set, times) in group.distinct() {
                 for (i, encoding) in image.channels.iter().enumerate() {
@@ -401,6 +410,7 @@ impl LegalSetBuilder {
             assert_eq!(group.len(), due, "a group's samples are not complete");
         }
         LegalSet {
+            statistics: LegalSet::count(&self.images, &self.groups),
             images: self.images,
             groups: self.groups,
             counters: self.counters,

@@ -387,8 +387,13 @@ impl Expectations {
 
     /// The expectation that keeps a case from being drawn on an adapter.
     pub fn skips(&self, adapter: &AdapterRecord, case: &str) -> Option<&Known> {
-        let mut skips = self.matching(adapter, case);
-        skips.find(|known| known.verdict == Verdict::Skipped && !self.expired(known))
+        // Few expectations skip anything, and most cases are named by none.
+        let all = self.all.iter().zip(&self.globs);
+        let mut skips = all.filter(|(known, _)| known.verdict == Verdict::Skipped);
+        let named = skips.find(|(known, globs)| {
+            !self.expired(known) && globs.match_case(case) && globs.match_adapter(adapter)
+        });
+        named.map(|(known, _)| known)
     }
 
     /// True if an expectation does not count any more.
@@ -478,7 +483,8 @@ impl Expectations {
         verdict: Verdict,
     ) -> Expectation<'_> {
         let agrees = |known: &&Known| known.excuses(verdict);
-        let all = || self.matching(adapter, case);
+        let matching: Vec<&Known> = self.matching(adapter, case).collect();
+        let all = || matching.iter().copied();
         if let Some(known) = all().find(|k| agrees(k) && !self.expired(k)) {
             return Expectation::Agrees(known);
         }

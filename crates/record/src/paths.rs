@@ -18,10 +18,13 @@ pub(crate) fn below(file: &str) -> Result<PathBuf, RecordError> {
     }
 }
 
-/// `frames/<adapter>/<case>.json`, with every character that a file system may treat specially replaced.
+/// `frames/<adapter>/<area>/<rest of the case>.json`, with `,` between the parts of the rest and every
+/// character that a file system may treat specially replaced. A folder per part would cost a file system
+/// more than the frames.
 pub(crate) fn frame_path(adapter: &str, case: &str) -> String {
-    let folder = format!("{FRAMES}/{}", safe(adapter));
-    format!("{}.json", path_below(&folder, case))
+    let (area, rest) = case.split_once('/').unwrap_or(("", case));
+    let (adapter, area) = (safe(adapter), safe(area));
+    format!("{FRAMES}/{adapter}/{area}/{}.json", safe(rest))
 }
 
 /// `pictures/<case>.png`, likewise.
@@ -39,20 +42,24 @@ fn path_below(folder: &str, case: &str) -> String {
     path
 }
 
-/// One safe path component. `:` becomes `_`; a component that changes otherwise also gets a hash
-/// of what it was, so that two of them do not become one.
+/// One safe path component. `:` becomes `_` and `/` becomes `,`; a component that changes otherwise also
+/// gets a hash of what it was, so that two of them do not become one.
 fn safe(part: &str) -> String {
     const LONGEST: usize = 160;
     let fine = |c: char| c.is_ascii_alphanumeric() || "._=+-".contains(c);
     let mut name: String = part
         .chars()
-        .map(|c| if fine(c) { c } else { '_' })
+        .map(|c| match c {
+            '/' => ',',
+            c if fine(c) => c,
+            _ => '_',
+        })
         .take(LONGEST)
         .collect();
     if name.starts_with('.') {
         name.replace_range(..1, "_");
     }
-    if name.is_empty() || name != part.replace(':', "_") {
+    if name.is_empty() || name != part.replace(':', "_").replace('/', ",") {
         name.push_str(&format!("-{:016x}", fnv(part.bytes())));
     }
     name
@@ -66,7 +73,7 @@ mod tests {
     fn frame_paths_stay_below_the_folder_and_apart() {
         assert_eq!(
             frame_path("gl:es:softpipe", "depth/compare/stored=0.5"),
-            "frames/gl_es_softpipe/depth/compare/stored=0.5.json"
+            "frames/gl_es_softpipe/depth/compare,stored=0.5.json"
         );
         for hostile in [
             "../../x",

@@ -3,10 +3,9 @@
 use crate::conflict::resume_conflict;
 use crate::error::RecordError;
 use crate::folder::{CASES_FILE, DEAD_FILE, FRAMES, MISSING_FILE, PICTURES, RUN_FILE};
-use crate::frame_file::FrameFile;
+use crate::frame_writer::FrameWriter;
 use crate::header::Header;
 use crate::json::json_line;
-use crate::paths::{frame_path, picture_path};
 use crate::record::Record;
 use crate::report_files::ReportFiles;
 use crate::run::Run;
@@ -153,42 +152,9 @@ impl RunWriter {
         synced.map_err(RecordError::io("write", &self.path))
     }
 
-    /// Writes a frame file and returns its path below the run folder, for [`Record::frame`]. Call
-    /// it before the record is appended, so that no record names a file that is not there.
-    ///
-    /// # Errors
-    /// When the file cannot be written.
-    pub fn write_frame(&self, frame: &FrameFile) -> Result<String, RecordError> {
-        let relative = frame_path(&frame.adapter, &frame.case);
-        let path = self.folder.join(&relative);
-        if let Some(parent) = path.parent() {
-            fs::create_dir_all(parent).map_err(RecordError::io("create", parent))?;
-        }
-        let bytes = json_line("a frame", frame)?;
-        fs::write(&path, bytes).map_err(RecordError::io("write", &path))?;
-        Ok(relative)
-    }
-
-    /// Writes a picture as PNG and returns its path below the run folder. `rgb` holds red, green and
-    /// blue of each texel, row by row from the top. Call it before the record is appended.
-    ///
-    /// # Errors
-    /// When the file cannot be written, or there are not as many values as the size asks for.
-    pub fn write_picture(
-        &self,
-        case: &str,
-        [width, height]: [u32; 2],
-        rgb: &[u8],
-    ) -> Result<String, RecordError> {
-        let relative = picture_path(case);
-        let path = self.folder.join(&relative);
-        if let Some(parent) = path.parent() {
-            fs::create_dir_all(parent).map_err(RecordError::io("create", parent))?;
-        }
-        image::save_buffer(&path, rgb, width, height, image::ColorType::Rgb8)
-            .map_err(std::io::Error::other)
-            .map_err(RecordError::io("write", &path))?;
-        Ok(relative)
+    /// Returns what writes frames and pictures into the folder.
+    pub fn frames(&self) -> FrameWriter {
+        FrameWriter::new(&self.folder)
     }
 
     /// The run folder.

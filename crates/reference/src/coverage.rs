@@ -107,6 +107,10 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) {
         let (least, most) = triangle.area;
+        if least > 0 || most < 0 {
+            self.covered(place, triangle, world, least > 0, result, notes);
+            return;
+        }
         for (possible, positive) in [(most > 0, true), (least < 0, false)] {
             if possible {
                 self.covered(place, triangle, world.clone(), positive, result, notes);
@@ -140,10 +144,14 @@ impl Walk<'_> {
         result: &mut Worlds,
         notes: &mut Notes<'_>,
     ) {
-        let mut pending: Worlds = SmallVec::new();
-        pending.push(world);
         let inside = inside_of(positive_area);
         let sides = place.sides;
+        if sides == [inside; 3] {
+            self.fragment(place, world, positive_area, result, notes);
+            return;
+        }
+        let mut pending: Worlds = SmallVec::new();
+        pending.push(world);
         if sides
             .into_iter()
             .any(|side| is_outside(side, positive_area))

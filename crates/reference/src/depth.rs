@@ -10,7 +10,7 @@ use smallvec::SmallVec;
 pub(crate) struct Depth {
     /// The planes through the vertices that legal snapping allows, but for those that are nowhere near the
     /// primitive extreme; none if the depth is constant or nothing but the vertices' depths is known.
-    planes: SmallVec<[DepthPlane; 1]>,
+    planes: Vec<DepthPlane>,
     /// The largest growth of any plane over one unit right and one down.
     pub(crate) steepest: f64,
     /// The largest distance of a depth from its plane.
@@ -23,7 +23,7 @@ impl Depth {
     pub(crate) fn flat(z: &[Interval]) -> Self {
         let hull = z.iter().copied().reduce(Interval::hull);
         Self {
-            planes: SmallVec::new(),
+            planes: Vec::new(),
             steepest: 0.0,
             error: 0.0,
             hull: hull.unwrap_or(Interval::exact(0.0)),
@@ -147,9 +147,9 @@ fn near(vertices: [SnapBox; 3], units: i64) -> [Point; 4] {
 
 /// Returns those of some planes that are the lowest or the highest somewhere in a rectangle. A plane that is
 /// not above another at any of its corners is not above it anywhere inside.
-fn extreme(all: &[DepthPlane], corners: [Point; 4]) -> SmallVec<[DepthPlane; 1]> {
+fn extreme(all: &[DepthPlane], corners: [Point; 4]) -> Vec<DepthPlane> {
     if all.len() < 3 {
-        return SmallVec::from_slice(all);
+        return all.to_vec();
     }
     let at: SmallVec<[[f64; 4]; 64]> = all.iter().map(|p| corners.map(|c| p.at(c))).collect();
     let under = |i: usize, j: usize| at[i].iter().zip(&at[j]).all(|(a, b)| a <= b);

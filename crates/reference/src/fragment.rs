@@ -169,7 +169,7 @@ impl Walk<'_> {
             depth = Range::same(depth.float.hull(held));
         }
         let input = FragmentInput {
-            color: place.primitive.color,
+            color: place.primitive.color.map(Range::same),
             front,
             depth,
             sample: place.at.sample,

@@ -7,7 +7,6 @@ use crate::judging::Range as Values;
 use crate::possible::Possible;
 use crate::snap::{SnapBox, area};
 use etalon_pipeline::{Point, edge_value};
-use smallvec::SmallVec;
 use std::ops::Range;
 
 /// The shape of a primitive.
@@ -51,7 +50,7 @@ pub(crate) struct Triangle {
 pub(crate) struct SnappedPrimitive {
     pub(crate) shape: Shape,
     /// The flat vertex colour.
-    pub(crate) color: [Values; 4],
+    pub(crate) color: [Interval; 4],
     /// Texels it may touch: left, top, right, bottom, the last two excluded.
     pub(crate) bounds: [i64; 4],
     /// Window depth, before any bias.
@@ -63,9 +62,9 @@ pub(crate) struct SnappedPrimitive {
     /// All snapped vertices.
     pub(crate) all: SnapBox,
     /// Texture coordinates, where the shader reads them.
-    pub(crate) uv: Option<[Depth; 2]>,
+    pub(crate) uv: Option<Box<[Depth; 2]>>,
     /// The clip distances that clip.
-    pub(crate) distances: SmallVec<[Distance; 0]>,
+    pub(crate) distances: Vec<Distance>,
     /// A number that is equal for the same vertices under the same viewport; none if the draw tests no
     /// depth, or no other fragment of the scene can have the same.
     pub(crate) geometry: Option<u64>,
@@ -228,7 +227,7 @@ impl SnappedPrimitive {
     /// several samples they may be those of any point of the texel, also of a centre outside of the
     /// primitive (Vulkan, Interpolation Decorations; OpenGL 4.6, 14.3.1).
     pub(crate) fn uv_seen(&self, at: Point, units: i64, samples: u32) -> Option<[Interval; 2]> {
-        let both = self.uv.as_ref()?;
+        let both = self.uv.as_deref()?;
         Some(both.each_ref().map(|one| {
             if samples > 1 {
                 one.at(at).hull(one.over_texel(at, units))

@@ -23,6 +23,13 @@ struct Vertex {
     id: VertexId,
 }
 
+/// What the primitives of one draw share.
+struct Vertices {
+    /// The vertices that were set up for a primitive before.
+    known: Vec<Option<Vertex>>,
+    geometry: DefaultHasher,
+}
+
 /// Returns a draw's primitives in drawing order, without those that are far from all judged texels.
 pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimitive> {
     let mut primitives = Vec::new();
@@ -30,6 +37,10 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
         return primitives;
     }
     let provoking = draw.provoking.map(|_| draw.provoking_vertices());
+    let mut vertices = Vertices {
+        known: vec![None; draw.mesh.vertices.len()],
+        geometry: draw_geometry(draw),
+    };
     for (index, one) in draw.primitives().into_iter().enumerate() {
         if is_far(context, draw, one) {
             continue;
@@ -44,12 +55,16 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
         let color = std::array::from_fn(|c| {
             let value = |i: &usize| Interval::exact(f64::from(draw.mesh.vertices[*i].color[c]));
             let hull = own.iter().map(value).reduce(Interval::hull);
-            Range::same(hull.unwrap_or(Interval::exact(0.0)))
+            hull.unwrap_or(Interval::exact(0.0))
         });
-        let mut primitive = primitive(context, draw, one, color, index as u32);
-        primitive.uv = texture_coordinates(context, draw, &primitive.shape, one);
-        primitive.distances = distances(context, draw, &primitive.shape, one);
-        primitives.push(primitive);
+        primitives.push(primitive(
+            context,
+            draw,
+            &mut vertices,
+            one,
+            color,
+            index as u32,
+        ));
     }
     primitives
 }
@@ -93,11 +108,15 @@ fn is_far(context: &PassContext<'_>, draw: &Draw, one: PrimitiveVertices) -> boo
 fn primitive(
     context: &PassContext<'_>,
     draw: &Draw,
+    vertices: &mut Vertices,
     one: PrimitiveVertices,
-    color: [Range; 4],
+    color: [Interval; 4],
     index: u32,
 ) -> SnappedPrimitive {
-    let of = |i: usize| vertex(context, draw, draw.mesh.vertices[i].position);
+    let mut of = |i: usize| {
+        let position = draw.mesh.vertices[i].position;
+        *vertices.known[i].get_or_insert_with(|| vertex(context, draw, position))
+    };
     let units = units_per_texel(context.limits);
     let grid = units >> context.limits.sub_pixel_bits;
     let error = context.rules.float_error.value();
@@ -159,6 +178,8 @@ fn primitive(
         _ => 2 * units,
     };
     SnappedPrimitive {
+        uv: texture_coordinates(context, draw, &shape, one).map(Box::new),
+        distances: distances(context, draw, &shape, one),
         shape,
         color,
         bounds: [
@@ -171,19 +192,29 @@ fn primitive(
         clip_depth,
         bias,
         all,
-        uv: None,
-        distances: SmallVec::new(),
         geometry: match (context.depth, draw.depth) {
-            (Some(_), Some(_)) => Some(geometry(draw, one)),
+            (Some(_), Some(_)) => Some(geometry(draw, one, vertices.geometry.clone())),
             _ => None,
         },
         index,
     }
 }
 
-/// Returns a number for the vertices of a primitive in order and all other inputs of its depth.
-fn geometry(draw: &Draw, one: PrimitiveVertices) -> u64 {
+/// Begins a number for the inputs of depth that all primitives of a draw share.
+fn draw_geometry(draw: &Draw) -> DefaultHasher {
     let mut hasher = DefaultHasher::new();
+    let viewport = &draw.viewport;
+    viewport.rect.map(f32::to_bits).hash(&mut hasher);
+    viewport.depth.map(f32::to_bits).hash(&mut hasher);
+    let bias = draw.depth_bias;
+    (bias.constant, bias.slope.to_bits(), bias.clamp.to_bits()).hash(&mut hasher);
+    (draw.topology, draw.polygon_mode, draw.depth_clamp).hash(&mut hasher);
+    draw.tessellation.hash(&mut hasher);
+    hasher
+}
+
+/// Returns a number for the vertices of a primitive in order and all other inputs of its depth.
+fn geometry(draw: &Draw, one: PrimitiveVertices, mut hasher: DefaultHasher) -> u64 {
     let own = match one {
         PrimitiveVertices::Point(i) => [i, i, i],
         PrimitiveVertices::Line([a, b]) => [a, b, a],
@@ -193,13 +224,6 @@ fn geometry(draw: &Draw, one: PrimitiveVertices) -> u64 {
         let position = draw.mesh.vertices[i].position;
         position.map(f32::to_bits).hash(&mut hasher);
     }
-    let viewport = &draw.viewport;
-    viewport.rect.map(f32::to_bits).hash(&mut hasher);
-    viewport.depth.map(f32::to_bits).hash(&mut hasher);
-    let bias = draw.depth_bias;
-    (bias.constant, bias.slope.to_bits(), bias.clamp.to_bits()).hash(&mut hasher);
-    (draw.topology, draw.polygon_mode, draw.depth_clamp).hash(&mut hasher);
-    draw.tessellation.hash(&mut hasher);
     hasher.finish()
 }
 
@@ -253,10 +277,10 @@ fn distances(
     draw: &Draw,
     shape: &Shape,
     one: PrimitiveVertices,
-) -> SmallVec<[Distance; 0]> {
+) -> Vec<Distance> {
     let clipping = draw.clipping_distances();
     if clipping == 0 {
-        return SmallVec::new();
+        return Vec::new();
     }
     let units = units_per_texel(context.limits);
     let grid = units >> context.limits.sub_pixel_bits;

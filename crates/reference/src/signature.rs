@@ -308,7 +308,7 @@ impl Inputs {
             Shape::Outline(triangle) => 6 + facings(triangle.area),
         });
         for channel in primitive.color {
-            words.extend(bits(channel.float));
+            words.extend(bits(channel));
         }
         words.extend(bits(primitive.bias));
         words.push(u64::from(primitive.geometry.is_some()));
@@ -316,7 +316,12 @@ impl Inputs {
         if (self.depth || self.depth_seen) && primitive.window_depth.is_flat() {
             words.extend(bits(primitive.window_depth.hull));
         }
-        for axis in primitive.uv.iter().flatten().filter(|axis| axis.is_flat()) {
+        for axis in primitive
+            .uv
+            .iter()
+            .flat_map(|uv| uv.iter())
+            .filter(|axis| axis.is_flat())
+        {
             words.extend(bits(axis.hull));
         }
         words

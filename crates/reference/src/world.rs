@@ -3,12 +3,13 @@
 use crate::primitive::VertexId;
 use etalon_frame::CodeInterval;
 use smallvec::SmallVec;
+use std::hash::{Hash, Hasher};
 
 /// The most worlds of one sample; past it the sample is open.
 pub(crate) const WORLD_CAP: usize = 16;
 
 /// The contents of one attachment at a sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Cell {
     /// Colour channels; of a depth attachment the first is the depth.
     pub(crate) channels: [CodeInterval; 4],
@@ -16,6 +17,15 @@ pub(crate) struct Cell {
     pub(crate) stencil: u8,
     /// The geometry that the depth comes from, where that pins it: see [`crate::rules::SameDepth`].
     pub(crate) origin: Option<u64>,
+}
+
+impl Hash for Cell {
+    /// What tells most cells apart; states are looked up by it for every outcome.
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let [red, green, blue, alpha] = self.channels;
+        let lows = [red.low, green.low, blue.low, alpha.low];
+        (lows, red.high, self.stencil).hash(state);
+    }
 }
 
 impl Default for Cell {
@@ -68,12 +78,23 @@ impl Decision {
 }
 
 /// One consistent story: the contents of every attachment, and the choices that led there.
-#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct World {
     pub(crate) cells: SmallVec<[Cell; 2]>,
     pub(crate) decisions: Vec<(Decision, bool)>,
     /// The events so far, in order.
     pub(crate) events: Vec<Event>,
+}
+
+impl Clone for World {
+    fn clone(&self) -> Self {
+        Self {
+            // A copy of all cells at once.
+            cells: SmallVec::from_slice(&self.cells),
+            decisions: self.decisions.clone(),
+            events: self.events.clone(),
+        }
+    }
 }
 
 impl World {

@@ -238,6 +238,8 @@ impl View<'_> {
     /// Blocks of pixels, so that a wrong texel can carry a mark.
     fn difference(&self) -> Option<Picture> {
         let block = self.scale;
+        // The pixels of a row follow each other sample by sample.
+        let mut last = (usize::MAX, 0.0);
         self.draw("difference", block, |sample, x, y| {
             let (base, mark) = match self.image.wrong[sample] {
                 FrameImage::FINE => return FINE,
@@ -255,7 +257,10 @@ impl View<'_> {
             if mark && block >= 5 {
                 return [255; 3];
             }
-            let bright = 0.4 + 0.6 * self.distance(sample);
+            if last.0 != sample {
+                last = (sample, self.distance(sample));
+            }
+            let bright = 0.4 + 0.6 * last.1;
             base.map(|c| (f64::from(c) * bright).round() as u8)
         })
     }
@@ -281,7 +286,7 @@ impl View<'_> {
         &self,
         label: &'static str,
         block: u32,
-        pixel: impl Fn(usize, u32, u32) -> [u8; 3],
+        mut pixel: impl FnMut(usize, u32, u32) -> [u8; 3],
     ) -> Option<Picture> {
         let w = self.window;
         let samples = self.image.samples;

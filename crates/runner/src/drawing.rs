@@ -7,6 +7,7 @@ use etalon_backend::{Backend, BackendError, FrameTime};
 use etalon_case::Case;
 use etalon_frame::Frame;
 use etalon_scene::Scene;
+use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
 /// The default time that a case may take.
@@ -87,10 +88,10 @@ impl WorkerProcess {
     /// that the worker spent.
     pub(crate) fn ask(
         &mut self,
-        request: &Request,
+        request: Request<'_>,
         timeout: Duration,
     ) -> Result<(Payload, Duration), Failure> {
-        self.request(request);
+        self.request([request]);
         match self.response(timeout)? {
             Response::Done {
                 outcome: Ok(payload),
@@ -112,7 +113,7 @@ impl WorkerProcess {
         times: u32,
         timeout: Duration,
     ) -> Result<Vec<FrameTime>, Failure> {
-        match self.ask(&Request::Submit { slot, times }, timeout)? {
+        match self.ask(Request::Submit { slot, times }, timeout)? {
             (Payload::Submitted(all), _) if all.len() == times as usize => Ok(all),
             _ => Err(wrong_answer().into()),
         }
@@ -127,25 +128,14 @@ impl WorkerProcess {
 
     /// Requests the frames of a case.
     pub(crate) fn request_case(&mut self, slot: u32, case: &Case) {
-        for (scene, readings) in case.preparations() {
-            self.request_frames(slot, scene, &readings);
-        }
+        let preparations = case.preparations();
+        let requests = preparations.flat_map(|(scene, readings)| requests(slot, scene, readings));
+        self.request(requests);
     }
 
     /// Requests frames of one prepared scene, each behind so many submissions.
-    pub(crate) fn request_frames(&mut self, slot: u32, scene: &Scene, readings: &[u32]) {
-        self.request(&Request::Prepare {
-            slot,
-            scene: Box::new(scene.clone()),
-        });
-        for times in readings {
-            self.request(&Request::Submit {
-                slot,
-                times: *times,
-            });
-            self.request(&Request::ReadBack { slot });
-        }
-        self.request(&Request::Drop { slot });
+    pub(crate) fn request_frames(&mut self, slot: u32, scene: &Scene, readings: Vec<u32>) {
+        self.request(requests(slot, scene, readings));
     }
 
     /// Receives the frames that were requested of a slot at the time `asked`.
@@ -200,6 +190,16 @@ impl WorkerProcess {
         drawing.since = begun.elapsed();
         drawing
     }
+}
+
+/// The requests for frames of one prepared scene, each behind so many submissions.
+fn requests(slot: u32, scene: &Scene, readings: Vec<u32>) -> impl Iterator<Item = Request<'_>> {
+    let scene = Cow::Borrowed(scene);
+    let frame = move |times| [Request::Submit { slot, times }, Request::ReadBack { slot }];
+    [Request::Prepare { slot, scene }]
+        .into_iter()
+        .chain(readings.into_iter().flat_map(frame))
+        .chain([Request::Drop { slot }])
 }
 
 /// The loss of a worker whose answer does not fit the request.

@@ -381,8 +381,8 @@ fn assertions(judgement: &Judgement) -> Vec<Assertion> {
     judgement
         .legal
         .statistics()
-        .into_iter()
-        .map(|(aspect, legal)| Assertion::new(aspect, legal, of(aspect)))
+        .iter()
+        .map(|(aspect, legal)| Assertion::new(*aspect, *legal, of(*aspect)))
         .collect()
 }
 

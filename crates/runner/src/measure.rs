@@ -11,6 +11,7 @@ use etalon_frame::{CounterKind, Feature, Frame, Limits};
 use etalon_record::{Measured, Parameter, Times};
 use etalon_scene::Scene;
 use etalon_truth::{Truth, TruthPicture, distance, truth};
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
@@ -94,11 +95,8 @@ impl WorkerProcess {
             return Ok((times, None));
         }
         let asked = Instant::now();
-        self.request_frames(
-            slot,
-            &scene.counting(CounterKind::FragmentInvocations),
-            &[1],
-        );
+        let counting = scene.counting(CounterKind::FragmentInvocations);
+        self.request_frames(slot, &counting, vec![1]);
         match self
             .receive_frames(slot, Due::ONE, asked, Wait::of(timeout))
             .frames
@@ -123,7 +121,7 @@ impl WorkerProcess {
         let timed = self.prepare_and_time(slot, scene, timeout);
         let dropped = match timed {
             Err(Failure::Lost(loss)) => return Err(loss),
-            _ => self.ask(&Request::Drop { slot }, timeout),
+            _ => self.ask(Request::Drop { slot }, timeout),
         };
         match (timed, dropped) {
             (_, Err(Failure::Lost(loss))) => Err(loss),
@@ -138,8 +136,8 @@ impl WorkerProcess {
         scene: &Scene,
         timeout: Duration,
     ) -> Result<Vec<FrameTime>, Failure> {
-        let scene = Box::new(scene.clone());
-        self.ask(&Request::Prepare { slot, scene }, timeout)?;
+        let scene = Cow::Borrowed(scene);
+        self.ask(Request::Prepare { slot, scene }, timeout)?;
         let mut warm = self.submit(slot, 1, timeout)?;
         if warm.first().is_some_and(|first| first.wall < BUDGET) {
             warm = self.submit(slot, WARM_UP, timeout)?;

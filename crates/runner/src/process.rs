@@ -7,9 +7,10 @@ use crate::exit_report::ExitReport;
 use crate::launch::{Launch, StartError};
 use crate::loss::Loss;
 use crate::memory::MemoryLimit;
-use crate::protocol::{Request, Response, encode, receive};
+use crate::protocol::{Request, Response, encode_behind, receive};
 use crate::stderr_tail::StderrTail;
 use crate::sync::lock;
+use std::collections::VecDeque;
 use std::io::{self, BufReader, Write};
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,12 +45,25 @@ impl Wait<'_> {
     }
 }
 
+/// The settings of glibc's allocator in workers; another C library ignores them. A driver frees the images
+/// of a case before it asks for those of the next: memory that went back to the system in between is
+/// mapped, cleared and faulted in again for every case.
+const MALLOC: (&str, &str) = (
+    "GLIBC_TUNABLES",
+    "glibc.malloc.trim_threshold=268435456:glibc.malloc.mmap_threshold=33554432:glibc.malloc.top_pad=16777216",
+);
+
+/// An answer, or the end of all answers, and the time at which it came.
+type Answer = (Instant, io::Result<Response>);
+
 /// A worker's process and its pipes.
 pub(crate) struct WorkerProcess {
     child: Arc<Mutex<Child>>,
     /// To the thread that writes requests.
     requests: Option<Sender<Vec<u8>>>,
-    responses: Receiver<(Instant, io::Result<Response>)>,
+    responses: Receiver<Vec<Answer>>,
+    /// Answers that came and were not asked for yet.
+    came: VecDeque<Answer>,
     stderr: StderrTail,
     memory: Option<MemoryLimit>,
     /// The time of the last answer, or of the start.
@@ -67,6 +81,10 @@ impl WorkerProcess {
                 Some(value) => command.env(name, value),
                 None => command.env_remove(name),
             };
+        }
+        let chosen = |name: &str| launch.environment.iter().any(|(n, _)| n == name);
+        if std::env::var_os(MALLOC.0).is_none() && !chosen(MALLOC.0) {
+            command.env(MALLOC.0, MALLOC.1);
         }
         // Ctrl-C is meant for the parent, which then ends its workers in good order.
         #[cfg(unix)]
@@ -87,11 +105,15 @@ impl WorkerProcess {
         let (sender, responses) = channel();
         thread::spawn(move || {
             let mut output = BufReader::new(output);
+            let mut answers = Vec::new();
             loop {
                 let message = receive::<Response>(&mut output).transpose();
-                let Some(message) = message else { break };
-                let failed = message.is_err();
-                if sender.send((Instant::now(), message)).is_err() || failed {
+                let ended = !matches!(message, Some(Ok(_)));
+                answers.extend(message.map(|message| (Instant::now(), message)));
+                // What came together is handed over together.
+                let all = ended || output.buffer().is_empty();
+                let unwanted = all && sender.send(std::mem::take(&mut answers)).is_err();
+                if ended || unwanted {
                     break;
                 }
             }
@@ -100,6 +122,7 @@ impl WorkerProcess {
             child: Arc::new(Mutex::new(child)),
             requests: Some(requests),
             responses,
+            came: VecDeque::new(),
             stderr: StderrTail::of(errors),
             memory: None,
             answered: Instant::now(),
@@ -118,9 +141,11 @@ impl WorkerProcess {
         self.answered
     }
 
-    /// Sends a request. A broken pipe shows when the answer is awaited.
-    pub(crate) fn request(&mut self, request: &Request) {
-        let sent = encode(request).map(|bytes| match &self.requests {
+    /// Sends requests in one piece. A broken pipe shows when the answer is awaited.
+    pub(crate) fn request<'s>(&mut self, requests: impl IntoIterator<Item = Request<'s>>) {
+        let mut requests = requests.into_iter();
+        let bytes = requests.try_fold(Vec::new(), |bytes, request| encode_behind(bytes, &request));
+        let sent = bytes.map(|bytes| match &self.requests {
             Some(requests) => requests.send(bytes).is_ok(),
             None => false,
         });
@@ -137,13 +162,17 @@ impl WorkerProcess {
     ) -> Result<Response, Loss> {
         let stopped = || wait.stop.is_some_and(|s| s.load(Ordering::Relaxed));
         loop {
-            let left = until.saturating_duration_since(Instant::now());
-            match self.responses.recv_timeout(left.min(POLL_INTERVAL)) {
-                Ok((at, Ok(response))) => {
+            match self.came.pop_front() {
+                Some((at, Ok(response))) => {
                     self.answered = at;
                     return Ok(response);
                 }
-                Ok((_, Err(e))) => return Err(self.cause(Loss::Garbage(e.to_string()))),
+                Some((_, Err(e))) => return Err(self.cause(Loss::Garbage(e.to_string()))),
+                None => {}
+            }
+            let left = until.saturating_duration_since(Instant::now());
+            match self.responses.recv_timeout(left.min(POLL_INTERVAL)) {
+                Ok(answers) => self.came.extend(answers),
                 Err(RecvTimeoutError::Timeout) if stopped() => return Err(Loss::Cancelled),
                 Err(RecvTimeoutError::Timeout) if left > POLL_INTERVAL => {}
                 Err(RecvTimeoutError::Timeout) => {

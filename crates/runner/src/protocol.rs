@@ -5,6 +5,7 @@ use etalon_frame::{Frame, Limits};
 use etalon_scene::Scene;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::io::{self, Read, Write};
 use std::time::Duration;
 
@@ -13,9 +14,9 @@ const MAX_MESSAGE: u32 = 1 << 30;
 
 /// A request of the parent. `slot` is the parent's number for a prepared scene.
 #[derive(Debug, Serialize, Deserialize)]
-pub(crate) enum Request {
+pub(crate) enum Request<'s> {
     /// Prepare a scene.
-    Prepare { slot: u32, scene: Box<Scene> },
+    Prepare { slot: u32, scene: Cow<'s, Scene> },
     /// Draw a prepared scene `times` times.
     Submit { slot: u32, times: u32 },
     /// Read a drawn scene back.
@@ -59,7 +60,7 @@ pub struct Hello {
     pub limits: Limits,
 }
 
-impl Request {
+impl Request<'_> {
     /// The scene that the request is about.
     pub(crate) fn slot(&self) -> u32 {
         match self {
@@ -73,16 +74,24 @@ impl Request {
 
 /// The bytes of a message in a pipe.
 pub(crate) fn encode<T: Serialize>(message: &T) -> io::Result<Vec<u8>> {
+    encode_behind(Vec::new(), message)
+}
+
+/// Returns the bytes of messages with those of a further one behind them.
+pub(crate) fn encode_behind<T: Serialize>(mut bytes: Vec<u8>, message: &T) -> io::Result<Vec<u8>> {
     const LENGTH: usize = size_of::<u32>();
-    let mut whole = postcard::to_extend(message, vec![0; LENGTH]).map_err(io::Error::other)?;
-    let length = u32::try_from(whole.len() - LENGTH)
+    let start = bytes.len() + LENGTH;
+    bytes.resize(start, 0);
+    let mut bytes = postcard::to_extend(message, bytes).map_err(io::Error::other)?;
+    let length = u32::try_from(bytes.len() - start)
         .ok()
         .filter(|n| *n <= MAX_MESSAGE)
         .ok_or_else(|| io::Error::other("the message is too long"))?;
-    whole[..LENGTH].copy_from_slice(&length.to_le_bytes());
-    Ok(whole)
+    bytes[start - LENGTH..start].copy_from_slice(&length.to_le_bytes());
+    Ok(bytes)
 }
 
+/// Sends a message at once.
 pub(crate) fn send<T: Serialize>(to: &mut impl Write, message: &T) -> io::Result<()> {
     to.write_all(&encode(message)?)?;
     to.flush()
@@ -99,8 +108,8 @@ pub(crate) fn receive<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<O
     if length > MAX_MESSAGE {
         return Err(io::Error::other("not a message of the protocol"));
     }
-    // Grown while reading, so that a lying length cannot take the memory first.
-    let mut bytes = Vec::new();
+    // Grown while reading, so that a lying length cannot take much memory first.
+    let mut bytes = Vec::with_capacity((length as usize).min(1 << 20));
     from.take(u64::from(length)).read_to_end(&mut bytes)?;
     if bytes.len() < length as usize {
         return Err(io::ErrorKind::UnexpectedEof.into());

@@ -1,6 +1,6 @@
 //! The worker's side of the protocol: requests are answered until the parent closes the pipe.
 
-use crate::protocol::{Hello, Payload, Request, Response, receive, send};
+use crate::protocol::{Hello, Payload, Request, Response, encode, receive, send};
 use etalon_backend::{Backend, BackendError, Prepared, Unavailable};
 use std::any::Any;
 use std::collections::HashMap;
@@ -35,9 +35,11 @@ pub fn serve(
     let mut slots: HashMap<u32, Box<dyn Prepared + '_>> = HashMap::new();
     let (sender, requests) = channel();
     thread::spawn(move || read(input, sender));
-    while let Ok(request) = requests.recv() {
-        let request: Request = request?;
+    let mut next = requests.recv().ok();
+    while let Some(request) = next {
+        let request: Request<'_> = request?;
         let slot = request.slot();
+        let is_last = matches!(request, Request::Drop { .. });
         let start = Instant::now();
         // A panic is the suite's own bug and no crash of the driver. The parent starts another
         // worker after it, so that no half-done state is used again.
@@ -51,15 +53,25 @@ pub fn serve(
             elapsed: start.elapsed(),
             messages: backend.messages(),
         };
-        send(output, &response)?;
+        // The answers of a scene leave together, since each wakes the parent: what the parent need not know
+        // at once waits for the last.
+        let tells = !matches!(&response, Response::Done { outcome: Ok(_), messages, .. } if messages.is_empty());
+        output.write_all(&encode(&response)?)?;
+        next = requests.try_recv().ok();
+        if is_last || tells || next.is_none() {
+            output.flush()?;
+        }
+        if next.is_none() {
+            next = requests.recv().ok();
+        }
     }
     Ok(())
 }
 
 /// Passes requests on until there are no more, then makes sure that the process ends.
-fn read(mut input: impl Read, requests: Sender<io::Result<Request>>) {
+fn read(mut input: impl Read, requests: Sender<io::Result<Request<'static>>>) {
     loop {
-        let message = receive::<Request>(&mut input).transpose();
+        let message = receive::<Request<'_>>(&mut input).transpose();
         let Some(message) = message else { break };
         let failed = message.is_err();
         if requests.send(message).is_err() || failed {
@@ -84,7 +96,7 @@ fn panic_message(panic: &(dyn Any + Send)) -> String {
 fn answer<'b>(
     backend: &'b dyn Backend,
     slots: &mut HashMap<u32, Box<dyn Prepared + 'b>>,
-    request: Request,
+    request: Request<'_>,
 ) -> Result<Payload, BackendError> {
     let missing = || BackendError::Internal("the scene is not prepared".to_owned());
     match request {

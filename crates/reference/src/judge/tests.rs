@@ -255,7 +255,7 @@ fn nothing_is_asserted_of_what_depends_on_discarded_contents() {
     let shares = |first: &str, second: &str| {
         let set = passes(Api::Vulkan, first, second);
         let range = set.counters[0].range;
-        let figures = set.statistics().into_iter();
+        let figures = set.statistics().iter();
         let asserted: Vec<u64> = figures.map(|(_, f)| f.asserted).collect();
         (asserted, range.low, range.high)
     };

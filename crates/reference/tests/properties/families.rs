@@ -106,7 +106,7 @@ fn judge(case: &Case) -> AspectStatistics {
             if index == 0 {
                 for judgement in &judgements {
                     for (_, aspect) in judgement.legal.statistics() {
-                        asserted.add(aspect);
+                        asserted.add(*aspect);
                     }
                 }
             }

@@ -141,7 +141,7 @@ fn with_frame(folder: &Path, change: impl FnOnce(&mut etalon_record::FrameFile))
     change(&mut frame);
     record_all(folder, &one_adapter(1), std::slice::from_ref(&record));
     let writer = RunWriter::create(folder, &one_adapter(1)).unwrap();
-    writer.write_frame(&frame).unwrap();
+    writer.frames().write_frame(&frame).unwrap();
     let mut writer = writer;
     writer.append(&record).unwrap();
     record

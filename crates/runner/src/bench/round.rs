@@ -7,6 +7,7 @@ use crate::protocol::{Payload, Request};
 use etalon_backend::FrameTime;
 use etalon_frame::Frame;
 use etalon_scene::Scene;
+use std::borrow::Cow;
 use std::hash::{DefaultHasher, Hasher};
 use std::time::{Duration, Instant};
 
@@ -43,12 +44,12 @@ impl WorkerProcess {
     pub(crate) fn round(&mut self, scene: &Scene, budget: Duration) -> Result<RoundTimes, Failure> {
         let request = Request::Prepare {
             slot: SLOT,
-            scene: Box::new(scene.clone()),
+            scene: Cow::Borrowed(scene),
         };
-        let (_, prepare) = self.ask(&request, DRAW_TIMEOUT)?;
+        let (_, prepare) = self.ask(request, DRAW_TIMEOUT)?;
         let outcome = self.prepared_round(prepare, budget);
         if !matches!(outcome, Err(Failure::Lost(_))) {
-            self.ask(&Request::Drop { slot: SLOT }, DRAW_TIMEOUT)?;
+            self.ask(Request::Drop { slot: SLOT }, DRAW_TIMEOUT)?;
         }
         outcome
     }
@@ -81,7 +82,7 @@ impl WorkerProcess {
         while read_back.is_empty()
             || (read_back.len() < MOST_READ_BACKS && reading.elapsed() < budget / 4)
         {
-            let (payload, took) = self.ask(&Request::ReadBack { slot: SLOT }, DRAW_TIMEOUT)?;
+            let (payload, took) = self.ask(Request::ReadBack { slot: SLOT }, DRAW_TIMEOUT)?;
             let Payload::Frame(frame) = payload else {
                 return Err(wrong_answer().into());
             };

@@ -207,7 +207,7 @@ impl<'s> AdapterRun<'s, '_> {
             }
         }
         if let Some(file) = kept {
-            record.frame = Some(lock(&self.shared.writer).write_frame(&file)?);
+            record.frame = Some(self.shared.frames.write_frame(&file)?);
         }
         let case = self.case(number);
         if let (Some(method), Some(frame)) = (&case.method, observed.frames.first()) {
@@ -237,7 +237,7 @@ impl<'s> AdapterRun<'s, '_> {
         let Some(image) = frame.images.first() else {
             return Ok(());
         };
-        let writer = lock(&shared.writer);
+        let writer = &shared.frames;
         let drawn = etalon_truth::rgb8(image);
         measured.picture = Some(writer.write_picture(&record.case, image.size, &drawn)?);
         let due = truth.rgb8();

@@ -59,6 +59,7 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
         options: plan.options,
         expectations: plan.expectations,
         judge: Judge::default(),
+        frames: writer.frames(),
         writer: Mutex::new(writer),
         error: Mutex::new(None),
         stop: plan.stop,

@@ -6,7 +6,7 @@ use crate::judge::Judge;
 use crate::measure::Truths;
 use crate::sync::lock;
 use etalon_case::Case;
-use etalon_record::{Expectations, RecordError, RunWriter};
+use etalon_record::{Expectations, FrameWriter, RecordError, RunWriter};
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, RwLock};
@@ -19,6 +19,7 @@ pub(super) struct Shared<'a> {
     pub(super) expectations: &'a Expectations,
     pub(super) judge: Judge,
     pub(super) writer: Mutex<RunWriter>,
+    pub(super) frames: FrameWriter,
     /// The error that ended the run.
     pub(super) error: Mutex<Option<RecordError>>,
     /// Set by the caller to stop the run.

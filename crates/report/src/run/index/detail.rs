@@ -3,13 +3,13 @@
 use super::{facts, link};
 use crate::command;
 use crate::numbers::count;
-use crate::picture;
+use crate::picture::{self, Strip};
 use crate::words::{
     allowed, channel_of, code_and_value, code_text, multisampled, place, process_end, repetitions,
     value_text,
 };
 use etalon_frame::{Band, ChannelMismatch, Story, WrongTexel};
-use etalon_record::{FrameFile, Record, Run};
+use etalon_record::{FrameFile, Record, RecordError, Run};
 use maud::{Markup, html};
 use std::path::Path;
 
@@ -26,9 +26,31 @@ pub(crate) struct Budget {
     pub(crate) cut: u64,
 }
 
-pub(crate) fn body(folder: &Path, record: &Record, budget: &mut Budget) -> Markup {
-    let frame = record.frame.as_deref();
-    let frame = frame.map(|path| (path, Run::read_frame(folder, path)));
+/// The frame of a record with its pictures.
+pub(crate) struct Drawn {
+    /// Without its images.
+    frame: Result<FrameFile, RecordError>,
+    /// Of each image; `None` if its codes do not fit its size.
+    strips: Vec<Option<Strip>>,
+}
+
+impl Drawn {
+    /// Reads and draws a record's frame; `None` if the record names none.
+    pub(crate) fn of(folder: &Path, record: &Record) -> Option<Self> {
+        let mut frame = Run::read_frame(folder, record.frame.as_deref()?);
+        let images = frame
+            .as_mut()
+            .map(|frame| std::mem::take(&mut frame.images));
+        Some(Self {
+            strips: images.iter().flatten().map(picture::strip).collect(),
+            frame,
+        })
+    }
+}
+
+pub(crate) fn body(record: &Record, drawn: Option<&Drawn>, budget: &mut Budget) -> Markup {
+    let path = record.frame.as_deref();
+    let frame = path.zip(drawn.map(|drawn| &drawn.frame));
     html! {
         @if let Some((_, Ok(frame))) = &frame { (about(frame)) }
         @if let Some(expected) = &record.expected { p { b { "Expected: " } (expected.reason) } }
@@ -39,7 +61,7 @@ pub(crate) fn body(folder: &Path, record: &Record, budget: &mut Budget) -> Marku
         (circumstances(record))
         @if record.texels.total > 0 { p { (facts::counts(record)) } }
         @match &frame {
-            Some((_, Ok(frame))) => (pictures(frame, budget)),
+            Some((_, Ok(_))) => (pictures(drawn.map_or(&[], |drawn| &drawn.strips), budget)),
             Some((path, Err(error))) => p.note { "No pictures: " (path) ": " (error) },
             None => {},
         }
@@ -123,12 +145,11 @@ fn counters(record: &Record) -> Markup {
     }
 }
 
-fn pictures(frame: &FrameFile, budget: &mut Budget) -> Markup {
+fn pictures(strips: &[Option<Strip>], budget: &mut Budget) -> Markup {
     if budget.bytes > PICTURE_BYTES {
         budget.cut += 1;
         return html! { p.note { "These pictures were left out to keep the page small." } };
     }
-    let strips: Vec<_> = frame.images.iter().map(picture::strip).collect();
     budget.bytes += strips.iter().flatten().map(|s| s.bytes()).sum::<usize>();
     html! {
         @for strip in strips {

@@ -1,7 +1,7 @@
 //! The findings by area and adapter: everything that is not a plain pass.
 
 use super::consensus::Consensus;
-use super::detail::{self, Budget};
+use super::detail::{self, Budget, Drawn};
 use super::link;
 use super::mark::{class, mark};
 use crate::numbers::count;
@@ -10,7 +10,10 @@ use crate::words::{self, Tone};
 use etalon_record::{Record, Verdict};
 use maud::{Markup, html};
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::panic::resume_unwind;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 
 /// The most records that are shown with everything known about them.
 const BODIES: usize = 400;
@@ -108,13 +111,41 @@ fn listed(grid: &Grid<'_>, file: &CaseFile<'_>, column: usize) -> Vec<usize> {
     result
 }
 
+/// Returns the frames of all records that are shown whole, by record. They are most of a page's cost and
+/// independent of each other.
+fn drawn(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> HashMap<usize, Drawn> {
+    let whole: Vec<usize> = plan
+        .bodies
+        .keys()
+        .copied()
+        .filter(|i| plan.whole(*i))
+        .collect();
+    let next = AtomicUsize::new(0);
+    let some = || {
+        let taken = std::iter::from_fn(|| whole.get(next.fetch_add(1, Ordering::Relaxed)));
+        let drawn = taken.filter_map(|i| Some((*i, Drawn::of(folder, grid.record(*i))?)));
+        drawn.collect::<Vec<_>>()
+    };
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        let others: Vec<_> = (1..threads.min(whole.len()))
+            .map(|_| scope.spawn(some))
+            .collect();
+        let own = some();
+        let others = others.into_iter().map(|one| one.join());
+        let others = others.flat_map(|one| one.unwrap_or_else(|panic| resume_unwind(panic)));
+        own.into_iter().chain(others).collect()
+    })
+}
+
 pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> Markup {
     let mut budget = Budget::default();
+    let drawn = drawn(folder, grid, plan);
     let areas: Vec<Markup> = grid
         .areas
         .iter()
         .enumerate()
-        .map(|(a, area)| in_area(folder, grid, plan, &mut budget, (a, area)))
+        .map(|(a, area)| in_area(grid, plan, &drawn, &mut budget, (a, area)))
         .collect();
     html! {
         section id="findings" {
@@ -138,9 +169,9 @@ pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> Markup {
 }
 
 fn in_area(
-    folder: &Path,
     grid: &Grid<'_>,
     plan: &Plan,
+    drawn: &HashMap<usize, Drawn>,
     budget: &mut Budget,
     (a, area): (usize, &Area<'_>),
 ) -> Markup {
@@ -156,7 +187,7 @@ fn in_area(
                             span class={ "chip " (class(verdict, tone)) } { (n) " " (mark(verdict, tone)) }
                         }
                     }
-                    @for file in &area.files { (in_file(folder, grid, plan, budget, file, column)) }
+                    @for file in &area.files { (in_file(grid, plan, drawn, budget, file, column)) }
                     (not_supported(grid, area, column))
                 }
             }
@@ -165,9 +196,9 @@ fn in_area(
 }
 
 fn in_file(
-    folder: &Path,
     grid: &Grid<'_>,
     plan: &Plan,
+    drawn: &HashMap<usize, Drawn>,
     budget: &mut Budget,
     file: &CaseFile<'_>,
     column: usize,
@@ -180,7 +211,7 @@ fn in_file(
             @if plan.whole(index) {
                 details.d {
                     summary { (line(plan, index, record, html! { code { (record.case) } })) }
-                    div.body id={ "r" (index) } { (detail::body(folder, record, budget)) }
+                    div.body id={ "r" (index) } { (detail::body(record, drawn.get(&index), budget)) }
                 }
             } @else {
                 p.d id={ "r" (index) } {

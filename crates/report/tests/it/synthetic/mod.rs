@@ -263,7 +263,7 @@ pub(crate) fn record(
         _ => r.texels.wrong = r.wrong.len() as u64,
     }
     r.story = Some(story());
-    r.frame = Some(writer.write_frame(&frame).unwrap());
+    r.frame = Some(writer.frames().write_frame(&frame).unwrap());
     r
 }
 

@@ -1,0 +1,74 @@
+//! Writing the frames and pictures of a run folder. They are files of their own, so that several threads
+//! write them at once and none waits for the records.
+
+use crate::error::RecordError;
+use crate::frame_file::FrameFile;
+use crate::json::json_line;
+use crate::paths::{frame_path, picture_path};
+use std::collections::HashSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+/// Writes the frames and pictures of a run folder.
+#[derive(Debug)]
+pub struct FrameWriter {
+    folder: PathBuf,
+    /// The folders that are there.
+    made: Mutex<HashSet<PathBuf>>,
+}
+
+impl FrameWriter {
+    pub(crate) fn new(folder: &Path) -> Self {
+        Self {
+            folder: folder.to_owned(),
+            made: Mutex::default(),
+        }
+    }
+
+    fn make_folder_of(&self, path: &Path) -> Result<(), RecordError> {
+        let Some(parent) = path.parent() else {
+            return Ok(());
+        };
+        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        if !made.contains(parent) {
+            fs::create_dir_all(parent).map_err(RecordError::io("create", parent))?;
+            made.insert(parent.to_owned());
+        }
+        Ok(())
+    }
+
+    /// Writes a frame file and returns its path below the run folder, for [`Record::frame`](crate::Record::frame). Call
+    /// it before the record is appended, so that no record names a file that is not there.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write_frame(&self, frame: &FrameFile) -> Result<String, RecordError> {
+        let relative = frame_path(&frame.adapter, &frame.case);
+        let path = self.folder.join(&relative);
+        self.make_folder_of(&path)?;
+        let bytes = json_line("a frame", frame)?;
+        fs::write(&path, bytes).map_err(RecordError::io("write", &path))?;
+        Ok(relative)
+    }
+
+    /// Writes a picture as PNG and returns its path below the run folder. `rgb` holds red, green and
+    /// blue of each texel, row by row from the top. Call it before the record is appended.
+    ///
+    /// # Errors
+    /// When the file cannot be written, or there are not as many values as the size asks for.
+    pub fn write_picture(
+        &self,
+        case: &str,
+        [width, height]: [u32; 2],
+        rgb: &[u8],
+    ) -> Result<String, RecordError> {
+        let relative = picture_path(case);
+        let path = self.folder.join(&relative);
+        self.make_folder_of(&path)?;
+        image::save_buffer(&path, rgb, width, height, image::ColorType::Rgb8)
+            .map_err(std::io::Error::other)
+            .map_err(RecordError::io("write", &path))?;
+        Ok(relative)
+    }
+}
