@@ -593,6 +593,19 @@ mod tests {
     }
 
     #[test]
+    fn stencil_references_are_whole_numbers_of_uploaded_floats() {
+        let draw =
+            json!({ "mesh": { "kind": "full" }, "shader": "exported_depth", "textures": ["t"] });
+        let faulty = |format, texel| fault(draw.clone(), format, texel).is_some();
+        assert!(!faulty("rgba32float", [-65535.0, 1.0, 0.5, 65535.0]));
+        assert!(faulty("rgba32float", [0.5, 1.0, 0.0, 0.0]));
+        assert!(faulty("rgba32float", [65536.0, 1.0, 0.0, 0.0]));
+        assert!(faulty("rgba32float", [1.0, 1.5, 0.0, 0.0]));
+        assert!(faulty("rgba32float", [1.0, 1.0, 0.0, 0.5]));
+        assert!(faulty("rgba8unorm", [1.0, 1.0, 0.0, 0.0]));
+    }
+
+    #[test]
     fn without_a_fragment_shader_nothing_asks_for_its_colours() {
         let draw = json!({ "mesh": { "kind": "full" }, "shader": "vertex_only", "write_mask": "" });
         let with = |key: &str, value: Value| {

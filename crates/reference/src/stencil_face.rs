@@ -97,7 +97,7 @@ impl Walk<'_> {
                     let own = face.state.reference;
                     format!("forced tests come before the shader: the draw's {own} counts")
                 },
-                Some(replaces(self.limits.api)),
+                Some(comes_late(self.limits.api)),
             );
         }
     }
@@ -113,6 +113,21 @@ fn replaces(api: Api) -> &'static str {
         Api::OpenGl => {
             "GL_ARB_shader_stencil_export: gl_FragStencilRefARB establishes the fragment's reference; bits \
              past STENCIL_BITS are discarded"
+        }
+        Api::OpenGlEs | Api::WebGpu => "no stencil export",
+    }
+}
+
+/// Returns the clause by which forced tests have the draw's reference.
+fn comes_late(api: Api) -> &'static str {
+    match api {
+        Api::Vulkan => {
+            "Vulkan: Stencil Reference Replacement: the new value is for stencil testing after the fragment \
+             shader; Early Fragment Test: with EarlyFragmentTests it comes before"
+        }
+        Api::OpenGl => {
+            "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: the stencil test is performed prior to \
+             fragment shader execution, and not again after it"
         }
         Api::OpenGlEs | Api::WebGpu => "no stencil export",
     }
