@@ -79,6 +79,10 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
         let masks = textures.first().map(|i| &attachments[*i]);
         check_masks(masks).map_err(|e| e.key("textures"))?;
     }
+    if wire.shader.writes_reference() {
+        let references = textures.first().map(|i| &attachments[*i]);
+        check_references(references).map_err(|e| e.key("textures"))?;
+    }
     if textures.len() != wire.shader.textures() {
         return Err(At::new(format!(
             "shader {} fetches from {} textures, {} are given",
@@ -362,6 +366,32 @@ fn check_masks(texture: Option<&Attachment>) -> Result<(), At> {
     }
 }
 
+/// Checks the texture from which a shader takes its stencil references, and perhaps its depth.
+fn check_references(texture: Option<&Attachment>) -> Result<(), At> {
+    const MOST: f32 = 65535.0;
+    let Some(texture) = texture else {
+        return Ok(());
+    };
+    let texels = match &texture.contents {
+        Contents::Texels(texels) if texture.format == TextureFormat::Rgba32Float => texels,
+        _ => {
+            let message = "a stencil reference comes from uploaded texels of rgba32float";
+            return Err(At::new(message));
+        }
+    };
+    let fits = |texel: &[u32]| {
+        let [front, depth, _, back] = [0, 1, 2, 3].map(|c| f32::from_bits(texel[c]));
+        let whole = |v: f32| v.fract() == 0.0 && v.abs() <= MOST;
+        whole(front) && whole(back) && (0.0..=1.0).contains(&depth)
+    };
+    match texels.chunks_exact(4).all(fits) {
+        true => Ok(()),
+        false => Err(At::new(
+            "a stencil reference is a whole number from -65535 to 65535, and a written depth lies between 0 and 1",
+        )),
+    }
+}
+
 /// True if a draw can change depth or stencil.
 pub(crate) fn writes_depth_stencil(draw: &Draw) -> bool {
     let changes = |face: &StencilFace| {
@@ -559,6 +589,19 @@ mod tests {
         assert!(faulty("rgba32float", [0.5, 1.0, 0.0, 0.0]));
         assert!(faulty("rgba32float", [-1.0, 1.0, 0.0, 0.0]));
         assert!(faulty("rgba32float", [1.0, 1.5, 0.0, 0.0]));
+        assert!(faulty("rgba8unorm", [1.0, 1.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn stencil_references_are_whole_numbers_of_uploaded_floats() {
+        let draw =
+            json!({ "mesh": { "kind": "full" }, "shader": "exported_depth", "textures": ["t"] });
+        let faulty = |format, texel| fault(draw.clone(), format, texel).is_some();
+        assert!(!faulty("rgba32float", [-65535.0, 1.0, 0.5, 65535.0]));
+        assert!(faulty("rgba32float", [0.5, 1.0, 0.0, 0.0]));
+        assert!(faulty("rgba32float", [65536.0, 1.0, 0.0, 0.0]));
+        assert!(faulty("rgba32float", [1.0, 1.5, 0.0, 0.0]));
+        assert!(faulty("rgba32float", [1.0, 1.0, 0.0, 0.5]));
         assert!(faulty("rgba8unorm", [1.0, 1.0, 0.0, 0.0]));
     }
 

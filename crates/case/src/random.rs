@@ -23,6 +23,8 @@ pub(crate) enum Flavor {
     /// [`Flavor::Common`] with what only some APIs have, one such thing in a scene: separate
     /// stencil masks, two sources, logic operations, depth bounds, depth clamp, reversed depth.
     Extended,
+    /// [`Flavor::Common`] with shaders that write the stencil reference.
+    Exported,
 }
 
 /// Something that only some APIs have.
@@ -36,6 +38,7 @@ enum Extra {
     DepthClamp,
     ReversedDepth,
     AlphaToOne,
+    Exported,
 }
 
 /// The colours of a scene, of which few codes are legal.
@@ -93,6 +96,7 @@ pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
     let samples = if flavor == Flavor::Multisample { 4 } else { 1 };
     let extra = match flavor {
         Flavor::Common => Extra::Nothing,
+        Flavor::Exported => Extra::Exported,
         Flavor::Multisample => *dice.of(&[Extra::Nothing, Extra::Nothing, Extra::AlphaToOne]),
         Flavor::Extended => *dice.of(&[
             Extra::SeparateMasks,
@@ -131,7 +135,7 @@ pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
     let clear = maker.color();
     let stored = *maker.dice.of(&[0.0, 0.5, 1.0]);
     let stencil = maker.dice.range(1, 254);
-    json!({
+    let mut scene = json!({
         "attachments": {
             "color": { "format": color, "samples": samples, "size": [SIZE, SIZE], "clear": clear },
             "depth": {
@@ -143,7 +147,16 @@ pub(crate) fn scene(flavor: Flavor, seed: u64) -> Value {
         },
         "passes": [{ "color": ["color"], "depth_stencil": "depth", "draws": draws }],
         "read": ["color", "depth"]
-    })
+    });
+    if extra == Extra::Exported {
+        scene["attachments"]["references"] = maker.references();
+    }
+    scene
+}
+
+/// True if the viewport must keep the depths that a shader writes.
+fn writes_depth(shader: &str) -> bool {
+    matches!(shader, "flat_color_depth" | "exported_depth")
 }
 
 struct Maker {
@@ -162,6 +175,16 @@ impl Maker {
     fn draw(&mut self, index: u32) -> Value {
         let (shader, textures) = match self.extra {
             Extra::DualSource => ("texel_dual_source", json!(["first", "second"])),
+            // The first draw always writes one.
+            Extra::Exported if index == 0 || self.dice.range(0, 2) > 0 => {
+                let shaders = [
+                    "exported_color",
+                    "exported_depth",
+                    "exported_discard",
+                    "exported_facing",
+                ];
+                (*self.dice.of(&shaders), json!(["references"]))
+            }
             _ => match self.dice.range(0, 3) {
                 0 => ("flat_color", json!([])),
                 1 => ("front_facing", json!([])),
@@ -178,7 +201,7 @@ impl Maker {
             "front_face": self.dice.of(&["ccw", "cw"]),
             "viewport": {
                 "rect": self.rect(),
-                "depth": if shader == "flat_color_depth" { json!([0, 1]) } else { self.depth_range() }
+                "depth": if writes_depth(shader) { json!([0, 1]) } else { self.depth_range() }
             },
             "scissor": self.scissor(),
             "depth": { "compare": self.compare(), "write": self.dice.range(0, 3) > 0 },
@@ -319,6 +342,27 @@ impl Maker {
         json!({ "format": "rgba16float", "size": [SIZE, SIZE], "texels": { "kind": kind, "values": values } })
     }
 
+    /// Stencil references, of which many are the scene's in the bits that count, written depths, and what
+    /// decides on a discard.
+    fn references(&mut self) -> Value {
+        let own = self.reference;
+        let values: Vec<Value> = (0..SIZE)
+            .map(|_| {
+                let mut one = || {
+                    let other = self.dice.range(0, 255);
+                    let high = *self.dice.of(&[0, 0, 256, -256, 768]);
+                    let low = *self.dice.of(&[own, own, own + 1, other]);
+                    i64::from(low) + high
+                };
+                let (front, back) = (one(), one());
+                let blue = self.dice.range(0, 3).min(1);
+                json!([front, self.depth(), blue, back])
+            })
+            .collect();
+        let kind = *self.dice.of(&["columns", "rows"]);
+        json!({ "format": "rgba32float", "size": [SIZE, SIZE], "texels": { "kind": kind, "values": values } })
+    }
+
     fn compare(&mut self) -> CompareFunction {
         use CompareFunction as Is;
         // What draws something stands more than once, or pictures would stay empty.
@@ -439,7 +483,12 @@ mod tests {
 
     #[test]
     fn a_seed_gives_the_same_scene_and_another_another() {
-        for flavor in [Flavor::Common, Flavor::Multisample, Flavor::Extended] {
+        for flavor in [
+            Flavor::Common,
+            Flavor::Multisample,
+            Flavor::Extended,
+            Flavor::Exported,
+        ] {
             assert_eq!(scene(flavor, 7), scene(flavor, 7));
             assert_ne!(scene(flavor, 7), scene(flavor, 8));
         }

@@ -146,7 +146,8 @@ const GL_SOFTPIPE: Lacks = Lacks {
 
 const ES_FEATURES: &str = "alpha-to-one conservative-depth depth-bounds first-provoking-vertex \
     fragment-invocations fragment-shader-absent fragment-shader-absent-with-color logic-operations \
-    mirrored-viewport mixed-provoking-vertices polygon-mode-line precise-occlusion upper-left-domain";
+    mirrored-viewport mixed-provoking-vertices polygon-mode-line precise-occlusion stencil-export \
+    upper-left-domain";
 /// OpenGL ES of llvmpipe and zink.
 const ES: Lacks = Lacks {
     features: &[ES_FEATURES, RESOLVES],
@@ -170,7 +171,8 @@ const WGPU_FEATURES: &str = "advanced-blend advanced-blend-coherent alpha-to-one
     sample-mask-output-with-alpha-to-coverage constant-alpha-blend-factor depth-bounds front-and-back-culling last-provoking-vertex \
     logic-operations masked-clears min-max-blend-factors min-sample-shading mirrored-viewport \
     mixed-provoking-vertices polygon-mode-line precise-occlusion rasterizer-discard reversed-depth-range \
-    sample-coverage scissor-outside separate-stencil-masks tessellation triangle-fans upper-left-domain";
+    sample-coverage scissor-outside separate-stencil-masks stencil-export tessellation triangle-fans \
+    upper-left-domain";
 /// Codes of two formats' samples could not be told for certain; WebGPU does not resolve integers.
 const WGPU_VULKAN: Lacks = Lacks {
     features: &[WGPU_FEATURES, RESOLVES],

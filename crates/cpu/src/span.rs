@@ -2,7 +2,7 @@
 
 use crate::lanes::{Codes, LANES, Mask, Real};
 use crate::linear::{CENTER, Linear, UNITS};
-use crate::steps::{Path, Steps, Tests};
+use crate::steps::{Exported, Path, Steps, Tests};
 use crate::surface::{Surface, depth_encoding};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{FragmentInput, FragmentOutput, cost, fragment};
@@ -41,6 +41,45 @@ pub(crate) struct SpanState<'a, S> {
     surfaces: &'a mut [Surface],
     counters: &'a mut [Counted],
     steps: &'a S,
+}
+
+/// The stencil state of a span's face, and the references that a shader wrote for it.
+struct Face {
+    face: StencilFace,
+    front: bool,
+    written: Option<Written>,
+}
+
+/// The references that a shader wrote, and what of them it added for the sample.
+type Written = ([i32; LANES], i32);
+
+impl Face {
+    /// Returns the state of one texel, for the stencil test or the update on a path.
+    #[inline(always)]
+    fn of<S: Steps>(
+        &self,
+        steps: &S,
+        path: Option<Path>,
+        lane: usize,
+        sample: usize,
+    ) -> StencilFace {
+        let Some((written, plus)) = self.written else {
+            return self.face;
+        };
+        let reference = steps.exported(&Exported {
+            face: self.face,
+            front: self.front,
+            path,
+            written,
+            plus,
+            lane,
+            sample,
+        });
+        StencilFace {
+            reference,
+            ..self.face
+        }
+    }
 }
 
 /// The number of texels for which an expensive shader's loop runs at once.
@@ -89,6 +128,7 @@ fn tests_early(draw: &Draw) -> bool {
         || shader.writes_depth()
         || shader.counts_runs()
         || shader.writes_mask()
+        || shader.writes_reference()
         || draw.multisample.alpha_to_coverage);
     same || draw.early_tests == EarlyTests::Forced
 }
@@ -98,6 +138,10 @@ fn reads_depth(shader: Shader) -> bool {
     !matches!(
         shader,
         Shader::ExpensiveColor
+            | Shader::ExportedColor
+            | Shader::ExportedDiscard
+            | Shader::ExportedFacing
+            | Shader::ExportedSample
             | Shader::FlatColor
             | Shader::FragCoordColor
             | Shader::MaskedColor
@@ -199,7 +243,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
             };
             let first_depth = *seen.get_or_insert(own_depth);
             if self.early {
-                mask = self.test_and_store(span, sample, own_depth, mask);
+                mask = self.test_and_store(span, sample, own_depth, None, mask);
                 self.count_passed(mask);
                 if !mask.contains(&true) {
                     continue;
@@ -226,7 +270,11 @@ impl<'a, S: Steps> SpanState<'a, S> {
             }
             if !self.early {
                 let depth = output.depth.unwrap_or(own_depth);
-                mask = self.test_and_store(span, sample, depth, mask);
+                let references = output.reference.map(|reference| {
+                    let written = reference.number.map(|number| reference.written(number));
+                    (written, reference.plus)
+                });
+                mask = self.test_and_store(span, sample, depth, references, mask);
                 self.count_passed(mask);
             }
             if mask.contains(&true) {
@@ -320,8 +368,16 @@ impl<'a, S: Steps> SpanState<'a, S> {
         }
     }
 
-    /// Runs depth bounds, stencil and depth test and stores both. Returns where colour is written.
-    fn test_and_store(&mut self, span: &Span<'_>, sample: usize, depth: Real, mask: Mask) -> Mask {
+    /// Runs depth bounds, stencil and depth test and stores both, given the stencil references that the shader
+    /// wrote before, if it does. Returns where colour is written.
+    fn test_and_store(
+        &mut self,
+        span: &Span<'_>,
+        sample: usize,
+        depth: Real,
+        references: Option<Written>,
+        mask: Mask,
+    ) -> Mask {
         let bounded = self.depth_bounds(span, sample, depth, mask);
         let mut tests = Tests {
             covered: bounded,
@@ -331,7 +387,12 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let face = self
             .draw
             .stencil
-            .map(|s| if span.front { s.front } else { s.back });
+            .map(|s| if span.front { s.front } else { s.back })
+            .map(|face| Face {
+                face,
+                front: span.front,
+                written: references,
+            });
         if let Some(face) = &face {
             tests.stencil = self.stencil_test(span, sample, face);
         }
@@ -368,21 +429,24 @@ impl<'a, S: Steps> SpanState<'a, S> {
         and(mask, inside)
     }
 
-    fn stencil_test(&self, span: &Span<'_>, sample: usize, face: &StencilFace) -> Mask {
+    fn stencil_test(&self, span: &Span<'_>, sample: usize, face: &Face) -> Mask {
         let Some(index) = self.pass.depth_stencil else {
             return [true; LANES];
         };
         let at = self.at(index, span);
         let seen = self.steps.stored_sample(Aspect::Stencil, sample);
         let stored = &self.surfaces[index].stencil[seen];
-        std::array::from_fn(|i| self.steps.stencil_passes(face, stored[at + i]))
+        std::array::from_fn(|i| {
+            let face = face.of(self.steps, None, i, sample);
+            self.steps.stencil_passes(&face, stored[at + i])
+        })
     }
 
     fn stencil_update(
         &mut self,
         span: &Span<'_>,
         sample: usize,
-        face: &StencilFace,
+        face: &Face,
         path: Path,
         mask: Mask,
     ) {
@@ -392,7 +456,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let at = self.at(index, span);
         let stored = &mut self.surfaces[index].stencil[sample][at..at + LANES];
         for (i, slot) in stored.iter_mut().enumerate() {
-            let new = self.steps.stencil_write(face, path, *slot);
+            let face = face.of(self.steps, Some(path), i, sample);
+            let new = self.steps.stencil_write(&face, path, *slot);
             *slot = if mask[i] { new } else { *slot };
         }
     }

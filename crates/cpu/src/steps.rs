@@ -10,7 +10,8 @@ use crate::surface::Surface;
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{Kept, SampleMask};
 use etalon_pipeline::{
-    Arithmetic, BlendInput, Plain, advanced_blend, blend, compare, stencil_passes, stencil_write,
+    Arithmetic, BlendInput, Plain, advanced_blend, blend, compare, exported_reference,
+    stencil_passes, stencil_write,
 };
 use etalon_scene::{
     AdvancedBlend, BlendState, Clear, CompareFunction, DepthBias, LogicOperation, Multisample,
@@ -38,6 +39,25 @@ impl Path {
             Self::Pass => face.pass_op,
         }
     }
+}
+
+/// A use of the stencil reference that a shader writes.
+#[derive(Clone, Copy, Debug)]
+pub struct Exported {
+    /// The state of the fragment's face, with the draw's reference.
+    pub face: StencilFace,
+    /// True if that face is the front.
+    pub front: bool,
+    /// The outcome of the tests, for the update; `None` for the stencil test.
+    pub path: Option<Path>,
+    /// What the shader writes, texel by texel.
+    pub written: [i32; LANES],
+    /// What the shader added for the sample.
+    pub plus: i32,
+    /// The texel among them.
+    pub lane: usize,
+    /// The sample.
+    pub sample: usize,
 }
 
 /// The results of the tests of a span. A disabled test passes.
@@ -168,6 +188,12 @@ pub trait Steps {
     #[inline(always)]
     fn counted(&self, _kind: CounterKind, mask: Mask) -> u64 {
         mask.iter().map(|set| u64::from(*set)).sum()
+    }
+
+    /// Returns the reference of a fragment whose shader writes one.
+    #[inline(always)]
+    fn exported(&self, of: &Exported) -> u8 {
+        exported_reference(of.written[of.lane])
     }
 
     /// Returns true if a stored value passes the stencil test.

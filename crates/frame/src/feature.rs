@@ -97,6 +97,8 @@ state_enum! {
         ScissorOutside = "scissor-outside",
         /// Stencil masks or references that differ between front and back faces.
         SeparateStencilMasks = "separate-stencil-masks",
+        /// Stencil references that fragment shaders write.
+        StencilExport = "stencil-export",
         /// Resolving stencil to its greatest sample.
         StencilResolveMax = "stencil-resolve-max",
         /// Resolving stencil to its least sample.

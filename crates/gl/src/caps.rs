@@ -9,6 +9,9 @@ pub(crate) const SECOND_VIEWPORT: &str = "GL_ARB_shader_viewport_layer_array";
 /// The extension by which fragment shaders allow advanced blend equations.
 pub(crate) const ADVANCED_BLEND: &str = "GL_KHR_blend_equation_advanced";
 
+/// The extension by which fragment shaders write the stencil reference.
+pub(crate) const STENCIL_EXPORT: &str = "GL_ARB_shader_stencil_export";
+
 /// The capabilities that this backend uses.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Caps {
@@ -39,6 +42,8 @@ pub(crate) struct Caps {
     pub(crate) fixed_restart: bool,
     /// A shader can fetch the stencil of a depth-stencil texture.
     pub(crate) stencil_texturing: bool,
+    /// Fragment shaders write the stencil reference ([`STENCIL_EXPORT`]).
+    pub(crate) stencil_export: bool,
     /// Stencil-only textures exist.
     pub(crate) stencil_textures: bool,
     /// Shaders can force early fragment tests.
@@ -120,6 +125,7 @@ impl Caps {
             multisample_textures: since(ALWAYS, (3, 1)),
             fixed_restart: since((4, 3), ALWAYS) || has("GL_ARB_ES3_compatibility"),
             stencil_texturing: since((4, 3), (3, 1)) || has("GL_ARB_stencil_texturing"),
+            stencil_export: !es && has(STENCIL_EXPORT),
             stencil_textures: since((4, 4), (3, 2))
                 || has("GL_ARB_texture_stencil8")
                 || has("GL_OES_texture_stencil8"),

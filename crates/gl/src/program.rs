@@ -1,12 +1,13 @@
 //! Programs of the suite's shaders, translated by naga, and of reading attachments back.
 
-use crate::caps::{ADVANCED_BLEND, SECOND_VIEWPORT};
+use crate::caps::{ADVANCED_BLEND, SECOND_VIEWPORT, STENCIL_EXPORT};
 use crate::context::{Context, refused};
 use crate::enums::blend_support;
 use crate::path::Variant;
 use etalon_backend::BackendError;
 use etalon_scene::{
-    AdvancedBlend, CONTROL_GLSL, EVALUATION_GLSL, EarlyTests, FrontFace, Shader, Tessellation,
+    AdvancedBlend, CONTROL_GLSL, EVALUATION_GLSL, EarlyTests, FrontFace, STENCIL_REFERENCE, Shader,
+    Tessellation,
 };
 use glow::HasContext;
 use naga::back::glsl;
@@ -274,6 +275,9 @@ impl Translated {
         if shader.writes_mask() {
             fragment = with_mask(&fragment, context.caps.es)?;
         }
+        if shader.writes_reference() {
+            fragment = with_reference(&fragment)?;
+        }
         // naga omits qualifiers that the version lacks.
         if let Some(word) = qualifier(tests)
             && !fragment.contains(word)
@@ -357,6 +361,22 @@ fn with_mask(fragment: &str, es: bool) -> Result<String, String> {
     })
 }
 
+/// Returns a fragment shader whose output at the stencil reference's location is GLSL's built-in, of which
+/// naga knows nothing.
+fn with_reference(fragment: &str) -> Result<String, String> {
+    let declared = format!("layout(location = {STENCIL_REFERENCE}) out int ");
+    let (before, rest) = fragment
+        .split_once(&declared)
+        .ok_or("naga declares no stencil reference")?;
+    let (name, after) = rest.split_once(';').ok_or("naga declares no output")?;
+    let text = format!("{before}{}", after.trim_start());
+    let text = text.replace(&format!("{name} = "), "gl_FragStencilRefARB = ");
+    let (version, body) = text.split_once('\n').ok_or("naga writes no version")?;
+    Ok(format!(
+        "{version}\n#extension {STENCIL_EXPORT} : require\n{body}"
+    ))
+}
+
 /// Returns GLSL's layout qualifier of an early-test mode.
 fn qualifier(tests: EarlyTests) -> Option<&'static str> {
     match tests {
@@ -410,6 +430,17 @@ fn link(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_stencil_reference_is_assigned_to_the_built_in() {
+        let text = "#version 330 core\nlayout(location = 0) out vec4 a;\nlayout(location = 1) out int b;\n\
+                    void main() {\na = _e1.color;\nb = _e1.stencil_reference;\nreturn;\n}\n";
+        let expected = "#version 330 core\n#extension GL_ARB_shader_stencil_export : require\n\
+                        layout(location = 0) out vec4 a;\nvoid main() {\na = _e1.color;\n\
+                        gl_FragStencilRefARB = _e1.stencil_reference;\nreturn;\n}\n";
+        assert_eq!(with_reference(text).as_deref(), Ok(expected));
+        assert!(with_reference(expected).is_err());
+    }
 
     #[test]
     fn a_sample_mask_is_assigned_as_the_first_word_of_an_array() {

@@ -1,7 +1,9 @@
 //! The rasterizer's steps with one of them replaced.
 
 use etalon_cpu::Surface;
-use etalon_cpu::steps::{Codes, Faithful, LANES, Mask, Path, Real, Steps, Tests, Written};
+use etalon_cpu::steps::{
+    Codes, Exported, Faithful, LANES, Mask, Path, Real, Steps, Tests, Written,
+};
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::shader::{Kept, SampleMask};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, advanced_blend, blend};
@@ -37,6 +39,8 @@ hooks! {
     covered([u32; 2], [u32; 2]) -> bool;
     /// Texels are fetched from `bug([x, y], [width, height])`.
     fetch([u32; 2], [u32; 2]) -> [u32; 2];
+    /// The stencil reference of a fragment whose shader writes one.
+    exported(&Exported) -> u8;
     /// The stencil test.
     stencil_passes(&StencilFace, u8) -> bool;
     /// The stencil update, write mask and all.
@@ -153,6 +157,13 @@ impl Steps for &Hooks {
             }
             None => [if c == 3 { 1.0 } else { 0.0 }; LANES],
         })
+    }
+
+    fn exported(&self, of: &Exported) -> u8 {
+        match &self.exported {
+            None => Faithful.exported(of),
+            Some(bug) => bug(of),
+        }
     }
 
     fn stencil_passes(&self, face: &StencilFace, stored: u8) -> bool {

@@ -48,6 +48,7 @@ mod sequence;
 mod shader_mask;
 mod size;
 mod stencil;
+mod stencil_export;
 mod sticky;
 mod tables;
 mod targets;

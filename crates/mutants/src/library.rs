@@ -6,8 +6,8 @@ use crate::{
     bias, blend, bounds, capability, carried, clear, clip_distance, counter, cull, depth,
     depth_range, discard, dual_source, early, fetch, formats, geometry, held, hierarchy,
     invariance, logic, mask, provoking, read_only, readback, resolve, sample_coverage,
-    sample_shading, samples, scissor, sequence, shader_mask, size, stencil, sticky, targets,
-    tessellation, texture, tiled, topology, upload, viewport,
+    sample_shading, samples, scissor, sequence, shader_mask, size, stencil, stencil_export, sticky,
+    targets, tessellation, texture, tiled, topology, upload, viewport,
 };
 use std::sync::LazyLock;
 
@@ -58,6 +58,7 @@ pub fn mutants() -> &'static [Mutant] {
         sequence::add(&mut list);
         size::add(&mut list);
         shader_mask::add(&mut list);
+        stencil_export::add(&mut list);
         held::add(&mut list);
         list.mutants
     });

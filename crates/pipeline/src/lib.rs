@@ -27,5 +27,5 @@ pub use depth::{DepthPlane, slope};
 pub use logic::{logic_operation, takes_logic};
 pub use plain::Plain;
 pub use sampling::texel_position;
-pub use stencil::{compare, stencil_operation, stencil_passes, stencil_write};
+pub use stencil::{compare, exported_reference, stencil_operation, stencil_passes, stencil_write};
 pub use viewport::{front_facing, is_culled, window_position};

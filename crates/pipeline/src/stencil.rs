@@ -50,6 +50,13 @@ pub fn stencil_write(face: &StencilFace, operation: StencilOperation, stored: u8
     (stored & !face.write_mask) | (new & face.write_mask)
 }
 
+/// Returns the bits of a reference that a shader writes which count: those that the attachment has
+/// (Vulkan, FragStencilRefEXT; GL_ARB_shader_stencil_export, 3.3.x).
+#[inline(always)]
+pub fn exported_reference(written: i32) -> u8 {
+    written as u8
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -67,6 +74,13 @@ mod tests {
         }
         assert_eq!(stencil_operation(Op::Invert, 0b0110_0001, 7), 0b1001_1110);
         assert_eq!(stencil_operation(Op::Replace, 3, 7), 7);
+    }
+
+    #[test]
+    fn the_lowest_eight_bits_of_a_written_reference_count() {
+        let written = [0, 255, 256, 300, -1, -255, 65535];
+        let counted = [0, 255, 0, 44, 255, 1, 255];
+        assert_eq!(written.map(exported_reference), counted);
     }
 
     #[test]

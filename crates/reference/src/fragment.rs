@@ -7,6 +7,7 @@ use crate::notes::{Effect, Notes};
 use crate::possible::Possible;
 use crate::primitive::Shape;
 use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, MaskOfOne, SameDepth};
+use crate::stencil_face::Face;
 use crate::walk::{Place, Walk};
 use crate::world::{Cell, Event, World, Worlds};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, CounterKind};
@@ -14,7 +15,7 @@ use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
 use etalon_pipeline::{
     Arithmetic, compare, front_facing, is_culled, stencil_passes, stencil_write,
 };
-use etalon_scene::{CompareFunction, EarlyTests, Shader, StencilFace};
+use etalon_scene::{CompareFunction, EarlyTests, Shader};
 use smallvec::SmallVec;
 
 impl Walk<'_> {
@@ -83,6 +84,8 @@ impl Walk<'_> {
         let masked = !drawn || draw.multisample.mask & (1 << place.at.sample) == 0;
         if draw.early_tests == EarlyTests::Forced {
             let incoming = self.in_range(place, own_depth, Source::Own);
+            let face = Face::of(draw, front);
+            self.note_late_reference(place, front, notes);
             if masked {
                 // The order of the sample mask against counting is open; against the tests, the rules
                 // tell.
@@ -91,7 +94,7 @@ impl Walk<'_> {
                     true => &mut silent,
                     false => &mut *notes,
                 };
-                let outcomes = self.tests(place, world.clone(), front, incoming, told);
+                let outcomes = self.tests(place, world.clone(), face, incoming, told);
                 if outcomes.iter().any(|(_, passes)| *passes) {
                     self.count(place, &mut world, false, |_| true);
                 }
@@ -107,7 +110,7 @@ impl Walk<'_> {
                 result.push(world);
                 return;
             }
-            for (mut outcome, passes) in self.tests(place, world.clone(), front, incoming, notes) {
+            for (mut outcome, passes) in self.tests(place, world.clone(), face, incoming, notes) {
                 if passes {
                     let worlds = [&world, &outcome];
                     self.early_fragment(place, worlds, &output, incoming, covered, result, notes);
@@ -136,15 +139,17 @@ impl Walk<'_> {
             None => Source::Own,
         };
         let incoming = self.in_range(place, output.depth.unwrap_or(own_depth), source);
-        for (mut outcome, passes) in self.tests(place, world, front, incoming, notes) {
-            let contributes = passes && self.contributes(place);
-            self.run(place, &mut outcome, asks || (!masked && contributes));
-            if passes {
-                self.count(place, &mut outcome, true, CounterKind::is_occlusion);
-                self.write_depth(place, &mut outcome, incoming, notes);
-                self.write_colors(place, &mut outcome, &output, notes);
+        for face in self.faces(place, front, &output, notes) {
+            for (mut outcome, passes) in self.tests(place, world.clone(), face, incoming, notes) {
+                let contributes = passes && self.contributes(place);
+                self.run(place, &mut outcome, asks || (!masked && contributes));
+                if passes {
+                    self.count(place, &mut outcome, true, CounterKind::is_occlusion);
+                    self.write_depth(place, &mut outcome, incoming, notes);
+                    self.write_colors(place, &mut outcome, &output, notes);
+                }
+                result.push(outcome);
             }
-            result.push(outcome);
         }
     }
 
@@ -393,7 +398,7 @@ impl Walk<'_> {
         &self,
         place: Place<'_>,
         world: World,
-        front: bool,
+        face: Option<Face>,
         incoming: Incoming,
         notes: &mut Notes<'_>,
     ) -> SmallVec<[(World, bool); 2]> {
@@ -412,23 +417,20 @@ impl Walk<'_> {
                 return result;
             }
         }
-        let face = draw
-            .stencil
-            .as_ref()
-            .map(|s| if front { s.front } else { s.back });
         if let (Some(face), Some(index)) = (face, depth_stencil) {
+            let state = &face.state;
             let stored = world.cells[index].stencil;
-            let masked = stencil_passes(&face, stored);
-            let unmasked = compare(face.compare, face.reference, stored & face.read_mask);
+            let masked = stencil_passes(state, stored);
+            let unmasked = compare(state.compare, state.reference, stored & state.read_mask);
             let either = !self.rules.masks_reference.value() && masked != unmasked;
             if !masked || either {
-                let new = stencil_write(&face, face.fail_op, stored);
+                let new = stencil_write(state, state.fail_op, stored);
                 self.note_stencil(
                     place,
                     &face,
                     stored,
                     "fails",
-                    face.fail_op.name(),
+                    state.fail_op.name(),
                     new,
                     notes,
                 );
@@ -455,12 +457,12 @@ impl Walk<'_> {
             let mut world = world.clone();
             if let (Some(face), Some(index)) = (face, depth_stencil) {
                 let (operation, word) = if passes {
-                    (face.pass_op, "passes")
+                    (face.state.pass_op, "passes")
                 } else {
-                    (face.depth_fail_op, "passes, depth fails")
+                    (face.state.depth_fail_op, "passes, depth fails")
                 };
                 let stored = world.cells[index].stencil;
-                let new = stencil_write(&face, operation, stored);
+                let new = stencil_write(&face.state, operation, stored);
                 self.note_stencil(place, &face, stored, word, operation.name(), new, notes);
                 world.cells[index].stencil = new;
             }
@@ -603,7 +605,7 @@ impl Walk<'_> {
     fn note_stencil(
         &self,
         place: Place<'_>,
-        face: &StencilFace,
+        face: &Face,
         stored: u8,
         outcome: &str,
         operation: &str,
@@ -611,11 +613,12 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) {
         let detail = || {
+            let state = &face.state;
             format!(
-                "reference {} {} stored {stored} under read mask {:#04x} {outcome}",
-                face.reference,
-                face.compare.name(),
-                face.read_mask
+                "{} {} stored {stored} under read mask {:#04x} {outcome}",
+                face.reference(),
+                state.compare.name(),
+                state.read_mask
             )
         };
         if outcome == "fails" {
@@ -648,7 +651,7 @@ impl Walk<'_> {
             (effect, "store stencil")
         };
         let detail = || {
-            let mask = face.write_mask;
+            let mask = face.state.write_mask;
             format!("{operation} under write mask {mask:#04x}: {stored} becomes {new}")
         };
         let citation = || self.rules.stencil.to_owned();

@@ -36,6 +36,7 @@ mod setup;
 mod signature;
 mod snap;
 mod states;
+mod stencil_face;
 mod store;
 #[cfg(test)]
 mod test_limits;

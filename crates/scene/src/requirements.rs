@@ -193,6 +193,7 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
         masks && draw.multisample.alpha_to_coverage,
         Feature::SampleMaskOutputWithAlphaToCoverage,
     );
+    need(draw.shader.writes_reference(), Feature::StencilExport);
     let shaderless = !draw.shader.has_fragment();
     need(shaderless, Feature::FragmentShaderAbsent);
     need(

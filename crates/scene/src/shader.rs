@@ -9,6 +9,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
+/// The location to which shaders write the stencil reference.
+pub const STENCIL_REFERENCE: u32 = 1;
+
 /// The facts of one shader.
 struct Facts {
     /// The WGSL text.
@@ -35,6 +38,8 @@ struct Facts {
     second_source: bool,
     /// True if it writes a sample mask.
     mask: bool,
+    /// True if it writes the stencil reference.
+    reference: bool,
     /// The depth that it writes.
     depth: Depth,
     /// True if it may discard fragments.
@@ -77,6 +82,7 @@ impl Facts {
         integers: false,
         second_source: false,
         mask: false,
+        reference: false,
         depth: Depth::Fixed,
         discards: false,
         clip_distances: 0,
@@ -154,6 +160,12 @@ impl Shader {
     /// True if the shader writes a sample mask: the red of texture 0.
     pub fn writes_mask(self) -> bool {
         self.facts().mask
+    }
+
+    /// True if the shader writes the stencil reference of its fragments. WGSL has no built-in for it: the
+    /// shader writes it as an integer to [`STENCIL_REFERENCE`], and backends replace that location.
+    pub fn writes_reference(self) -> bool {
+        self.facts().reference
     }
 
     /// True if there is a fragment shader; otherwise a vertex shader alone.
@@ -263,6 +275,17 @@ shaders! {
     ExpensiveDepth = "expensive_depth" { params: true, depth: Depth::Computed },
     /// As `expensive_color`; discards where the vertex colour's alpha is below `params.color`'s.
     ExpensiveDiscard = "expensive_discard" { params: true, discards: true },
+    /// `params.color`; writes the red of the texel of texture 0 under the fragment as stencil reference.
+    ExportedColor = "exported_color" { params: true, textures: 1, reference: true, position_only: true },
+    /// As `exported_color`; writes the texel's green as depth.
+    ExportedDepth = "exported_depth" { params: true, textures: 1, reference: true, depth: Depth::Computed, position_only: true },
+    /// As `exported_color`; discards where the texel's blue is below `params.color`'s.
+    ExportedDiscard = "exported_discard" { params: true, textures: 1, reference: true, discards: true, position_only: true },
+    /// As `exported_color` on front faces; `params.back_color` and the texel's alpha on back faces.
+    ExportedFacing = "exported_facing" { params: true, textures: 1, reference: true, position_only: true },
+    /// As `sample_index`; writes the red of the texel of texture 0 under the fragment plus the number of the
+    /// sample as stencil reference. Runs once per sample.
+    ExportedSample = "exported_sample" { textures: 1, reference: true, per_sample: true, position_only: true },
     /// The vertex colour, flat.
     FlatColor = "flat_color" {},
     /// `params.color`; writes the vertex colour's red as depth.
@@ -355,6 +378,11 @@ mod tests {
             assert_eq!(shader.writes_depth(), has("@builtin(frag_depth)"), "{name}");
             assert_eq!(shader.discards(), has("discard;"), "{name}");
             assert_eq!(shader.writes_mask(), has("@builtin(sample_mask)"), "{name}");
+            assert_eq!(
+                shader.writes_reference(),
+                has("@location(1) stencil_reference: i32"),
+                "{name}"
+            );
             assert_eq!(shader.has_fragment(), has("@fragment"), "{name}");
             assert_eq!(shader.has_second_source(), has("@blend_src(1)"), "{name}");
             let distances = format!("distances: array<f32, {}>,", shader.clip_distances());

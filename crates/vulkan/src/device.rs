@@ -46,6 +46,8 @@ pub(crate) struct Device {
     pub(crate) provoking: Provoking,
     /// Advanced blending: true if it is coherent; `None` if the device lacks it.
     pub(crate) advanced_blend: Option<bool>,
+    /// True if fragment shaders may write the stencil reference.
+    pub(crate) stencil_export: bool,
     /// Valid bits of a timestamp; 0 if timestamps are not supported.
     pub(crate) timestamp_bits: u32,
 }
@@ -378,7 +380,9 @@ impl Device {
         let logic_enable = dynamic_logic && extended && has_dynamic_logic_enable(api, physical);
         let provoking = Provoking::of(api, physical);
         let advanced_blend = advanced_blend(api, physical);
+        let stencil_export = has_extension(api, physical, ash::ext::shader_stencil_export::NAME);
         let extensions: Vec<_> = [
+            (stencil_export, ash::ext::shader_stencil_export::NAME),
             (
                 advanced_blend.is_some(),
                 ash::ext::blend_operation_advanced::NAME,
@@ -451,6 +455,7 @@ impl Device {
                 .then(|| ash::ext::extended_dynamic_state2::Device::new(api, &raw)),
             logic_enable,
             advanced_blend,
+            stencil_export,
             timestamp_bits: if properties.limits.timestamp_period > 0.0 {
                 family.timestamp_valid_bits
             } else {

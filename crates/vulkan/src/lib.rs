@@ -43,6 +43,7 @@ mod shader;
 mod slot;
 mod spirv;
 mod state;
+mod stencil_export;
 mod targets;
 mod tessellation;
 mod viewport;

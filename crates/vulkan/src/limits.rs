@@ -104,6 +104,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         // Only OpenGL has them.
         Feature::ClipDistanceMask | Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
         Feature::MinSampleShading | Feature::SampleShading => features.sample_rate_shading,
+        Feature::StencilExport => device.stencil_export.into(),
         Feature::StorageCounters => features.fragment_stores_and_atomics,
         Feature::BaseVertex
         | Feature::CentroidInterpolation

@@ -3,6 +3,7 @@
 use crate::device::Device;
 use crate::error::Check;
 use crate::mask_array;
+use crate::stencil_export;
 use crate::viewport;
 use ash::vk;
 use etalon_backend::BackendError;
@@ -94,6 +95,9 @@ impl Modules {
         let mut translated = translate(shader.name(), &shader.wgsl_with(tests))?;
         if shader.writes_mask() {
             translated.words = mask_array::as_array(&translated.words);
+        }
+        if shader.writes_reference() {
+            translated.words = stencil_export::as_built_in(&translated.words);
         }
         if second_viewport {
             translated.words = viewport::choose_second(&translated.words);

@@ -3,6 +3,7 @@
 /// Opcodes (SPIR-V, Instructions).
 pub(crate) const EXTENSION: u32 = 10;
 pub(crate) const ENTRY_POINT: u32 = 15;
+pub(crate) const EXECUTION_MODE: u32 = 16;
 pub(crate) const CAPABILITY: u32 = 17;
 pub(crate) const TYPE_INT: u32 = 21;
 pub(crate) const TYPE_ARRAY: u32 = 28;
@@ -16,6 +17,8 @@ pub(crate) const ACCESS_CHAIN: u32 = 65;
 pub(crate) const DECORATE: u32 = 71;
 pub(crate) const RETURN: u32 = 253;
 
+/// The decoration Location.
+pub(crate) const LOCATION: u32 = 30;
 /// The decoration BuiltIn.
 pub(crate) const BUILT_IN: u32 = 11;
 /// The storage class Output.
@@ -38,4 +41,14 @@ pub(crate) fn instructions(words: &[u32]) -> (&[u32], Vec<&[u32]>) {
         rest = behind;
     }
     (header, all)
+}
+
+/// Returns the instruction that names an extension.
+pub(crate) fn extension(name: &str) -> Vec<u32> {
+    let mut bytes = name.as_bytes().to_vec();
+    bytes.resize(bytes.len() / 4 * 4 + 4, 0);
+    let words = bytes
+        .chunks_exact(4)
+        .map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]));
+    instruction(EXTENSION, &words.collect::<Vec<_>>())
 }

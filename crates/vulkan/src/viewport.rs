@@ -4,8 +4,8 @@
 //! extension, an output variable, and a store of 1 before each return of the vertex entry point.
 
 use crate::spirv::{
-    BUILT_IN, CAPABILITY, CONSTANT, DECORATE, ENTRY_POINT, EXTENSION, FUNCTION, FUNCTION_END,
-    OUTPUT, RETURN, STORE, TYPE_INT, TYPE_POINTER, VARIABLE, instruction, instructions,
+    self, BUILT_IN, CAPABILITY, CONSTANT, DECORATE, ENTRY_POINT, FUNCTION, FUNCTION_END, OUTPUT,
+    RETURN, STORE, TYPE_INT, TYPE_POINTER, VARIABLE, instruction, instructions,
 };
 
 /// The capability ShaderViewportIndexLayerEXT of SPV_EXT_shader_viewport_index_layer.
@@ -39,12 +39,7 @@ pub(crate) fn choose_second(words: &[u32]) -> Vec<u32> {
             capability = true;
         }
         if !extension && !is(line, CAPABILITY) {
-            let mut name = b"SPV_EXT_shader_viewport_index_layer".to_vec();
-            name.resize(name.len() / 4 * 4 + 4, 0);
-            let words = name
-                .chunks_exact(4)
-                .map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]));
-            out.extend(instruction(EXTENSION, &words.collect::<Vec<_>>()));
+            out.extend(spirv::extension("SPV_EXT_shader_viewport_index_layer"));
             extension = true;
         }
         if !decorated && (is(line, DECORATE) || opcode(line) == 72) {

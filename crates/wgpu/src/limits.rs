@@ -217,6 +217,8 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
             Feature::SampleShading,
             flag(DownlevelFlags::MULTISAMPLED_SHADING),
         ),
+        // WGSL has no such built-in.
+        (Feature::StencilExport, false),
         (
             Feature::StorageCounters,
             flag(DownlevelFlags::FRAGMENT_WRITABLE_STORAGE)

@@ -274,6 +274,11 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::DepthGrey
         | Shader::DepthLinearized
         | Shader::DepthRange
+        | Shader::ExportedColor
+        | Shader::ExportedDepth
+        | Shader::ExportedDiscard
+        | Shader::ExportedFacing
+        | Shader::ExportedSample
         | Shader::FragCoordColor
         | Shader::FrontFacing
         | Shader::MaskedColor

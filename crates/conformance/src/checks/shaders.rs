@@ -23,7 +23,7 @@ fn with_shader(shader: Shader, targets: usize) -> Value {
     };
     let names = &["a", "b", "c", "d"][..targets];
     let textures = &["s", "t"][..shader.textures()];
-    let texture = match shader.writes_mask() {
+    let texture = match shader.writes_mask() || shader.writes_reference() {
         true => json!({ "format": "rgba32float", "size": [4, 4], "texels":
             { "kind": "rows", "values": [[1, 0.5, 1, 1], [1, 0, 1, 0], [0, 1, 1, 1], [65535, 1, 0, 0]] } }),
         false => json!({ "format": "rgba8unorm", "size": [4, 4] }),

@@ -64,6 +64,7 @@ classes! {
     shaderless = "shaderless",
     size = "size",
     stencil = "stencil",
+    stencil_export = "stencil-export",
     sticky = "sticky",
     targets = "targets",
     tessellation = "tessellation",

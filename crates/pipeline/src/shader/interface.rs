@@ -1,4 +1,5 @@
-//! The interface of fragment shaders: inputs, outputs, the condition to discard, and the sample mask.
+//! The interface of fragment shaders: inputs, outputs, the condition to discard, the sample mask, and the
+//! stencil reference.
 
 use etalon_scene::Params;
 
@@ -39,6 +40,8 @@ pub struct FragmentOutput<R> {
     pub kept: Option<Kept<R>>,
     /// The sample mask, where the shader writes one.
     pub mask: Option<SampleMask<R>>,
+    /// The stencil reference, where the shader writes one.
+    pub reference: Option<StencilReference<R>>,
 }
 
 impl<R: Copy> FragmentOutput<R> {
@@ -51,6 +54,7 @@ impl<R: Copy> FragmentOutput<R> {
             depth: None,
             kept: None,
             mask: None,
+            reference: None,
         }
     }
 
@@ -121,5 +125,27 @@ impl<R> SampleMask<R> {
             None => bits,
             Some(own) => !bits ^ (1 << own),
         }
+    }
+}
+
+/// The stencil reference that a shader writes.
+#[derive(Clone, Copy, Debug)]
+pub struct StencilReference<R> {
+    /// A whole number.
+    pub number: R,
+    /// What the shader adds to it.
+    pub plus: i32,
+}
+
+impl<R> StencilReference<R> {
+    /// Returns a reference that is this number.
+    pub fn of(number: R) -> Self {
+        Self { number, plus: 0 }
+    }
+
+    /// Returns the reference as it is written, given its number.
+    #[inline(always)]
+    pub fn written(&self, number: f32) -> i32 {
+        (number as i32).wrapping_add(self.plus)
     }
 }

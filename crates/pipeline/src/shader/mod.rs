@@ -17,6 +17,11 @@ mod edge_alpha;
 mod expensive_color;
 mod expensive_depth;
 mod expensive_discard;
+mod exported_color;
+mod exported_depth;
+mod exported_discard;
+mod exported_facing;
+mod exported_sample;
 mod flat_color;
 mod flat_color_depth;
 mod fog;
@@ -47,7 +52,7 @@ mod weighted_accumulate;
 mod weighted_resolve;
 
 pub use expensive_color::cost;
-pub use interface::{FragmentInput, FragmentOutput, Kept, SampleMask};
+pub use interface::{FragmentInput, FragmentOutput, Kept, SampleMask, StencilReference};
 
 use crate::arithmetic::Arithmetic;
 use etalon_scene::{Shader, Vertex};
@@ -74,6 +79,11 @@ pub fn fragment<A: Arithmetic>(
         Shader::ExpensiveColor => expensive_color::fragment::<A>(input),
         Shader::ExpensiveDepth => expensive_depth::fragment::<A>(input),
         Shader::ExpensiveDiscard => expensive_discard::fragment(a, input),
+        Shader::ExportedColor => exported_color::fragment(a, input),
+        Shader::ExportedDepth => exported_depth::fragment(a, input),
+        Shader::ExportedDiscard => exported_discard::fragment(a, input),
+        Shader::ExportedFacing => exported_facing::fragment(a, input),
+        Shader::ExportedSample => exported_sample::fragment(a, input),
         Shader::FlatColor => flat_color::fragment::<A>(input),
         Shader::FlatColorDepth => flat_color_depth::fragment(a, input),
         Shader::Fog => fog::fragment(a, input),

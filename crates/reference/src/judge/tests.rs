@@ -170,6 +170,52 @@ fn a_story_names_operations_and_citations() {
     assert!(test.citation.as_ref().is_some_and(|c| c.contains("Depth")));
 }
 
+#[test]
+fn a_story_tells_which_stencil_reference_counts() {
+    let draw = |early: &str| {
+        format!(
+            r#"{{"mesh":{{"kind":"full"}},"shader":"exported_color","textures":["t"],"early_tests":"{early}",
+               "stencil":{{"front":{{"compare":"greater"}},"reference":9}}}}"#
+        )
+    };
+    let attachments = format!(
+        r#"{COLOR},"depth":{{"format":"stencil8","clear":5}},"t":{{"format":"rgba32float","texels":{{"kind":"rows",
+           "values":[[300,0,0,1],[300,0,0,1],[300,0,0,1],[300,0,0,1]]}}}}"#
+    );
+    let told = [
+        (
+            "implicit",
+            "the shader writes 300, of which the lowest 8 bits count, 44, in place of the draw's 9",
+            "exported reference 44 greater stored 5 under read mask 0xff passes",
+        ),
+        (
+            "forced",
+            "forced tests come before the shader: the draw's 9 counts",
+            "reference 9 greater stored 5 under read mask 0xff passes",
+        ),
+    ];
+    let at = Sample {
+        size: [4, 4],
+        samples: 1,
+        x: 2,
+        y: 1,
+        sample: 0,
+    };
+    for api in [Api::Vulkan, Api::OpenGl] {
+        let limits = limits(api);
+        for (early, export, test) in told {
+            let scene = scene(&attachments, &draw(early), r#""depth""#);
+            let story = explain(&scene, &limits, &Rules::of(&limits), at, None);
+            let line = |operation: &str| {
+                let mut lines = story.lines.iter();
+                lines.find(|l| l.operation == operation).map(|l| &*l.detail)
+            };
+            assert_eq!(line("stencil export"), Some(export));
+            assert_eq!(line("stencil test"), Some(test));
+        }
+    }
+}
+
 /// The set of two passes over `color` and `depth`, which `first` and `second` extend.
 fn passes(api: Api, first: &str, second: &str) -> etalon_frame::LegalSet {
     let pass = |keys: &str| format!(r#"{{"color":["color"],"depth_stencil":"depth"{keys}}}"#);

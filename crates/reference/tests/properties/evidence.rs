@@ -182,6 +182,37 @@ fn the_mask_that_a_shader_writes_acts_on_one_sample_as_each_text_says() {
     }
 }
 
+/// A draw on a stencil of 5 whose shader writes 300 as reference, where the draw's own is 9.
+fn exporting(early: &str) -> Scene {
+    scene(&format!(
+        r#"{{"attachments":{{"c":{{"format":"rgba8unorm","size":[4,4],"clear":[0,0,0,0]}},
+             "s":{{"format":"stencil8","clear":5}},
+             "t":{{"format":"rgba32float","texels":{{"kind":"columns","values":
+               [[300,0,0,1],[300,0,0,1],[300,0,0,1],[300,0,0,1]]}}}}}},
+            "passes":[{{"color":["c"],"depth_stencil":"s","draws":[{{"mesh":{{"kind":"full"}},"shader":"exported_color",
+              "textures":["t"],"early_tests":"{early}",
+              "stencil":{{"front":{{"compare":"greater","pass_op":"replace"}},"reference":9}}}}]}}],
+            "read":["s"]}}"#
+    ))
+}
+
+#[test]
+fn the_reference_that_a_shader_writes_counts_in_the_bits_of_the_attachment() {
+    for limits in [version(Api::Vulkan, 1, 3), version(Api::OpenGl, 3, 3)] {
+        for (early, due) in [("implicit", 44), ("forced", 9)] {
+            let scene = exporting(early);
+            for stored in [5, 9, 44, 255] {
+                let expected = if stored == due { ALWAYS } else { NEVER };
+                assert_eq!(
+                    allowed(&scene, &limits, 0, &[stored]),
+                    expected,
+                    "{early}, {stored}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn without_a_fragment_shader_stencil_runs_and_opengl_says_so_by_a_reading_alone() {
     let scene = scene(

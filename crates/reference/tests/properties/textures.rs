@@ -118,6 +118,9 @@ fn pairs(
     if let (Some(p), Some(j)) = (plain.depth, judged.depth) {
         all.push(("depth".to_owned(), j, p));
     }
+    if let (Some(p), Some(j)) = (&plain.reference, &judged.reference) {
+        all.push(("stencil reference".to_owned(), j.number, p.number));
+    }
     if let (Some(p), Some(j)) = (&plain.mask, &judged.mask) {
         all.push(("sample mask".to_owned(), j.bits, p.bits));
     }
@@ -151,6 +154,7 @@ proptest! {
                 prop_assert_eq!(plain.depth.is_some(), shader.writes_depth());
                 prop_assert_eq!(plain.kept.is_some(), shader.discards());
                 prop_assert_eq!(plain.mask.is_some(), shader.writes_mask());
+                prop_assert_eq!(plain.reference.is_some(), shader.writes_reference());
                 for (what, range, value) in pairs(&plain, &judged) {
                     prop_assert!(
                         holds(range, value),

@@ -1,0 +1,115 @@
+//! Fragment shaders that write the stencil reference.
+//!
+//! WGSL has no such built-in, so the suite's shaders write it to a location of their own. In naga's SPIR-V
+//! that output becomes the built-in FragStencilRefEXT, with its capability, extension and execution mode
+//! (SPV_EXT_shader_stencil_export).
+
+use crate::spirv::{
+    self, BUILT_IN, CAPABILITY, DECORATE, ENTRY_POINT, EXECUTION_MODE, LOCATION, OUTPUT, VARIABLE,
+    instruction, instructions,
+};
+use etalon_scene::STENCIL_REFERENCE;
+
+/// The capability StencilExportEXT.
+const STENCIL_EXPORT: u32 = 5013;
+/// The built-in FragStencilRefEXT.
+const FRAG_STENCIL_REF: u32 = 5014;
+/// The execution mode StencilRefReplacingEXT.
+const STENCIL_REF_REPLACING: u32 = 5027;
+/// The execution model Fragment.
+const FRAGMENT: u32 = 4;
+
+/// Returns a module whose fragment entry point writes the output at [`STENCIL_REFERENCE`] as stencil
+/// reference.
+pub(crate) fn as_built_in(words: &[u32]) -> Vec<u32> {
+    let (header, all) = instructions(words);
+    let is = |one: &[u32], code: u32| one[0] & 0xffff == code;
+    let fragment = all
+        .iter()
+        .find(|one| is(one, ENTRY_POINT) && one[1] == FRAGMENT)
+        .copied()
+        .unwrap_or_default();
+    // Vertex shaders have outputs of their own at the same locations.
+    let of_fragment = |variable: &u32| fragment.get(3..).is_some_and(|ids| ids.contains(variable));
+    let outputs: Vec<u32> = all
+        .iter()
+        .filter(|one| is(one, VARIABLE) && one[3] == OUTPUT)
+        .map(|one| one[2])
+        .filter(of_fragment)
+        .collect();
+    let mut out = header.to_vec();
+    let (mut capability, mut extension, mut mode) = (false, false, false);
+    let mut entered = false;
+    for line in all {
+        if !capability {
+            out.extend(instruction(CAPABILITY, &[STENCIL_EXPORT]));
+            capability = true;
+        }
+        if !extension && !is(line, CAPABILITY) {
+            out.extend(spirv::extension("SPV_EXT_shader_stencil_export"));
+            extension = true;
+        }
+        // Execution modes follow the entry points.
+        if !mode && entered && !is(line, ENTRY_POINT) {
+            out.extend(instruction(
+                EXECUTION_MODE,
+                &[fragment[2], STENCIL_REF_REPLACING],
+            ));
+            mode = true;
+        }
+        entered |= is(line, ENTRY_POINT);
+        let replaced = is(line, DECORATE)
+            && line[2..] == [LOCATION, STENCIL_REFERENCE]
+            && outputs.contains(&line[1]);
+        match replaced {
+            true => out.extend(instruction(
+                DECORATE,
+                &[line[1], BUILT_IN, FRAG_STENCIL_REF],
+            )),
+            false => out.extend(line),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shader::translate;
+    use crate::spirv::EXTENSION;
+    use etalon_scene::{EarlyTests, Shader};
+
+    #[test]
+    fn the_location_of_the_reference_becomes_the_built_in() {
+        for shader in Shader::ALL.iter().filter(|s| s.writes_reference()) {
+            let wgsl = shader.wgsl_with(EarlyTests::Forced);
+            let words = translate(shader.name(), &wgsl)
+                .expect("our own shader")
+                .words;
+            let changed = as_built_in(&words);
+            let (header, all) = instructions(&changed);
+            assert_eq!(header, &words[..5]);
+            let count = |code: u32, tail: &[u32]| {
+                let same = |one: &&&[u32]| one[0] & 0xffff == code && one.ends_with(tail);
+                all.iter().filter(same).count()
+            };
+            assert_eq!(count(CAPABILITY, &[STENCIL_EXPORT]), 1);
+            assert_eq!(
+                count(
+                    EXTENSION,
+                    &spirv::extension("SPV_EXT_shader_stencil_export")[1..]
+                ),
+                1
+            );
+            assert_eq!(count(EXECUTION_MODE, &[STENCIL_REF_REPLACING]), 1);
+            assert_eq!(count(DECORATE, &[BUILT_IN, FRAG_STENCIL_REF]), 1);
+            assert_eq!(count(DECORATE, &[LOCATION, STENCIL_REFERENCE]), 0);
+            // The order of a module's sections (SPIR-V, Logical Layout of a Module).
+            let at = |code: u32| all.iter().position(|one| one[0] & 0xffff == code);
+            let last = |code: u32| all.iter().rposition(|one| one[0] & 0xffff == code);
+            assert!(last(CAPABILITY) < at(EXTENSION));
+            assert!(last(ENTRY_POINT) < at(EXECUTION_MODE));
+            assert!(last(EXECUTION_MODE) < at(DECORATE));
+        }
+    }
+}
