@@ -25,6 +25,15 @@ pub fn pack(layout: &TexelLayout, codes: &[u32], out: &mut Vec<u8>) {
 
 /// Appends the codes of a texel, which may end with padding.
 pub fn unpack(layout: &TexelLayout, texel: &[u8], out: &mut Vec<u32>) {
+    if let Ok(word) = <[u8; 4]>::try_from(texel) {
+        let word = u32::from_le_bytes(word);
+        out.extend(
+            layout
+                .iter()
+                .map(|(shift, width)| word >> shift & u32::MAX >> (32 - width)),
+        );
+        return;
+    }
     let bytes = texel.iter().rev();
     let bits = bytes.fold(0_u128, |bits, byte| bits << 8 | u128::from(*byte));
     out.extend(layout.iter().map(|(shift, width)| {

@@ -260,12 +260,12 @@ impl Reading<'_> {
 
 /// Returns the codes of texels of four floats.
 fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
-    let texels = wide.chunks_exact(4);
-    let narrow = |texel: &[u32]| -> Vec<u32> {
+    let mut codes = Vec::with_capacity(wide.len() / 4 * channels.len());
+    for texel in wide.chunks_exact(4) {
         let values = channels.iter().zip(texel);
-        values.map(|(e, float)| code_of_float(*e, *float)).collect()
-    };
-    texels.flat_map(narrow).collect()
+        codes.extend(values.map(|(e, float)| code_of_float(*e, *float)));
+    }
+    codes
 }
 
 /// Reads a single-sample surface by `glReadPixels`: colour, depth or else stencil, and the stencil
@@ -303,11 +303,12 @@ fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Op
                 parted,
             );
             let channels = format.color_channels();
-            let narrow = |texel: &[u8]| -> Vec<u32> {
+            let mut codes = Vec::with_capacity(texels * channels.len());
+            for texel in bytes.chunks_exact(4) {
                 let values = channels.iter().zip(texel);
-                values.map(|(e, byte)| shortened(*e, *byte)).collect()
-            };
-            (bytes.chunks_exact(4).flat_map(narrow).collect(), None)
+                codes.extend(values.map(|(e, byte)| shortened(*e, *byte)));
+            }
+            (codes, None)
         }
         ReadPlan::Floats => {
             let wide = words(glow::RGBA, glow::FLOAT, 4);

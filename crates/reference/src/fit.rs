@@ -4,10 +4,9 @@
 //! every step in it, so a part whose set refuses the frame is refused whole, and a frame is refused
 //! only if all parts are.
 
-use crate::judge::{Judgement, judge_some};
+use crate::judge::{Judgement, Sets, set_by};
 use crate::read_back::depth_encoding;
 use crate::rules::Rules;
-use crate::texels::Texels;
 use etalon_frame::{ChannelEncoding, Frame, FrameError, LegalSet, Limits, compare};
 use etalon_scene::Scene;
 use std::borrow::Cow;
@@ -25,7 +24,7 @@ pub struct Fitted {
     /// The rules.
     pub rules: Rules,
     /// The values that they allow.
-    pub legal: LegalSet,
+    pub legal: Arc<LegalSet>,
 }
 
 impl Judgement {
@@ -34,14 +33,19 @@ impl Judgement {
     ///
     /// # Errors
     /// If the frame is not one of the scene.
-    pub fn fitted(&self, scene: &Scene, frame: &Frame) -> Result<Cow<'_, Self>, FrameError> {
-        let (limits, texels) = (&self.limits, self.texels);
-        let found = fit(scene, limits, &self.rules, texels, &self.legal, frame)?;
+    pub fn fitted(
+        &self,
+        scene: &Scene,
+        frame: &Frame,
+        sets: &Sets<'_>,
+    ) -> Result<Cow<'_, Self>, FrameError> {
+        let limits = &self.limits;
+        let found = fit(scene, limits, &self.rules, &self.legal, frame, sets)?;
         Ok(match found {
             None => Cow::Borrowed(self),
             Some(Fitted { rules, legal }) => Cow::Owned(Self {
                 rules,
-                legal: Arc::new(legal),
+                legal,
                 yardstick: Arc::clone(&self.yardstick),
                 limits: limits.clone(),
                 ..*self
@@ -59,9 +63,9 @@ pub fn fit(
     scene: &Scene,
     limits: &Limits,
     rules: &Rules,
-    texels: Texels,
     legal: &LegalSet,
     frame: &Frame,
+    sets: &Sets<'_>,
 ) -> Result<Option<Fitted>, FrameError> {
     let Some(encoding) = biased_encoding(scene, limits) else {
         return Ok(None);
@@ -81,14 +85,14 @@ pub fn fit(
         parts.extend(usual.into_iter().filter(is_legal));
     }
     let mut best: Option<(u64, Fitted)> = None;
-    let mut sets = 0;
+    let mut tried = 0;
     while let Some(part) = parts.pop() {
-        if sets == MOST_SETS {
+        if tried == MOST_SETS {
             return Ok(None);
         }
-        sets += 1;
+        tried += 1;
         let rules = rules.assuming(part);
-        let legal = judge_some(scene, limits, &rules, texels);
+        let legal = set_by(scene, limits, &rules, sets);
         let refused = wrong(&legal, frame)?;
         let fitted = Fitted { rules, legal };
         let is_narrow = !is_fixed || part.1 <= part.0 * (1.0 + 2.0 * NARROW);

@@ -33,7 +33,6 @@ pub struct Judgement {
     pub looked_at: u64,
     /// The rules of the legal set, with what was assumed of them.
     pub rules: Rules,
-    pub(crate) texels: Texels,
 }
 
 /// Returns both bands of a scene, once per depth encoding that the adapter may have.
@@ -44,19 +43,27 @@ pub fn judgements(scene: &Scene, limits: &Limits) -> Vec<Judgement> {
 /// Returns [`judgements`] of some texels; of others nothing is asserted. Counters are sums over all
 /// texels: unless all are judged, nothing is asserted of counters either.
 pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judgement> {
-    judgements_by(scene, limits, texels, |limits, rules| {
+    judgements_by(scene, limits, texels, &|limits, rules| {
         Arc::new(judge_some(scene, limits, rules, texels))
     })
 }
 
-/// Returns [`judgements_of`] with sets that `set` gives for limits and rules: [`judge_some`]'s of these, or of
-/// equal limits and rules whose values are the same as far as they were asked for. The limits are those
-/// that sets depend on, without all others.
+/// Gives the legal set of some texels of a scene for limits and rules: [`judge_some`]'s of these, or of equal
+/// limits and rules whose values are the same as far as they were asked for. The limits are those that
+/// sets depend on, without all others.
+pub type Sets<'a> = dyn Fn(&Limits, &Rules) -> Arc<LegalSet> + 'a;
+
+/// Returns the legal set of a scene for limits under which every depth format has one encoding.
+pub fn set_by(scene: &Scene, limits: &Limits, rules: &Rules, sets: &Sets<'_>) -> Arc<LegalSet> {
+    as_read(sets(&basis(scene, limits), rules), scene, limits, rules)
+}
+
+/// Returns [`judgements_of`] with sets that `sets` gives.
 pub fn judgements_by(
     scene: &Scene,
     limits: &Limits,
     texels: Texels,
-    set: impl Fn(&Limits, &Rules) -> Arc<LegalSet>,
+    sets: &Sets<'_>,
 ) -> Vec<Judgement> {
     let texels = texels.of(scene);
     limits
@@ -64,8 +71,7 @@ pub fn judgements_by(
         .into_iter()
         .map(|limits| {
             let rules = Rules::of(&limits);
-            let basis = basis(scene, &limits);
-            let set = |rules: &Rules| as_read(set(&basis, rules), scene, &limits, rules);
+            let set = |rules: &Rules| set_by(scene, &limits, rules, sets);
             let legal = set(&rules);
             let yardstick = set(&Rules::yardstick(&limits));
             let groups = legal.groups.iter();
@@ -77,7 +83,6 @@ pub fn judgements_by(
                 yardstick,
                 limits,
                 rules,
-                texels,
             }
         })
         .collect()

@@ -48,7 +48,9 @@ mod world;
 
 pub use fit::{Fitted, fit};
 pub use interval::Interval;
-pub use judge::{Judgement, explain, judge, judge_some, judgements, judgements_by, judgements_of};
+pub use judge::{
+    Judgement, Sets, explain, judge, judge_some, judgements, judgements_by, judgements_of, set_by,
+};
 pub use judging::{Judging, Range};
 pub use rules::{AskedValues, Permission, Rules};
 pub use sample::Sample;

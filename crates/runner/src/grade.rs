@@ -5,7 +5,7 @@
 
 use etalon_frame::{Band, CounterOutcome, Frame, Grade, Limits, compare};
 use etalon_record::MAX_WRONG_TEXELS;
-use etalon_reference::{Rules, Texels, fit, judge_some};
+use etalon_reference::{Rules, Sets, fit, set_by};
 use etalon_scene::Scene;
 use std::collections::HashSet;
 
@@ -36,11 +36,11 @@ impl Grades {
     pub(crate) fn of(
         scene: &Scene,
         limits: &Limits,
-        texels: Texels,
         frame: &Frame,
+        sets: &Sets<'_>,
     ) -> Option<Self> {
         let rules = Rules::of(limits);
-        let at = |grade| forbidden(scene, limits, texels, frame, &rules.bound_by(grade));
+        let at = |grade| forbidden(scene, limits, frame, &rules.bound_by(grade), sets);
         if rules.bound_by(Grade::Proven) == rules {
             return None;
         }
@@ -81,15 +81,15 @@ impl Grades {
 fn forbidden(
     scene: &Scene,
     limits: &Limits,
-    texels: Texels,
     frame: &Frame,
     rules: &Rules,
+    sets: &Sets<'_>,
 ) -> Forbidden {
     let all = limits.alternatives(&scene.formats());
     let each = all.iter().filter_map(|limits| {
-        let open = judge_some(scene, limits, rules, texels);
+        let open = set_by(scene, limits, rules, sets);
         // One step of depth bias for the whole frame, as in the set by all evidence.
-        let set = match fit(scene, limits, rules, texels, &open, frame) {
+        let set = match fit(scene, limits, rules, &open, frame, sets) {
             Ok(Some(fitted)) => fitted.legal,
             _ => open,
         };

@@ -3,7 +3,7 @@
 use crate::expected_values::expected_values;
 use crate::frame_file::frame_file;
 use crate::grade::Grades;
-use crate::judgement_cache::{JudgementCache, judged_scene, judged_texels};
+use crate::judgement_cache::{JudgementCache, judged_scene};
 use crate::relation::{self, Differences};
 use crate::story;
 use etalon_case::{Case, Relation};
@@ -11,7 +11,7 @@ use etalon_frame::{
     Aspect, AspectStatistics, Band, Comparison, CounterOutcome, Frame, Limits, WrongTexel, compare,
 };
 use etalon_record::{Assertion, FrameFile, MAX_WRONG_TEXELS, Record, Verdict};
-use etalon_reference::{Judgement, Rules, Sample};
+use etalon_reference::{Judgement, Rules, Sample, Sets};
 use etalon_scene::Scene;
 use std::borrow::Cow;
 use std::cmp::Reverse;
@@ -82,7 +82,8 @@ impl Judge {
         let mut record = Record::new(&case.id, adapter, Verdict::Pass);
         record.due_fail = is_due_to_fail(case, limits);
         let scene = judged_scene(case, index);
-        let (comparison, judgement) = match best(scene, &judgements, frame) {
+        let sets = self.cache.sets(number, case, index);
+        let (comparison, judgement) = match best(scene, &judgements, frame, &sets) {
             Ok(best) => best,
             Err(message) => {
                 record.verdict = Verdict::InternalError;
@@ -96,7 +97,7 @@ impl Judge {
         let mut comparison = comparison;
         let mut worst = comparison.worst();
         if worst == Some(Band::Fail)
-            && let Some(grades) = Grades::of(scene, limits, judged_texels(case), frame)
+            && let Some(grades) = Grades::of(scene, limits, frame, &sets)
         {
             worst = Some(grades.frame());
             regrade(&mut comparison, &grades);
@@ -164,7 +165,8 @@ impl Judge {
         let mut first = None;
         for (index, frame) in frames.iter().enumerate() {
             let judgements = self.cache.get(number, case, index, limits);
-            let (comparison, _) = best(judged_scene(case, index), &judgements, frame)?;
+            let sets = self.cache.sets(number, case, index);
+            let (comparison, _) = best(judged_scene(case, index), &judgements, frame, &sets)?;
             if comparison.worst() > worst {
                 worst = comparison.worst();
                 first = comparison.wrong.into_iter().next();
@@ -351,10 +353,13 @@ pub(crate) fn best<'a>(
     scene: &Scene,
     judgements: &'a [Judgement],
     frame: &Frame,
+    sets: &Sets<'_>,
 ) -> Result<(Comparison, Cow<'a, Judgement>), String> {
     let mut best: Option<(Comparison, Cow<'_, Judgement>)> = None;
     for judgement in judgements {
-        let judgement = judgement.fitted(scene, frame).map_err(|e| e.to_string())?;
+        let judgement = judgement
+            .fitted(scene, frame, sets)
+            .map_err(|e| e.to_string())?;
         let (legal, yardstick) = (&judgement.legal, &judgement.yardstick);
         let comparison =
             compare(frame, legal, yardstick, MAX_WRONG_TEXELS).map_err(|e| e.to_string())?;

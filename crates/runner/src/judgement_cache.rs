@@ -54,13 +54,23 @@ impl JudgementCache {
         index: usize,
         limits: &Limits,
     ) -> Vec<Judgement> {
+        let (scene, texels) = (judged_scene(case, index), judged_texels(case));
+        judgements_by(scene, limits, texels, &self.sets(number, case, index))
+    }
+
+    /// The legal sets of one of a case's scenes, which are computed when they are first asked for.
+    pub(crate) fn sets(
+        &self,
+        number: usize,
+        case: &Case,
+        index: usize,
+    ) -> impl Fn(&Limits, &Rules) -> Arc<LegalSet> {
         let index = case.judged_index(index);
-        let scene = judged_scene(case, index);
-        let texels = judged_texels(case);
-        judgements_by(scene, limits, texels, |limits, rules| {
+        let (scene, texels) = (judged_scene(case, index), judged_texels(case));
+        move |limits, rules| {
             let key = (number, index, limits.clone());
             self.set(key, rules, |rules| judge_some(scene, limits, rules, texels))
-        })
+        }
     }
 
     /// The set of a key by some rules. One that other rules gave is taken if these have the same values, as

@@ -6,8 +6,9 @@ use crate::judge::{best, regrade};
 use crate::judgement_cache::judged_scene;
 use etalon_case::Case;
 use etalon_frame::{Band, Comparison, Frame, Limits, compare};
-use etalon_reference::{Judgement, Texels, judgements_of};
+use etalon_reference::{Judgement, Rules, Texels, judge_some, judgements_by};
 use etalon_scene::Scene;
+use std::sync::Arc;
 
 /// Returns the judgement of a texel of one of a case's scenes, under what the frame fits best where the API
 /// leaves one choice for all of it, and the outcome for the frame, if there is one: the wrong samples of
@@ -27,15 +28,16 @@ pub fn judge_texel(
         true => Texels::All,
         false => Texels::One(texel),
     };
-    let mut judgements = judgements_of(scene, limits, texels);
+    let sets = |limits: &Limits, rules: &Rules| Arc::new(judge_some(scene, limits, rules, texels));
+    let mut judgements = judgements_by(scene, limits, texels, &sets);
     let Some(frame) = frame else {
         return Ok((judgements.swap_remove(0), None));
     };
-    let judgement = best(scene, &judgements, frame)?.1.into_owned();
+    let judgement = best(scene, &judgements, frame, &sets)?.1.into_owned();
     let found = compare(frame, &judgement.legal, &judgement.yardstick, usize::MAX);
     let mut comparison = found.map_err(|e| e.to_string())?;
     if comparison.worst() == Some(Band::Fail)
-        && let Some(grades) = Grades::of(scene, limits, texels, frame)
+        && let Some(grades) = Grades::of(scene, limits, frame, &sets)
     {
         regrade(&mut comparison, &grades);
     }

@@ -59,7 +59,7 @@ fn rules_that_agree_on_what_was_asked_give_the_same_sets() {
                 all.push((rules.asked(), Arc::clone(&set)));
                 set
             };
-            for one in judgements_by(&case.scene, &limits, Texels::All, given) {
+            for one in judgements_by(&case.scene, &limits, Texels::All, &given) {
                 let own = |rules: &Rules| judge_some(&case.scene, &one.limits, rules, Texels::All);
                 let yardstick = Rules::yardstick(&one.limits);
                 assert_eq!(*one.legal, own(&one.rules), "{} {}", case.id, limits.api);

@@ -3,9 +3,10 @@
 
 use crate::common::{draw, limits};
 use etalon_case::{Library, Profile};
-use etalon_frame::{Api, Aspect, Frame, compare};
-use etalon_reference::judgements;
+use etalon_frame::{Api, Aspect, Frame, LegalSet, Limits, compare};
+use etalon_reference::{Rules, judge, judgements};
 use etalon_scene::Scene;
+use std::sync::Arc;
 
 /// The constants of the scene's columns, left to right, two texels wide each.
 const CONSTANTS: [u32; 8] = [1, 3, 10, 100, 1000, 4000, 12000, 30000];
@@ -34,6 +35,11 @@ fn with_depths(scene: &Scene, code: impl Fn(usize, u32) -> u32) -> Frame {
     frame
 }
 
+/// Returns sets that nothing shares.
+fn sets(scene: &Scene) -> impl Fn(&Limits, &Rules) -> Arc<LegalSet> {
+    |limits, rules| Arc::new(judge(scene, limits, rules))
+}
+
 /// Returns the number of refused samples before and after the step is known.
 fn wrong(scene: &Scene, api: Api, frame: &Frame) -> (u64, u64) {
     let judgement = judgements(scene, &limits(api)).remove(0);
@@ -43,7 +49,9 @@ fn wrong(scene: &Scene, api: Api, frame: &Frame) -> (u64, u64) {
             .texels
             .wrong
     };
-    let fitted = judgement.fitted(scene, frame).expect("its frame");
+    let fitted = judgement
+        .fitted(scene, frame, &sets(scene))
+        .expect("its frame");
     (count(&judgement.legal), count(&fitted.legal))
 }
 
@@ -54,7 +62,9 @@ fn the_usual_step_is_found_and_leaves_few_codes() {
     for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu] {
         assert_eq!(wrong(&scene, api, &frame), (0, 0), "{api}");
         let judgement = judgements(&scene, &limits(api)).remove(0);
-        let fitted = judgement.fitted(&scene, &frame).expect("its frame");
+        let fitted = judgement
+            .fitted(&scene, &frame, &sets(&scene))
+            .expect("its frame");
         for (aspect, figures) in fitted.legal.statistics() {
             let mean = figures.codes as f64 / figures.channels as f64;
             assert!(mean < 4.0, "{api} {aspect}: {mean}");
