@@ -3,9 +3,9 @@
 use crate::lacks::Lacks;
 use crate::subject::Subject;
 use etalon_backend::Backend;
-use etalon_frame::{Api, Feature};
+use etalon_frame::{Api, Feature, PathTarget, PathValue};
 
-/// A check and its defect in a driver; or [`FOUR_SAMPLES`], [`COUNTING_SHADERS`] or sample masks.
+/// A check and its defect in a driver; or [`FOUR_SAMPLES`], [`COUNTING_SHADERS`], sample masks or mip levels.
 pub type Defect = (&'static str, &'static str);
 
 /// The name of a defect of four samples: all scenes that need them are left out.
@@ -14,8 +14,10 @@ pub const FOUR_SAMPLES: &str = "four samples";
 pub const COUNTING_SHADERS: &str = "counting shaders";
 /// The name of a defect of sample masks: all scenes whose shaders write one are left out.
 pub(crate) const SAMPLE_MASKS: &str = "sample masks";
+/// The name of a defect of mip levels: all scenes drawn to one but the first are left out.
+pub(crate) const MIP_LEVELS: &str = "mip levels";
 /// The names of defects that are no check's.
-pub(crate) const WHOLE: [&str; 3] = [FOUR_SAMPLES, COUNTING_SHADERS, SAMPLE_MASKS];
+pub(crate) const WHOLE: [&str; 4] = [FOUR_SAMPLES, COUNTING_SHADERS, SAMPLE_MASKS, MIP_LEVELS];
 
 /// What is known of a driver.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +42,7 @@ impl Known {
                 FOUR_SAMPLES => subject.without_four_samples(),
                 COUNTING_SHADERS => subject.without_feature(Feature::StorageCounters),
                 SAMPLE_MASKS => subject.without_feature(Feature::SampleMaskOutput),
+                MIP_LEVELS => subject.without_path(PathValue::Target(PathTarget::MipLevel)),
                 _ => subject,
             },
         )
@@ -257,6 +260,8 @@ const FACTORS: &[Defect] = &[
 #[rustfmt::skip]
 const WGPU_SOFTPIPE_WRONG: &[Defect] = &[
     (COUNTING_SHADERS, "storage buffers that wgpu does not translate to GLSL 330"),
+    // Without glTexStorage it sets no GL_TEXTURE_MAX_LEVEL, and a texture of two levels is no complete one.
+    (MIP_LEVELS, "framebuffers of a mip level that are incomplete with OpenGL 3.3"),
     ("integers::integers_are_drawn_through_the_write_mask", "a clear that is lost to the pass's draws"),
     ("targets::the_second_source_is_a_factor", SECOND),
     ("targets::the_second_source_weighs_one_side", SECOND),

@@ -2,7 +2,7 @@
 
 use crate::scenes::scene;
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
-use etalon_frame::{Feature, Frame, Limits, Requirement};
+use etalon_frame::{Feature, Frame, Limits, PathValue, Requirement};
 use etalon_scene::Scene;
 use serde_json::Value;
 use std::cell::{Cell, RefCell};
@@ -60,6 +60,13 @@ impl<'a> Subject<'a> {
     #[must_use]
     pub fn without_feature(mut self, feature: Feature) -> Self {
         self.limits.features.remove(&feature);
+        self
+    }
+
+    /// Leaves out scenes with a path that the driver offers and does wrong.
+    #[must_use]
+    pub fn without_path(mut self, path: PathValue) -> Self {
+        self.limits.paths.remove(&path);
         self
     }
 

@@ -1,6 +1,7 @@
 //! Legal sets and stories: whole pictures in both bands, or one sample.
 
 use crate::counting::Tally;
+use crate::known_sets::KnownSets;
 use crate::notes::{Note, Notes};
 use crate::picture::shapes;
 use crate::read_back::as_read;
@@ -16,6 +17,7 @@ use etalon_frame::{
 };
 use etalon_scene::{Draw, Scene};
 use rustc_hash::FxHashMap;
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -43,8 +45,17 @@ pub fn judgements(scene: &Scene, limits: &Limits) -> Vec<Judgement> {
 /// Returns [`judgements`] of some texels; of others nothing is asserted. Counters are sums over all
 /// texels: unless all are judged, nothing is asserted of counters either.
 pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judgement> {
+    let known: RefCell<Vec<(Limits, KnownSets)>> = RefCell::default();
     judgements_by(scene, limits, texels, &|limits, rules| {
-        Arc::new(judge_some(scene, limits, rules, texels))
+        let mut known = known.borrow_mut();
+        let at = known.iter().position(|(own, _)| own == limits);
+        let at = at.unwrap_or_else(|| {
+            known.push((limits.clone(), KnownSets::default()));
+            known.len() - 1
+        });
+        let sets = &mut known[at].1;
+        let found = sets.find(rules);
+        found.unwrap_or_else(|| sets.add(rules, |rules| judge_some(scene, limits, rules, texels)))
     })
 }
 

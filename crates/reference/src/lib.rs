@@ -21,6 +21,7 @@ mod fragment;
 mod interval;
 mod judge;
 mod judging;
+mod known_sets;
 mod notes;
 mod pass_operations;
 mod picture;
@@ -52,6 +53,7 @@ pub use judge::{
     Judgement, Sets, explain, judge, judge_some, judgements, judgements_by, judgements_of, set_by,
 };
 pub use judging::{Judging, Range};
+pub use known_sets::KnownSets;
 pub use rules::{AskedValues, Permission, Rules};
 pub use sample::Sample;
 pub use texels::Texels;

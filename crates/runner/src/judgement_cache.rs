@@ -1,10 +1,10 @@
 //! The cache of legal sets. Adapters share those of equal limits under rules that agree on all that the
-//! judge asked for: most scenes touch few permissions, and the texts agree on most of these.
+//! judge asked for.
 
 use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::{LegalSet, Limits};
-use etalon_reference::{AskedValues, Judgement, Rules, Texels, judge_some, judgements_by};
+use etalon_reference::{Judgement, KnownSets, Rules, Texels, judge_some, judgements_by};
 use etalon_scene::Scene;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex};
@@ -24,14 +24,7 @@ pub(crate) fn judged_texels(case: &Case) -> Texels {
 
 /// A case, one of its scenes, and the limits that its sets depend on.
 type Key = (usize, usize, Limits);
-type Entry = Arc<Mutex<Vec<Known>>>;
-
-/// A legal set, and the permissions that it was computed by.
-#[derive(Debug)]
-struct Known {
-    asked: AskedValues,
-    set: Arc<LegalSet>,
-}
+type Entry = Arc<Mutex<KnownSets>>;
 
 /// Legal sets by case, scene, limits and permissions.
 #[derive(Debug, Default)]
@@ -75,19 +68,19 @@ impl JudgementCache {
 
     /// The set of a key by some rules. One that other rules gave is taken if these have the same values, as
     /// far as they were asked for.
-    fn set(&self, key: Key, rules: &Rules, judge: impl Fn(&Rules) -> LegalSet) -> Arc<LegalSet> {
+    fn set(
+        &self,
+        key: Key,
+        rules: &Rules,
+        judge: impl FnOnce(&Rules) -> LegalSet,
+    ) -> Arc<LegalSet> {
         let entry = Arc::clone(lock(&self.0).entries.entry(key.clone()).or_default());
         // Who comes second waits: most sets serve both.
         let mut all = lock(&entry);
-        if let Some(known) = all.iter().find(|known| rules.agree_on(&known.asked)) {
-            return Arc::clone(&known.set);
+        if let Some(known) = all.find(rules) {
+            return known;
         }
-        let rules = rules.clone();
-        let set = Arc::new(judge(&rules));
-        all.push(Known {
-            asked: rules.asked(),
-            set: Arc::clone(&set),
-        });
+        let set = all.add(rules, judge);
         drop(all);
         let mut cache = lock(&self.0);
         cache.bytes += set.weight();
