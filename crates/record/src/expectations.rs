@@ -204,6 +204,10 @@ impl Globs {
             })
     }
 
+    fn match_both(&self, adapter: &AdapterRecord, case: &str) -> bool {
+        self.match_case(case) && self.match_adapter(adapter)
+    }
+
     fn match_case(&self, case: &str) -> bool {
         self.ids.contains(case) || self.cases.iter().any(|g| g.is_match(case))
     }
@@ -390,9 +394,8 @@ impl Expectations {
         // Few expectations skip anything, and most cases are named by none.
         let all = self.all.iter().zip(&self.globs);
         let mut skips = all.filter(|(known, _)| known.verdict == Verdict::Skipped);
-        let named = skips.find(|(known, globs)| {
-            !self.expired(known) && globs.match_case(case) && globs.match_adapter(adapter)
-        });
+        let named =
+            skips.find(|(known, globs)| !self.expired(known) && globs.match_both(adapter, case));
         named.map(|(known, _)| known)
     }
 
@@ -420,7 +423,7 @@ impl Expectations {
         case: &'a str,
     ) -> impl Iterator<Item = usize> + use<'e, 'a> {
         let all = self.globs.iter().enumerate();
-        all.filter(move |(_, globs)| globs.match_case(case) && globs.match_adapter(adapter))
+        all.filter(move |(_, globs)| globs.match_both(adapter, case))
             .map(|(number, _)| number)
     }
 

@@ -116,22 +116,21 @@ impl Walk<'_> {
                 self.covered(place, triangle, world.clone(), positive, result, notes);
             }
         }
-        // A triangle that legal snapping can flatten may also cover nothing.
-        if least <= 0 && most >= 0 {
-            let certain = least == 0 && most == 0;
-            self.note_rejection(
-                notes,
-                place,
-                Rejection::Coverage,
-                certain,
-                &|| match certain {
-                    true => "it has no area".to_owned(),
-                    false => "snapping may leave it without area: it covers nothing in one world"
-                        .to_owned(),
-                },
-            );
-            result.push(world);
-        }
+        // Legal snapping can flatten it: then it covers nothing.
+        let certain = least == 0 && most == 0;
+        self.note_rejection(
+            notes,
+            place,
+            Rejection::Coverage,
+            certain,
+            &|| match certain {
+                true => "it has no area".to_owned(),
+                false => {
+                    "snapping may leave it without area: it covers nothing in one world".to_owned()
+                }
+            },
+        );
+        result.push(world);
     }
 
     /// Splits a world by the edges that may or may not hold the sample.

@@ -94,7 +94,7 @@ impl Walk<'_> {
                     true => &mut silent,
                     false => &mut *notes,
                 };
-                let outcomes = self.tests(place, world.clone(), face, incoming, told);
+                let outcomes = self.tests(place, &world, face, incoming, told);
                 if outcomes.iter().any(|(_, passes)| *passes) {
                     self.count(place, &mut world, false, |_| true);
                 }
@@ -110,7 +110,7 @@ impl Walk<'_> {
                 result.push(world);
                 return;
             }
-            for (mut outcome, passes) in self.tests(place, world.clone(), face, incoming, notes) {
+            for (mut outcome, passes) in self.tests(place, &world, face, incoming, notes) {
                 if passes {
                     let worlds = [&world, &outcome];
                     self.early_fragment(place, worlds, &output, incoming, covered, result, notes);
@@ -140,7 +140,7 @@ impl Walk<'_> {
         };
         let incoming = self.in_range(place, output.depth.unwrap_or(own_depth), source);
         for face in self.faces(place, front, &output, notes) {
-            for (mut outcome, passes) in self.tests(place, world.clone(), face, incoming, notes) {
+            for (mut outcome, passes) in self.tests(place, &world, face, incoming, notes) {
                 let contributes = passes && self.contributes(place);
                 self.run(place, &mut outcome, asks || (!masked && contributes));
                 if passes {
@@ -397,7 +397,7 @@ impl Walk<'_> {
     fn tests(
         &self,
         place: Place<'_>,
-        world: World,
+        world: &World,
         face: Option<Face>,
         incoming: Incoming,
         notes: &mut Notes<'_>,
@@ -409,7 +409,7 @@ impl Walk<'_> {
         // Without a depth attachment the test passes.
         let bounded = depth_stencil.filter(|i| self.scene.attachments[*i].format.has_depth());
         if let (Some(bounds), Some(index)) = (draw.depth_bounds, bounded) {
-            let inside = self.depth_bounds(place, &world, bounds, index, notes);
+            let inside = self.depth_bounds(place, world, bounds, index, notes);
             if !inside.must() {
                 result.push((world.clone(), false));
             }

@@ -45,18 +45,17 @@ pub fn judgements(scene: &Scene, limits: &Limits) -> Vec<Judgement> {
 /// Returns [`judgements`] of some texels; of others nothing is asserted. Counters are sums over all
 /// texels: unless all are judged, nothing is asserted of counters either.
 pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judgement> {
-    let known: RefCell<Vec<(Limits, KnownSets)>> = RefCell::default();
-    judgements_by(scene, limits, texels, &|limits, rules| {
+    judgements_by(scene, limits, texels, &shared_sets(scene, texels))
+}
+
+/// Returns sets of some texels of a scene that share what they computed before.
+pub fn shared_sets(scene: &Scene, texels: Texels) -> impl Fn(&Limits, &Rules) -> Arc<LegalSet> {
+    let known: RefCell<FxHashMap<Limits, KnownSets>> = RefCell::default();
+    move |limits, rules| {
         let mut known = known.borrow_mut();
-        let at = known.iter().position(|(own, _)| own == limits);
-        let at = at.unwrap_or_else(|| {
-            known.push((limits.clone(), KnownSets::default()));
-            known.len() - 1
-        });
-        let sets = &mut known[at].1;
-        let found = sets.find(rules);
-        found.unwrap_or_else(|| sets.add(rules, |rules| judge_some(scene, limits, rules, texels)))
-    })
+        let sets = known.entry(limits.clone()).or_default();
+        sets.get(rules, |rules| judge_some(scene, limits, rules, texels))
+    }
 }
 
 /// Gives the legal set of some texels of a scene for limits and rules: [`judge_some`]'s of these, or of equal

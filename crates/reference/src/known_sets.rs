@@ -10,15 +10,13 @@ use std::sync::Arc;
 pub struct KnownSets(Vec<(AskedValues, Arc<LegalSet>)>);
 
 impl KnownSets {
-    /// Returns a set that rules gave with the same values, as far as they were asked for.
-    pub fn find(&self, rules: &Rules) -> Option<Arc<LegalSet>> {
+    /// Returns the set of some rules: one that is known by the values that were asked for, or the one that
+    /// `judge` computes, which is known from then on.
+    pub fn get(&mut self, rules: &Rules, judge: impl FnOnce(&Rules) -> LegalSet) -> Arc<LegalSet> {
         let mut all = self.0.iter();
-        let known = all.find(|(asked, _)| rules.agree_on(asked))?;
-        Some(Arc::clone(&known.1))
-    }
-
-    /// Returns the set of some rules that `judge` computes, and keeps it.
-    pub fn add(&mut self, rules: &Rules, judge: impl FnOnce(&Rules) -> LegalSet) -> Arc<LegalSet> {
+        if let Some((_, set)) = all.find(|(asked, _)| rules.agree_on(asked)) {
+            return Arc::clone(set);
+        }
         // A clone has not been asked for anything yet.
         let rules = rules.clone();
         let set = Arc::new(judge(&rules));

@@ -51,6 +51,7 @@ pub use fit::{Fitted, fit};
 pub use interval::Interval;
 pub use judge::{
     Judgement, Sets, explain, judge, judge_some, judgements, judgements_by, judgements_of, set_by,
+    shared_sets,
 };
 pub use judging::{Judging, Range};
 pub use known_sets::KnownSets;

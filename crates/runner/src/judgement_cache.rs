@@ -76,15 +76,18 @@ impl JudgementCache {
     ) -> Arc<LegalSet> {
         let entry = Arc::clone(lock(&self.0).entries.entry(key.clone()).or_default());
         // Who comes second waits: most sets serve both.
-        let mut all = lock(&entry);
-        if let Some(known) = all.find(rules) {
-            return known;
-        }
-        let set = all.add(rules, judge);
-        drop(all);
+        let mut weight = None;
+        let set = lock(&entry).get(rules, |rules| {
+            let set = judge(rules);
+            weight = Some(set.weight());
+            set
+        });
+        let Some(weight) = weight else {
+            return set;
+        };
         let mut cache = lock(&self.0);
-        cache.bytes += set.weight();
-        cache.order.push_back((key, set.weight()));
+        cache.bytes += weight;
+        cache.order.push_back((key, weight));
         while cache.bytes > CACHE_BYTES {
             let Some((oldest, weight)) = cache.order.pop_front() else {
                 break;

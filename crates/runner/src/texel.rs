@@ -6,9 +6,8 @@ use crate::judge::{best, regrade};
 use crate::judgement_cache::judged_scene;
 use etalon_case::Case;
 use etalon_frame::{Band, Comparison, Frame, Limits, compare};
-use etalon_reference::{Judgement, Rules, Texels, judge_some, judgements_by};
+use etalon_reference::{Judgement, Texels, judgements_by, shared_sets};
 use etalon_scene::Scene;
-use std::sync::Arc;
 
 /// Returns the judgement of a texel of one of a case's scenes, under what the frame fits best where the API
 /// leaves one choice for all of it, and the outcome for the frame, if there is one: the wrong samples of
@@ -28,7 +27,7 @@ pub fn judge_texel(
         true => Texels::All,
         false => Texels::One(texel),
     };
-    let sets = |limits: &Limits, rules: &Rules| Arc::new(judge_some(scene, limits, rules, texels));
+    let sets = shared_sets(scene, texels);
     let mut judgements = judgements_by(scene, limits, texels, &sets);
     let Some(frame) = frame else {
         return Ok((judgements.swap_remove(0), None));

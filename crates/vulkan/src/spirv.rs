@@ -52,3 +52,17 @@ pub(crate) fn extension(name: &str) -> Vec<u32> {
         .map(|c| u32::from_le_bytes([c[0], c[1], c[2], c[3]]));
     instruction(EXTENSION, &words.collect::<Vec<_>>())
 }
+
+/// Returns a module that declares a further capability and its extension.
+pub(crate) fn with_capability(words: &[u32], capability: u32, name: &str) -> Vec<u32> {
+    let (header, all) = instructions(words);
+    let is_capability = |one: &&[u32]| one[0] & 0xffff == CAPABILITY;
+    let behind = all.iter().take_while(|one| is_capability(one)).count();
+    let (capabilities, rest) = all.split_at(behind);
+    let mut out = header.to_vec();
+    out.extend(instruction(CAPABILITY, &[capability]));
+    out.extend(capabilities.concat());
+    out.extend(extension(name));
+    out.extend(rest.concat());
+    out
+}

@@ -5,13 +5,15 @@
 //! (SPV_EXT_shader_stencil_export).
 
 use crate::spirv::{
-    self, BUILT_IN, CAPABILITY, DECORATE, ENTRY_POINT, EXECUTION_MODE, LOCATION, OUTPUT, VARIABLE,
-    instruction, instructions,
+    self, BUILT_IN, DECORATE, ENTRY_POINT, EXECUTION_MODE, LOCATION, OUTPUT, VARIABLE, instruction,
+    instructions,
 };
 use etalon_scene::STENCIL_REFERENCE;
 
 /// The capability StencilExportEXT.
 const STENCIL_EXPORT: u32 = 5013;
+/// Its extension.
+const EXTENSION_NAME: &str = "SPV_EXT_shader_stencil_export";
 /// The built-in FragStencilRefEXT.
 const FRAG_STENCIL_REF: u32 = 5014;
 /// The execution mode StencilRefReplacingEXT.
@@ -22,7 +24,8 @@ const FRAGMENT: u32 = 4;
 /// Returns a module whose fragment entry point writes the output at [`STENCIL_REFERENCE`] as stencil
 /// reference.
 pub(crate) fn as_built_in(words: &[u32]) -> Vec<u32> {
-    let (header, all) = instructions(words);
+    let words = spirv::with_capability(words, STENCIL_EXPORT, EXTENSION_NAME);
+    let (header, all) = instructions(&words);
     let is = |one: &[u32], code: u32| one[0] & 0xffff == code;
     let fragment = all
         .iter()
@@ -38,17 +41,8 @@ pub(crate) fn as_built_in(words: &[u32]) -> Vec<u32> {
         .filter(of_fragment)
         .collect();
     let mut out = header.to_vec();
-    let (mut capability, mut extension, mut mode) = (false, false, false);
-    let mut entered = false;
+    let (mut mode, mut entered) = (false, false);
     for line in all {
-        if !capability {
-            out.extend(instruction(CAPABILITY, &[STENCIL_EXPORT]));
-            capability = true;
-        }
-        if !extension && !is(line, CAPABILITY) {
-            out.extend(spirv::extension("SPV_EXT_shader_stencil_export"));
-            extension = true;
-        }
         // Execution modes follow the entry points.
         if !mode && entered && !is(line, ENTRY_POINT) {
             out.extend(instruction(
@@ -76,7 +70,7 @@ pub(crate) fn as_built_in(words: &[u32]) -> Vec<u32> {
 mod tests {
     use super::*;
     use crate::shader::translate;
-    use crate::spirv::EXTENSION;
+    use crate::spirv::{CAPABILITY, EXTENSION};
     use etalon_scene::{EarlyTests, Shader};
 
     #[test]
@@ -94,13 +88,7 @@ mod tests {
                 all.iter().filter(same).count()
             };
             assert_eq!(count(CAPABILITY, &[STENCIL_EXPORT]), 1);
-            assert_eq!(
-                count(
-                    EXTENSION,
-                    &spirv::extension("SPV_EXT_shader_stencil_export")[1..]
-                ),
-                1
-            );
+            assert_eq!(count(EXTENSION, &spirv::extension(EXTENSION_NAME)[1..]), 1);
             assert_eq!(count(EXECUTION_MODE, &[STENCIL_REF_REPLACING]), 1);
             assert_eq!(count(DECORATE, &[BUILT_IN, FRAG_STENCIL_REF]), 1);
             assert_eq!(count(DECORATE, &[LOCATION, STENCIL_REFERENCE]), 0);

@@ -4,8 +4,8 @@
 //! extension, an output variable, and a store of 1 before each return of the vertex entry point.
 
 use crate::spirv::{
-    self, BUILT_IN, CAPABILITY, CONSTANT, DECORATE, ENTRY_POINT, FUNCTION, FUNCTION_END, OUTPUT,
-    RETURN, STORE, TYPE_INT, TYPE_POINTER, VARIABLE, instruction, instructions,
+    self, BUILT_IN, CONSTANT, DECORATE, ENTRY_POINT, FUNCTION, FUNCTION_END, OUTPUT, RETURN, STORE,
+    TYPE_INT, TYPE_POINTER, VARIABLE, instruction, instructions,
 };
 
 /// The capability ShaderViewportIndexLayerEXT of SPV_EXT_shader_viewport_index_layer.
@@ -14,7 +14,12 @@ const VIEWPORT_INDEX: u32 = 10;
 
 /// Returns a module whose vertex entry point draws to the second viewport.
 pub(crate) fn choose_second(words: &[u32]) -> Vec<u32> {
-    let (header, all) = instructions(words);
+    let words = spirv::with_capability(
+        words,
+        VIEWPORT_INDEX_LAYER,
+        "SPV_EXT_shader_viewport_index_layer",
+    );
+    let (header, all) = instructions(&words);
     let opcode = |one: &[u32]| one[0] & 0xffff;
     let is = |one: &[u32], code: u32| opcode(one) == code;
     let vertex = all
@@ -31,17 +36,9 @@ pub(crate) fn choose_second(words: &[u32]) -> Vec<u32> {
     let integer = unsigned.unwrap_or(made);
     let mut out = header.to_vec();
     out[3] = first + 4;
-    let (mut capability, mut extension, mut decorated, mut declared) = (false, false, false, false);
+    let (mut decorated, mut declared) = (false, false);
     let mut function = None;
     for line in all {
-        if !capability {
-            out.extend(instruction(CAPABILITY, &[VIEWPORT_INDEX_LAYER]));
-            capability = true;
-        }
-        if !extension && !is(line, CAPABILITY) {
-            out.extend(spirv::extension("SPV_EXT_shader_viewport_index_layer"));
-            extension = true;
-        }
         if !decorated && (is(line, DECORATE) || opcode(line) == 72) {
             out.extend(instruction(DECORATE, &[variable, BUILT_IN, VIEWPORT_INDEX]));
             decorated = true;

@@ -3,10 +3,9 @@
 
 use crate::common::{draw, limits};
 use etalon_case::{Library, Profile};
-use etalon_frame::{Api, Aspect, Frame, LegalSet, Limits, compare};
-use etalon_reference::{Rules, judge, judgements};
+use etalon_frame::{Api, Aspect, Frame, compare};
+use etalon_reference::{Texels, judgements, shared_sets};
 use etalon_scene::Scene;
-use std::sync::Arc;
 
 /// The constants of the scene's columns, left to right, two texels wide each.
 const CONSTANTS: [u32; 8] = [1, 3, 10, 100, 1000, 4000, 12000, 30000];
@@ -35,11 +34,6 @@ fn with_depths(scene: &Scene, code: impl Fn(usize, u32) -> u32) -> Frame {
     frame
 }
 
-/// Returns sets that nothing shares.
-fn sets(scene: &Scene) -> impl Fn(&Limits, &Rules) -> Arc<LegalSet> {
-    |limits, rules| Arc::new(judge(scene, limits, rules))
-}
-
 /// Returns the number of refused samples before and after the step is known.
 fn wrong(scene: &Scene, api: Api, frame: &Frame) -> (u64, u64) {
     let judgement = judgements(scene, &limits(api)).remove(0);
@@ -50,7 +44,7 @@ fn wrong(scene: &Scene, api: Api, frame: &Frame) -> (u64, u64) {
             .wrong
     };
     let fitted = judgement
-        .fitted(scene, frame, &sets(scene))
+        .fitted(scene, frame, &shared_sets(scene, Texels::All))
         .expect("its frame");
     (count(&judgement.legal), count(&fitted.legal))
 }
@@ -63,7 +57,7 @@ fn the_usual_step_is_found_and_leaves_few_codes() {
         assert_eq!(wrong(&scene, api, &frame), (0, 0), "{api}");
         let judgement = judgements(&scene, &limits(api)).remove(0);
         let fitted = judgement
-            .fitted(&scene, &frame, &sets(&scene))
+            .fitted(&scene, &frame, &shared_sets(&scene, Texels::All))
             .expect("its frame");
         for (aspect, figures) in fitted.legal.statistics() {
             let mean = figures.codes as f64 / figures.channels as f64;
