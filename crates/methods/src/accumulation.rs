@@ -4,6 +4,10 @@
 //! stored in between is rounded each time; a difference from the colour that is less than half a code
 //! over `a` stays for good.
 
+mod claims;
+
+pub(crate) use claims::CLAIMS;
+
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
 use crate::polygon::{self, Polygon};

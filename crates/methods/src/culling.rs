@@ -1,5 +1,9 @@
 //! Culling: faces by their winding, and whole objects outside of the picture.
 
+mod claims;
+
+pub(crate) use claims::CLAIMS;
+
 use crate::error::{ParameterError, within};
 use crate::grid::settle;
 use crate::method_scene::MethodScene;

@@ -13,8 +13,11 @@ use etalon_scene::{
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+mod claims;
 #[cfg(test)]
 mod tests;
+
+pub(crate) use claims::CLAIMS;
 
 /// Cards of grass and how they are drawn.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

@@ -4,6 +4,10 @@
 //! holds both to be equal goes wrong in half of the texels. Vertices come projected, with a depth that
 //! is rounded to 32 bits once, as a vertex shader would hand it on.
 
+mod claims;
+
+pub(crate) use claims::CLAIMS;
+
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
 use crate::polygon::{self, Polygon};

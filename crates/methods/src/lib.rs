@@ -7,6 +7,7 @@
 
 mod accumulation;
 mod anti_aliasing;
+mod claim;
 #[cfg(test)]
 mod corners;
 mod culling;
@@ -31,8 +32,9 @@ mod validity;
 mod view;
 mod visibility_cost;
 
+pub use claim::{Claim, Condition, Quantity, Test, Values};
 pub use error::ParameterError;
 pub use method::{Method, Parameter};
 pub use method_scene::MethodScene;
-pub use question::{MethodWire, make};
+pub use question::{MethodWire, claims, make};
 pub use truth::{Coverage, Paint, Surface, Texture, Truth};

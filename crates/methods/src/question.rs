@@ -1,5 +1,6 @@
 //! The questions that methods answer, each with its scenes and methods.
 
+use crate::claim::Claim;
 use crate::error::ParameterError;
 use crate::method_scene::MethodScene;
 use crate::{
@@ -49,4 +50,20 @@ pub fn make(wire: &MethodWire) -> Result<MethodScene, ParameterError> {
         MethodWire::Accumulation(wire) => accumulation::make(wire),
         MethodWire::DepthShown(wire) => depth_shown::make(wire),
     }
+}
+
+/// Returns every claim of the literature about methods, by question.
+pub fn claims() -> impl Iterator<Item = &'static Claim> {
+    [
+        transparency::CLAIMS,
+        anti_aliasing::CLAIMS,
+        cut_outs::CLAIMS,
+        culling::CLAIMS,
+        visibility_cost::CLAIMS,
+        depth_precision::CLAIMS,
+        stencil_effects::CLAIMS,
+        accumulation::CLAIMS,
+    ]
+    .into_iter()
+    .flatten()
 }

@@ -1,9 +1,12 @@
 //! Stencil effects: outlines, a mirror, shadow volumes.
 
+mod claims;
 mod mirror;
 mod outlines;
 mod shadows;
 mod shown;
+
+pub(crate) use claims::CLAIMS;
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;

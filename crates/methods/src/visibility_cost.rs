@@ -1,6 +1,10 @@
 //! The cost of visibility: rooms behind rooms, seen through openings, with a
 //! fragment shader that does much work. All methods give the same picture.
 
+mod claims;
+
+pub(crate) use claims::CLAIMS;
+
 use crate::error::{ParameterError, within};
 use crate::grid::settle;
 use crate::method_scene::MethodScene;

@@ -3,6 +3,7 @@
 //! Opaque surfaces come first or last, as a method needs it; all methods test transparent surfaces
 //! against their depth. Blending equations are those of Porter and Duff (1984).
 
+mod claims;
 mod draws;
 mod many_samples;
 mod ordered;
@@ -13,6 +14,7 @@ mod tests;
 mod weighted;
 mod wire;
 
+pub(crate) use claims::CLAIMS;
 pub(crate) use wire::Wire;
 
 use crate::error::{ParameterError, within};

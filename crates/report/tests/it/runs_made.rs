@@ -82,6 +82,7 @@ pub(crate) fn rich(case: &str) -> Record {
             wall: 0.01,
             cpu: 0.001,
             gpu: None,
+            interval: None,
         }),
         passes: 1,
         draws: 3,

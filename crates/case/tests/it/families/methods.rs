@@ -1,6 +1,6 @@
 //! The ids of method cases, and how many there are.
 
-use etalon_case::{Library, Profile};
+use etalon_case::{CaseFile, Library, Profile};
 use std::collections::BTreeSet;
 
 #[test]
@@ -39,8 +39,64 @@ fn ids_name_question_scene_and_method_and_are_not_too_many() {
             }
         }
     }
-    assert!((40..=80).contains(&quick), "{quick}");
+    assert!((100..=130).contains(&quick), "{quick}");
     assert!((300..=500).contains(&full), "{full}");
+}
+
+/// A chart of methods at different parameters compares nothing.
+#[test]
+fn the_quick_profile_draws_whole_scenes() {
+    let library = Library::built_in().expect("built-in files parse");
+    let mut quick = 0;
+    for file in library
+        .files()
+        .iter()
+        .filter(|f| f.name().starts_with("methods/"))
+    {
+        let split = |id: String| -> (String, String) {
+            let (before, rest) = id.split_once("/method=").expect("an axis of methods");
+            let (method, setting) = rest.split_once('/').unwrap_or((rest, ""));
+            (method.to_owned(), format!("{before}/{setting}"))
+        };
+        let of = |profile| -> BTreeSet<(String, String)> {
+            file.cases(profile).map(|c| split(c.id())).collect()
+        };
+        let (some, all) = (of(Profile::Quick), of(Profile::Full));
+        let methods: BTreeSet<&String> = all.iter().map(|(method, _)| method).collect();
+        let settings: BTreeSet<&String> = some.iter().map(|(_, setting)| setting).collect();
+        for (method, setting) in methods
+            .iter()
+            .flat_map(|m| settings.iter().map(move |s| (m, s)))
+        {
+            let due = ((*method).clone(), (*setting).clone());
+            assert!(some.contains(&due), "{}: {due:?}", file.name());
+        }
+        quick += some.len();
+    }
+    assert!((160..=190).contains(&quick), "{quick}");
+}
+
+#[test]
+fn a_covering_array_of_methods_is_refused() {
+    let file = |quick: &str| {
+        let text = format!(
+            r#"{{"about":"t","spec":["t"],"quick":{quick},"axes":{{"method":["a","b"],"k":[1,2]}},
+            "method":{{"question":"transparency"}}}}"#
+        );
+        CaseFile::parse("methods/transparency/t.json", &text)
+    };
+    for bad in [
+        r#""pairwise""#,
+        r#"{"each":1}"#,
+        r#"{"first":2}"#,
+        r#"{"where":{"method":"a"}}"#,
+        r#"{"any":[{"k":"1"},{"k":"2","method":"b"}]}"#,
+    ] {
+        let error = file(bad).expect_err(bad);
+        assert_eq!((error.key.as_str(), error.line), ("quick", 1), "{error}");
+    }
+    let good = file(r#"{"any":[{"k":"1"},{"k":"2"}]}"#).expect("parses");
+    assert_eq!(good.cases(Profile::Quick).count(), 4);
 }
 
 #[test]

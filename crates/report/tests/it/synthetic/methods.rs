@@ -129,6 +129,7 @@ fn record(
             wall,
             cpu: wall * 0.1,
             gpu: (slow < 1.0).then_some(wall * 0.8),
+            interval: Some([wall * 0.9, wall * 1.2]),
         }),
         passes: *passes,
         draws: passes * 6,
