@@ -5,8 +5,10 @@
 //! over `a` stays for good.
 
 mod claims;
+mod lessons;
 
 pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;

@@ -23,6 +23,8 @@ pub struct Claim {
     /// Two methods of which the first must run fewer fragment shaders than the second. Adapters where it does not
     /// count fragments before the depth test, and their counts say nothing about it.
     pub fewer: Option<[&'static str; 2]>,
+    /// What else the measured quantities hold, in a sentence; empty where there is nothing to say.
+    pub note: &'static str,
 }
 
 /// The values of a scene's parameter that count.
@@ -185,6 +187,7 @@ impl Claim {
             values: Values::All,
             test,
             fewer: None,
+            note: "",
         }
     }
 
@@ -197,6 +200,11 @@ impl Claim {
     pub(crate) const fn between(self, low: f64, high: f64) -> Self {
         let values = Values::Between(low, high);
         Self { values, ..self }
+    }
+
+    /// The claim with a note on what is measured.
+    pub(crate) const fn noting(self, note: &'static str) -> Self {
+        Self { note, ..self }
     }
 
     /// The claim, on adapters whose counts the depth test lowers.

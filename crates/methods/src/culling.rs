@@ -1,8 +1,10 @@
 //! Culling: faces by their winding, and whole objects outside of the picture.
 
 mod claims;
+mod lessons;
 
 pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
 
 use crate::error::{ParameterError, within};
 use crate::grid::settle;

@@ -5,8 +5,10 @@
 //! is rounded to 32 bits once, as a vertex shader would hand it on.
 
 mod claims;
+mod lessons;
 
 pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;

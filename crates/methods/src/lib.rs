@@ -16,6 +16,7 @@ mod depth_precision;
 mod depth_shown;
 mod error;
 mod grid;
+mod lesson;
 mod method;
 mod method_scene;
 mod noise;
@@ -34,7 +35,8 @@ mod visibility_cost;
 
 pub use claim::{Claim, Condition, Quantity, Test, Values};
 pub use error::ParameterError;
+pub use lesson::Lesson;
 pub use method::{Method, Parameter};
 pub use method_scene::MethodScene;
-pub use question::{MethodWire, claims, make};
+pub use question::{MethodWire, claims, lessons, make};
 pub use truth::{Coverage, Paint, Surface, Texture, Truth};

@@ -2,6 +2,7 @@
 
 use crate::claim::Claim;
 use crate::error::ParameterError;
+use crate::lesson::Lesson;
 use crate::method_scene::MethodScene;
 use crate::{
     accumulation, anti_aliasing, culling, cut_outs, depth_precision, depth_shown, stencil_effects,
@@ -66,4 +67,20 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
     ]
     .into_iter()
     .flatten()
+}
+
+/// Returns the explanations of a question's methods; none for a question that there is not.
+pub fn lessons(question: &str) -> &'static [Lesson] {
+    match question {
+        "transparency" => transparency::LESSONS,
+        "cut-outs" => cut_outs::LESSONS,
+        "anti-aliasing" => anti_aliasing::LESSONS,
+        "depth-precision" => depth_precision::LESSONS,
+        "visibility-cost" => visibility_cost::LESSONS,
+        "culling" => culling::LESSONS,
+        "stencil-effects" => stencil_effects::LESSONS,
+        "accumulation" => accumulation::LESSONS,
+        "depth-shown" => depth_shown::LESSONS,
+        _ => &[],
+    }
 }

@@ -2,8 +2,10 @@
 //! fragment shader that does much work. All methods give the same picture.
 
 mod claims;
+mod lessons;
 
 pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
 
 use crate::error::{ParameterError, within};
 use crate::grid::settle;

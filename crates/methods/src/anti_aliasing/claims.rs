@@ -48,10 +48,11 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Fragments,
             of: one!("supersampling-2x2"),
             over: one!("none"),
-            // One more for each texel of the picture, which takes the mean.
             holds: Condition::Between(3.5, 6.0),
         },
-    ),
+    )
+    .of(&["checker-fan", "half-planes", "thin-wedge"])
+    .noting("Among the fragments is one more for each texel of the picture, which takes the mean; in these scenes the ground fills it."),
     Claim::new(
         QUESTION,
         "Multisampling shades fewer fragments than supersampling with as many samples.",

@@ -3,6 +3,7 @@
 //! Each scene is a ground on texel borders and pieces with slanted edges on it, everything opaque.
 
 mod claims;
+mod lessons;
 mod pieces;
 mod scenes;
 #[cfg(test)]
@@ -10,6 +11,7 @@ mod tests;
 mod wire;
 
 pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
 pub(crate) use wire::Wire;
 
 use crate::error::ParameterError;

@@ -42,7 +42,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .between(35.0, 90.0),
     Claim::new(
         QUESTION,
-        "Peels of depth peeling cost a pass over the geometry each.",
+        "Depth peeling draws all of the geometry again for each layer that it peels.",
         "Everitt 2001, Interactive Order-Independent Transparency",
         Test::Ratio {
             quantity: Quantity::Fragments,
@@ -51,6 +51,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             holds: Condition::Above(4.0),
         },
     )
+    .noting("Eight layers are peeled; each peel has one more fragment for each texel of the picture, which composes it.")
     .of(&["windows", "thin-layers", "smoke"]),
     Claim::new(
         QUESTION,

@@ -5,6 +5,7 @@
 
 mod claims;
 mod draws;
+mod lessons;
 mod many_samples;
 mod ordered;
 mod peeling;
@@ -15,6 +16,7 @@ mod weighted;
 mod wire;
 
 pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
 pub(crate) use wire::Wire;
 
 use crate::error::{ParameterError, within};

@@ -25,8 +25,6 @@ pub(crate) const CLAIMS: &[Claim] = &[
         QUESTION,
         "Drawing front to back shades as few fragments as a depth prepass leaves to shade.",
         "Akenine-Möller and others, Real-Time Rendering, 4th edition, 18.4: optimization",
-        // The prepass is drawn in the order of `unsorted`, with the same depth test: its fragments are those of
-        // that method, and what is left was shaded.
         Test::Ratio {
             quantity: Quantity::Fragments,
             of: one!("front-to-back"),
@@ -34,6 +32,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             holds: Condition::Between(0.8, 1.2),
         },
     )
+    .noting("A prepass is drawn in the order of unsorted with the same test, and so has that method's fragments; what is left was shaded.")
     .between(2.0, f64::INFINITY)
     .where_fewer(COUNTED),
     Claim::new(

@@ -10,6 +10,7 @@ use crate::numbers::{bytes, count, digits, duration, share};
 use crate::page::adapter::breakable;
 use crate::page::{self, Page};
 use crate::words;
+use etalon_methods::{Lesson, lessons};
 use etalon_record::Run;
 use maud::{Markup, html};
 use std::path::Path;
@@ -221,7 +222,27 @@ fn in_question(
     html! {
         section id={ "q" (q) } {
             h2 { (title(question.name)) }
+            (explained(question))
             @for scene in scenes { (scene) }
+        }
+    }
+}
+
+/// The methods of a question: how each works, and where and why it fails.
+fn explained(question: &Question<'_>) -> Markup {
+    let of = |method: &&str| lessons(question.name).iter().find(|l| l.method == *method);
+    let known: Vec<&Lesson> = question.methods.iter().filter_map(of).collect();
+    html! {
+        @if !known.is_empty() {
+            details open {
+                summary { "The methods, and where they fail" }
+                dl.lessons {
+                    @for lesson in known {
+                        dt { (key(question.style(lesson.method))) " " (lesson.method) }
+                        dd { (lesson.works) " " (lesson.fails) " " cite { (lesson.source) } }
+                    }
+                }
+            }
         }
     }
 }

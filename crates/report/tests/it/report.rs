@@ -381,6 +381,7 @@ fn hostile_names_of_methods_stay_text() {
         let mut record = Record::new(format!("{hostile}/b={hostile}"), hostile, Verdict::Measured);
         record.accuracy = vec![Accuracy {
             aspect: Aspect::Color,
+            encoding: None,
             channels: 1,
             mean: value,
             max: 1e300,

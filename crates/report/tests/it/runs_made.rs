@@ -56,6 +56,7 @@ pub(crate) fn rich(case: &str) -> Record {
     record.texels.imprecise = 3;
     record.accuracy = vec![Accuracy {
         aspect: Aspect::Color,
+        encoding: None,
         channels: 1024,
         mean: 0.25,
         max: 1.0,

@@ -1,6 +1,7 @@
 //! The ids of method cases, and how many there are.
 
 use etalon_case::{CaseFile, Library, Profile};
+use etalon_methods::{claims, lessons};
 use std::collections::BTreeSet;
 
 #[test]
@@ -128,4 +129,51 @@ fn ids_begin_with_the_method_and_files_name_a_parameter() {
         "visibility-cost",
     ];
     assert!(due.iter().all(|q| seen.contains(*q)), "{seen:?}");
+}
+
+#[test]
+fn every_method_is_explained_and_every_claim_names_methods_that_there_are() {
+    let library = Library::built_in().expect("built-in files parse");
+    let mut methods: BTreeSet<(String, String)> = BTreeSet::new();
+    let mut families: BTreeSet<(String, String)> = BTreeSet::new();
+    for case in library.cases(Profile::Full) {
+        let id = case.id();
+        let parts: Vec<&str> = id.split('/').collect();
+        let ["methods", question, family, method, ..] = parts[..] else {
+            continue;
+        };
+        let method = method.trim_start_matches("method=");
+        methods.insert((question.to_owned(), method.to_owned()));
+        families.insert((question.to_owned(), family.to_owned()));
+    }
+    for (question, method) in &methods {
+        let found = lessons(question).iter().filter(|l| l.method == method);
+        assert_eq!(found.count(), 1, "{question}/{method}");
+    }
+    let told: BTreeSet<&String> = methods.iter().map(|(q, _)| q).collect();
+    for lesson in told.iter().flat_map(|q| lessons(q)) {
+        assert!(
+            methods.iter().any(|(_, m)| m == lesson.method),
+            "{}",
+            lesson.method
+        );
+        assert!(
+            lesson.works.ends_with('.') && lesson.fails.ends_with('.'),
+            "{}",
+            lesson.method
+        );
+    }
+    for claim in claims() {
+        for family in claim.families {
+            let named = (claim.question.to_owned(), (*family).to_owned());
+            assert!(families.contains(&named), "{}: {family}", claim.title);
+        }
+        let text = format!("{:?}", claim.test);
+        let quoted: Vec<&str> = text.split('"').skip(1).step_by(2).collect();
+        assert!(!quoted.is_empty(), "{text}");
+        for method in quoted {
+            let named = (claim.question.to_owned(), method.to_owned());
+            assert!(methods.contains(&named), "{}: {method}", claim.title);
+        }
+    }
 }

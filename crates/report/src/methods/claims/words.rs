@@ -23,7 +23,7 @@ pub(super) fn compared(claim: &Claim) -> String {
             over,
             holds,
         } => format!(
-            "{} of {} over those of {}. Holds {}",
+            "{} of {} over that of {}. Holds {}",
             upper(quantity.name()),
             sum(of),
             sum(over),
@@ -87,6 +87,10 @@ pub(super) fn compared(claim: &Claim) -> String {
         ));
     }
     text.push('.');
+    if !claim.note.is_empty() {
+        text.push(' ');
+        text.push_str(claim.note);
+    }
     text
 }
 
@@ -115,9 +119,9 @@ fn sum(terms: &[(&str, f64)]) -> String {
     for (i, (method, sign)) in terms.iter().enumerate() {
         if i > 0 {
             text.push_str(if *sign < 0.0 {
-                " less those of "
+                " less that of "
             } else {
-                " and those of "
+                " and that of "
             });
         }
         text.push_str(method);

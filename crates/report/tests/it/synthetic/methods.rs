@@ -105,6 +105,7 @@ fn record(
     };
     r.accuracy.push(Accuracy {
         aspect: Aspect::Color,
+        encoding: Some(etalon_frame::ChannelEncoding::Unorm(8)),
         channels: 65536,
         mean: 0.11 * slow,
         max: 2.0,
