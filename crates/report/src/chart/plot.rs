@@ -9,7 +9,7 @@ pub(crate) const WIDTH: f64 = 400.0;
 pub(crate) const HEIGHT: f64 = 280.0;
 /// The plot's place within.
 pub(crate) const LEFT: f64 = 74.0;
-pub(crate) const RIGHT: f64 = WIDTH - 14.0;
+pub(crate) const RIGHT: f64 = WIDTH - 22.0;
 pub(crate) const TOP: f64 = 10.0;
 pub(crate) const BOTTOM: f64 = HEIGHT - 42.0;
 

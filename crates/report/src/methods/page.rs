@@ -267,10 +267,10 @@ fn in_scene(
     let speed = scatter::charts(methods, question, scene, &settings, main);
     let curves = stability::charts(methods, question, scene, &settings, main);
     let together = speed.len() == 1;
-    // Two charts leave room beside them on a wide page.
+    // Two charts leave room beside them on a wide page, for a few pictures.
     let shots = pictures.of(methods, question, scene, &settings, main);
     let panels = speed.iter().map(|k| k.panels.len()).sum::<usize>() + curves.len();
-    let beside = together && panels <= 2;
+    let beside = together && panels <= 2 && scene.methods().len() <= 4;
     html! {
         article.scene id=(anchor) data-name={ (scene.question) "/" (scene.name) } {
             h3 { (title(scene.name)) }

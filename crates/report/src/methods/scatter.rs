@@ -171,6 +171,9 @@ fn at_setting(
     };
     let place = |d: &Dot<'_, '_>| (plot.x(d.time), plot.y(d.error));
     let mut labels = Labels::new(own.iter().map(|d| place(d)));
+    for level in [0.01, ROUNDING] {
+        labels.avoid(&[(LEFT, plot.y(level)), (RIGHT, plot.y(level))]);
+    }
     let lines = [(every.clone(), "group"), (mine.clone(), "front")];
     // A single point is no front: nothing was held against it.
     let lines: Vec<(Vec<(f64, f64)>, &str)> = lines

@@ -5,7 +5,7 @@ use super::data::{Methods, Question, SceneSeries, Series, Setting};
 use super::name::{anchor, value_text};
 use super::scatter::{ROUNDING, line_at};
 use crate::chart::{
-    BOTTOM, HEIGHT, Labels, Plot, Scale, TOP, chart, color, dash, marker, n, zero_band,
+    BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, dash, marker, n, zero_band,
 };
 use crate::numbers::share;
 use maud::{Markup, html};
@@ -277,6 +277,7 @@ fn panel<'a>(
     for s in series {
         labels.avoid(&places(s));
     }
+    labels.avoid(&[(LEFT, plot.y(LIMIT)), (RIGHT, plot.y(LIMIT))]);
     let cursors = settings.iter().enumerate().filter_map(|(index, setting)| {
         let (name, value) = setting.parameter?;
         (name == parameter && setting.variant == variant).then(|| (index, plot.x(value)))
