@@ -1,8 +1,8 @@
 //! The command line: one subcommand per file of `commands`.
 
 use crate::commands::{
-    adapters, bench, completions, diff, expectations, explain, list, man, merge, mutants, report,
-    run,
+    adapters, bench, bisect, completions, diff, expectations, explain, list, man, merge, mutants,
+    report, run,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -42,6 +42,8 @@ pub(crate) enum Command {
     Bench(bench::Arguments),
     /// Compare two runs or two benches: verdicts, pixels, times
     Diff(diff::Arguments),
+    /// Find the releases of a driver that draw cases wrong
+    Bisect(bisect::Arguments),
     /// Explain one texel, operation by operation, with rules and citations
     Explain(explain::Arguments),
     /// Plant bugs in the cpu rasterizer and report which of them the cases catch

@@ -32,6 +32,7 @@ mod story;
 mod supervisor;
 mod sync;
 mod texel;
+mod version_search;
 mod worker;
 
 pub use bench::{BenchError, BenchEvent, BenchPlan, BenchSummary, bench, ruler};
@@ -46,4 +47,5 @@ pub use select::{Globs, SelectError, Selection, select};
 pub use serve::serve;
 pub use story::{story_of_relation, story_of_sample};
 pub use texel::judge_texel;
+pub use version_search::releases_to_draw;
 pub use worker::{DrawError, Worker};

@@ -3,6 +3,7 @@
 
 mod adapters;
 mod bench;
+mod bisect;
 mod call_faults;
 mod ci_files;
 mod circles;
