@@ -53,7 +53,7 @@ const TABLE: [(&str, &[&str], &[&str]); 19] = [
         ],
         &[],
     ),
-    ("report", &["frame", "record", "stats"], &[]),
+    ("report", &["frame", "methods", "record", "stats"], &[]),
     (
         "cli",
         &[
