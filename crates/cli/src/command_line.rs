@@ -1,8 +1,8 @@
 //! The command line: one subcommand per file of `commands`.
 
 use crate::commands::{
-    adapters, bench, completions, diff, expectations, explain, list, man, merge, mutants, report,
-    run,
+    adapters, bench, completions, diff, expectations, explain, list, man, merge, mutants, reduce,
+    report, run,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -44,6 +44,8 @@ pub(crate) enum Command {
     Diff(diff::Arguments),
     /// Explain one texel, operation by operation, with rules and citations
     Explain(explain::Arguments),
+    /// Reduce a failing case to the smallest one that fails in the same way
+    Reduce(reduce::Arguments),
     /// Plant bugs in the cpu rasterizer and report which of them the cases catch
     Mutants(mutants::Arguments),
     /// Print a completion script for a shell

@@ -31,6 +31,8 @@ mod story;
 mod supervisor;
 mod sync;
 mod texel;
+mod trial;
+mod violation;
 mod worker;
 
 pub use bench::{BenchError, BenchEvent, BenchPlan, BenchSummary, bench, ruler};
@@ -45,4 +47,6 @@ pub use select::{Globs, SelectError, Selection, select};
 pub use serve::serve;
 pub use story::{story_of_relation, story_of_sample};
 pub use texel::judge_texel;
+pub use trial::Trials;
+pub use violation::{Violation, ViolationKind};
 pub use worker::{DrawError, Worker};
