@@ -1,6 +1,8 @@
 //! What a document holds, counted and listed.
 
+use crate::edit::{Place, place};
 use serde_json::Value;
+use std::ops::Range;
 
 /// Returns the number of keys in a value: the members of all its objects.
 pub fn keys(value: &Value) -> usize {
@@ -56,10 +58,45 @@ pub(crate) fn list<'v>(value: &'v Value, key: &str) -> &'v [Value] {
     value.get(key).and_then(Value::as_array).map_or(&[], |l| l)
 }
 
+/// Returns the parts of a list of so many items that are taken away together: all, both halves, quarters, down
+/// to one.
+pub(crate) fn parts(length: usize) -> Vec<Range<usize>> {
+    let mut all = Vec::new();
+    let mut size = length;
+    while size > 0 {
+        let starts = (0..length).step_by(size);
+        all.extend(starts.map(|start| start..(start + size).min(length)));
+        size /= 2;
+    }
+    all
+}
+
+/// Returns the number of a scene's passes.
+pub(crate) fn passes_of(document: &Value) -> usize {
+    list(&document["scene"], "passes").len()
+}
+
+/// Returns the places of all draws.
+pub(crate) fn draws_of(document: &Value) -> Vec<Place> {
+    let passes = list(&document["scene"], "passes").iter();
+    let each = passes.enumerate().flat_map(|(p, pass)| {
+        let draws = 0..list(pass, "draws").len();
+        draws.map(move |d| place!["scene", "passes", p, "draws", d])
+    });
+    each.collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use serde_json::json;
+
+    #[test]
+    fn parts_are_all_then_smaller_ones() {
+        assert_eq!(parts(4), [0..4, 0..2, 2..4, 0..1, 1..2, 2..3, 3..4]);
+        assert_eq!(parts(3), [0..3, 0..1, 1..2, 2..3]);
+        assert_eq!(parts(0), []);
+    }
 
     #[test]
     fn keys_and_leaves_are_counted_at_every_depth() {

@@ -2,7 +2,8 @@
 //!
 //! A picture's violation is named by the attachment and the aspect of its first wrong sample, and by the
 //! operations that decide what the sample must hold: the last one that stores there, and those that keep later
-//! draws away. A smaller case has fewer draws, so that its operations are some of the larger one's; one that is
+//! draws away; where the driver left what was there before, a store is missing, whatever it had to compute. A
+//! smaller case has fewer draws, so that its operations are some of the larger one's; one that is
 //! new is another violation. Counters and relations have a name of their own.
 
 use etalon_case::Case;
@@ -29,6 +30,9 @@ const REJECTIONS: [&str; 14] = [
     "depth test",
     "early tests",
 ];
+
+/// The operation of a draw that does not arrive, however its value is computed.
+const MISSING: &str = "store missing";
 
 /// One way to fail.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,7 +85,7 @@ impl Violation {
         let related = story.is_some_and(|s| s.lines.iter().any(|l| l.operation == "alone"));
         if let Some(relation) = case.relation.as_ref().filter(|_| related) {
             return violation(ViolationKind::Relation {
-                invariance: format!("{:?}", relation.invariance),
+                invariance: relation.invariance.name().to_owned(),
             });
         }
         let wrong = record.wrong.first().filter(|w| w.band > Band::Imprecise);
@@ -183,8 +187,23 @@ fn operations(scene: &Scene, story: &Story, attachment: &str, aspect: Aspect) ->
             deciding.insert(line.operation.clone());
         }
     }
-    // What was there before is the outcome of whatever keeps draws away.
     let is_initial = |o: &String| ["clear", "upload", "resolve"].contains(&o.as_str());
+    // Where the driver left what was there, nothing was computed that could be wrong.
+    let kept = story.verdict();
+    if kept.is_some_and(|v| v.detail.contains("the driver kept ")) {
+        let all = std::mem::take(&mut deciding).into_iter();
+        let not_stored = |o: &String| REJECTIONS.contains(&o.as_str()) || *o == keeps;
+        deciding = all
+            .map(|o| {
+                if not_stored(&o) || is_initial(&o) {
+                    o
+                } else {
+                    MISSING.to_owned()
+                }
+            })
+            .collect();
+    }
+    // What was there before is the outcome of whatever keeps draws away.
     if drawn && deciding.iter().all(is_initial) {
         deciding.insert("coverage".to_owned());
     }
@@ -285,6 +304,30 @@ mod tests {
         assert_eq!(found(&[clear, coverage]), ["coverage"]);
         let plain = ("pass 0, draw 2, primitive 1", "store color");
         assert_eq!(found(&[clear, logic, plain]), ["store color"]);
+    }
+
+    #[test]
+    fn a_draw_that_does_not_arrive_is_missing_however_it_blends() {
+        let verdict = |detail: &str| {
+            let [at, by] = ["texel 0,0", "judged"].map(str::to_owned);
+            StoryLine::verdict(at, detail.to_owned(), by)
+        };
+        let of = |detail: &str, last: &str| {
+            let lines = vec![
+                verdict(detail),
+                line("attachment c", "clear"),
+                line("pass 0, draw 0, primitive 0", last),
+            ];
+            let all = operations(&scene(), &Story { lines }, "c", Aspect::Color);
+            all.into_iter().collect::<Vec<_>>()
+        };
+        let kept = "must be 1; the driver kept the clear colour 0";
+        assert_eq!(of(kept, "store color"), ["store missing"]);
+        assert_eq!(of(kept, "scissor"), ["scissor"]);
+        assert_eq!(
+            of("must be 1; the driver wrote 0", "store color"),
+            ["logic operation"]
+        );
     }
 
     #[test]

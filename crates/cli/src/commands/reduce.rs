@@ -10,7 +10,7 @@ use etalon_case::{Case, Profile, build};
 use etalon_explore::{Candidate, MOST_DRAWS, Oracle, Reduction, keys, leaves, reduce, states};
 use etalon_frame::{Frame, Limits};
 use etalon_record::Record;
-use etalon_runner::{Judge, Launch, Trials, Violation, Worker};
+use etalon_runner::{Judge, Launch, Trials, Violation, ViolationKind, Worker};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
@@ -116,6 +116,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         before: &document["scene"],
         reduction: &reduction,
         record: &judge.record,
+        first: &violation,
         violation: &judge.violation,
         seconds,
     };
@@ -298,6 +299,8 @@ struct Told<'a> {
     before: &'a Value,
     reduction: &'a Reduction,
     record: &'a Record,
+    /// The violation of the case that was reduced.
+    first: &'a Violation,
     violation: &'a Violation,
     seconds: f64,
 }
@@ -325,6 +328,9 @@ impl Told<'_> {
             })
         };
         let verdict = || story.verdict()?.citation.as_deref();
+        if matches!(self.violation.kind, ViolationKind::Relation { .. }) {
+            return verdict();
+        }
         cited(false).or_else(|| cited(true)).or_else(verdict)
     }
 
@@ -394,6 +400,7 @@ impl Told<'_> {
             "finished": self.reduction.finished,
             "seconds": self.seconds,
             "states": states(self.scene()),
+            "first_violation": self.first.to_string(),
             "violation": self.violation.to_string(),
             "sentence": self.sentence(),
             "clause": self.clause(),

@@ -1,7 +1,6 @@
 //! Attachments: those of passes, those that are read back, and those that nothing names any more.
 
-use super::parts;
-use crate::document::list;
+use crate::document::{list, parts};
 use crate::edit::{Edit, below, place};
 use serde_json::{Value, json};
 

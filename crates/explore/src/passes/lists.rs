@@ -1,7 +1,6 @@
 //! Lists: further frames, passes, draws, clear commands and counters are left out.
 
-use super::{draws_of, parts, passes_of};
-use crate::document::list;
+use crate::document::{draws_of, list, parts, passes_of};
 use crate::edit::{Edit, below, place};
 use serde_json::{Map, Value, json};
 use std::ops::Range;

@@ -1,6 +1,6 @@
 //! Meshes: one primitive in the place of many, and shorter lists.
 
-use super::{draws_of, parts};
+use crate::document::{draws_of, parts};
 use crate::edit::{Edit, at, below};
 use serde_json::{Map, Value, json};
 
@@ -75,7 +75,7 @@ fn shorter(mesh: &Map<String, Value>, own: &[crate::edit::Step]) -> Vec<Edit> {
     let mut all = Vec::new();
     for key in ["values", "z", "windings", "uv", "indices"] {
         let length = mesh.get(key).and_then(Value::as_array).map_or(0, Vec::len);
-        if length < 2 || length > 64 {
+        if !(2..=64).contains(&length) {
             continue;
         }
         for part in parts(length).into_iter().filter(|p| p.len() < length) {

@@ -1,7 +1,6 @@
 //! Sizes: pictures are cropped, best to the wrong texel, and lose samples.
 
-use super::draws_of;
-use crate::document::list;
+use crate::document::{draws_of, list};
 use crate::edit::{Edit, Place, at, below, place};
 use serde_json::{Value, json};
 

@@ -1,6 +1,6 @@
 //! States: keys are removed, which puts every state at its default.
 
-use super::{draws_of, parts};
+use crate::document::{draws_of, parts};
 use crate::edit::{Edit, Place, at, below, place};
 use serde_json::Value;
 

@@ -1,7 +1,7 @@
 //! Shaders and the textures that they read: a shader that reads nothing stands in the place of one that does,
 //! and a clear value in the place of texels.
 
-use super::draws_of;
+use crate::document::draws_of;
 use crate::edit::{Edit, at, below, place};
 use serde_json::{Map, Value, json};
 

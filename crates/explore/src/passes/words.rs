@@ -1,6 +1,6 @@
 //! Words: formats, functions and factors become common ones.
 
-use crate::edit::{Edit, Place, Step, at, below, place};
+use crate::edit::{Edit, Place, Step, below, place};
 use serde_json::{Value, json};
 
 /// The words that stand for others under a key, the simplest first. Words that are not listed are the least
@@ -87,7 +87,7 @@ pub(crate) fn formats(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
                     "stencil8" => "stencil",
                     _ => continue,
                 };
-                if let Some(value) = at(attachment, &place!["clear", aspect]) {
+                if let Some(value) = attachment["clear"].get(aspect) {
                     edit.replace.push((below(&own, "clear"), value.clone()));
                 }
             }
