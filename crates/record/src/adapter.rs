@@ -25,8 +25,21 @@ pub struct AdapterRecord {
     pub api_version: String,
     /// True if the device is the processor.
     pub software: bool,
+    /// The release of the driver, as its description says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub release: Option<Release>,
     /// Its limits and features.
     pub limits: Limits,
+}
+
+/// One release of a driver.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Release {
+    /// The line: one driver over its releases, such as `swiftshader`.
+    pub line: String,
+    /// The version within the line, numbers with dots.
+    pub version: String,
 }
 
 impl AdapterRecord {

@@ -4,7 +4,7 @@
 //! breaks.
 
 use crate::adapter::AdapterRecord;
-use crate::driver_version::driver_version;
+use crate::driver_version::version_of;
 use crate::expectations::{Entry, Expectation, Expectations, Known, Source};
 use crate::findings::{Evidence, Finding};
 use crate::grade::Grade;
@@ -116,7 +116,7 @@ fn entry(record: &Record, adapter: &AdapterRecord, run: &Run, today: &str) -> En
     Entry {
         adapter: globset::escape(&record.adapter),
         driver: globset::escape(&adapter.driver_text()),
-        version: driver_version(&adapter.driver_version).map(|v| format!("={v}")),
+        version: version_of(adapter).map(|v| format!("={v}")),
         case: globset::escape(&record.case),
         verdict: record.verdict,
         reason: format!("Not explained yet; blessed on {today}."),

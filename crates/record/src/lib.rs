@@ -44,7 +44,7 @@ mod shorten;
 mod verdict;
 mod writer;
 
-pub use adapter::{AbsentAdapter, AdapterRecord};
+pub use adapter::{AbsentAdapter, AdapterRecord, Release};
 pub use bench::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchWriter, Ended, Picture, Round,
     Time,

@@ -14,6 +14,7 @@ mod expectations;
 mod findings;
 mod help;
 mod house;
+mod launchers;
 mod methods;
 mod mutants;
 mod parts;

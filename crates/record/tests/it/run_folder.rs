@@ -32,6 +32,7 @@ fn header() -> Header {
             driver_id: "7".to_owned(),
             api_version: "3.2".to_owned(),
             software: true,
+            release: None,
             limits: Limits {
                 api: Api::OpenGlEs,
                 version: etalon_frame::ApiVersion::new(3, 2),

@@ -104,6 +104,7 @@ pub(crate) fn run(made: &[Made]) -> Run {
         driver_id: String::new(),
         api_version: String::new(),
         software: !name.starts_with("hw"),
+        release: None,
         limits: Limits {
             api: Api::Vulkan,
             version: etalon_frame::ApiVersion::new(1, 3),

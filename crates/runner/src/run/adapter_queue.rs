@@ -91,6 +91,8 @@ impl AdapterQueue {
             program: PathBuf::new(),
             arguments: Vec::new(),
             environment: Vec::new(),
+            launcher: None,
+            release: None,
         };
         Self {
             start_error: Some(error),
