@@ -2,7 +2,7 @@
 
 use crate::commands::{
     adapters, bench, bisect, completions, diff, expectations, explain, list, man, merge, mutants,
-    report, run,
+    reduce, report, run,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -46,6 +46,8 @@ pub(crate) enum Command {
     Bisect(bisect::Arguments),
     /// Explain one texel, operation by operation, with rules and citations
     Explain(explain::Arguments),
+    /// Reduce a failing case to the smallest one that fails in the same way
+    Reduce(reduce::Arguments),
     /// Plant bugs in the cpu rasterizer and report which of them the cases catch
     Mutants(mutants::Arguments),
     /// Print a completion script for a shell

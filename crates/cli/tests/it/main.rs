@@ -21,6 +21,7 @@ mod mutants;
 mod parts;
 mod pipes;
 mod read_faults;
+mod reduce;
 mod round_trips;
 mod runs;
 mod sample;
