@@ -73,7 +73,7 @@ impl CaseRef<'_> {
     }
 
     /// A scene drawn by a method.
-    fn method_case(&self, values: &BTreeMap<&str, &Value>) -> Result<Case, At> {
+    pub(crate) fn method_case(&self, values: &BTreeMap<&str, &Value>) -> Result<Case, At> {
         let wire = &self.file.wire;
         let others = [
             &wire.scene,
@@ -138,7 +138,7 @@ impl CaseRef<'_> {
     }
 
     /// The scene with all values in their places.
-    fn scene_value(&self, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
+    pub(crate) fn scene_value(&self, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
         let wire = &self.file.wire;
         let made = [
             ("scene", &wire.scene),

@@ -42,6 +42,7 @@ mod selection;
 mod shader_cache;
 mod shorten;
 mod verdict;
+mod versions;
 mod writer;
 
 pub use adapter::{AbsentAdapter, AdapterRecord, Release};
@@ -74,4 +75,7 @@ pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
 pub use shader_cache::ShaderCache;
 pub use verdict::Verdict;
+pub use versions::{
+    CaseVersions, ReleaseRecord, Standing, VERSIONS_FILE, VERSIONS_FORMAT, Versions, VersionsHeader,
+};
 pub use writer::RunWriter;

@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 19] = [
+const TABLE: [(&str, &[&str], &[&str]); 20] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -53,6 +53,7 @@ const TABLE: [(&str, &[&str], &[&str]); 19] = [
         ],
         &[],
     ),
+    ("explore", &["case"], &[]),
     ("report", &["frame", "methods", "record", "stats"], &[]),
     (
         "cli",
@@ -60,6 +61,7 @@ const TABLE: [(&str, &[&str], &[&str]); 19] = [
             "backend",
             "case",
             "cpu",
+            "explore",
             "frame",
             "gl",
             "mutants",

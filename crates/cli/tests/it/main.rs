@@ -3,6 +3,7 @@
 
 mod adapters;
 mod bench;
+mod bisect;
 mod call_faults;
 mod ci_files;
 mod circles;
@@ -20,6 +21,7 @@ mod mutants;
 mod parts;
 mod pipes;
 mod read_faults;
+mod reduce;
 mod round_trips;
 mod runs;
 mod sample;
