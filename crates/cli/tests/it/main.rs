@@ -4,6 +4,7 @@
 mod adapters;
 mod bench;
 mod call_faults;
+mod check;
 mod ci_files;
 mod circles;
 mod commands;
