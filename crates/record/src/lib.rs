@@ -14,6 +14,7 @@
 mod adapter;
 mod bench;
 mod bless;
+mod clear;
 mod conflict;
 mod dead;
 mod driver_version;
@@ -46,10 +47,11 @@ mod writer;
 
 pub use adapter::{AbsentAdapter, AdapterRecord};
 pub use bench::{
-    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchWriter, Ended, Picture, Round,
-    Time,
+    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchSettings, BenchWriter, Ended,
+    Picture, Round, Time,
 };
 pub use bless::Blessing;
+pub use clear::clear;
 pub use dead::{Dead, DeadKind};
 pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations, Known, Source};

@@ -7,21 +7,22 @@ use crate::blessing::{bless, to_bless};
 use crate::cases::{all_ids, chosen, is_measuring, is_measuring_area, round_trips};
 use crate::expectations::{self, today};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
-use crate::flags::{AdapterFileArguments, CaseArguments, Format};
+use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::interruption::{how_to_resume, listen};
+use crate::out_folder::Out;
 use crate::output::{say, summarize, summarize_json, table_options};
 use crate::progress::progress;
 use crate::{provenance, report_files, shard};
 use clap::{Args, ValueEnum};
 use etalon_case::Case;
 use etalon_record::{
-    AdapterRecord, Dead, Expectations, FolderKind, FolderLock, Header, RecordError, Run, Settings,
-    ShaderCache, Shard, selection_digest, shard_of,
+    AdapterRecord, Dead, Expectations, FolderKind, FolderLock, Header, Run, Settings, ShaderCache,
+    Shard, selection_digest, shard_of,
 };
 use etalon_runner::{Event, Options, Plan, RunError, RunSummary};
 use indicatif::ProgressBar;
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// The folder that each run without `--out` replaces.
@@ -51,7 +52,7 @@ pub(crate) struct Arguments {
     /// Continue the run in the folder: draw what is missing
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
-    /// Replace the run in the folder
+    /// Replace the run or bench in the folder
     #[arg(long)]
     pub(crate) force: bool,
     /// Use these expectations instead of the built-in findings: a list, a finding, or a folder of findings
@@ -99,15 +100,6 @@ pub(crate) struct Arguments {
     pub(crate) format: Format,
 }
 
-fn parse_timeout(text: &str) -> Result<f64, String> {
-    let seconds: f64 = text.parse().unwrap_or(f64::NAN);
-    if (0.1..=86_400.0).contains(&seconds) {
-        Ok(seconds)
-    } else {
-        Err("expected a number of seconds from 0.1 to 86400".to_owned())
-    }
-}
-
 fn parse_percent(text: &str) -> Result<f64, String> {
     let percent: f64 = text.trim_end_matches('%').parse().unwrap_or(f64::NAN);
     if (0.0..=100.0).contains(&percent) {
@@ -153,7 +145,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     // The records of a concurrent or an earlier run must not be lost.
     let lock = || FolderLock::acquire(&arguments.out).map_err(Failure::usage);
     let early = arguments.out.exists().then(lock).transpose()?;
-    let resume = resumes(arguments)?;
+    let out = Out {
+        folder: &arguments.out,
+        kind: FolderKind::Run,
+        latest: LATEST,
+        resume: arguments.resume,
+        force: arguments.force,
+    };
+    let resume = out.resumes()?;
     let stop = listen()?;
     let mut adapters = discover(&Query {
         names: &arguments.adapters,
@@ -169,6 +168,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     refuse_absent(&arguments.adapters, &adapters.absent)?;
     // A new folder is created only once there is something to write.
     let _lock = early.map_or_else(lock, Ok)?;
+    out.clear_other()?;
     let header = header(arguments, &cases, &selection, shard, &adapters, &dead);
     let names: Vec<String> = header.adapters.iter().map(|a| a.name.clone()).collect();
     let plan = Plan {
@@ -305,29 +305,6 @@ fn shuffle(cases: &mut [Case], seed: u64) {
         let other = random.rand_range(0..last as u64 + 1);
         cases.swap(last, other as usize);
     }
-}
-
-/// Returns true if the run in the folder is continued; refuses to replace it without `--force`.
-fn resumes(arguments: &Arguments) -> Result<bool, Failure> {
-    let folder = &arguments.out;
-    if FolderKind::of(folder) != Some(FolderKind::Run) {
-        return Ok(false);
-    }
-    let replaced = arguments.force || folder == Path::new(LATEST);
-    if arguments.resume || replaced {
-        return Ok(arguments.resume);
-    }
-    let run = Run::read(folder).map_err(|e| {
-        Failure::usage(format!(
-            "{e}; or replace the run in {} by --force",
-            folder.display()
-        ))
-    })?;
-    Err(Failure::usage(RecordError::Occupied {
-        path: folder.clone(),
-        records: run.records.len() as u64,
-        expected: run.header.expected_records(),
-    }))
 }
 
 fn processors() -> usize {
