@@ -43,6 +43,7 @@ mod selection;
 mod shader_cache;
 mod shorten;
 mod verdict;
+mod violation;
 mod writer;
 
 pub use adapter::{AbsentAdapter, AdapterRecord};
@@ -76,4 +77,5 @@ pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
 pub use shader_cache::ShaderCache;
 pub use verdict::Verdict;
+pub use violation::Violation;
 pub use writer::RunWriter;

@@ -19,7 +19,7 @@ use etalon_record::{
     AdapterRecord, Dead, Expectations, FolderKind, FolderLock, Header, Run, Settings, ShaderCache,
     Shard, selection_digest, shard_of,
 };
-use etalon_runner::{Event, Options, Plan, RunError, RunSummary};
+use etalon_runner::{Event, Options, Plan, Rechecks, RunError, RunSummary};
 use indicatif::ProgressBar;
 use serde_json::json;
 use std::path::PathBuf;
@@ -83,6 +83,10 @@ pub(crate) struct Arguments {
     /// Number of workers that draw at the same time. Default: one per processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) jobs: Option<u16>,
+    /// Check again in a new process: unexpected bad verdicts, of each kind on each adapter until N are confirmed.
+    /// Kinds differ in verdict, aspect, operation and direction. `off`: none, so that nothing is found to be flaky
+    #[arg(long, value_name = "N|off", default_value = "4", value_parser = parse_recheck)]
+    pub(crate) recheck: Recheck,
     /// Draw each case N times, each time in a new process; a case whose verdicts differ is flaky
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(crate) repeat: u32,
@@ -98,6 +102,19 @@ pub(crate) struct Arguments {
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
+}
+
+/// The number of confirmations of each kind of bad verdict; 0 is off.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Recheck(u32);
+
+fn parse_recheck(text: &str) -> Result<Recheck, String> {
+    let number = match text {
+        "off" => Some(0),
+        text => text.parse().ok().filter(|n| (1..=256).contains(n)),
+    };
+    let wrong = || "expected a number from 1 to 256, or `off`".to_owned();
+    number.map(Recheck).ok_or_else(wrong)
 }
 
 fn parse_percent(text: &str) -> Result<f64, String> {
@@ -183,7 +200,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             timeout: Duration::from_secs_f64(arguments.timeout),
             memory: Some(arguments.memory),
             repeat: arguments.repeat,
-            look_again: true,
+            recheck: arguments.recheck.0,
         },
         expectations: &expectations,
         folder: &arguments.out,
@@ -212,6 +229,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "missing": run.missing(),
             "unexpected": outcome.unexpected,
             "improvements": outcome.improvements,
+            "rechecked": outcome.rechecks.done,
+            "not_rechecked": outcome.rechecks.left,
             "interrupted": outcome.interrupted,
             "dead_expectations": dead,
             "adapters": names,
@@ -220,6 +239,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }))?;
     } else {
         summarize(&etalon_report::table(&run, table_options()));
+        summarize(&rechecked(arguments.recheck, outcome.rechecks));
         summarize(&format!("\nReport: {}\n", written.html.display()));
     }
     if run.missing() > 0 {
@@ -277,6 +297,19 @@ fn dead_expectations(
     let ids = all_ids(arguments.selection.cases.as_ref())?;
     let described = described_names(arguments.file.adapter_file.as_deref())?;
     Ok(expectations.dead(run, &ids, &described))
+}
+
+/// Returns a line on the bad verdicts that were checked again; nothing where there were none.
+fn rechecked(recheck: Recheck, Rechecks { done, left }: Rechecks) -> String {
+    match (recheck.0, done, left) {
+        (_, 0, 0) => String::new(),
+        (0, ..) => "Not rechecked (--recheck off): no bad verdict was drawn again.\n".to_owned(),
+        (n, done, 0) => format!("Rechecked: all {done} unexpected bad verdicts (--recheck {n}).\n"),
+        (n, done, left) => format!(
+            "Rechecked: {done} of {} unexpected bad verdicts, until {n} of a kind were confirmed on an adapter (--recheck N|off).\n",
+            done + left
+        ),
+    }
 }
 
 /// Returns true if enough was asserted, and a line that says how much was: the share of the records of cases that
