@@ -3,9 +3,10 @@
 use crate::check::check;
 use crate::failure::Failure;
 use crate::flags::CaseArguments;
+use crate::near::did_you_mean;
 use crate::output::say;
 use etalon_case::{Case, CaseError, CaseFile, CaseRef, Library, Profile};
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::path::PathBuf;
@@ -90,12 +91,40 @@ fn some<T>(selected: Vec<T>, globs: &[String]) -> Result<Vec<T>, Failure> {
             "there are no cases".to_owned()
         } else {
             format!(
-                "no case matches {}; `etalon list` lists all",
-                globs.join(" ")
+                "no case matches {}{}; `etalon list` lists all",
+                globs.join(" "),
+                proposed(globs)
             )
         }));
     }
     Ok(selected)
+}
+
+/// Returns what the globs may have meant: an area, a case file, or a case.
+fn proposed(globs: &[String]) -> String {
+    let Ok(library) = library(None) else {
+        return String::new();
+    };
+    let mut known: BTreeSet<String> = BTreeSet::new();
+    for file in library.files() {
+        let stem = file.name().trim_end_matches(".json");
+        known.insert(stem.to_owned());
+        known.extend(stem.split('/').next().map(str::to_owned));
+    }
+    let each = globs.iter().map(|glob| {
+        let word = glob.trim_end_matches(['*', '/']);
+        match word.contains('=') {
+            true => nearest_cases(&library, word),
+            false => did_you_mean(word, known.iter().map(String::as_str)),
+        }
+    });
+    each.collect()
+}
+
+/// Returns the cases whose ids are nearest to a text.
+pub(crate) fn nearest_cases(library: &Library, word: &str) -> String {
+    let ids: Vec<String> = library.cases(Profile::Full).map(|case| case.id()).collect();
+    did_you_mean(word, ids.iter().map(String::as_str))
 }
 
 /// Returns the cases of a folder, or the built-in ones.

@@ -21,6 +21,7 @@ mod expectations;
 mod failure;
 mod flags;
 mod interruption;
+mod near;
 mod out_folder;
 mod output;
 mod progress;

@@ -17,12 +17,14 @@ use clap::{Args, ValueEnum};
 use etalon_case::Case;
 use etalon_record::{
     AdapterRecord, Dead, Expectations, FolderKind, FolderLock, Header, Run, Settings, ShaderCache,
-    Shard, selection_digest, shard_of,
+    Shard, Verdict, selection_digest, shard_of,
 };
 use etalon_runner::{Event, Options, Plan, Rechecks, RunError, RunSummary};
 use indicatif::ProgressBar;
 use serde_json::json;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Mutex;
 use std::time::Duration;
 
 /// The folder that each run without `--out` replaces.
@@ -102,6 +104,19 @@ pub(crate) struct Arguments {
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
+}
+
+/// The number of records of each verdict on each adapter.
+fn verdicts(run: &Run) -> BTreeMap<&str, BTreeMap<&str, u64>> {
+    let mut counts: BTreeMap<&str, BTreeMap<&str, u64>> = BTreeMap::new();
+    for adapter in &run.header.adapters {
+        counts.entry(&adapter.name).or_default();
+    }
+    for record in &run.records {
+        let of_adapter = counts.entry(&record.adapter).or_default();
+        *of_adapter.entry(record.verdict.name()).or_default() += 1;
+    }
+    counts
 }
 
 /// The number of confirmations of each kind of bad verdict; 0 is off.
@@ -234,6 +249,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "interrupted": outcome.interrupted,
             "dead_expectations": dead,
             "adapters": names,
+            "verdicts": verdicts(&run),
             "folder": arguments.out,
             "report": written.html,
         }))?;
@@ -391,13 +407,17 @@ fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<RunSummary, RunError> {
     };
     bar.inc(before);
     bar.reset_eta();
+    // Each is told once, with its reason, when the run has ended; until then the bar counts them.
+    let bad: Mutex<BTreeMap<Verdict, u64>> = Mutex::default();
     etalon_runner::run(plan, &|event| match event {
-        Event::AdapterStarted { adapter, .. } => bar.set_message(adapter),
+        Event::AdapterStarted { .. } => {}
         Event::Recorded(record) => {
-            if record.unexpected() {
-                bar.suspend(|| {
-                    say!("{} {} {}", record.verdict, record.adapter, record.case);
-                });
+            if record.unexpected()
+                && let Ok(mut bad) = bad.lock()
+            {
+                *bad.entry(record.verdict).or_default() += 1;
+                let counts = bad.iter().map(|(verdict, n)| format!("{n} {verdict}"));
+                bar.set_message(counts.collect::<Vec<_>>().join(", "));
             }
             bar.inc(1);
         }

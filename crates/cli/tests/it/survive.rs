@@ -62,7 +62,10 @@ fn a_crash_records_its_signal_and_its_last_words() {
         assert_eq!((end.signal, end.exit), (Some(6), None));
         assert_eq!(end.stderr, "about to abort, as planted");
         assert!(record.message.contains("signal 6 (abort)"));
-        assert!(record.repeats.is_empty(), "a recheck that agrees is not recorded");
+        assert!(
+            record.repeats.is_empty(),
+            "a recheck that agrees is not recorded"
+        );
     }
     for record in lost("segv", Verdict::Crash, LossKind::Died, &[]) {
         assert_eq!(record.process.unwrap().signal, Some(11));
@@ -650,4 +653,61 @@ fn so_many_of_a_kind_are_checked_again_and_the_output_says_so() {
     let text = String::from_utf8_lossy(&text.get_output().stdout).into_owned();
     assert!(text.contains("Rechecked: 3 of "), "{text}");
     etalon(&["run", "--recheck", "0"]).assert().code(64);
+}
+
+#[test]
+fn a_bad_verdict_is_told_once_with_its_reason() {
+    let out = folder();
+    let arguments = [
+        "run",
+        "depth/*",
+        "--adapter",
+        "cpu:fault=abort",
+        "--recheck",
+        "off",
+        "--out",
+    ];
+    let output = etalon(&arguments).arg(out.path()).output().unwrap();
+    let text = format!(
+        "{}{}",
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let run = Run::read(out.path()).unwrap();
+    let crashed: Vec<&Record> = run
+        .records
+        .iter()
+        .filter(|r| r.verdict == Verdict::Crash)
+        .collect();
+    assert!(!crashed.is_empty());
+    for record in crashed.iter().take(20) {
+        let told: Vec<&str> = text
+            .lines()
+            .filter(|line| line.contains(&format!("{}:", record.case)))
+            .collect();
+        assert_eq!(told.len(), 1, "{text}");
+        assert!(told[0].contains("about to abort, as planted"), "{told:?}");
+    }
+    assert!(!text.contains('…'), "{text}");
+    let arguments = [
+        "run",
+        "depth/*",
+        "--adapter",
+        "cpu:fault=abort",
+        "--format",
+        "json",
+        "--out",
+    ];
+    let output = etalon(&arguments).arg(folder().path()).output().unwrap();
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let counts = &told["verdicts"]["cpu:fault=abort"];
+    assert_eq!(
+        counts["crash"].as_u64(),
+        Some(crashed.len() as u64),
+        "{told:#}"
+    );
+    assert_eq!(
+        counts["pass"].as_u64(),
+        Some((run.records.len() - crashed.len()) as u64)
+    );
 }
