@@ -1,8 +1,8 @@
 //! The command line: one subcommand per file of `commands`.
 
 use crate::commands::{
-    adapters, bench, bisect, completions, diff, expectations, explain, list, man, merge, mutants,
-    reduce, report, run,
+    adapters, bench, bisect, check, completions, diff, expectations, explain, list, man, merge,
+    mutants, reduce, report, run,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -27,6 +27,8 @@ pub(crate) enum Command {
     Adapters(adapters::Arguments),
     /// List case ids, one per line
     List(list::Arguments),
+    /// Check case files without a driver: errors, what nothing uses, what is not asserted, and how sharply
+    Check(check::Arguments),
     /// Print the JSON schema of case files
     Schema,
     /// Draw cases on adapters, judge every texel, write records and reports

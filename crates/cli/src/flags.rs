@@ -61,3 +61,13 @@ pub(crate) struct CaseArguments {
     #[arg(long, value_enum, default_value = "quick")]
     pub(crate) profile: CaseProfile,
 }
+
+/// Parses a time limit in seconds.
+pub(crate) fn parse_timeout(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().unwrap_or(f64::NAN);
+    if (0.1..=86_400.0).contains(&seconds) {
+        Ok(seconds)
+    } else {
+        Err("expected a number of seconds from 0.1 to 86400".to_owned())
+    }
+}

@@ -14,12 +14,15 @@
 mod adapters;
 mod blessing;
 mod cases;
+mod check;
 mod command_line;
 mod commands;
 mod expectations;
 mod failure;
 mod flags;
 mod interruption;
+mod near;
+mod out_folder;
 mod output;
 mod progress;
 mod provenance;
@@ -44,6 +47,7 @@ fn main() -> ExitCode {
     let outcome = match command_line.command {
         Command::Adapters(arguments) => commands::adapters::run(&arguments),
         Command::List(arguments) => commands::list::run(&arguments),
+        Command::Check(arguments) => commands::check::run(&arguments),
         Command::Schema => commands::schema::run(),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),

@@ -44,7 +44,7 @@ pub use hunt::{HuntPlan, hunt};
 pub use judge::{Judge, Judged};
 pub use launch::{Launch, Launcher, Setup, StartError};
 pub use protocol::Hello;
-pub use run::{Options, Plan, RunError, RunSummary, round_trips, run};
+pub use run::{Options, Plan, Rechecks, RunError, RunSummary, round_trips, run};
 pub use select::{Globs, SelectError, Selection, select};
 pub use serve::serve;
 pub use story::{story_of_relation, story_of_sample};

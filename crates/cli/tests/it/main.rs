@@ -5,6 +5,7 @@ mod adapters;
 mod bench;
 mod bisect;
 mod call_faults;
+mod check;
 mod ci_files;
 mod circles;
 mod commands;

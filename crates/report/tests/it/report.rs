@@ -273,7 +273,7 @@ fn the_table_counts_and_lists() {
     assert_eq!(sum, Verdict::ALL.len() as u64 + 4, "{wide}");
     assert!(wide.contains(" skipped "), "{wide}");
     assert!(text.contains("2 improvements"), "{text}");
-    assert!(text.contains("depth/all/verdict=crash\n    the process died of SIGABRT"));
+    assert!(text.contains("depth/all/verdict=crash: the process died of SIGABRT"));
     assert!(text.contains("depth allowed 0x"), "{text}");
     for width in [20, 60, 80] {
         let narrow = table(&run, TableOptions { width, color: true });
