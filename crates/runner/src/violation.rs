@@ -1,8 +1,8 @@
 //! The way in which a case fails: what a smaller case must share with it, or it shows something else.
 //!
 //! A picture's violation is named by the attachment and the aspect of its first wrong sample, and by the
-//! operations that decide what the sample must hold: the last one that stores there, and those that keep later
-//! draws away; where the driver left what was there before, a store is missing, whatever it had to compute. A
+//! operations that decide what the sample must hold: the last one that stores there or clears, and those that
+//! keep later draws away; where the driver left what was there before, a store is missing, whatever it had to compute. A
 //! smaller case has fewer draws, so that its operations are some of the larger one's; one that is
 //! new is another violation. Counters and relations have a name of their own.
 
@@ -167,7 +167,11 @@ fn operations(scene: &Scene, story: &Story, attachment: &str, aspect: Aspect) ->
     let lines = story.operations();
     for group in lines.chunk_by(|a, b| a.at == b.at) {
         let Some(draw) = draw_at(scene, &group[0].at) else {
-            // Clears, resolves and uploads.
+            // Clears, resolves and uploads, of which stories tell those of all attachments.
+            let other = group[0].at.strip_prefix("attachment ");
+            if other.is_some_and(|name| name != attachment) {
+                continue;
+            }
             for line in group.iter().filter(|l| l.operation != "read back") {
                 deciding = BTreeSet::from([line.operation.clone()]);
             }
@@ -203,12 +207,9 @@ fn operations(scene: &Scene, story: &Story, attachment: &str, aspect: Aspect) ->
             })
             .collect();
     }
-    // What was there before is the outcome of whatever keeps draws away.
+    // Every draw has primitives elsewhere: coverage decides where nothing else does.
     if drawn && deciding.iter().all(is_initial) {
         deciding.insert("coverage".to_owned());
-    }
-    if !deciding.iter().all(is_initial) {
-        deciding.retain(|o| !is_initial(o));
     }
     deciding
 }
@@ -291,6 +292,7 @@ mod tests {
     fn the_last_store_and_later_rejections_decide() {
         let clear = ("attachment c", "clear");
         let logic = ("pass 0, draw 0, primitive 0", "store color");
+        let upload = ("attachment d", "upload");
         let scissor = ("pass 0, draw 1", "scissor");
         let coverage = ("pass 0, draw 2", "coverage");
         assert_eq!(found(&[clear]), ["clear"]);
@@ -300,8 +302,8 @@ mod tests {
             found(&[clear, logic, scissor, coverage]),
             ["logic operation", "scissor"]
         );
-        assert_eq!(found(&[clear, scissor]), ["scissor"]);
-        assert_eq!(found(&[clear, coverage]), ["coverage"]);
+        assert_eq!(found(&[clear, upload, scissor]), ["clear", "scissor"]);
+        assert_eq!(found(&[clear, coverage]), ["clear", "coverage"]);
         let plain = ("pass 0, draw 2, primitive 1", "store color");
         assert_eq!(found(&[clear, logic, plain]), ["store color"]);
     }
@@ -323,7 +325,7 @@ mod tests {
         };
         let kept = "must be 1; the driver kept the clear colour 0";
         assert_eq!(of(kept, "store color"), ["store missing"]);
-        assert_eq!(of(kept, "scissor"), ["scissor"]);
+        assert_eq!(of(kept, "scissor"), ["clear", "scissor"]);
         assert_eq!(
             of("must be 1; the driver wrote 0", "store color"),
             ["logic operation"]

@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     let steady = repeat(&launch, worker, &case, &limits)?;
     let (worker, record, violation) = match steady {
-        Outcome::Steady(worker, record, violation) => (worker, record, violation),
+        Outcome::Steady(steady) => *steady,
         Outcome::Passes(verdict) => {
             return Err(Failure::nothing(format!(
                 "{} does not fail on {name}, drawn alone: {verdict}; there is nothing to reduce",
@@ -167,7 +167,7 @@ fn start(arguments: &Arguments) -> Result<(Launch, Worker), Failure> {
 /// What repeated drawings of a case show.
 enum Outcome {
     /// It fails in the same way every time.
-    Steady(Worker, Record, Violation),
+    Steady(Box<(Worker, Record, Violation)>),
     /// It never fails.
     Passes(String),
     /// It fails sometimes, or in several ways.
@@ -211,7 +211,7 @@ fn repeat(
         }),
         Some(way) if failed == PROCESSES * DRAWINGS => {
             match ways.iter().flatten().find(|other| **other != way) {
-                None => Outcome::Steady(worker, record, way),
+                None => Outcome::Steady(Box::new((worker, record, way))),
                 Some(other) => Outcome::Flaky(format!("it fails by {way} and by {other}")),
             }
         }

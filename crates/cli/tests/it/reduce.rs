@@ -132,7 +132,10 @@ fn every_kind_of_violation_is_kept() {
             "selftest/logic/judged=or",
             "color of color (logic operation)",
         ),
-        ("selftest/scissor/judged=right", "color of color (scissor)"),
+        (
+            "selftest/scissor/judged=right",
+            "color of color (clear, scissor)",
+        ),
         ("selftest/resolve", "color of resolved (resolve)"),
         (
             "selftest/counter/right=8",
