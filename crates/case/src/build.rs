@@ -23,11 +23,13 @@ impl CaseRef<'_> {
     /// # Errors
     /// With file, line and key, when a value is of the wrong type or a state is impossible.
     pub fn build(&self) -> Result<Case, CaseError> {
-        self.try_build()
-            .map_err(|at| at.locate(self.file.name(), &self.file.text))
+        self.try_build().map_err(|at| {
+            let blamed = self.blame(at);
+            blamed.locate(self.file.name(), &self.file.text)
+        })
     }
 
-    fn try_build(&self) -> Result<Case, At> {
+    pub(crate) fn try_build(&self) -> Result<Case, At> {
         let wire = &self.file.wire;
         let values = self.values();
         if self.file.is_method() {

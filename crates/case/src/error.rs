@@ -90,8 +90,8 @@ impl At {
         Self { path, message }
     }
 
-    /// With file and line.
-    pub(crate) fn locate(self, file: &str, text: &str) -> CaseError {
+    /// The path as text: `scene.passes[0].draws`.
+    pub(crate) fn place(&self) -> String {
         let mut key = String::new();
         for step in &self.path {
             match step {
@@ -103,10 +103,15 @@ impl At {
                 Step::Index(i) => key.push_str(&format!("[{i}]")),
             }
         }
+        key
+    }
+
+    /// With file and line.
+    pub(crate) fn locate(self, file: &str, text: &str) -> CaseError {
         CaseError {
             file: file.to_owned(),
             line: line_of(text, &self.path),
-            key,
+            key: self.place(),
             message: self.message,
         }
     }

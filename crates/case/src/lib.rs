@@ -4,6 +4,7 @@
 //! [`CaseRef`]s, whose ids cost nothing; [`CaseRef::build`] makes the [`Case`] with its scene.
 
 mod attachment;
+mod blame;
 mod build;
 mod case;
 mod codes;
@@ -13,6 +14,7 @@ mod error;
 mod fetch;
 mod file;
 mod library;
+mod lint;
 mod pairwise;
 mod pass_operations;
 mod path;

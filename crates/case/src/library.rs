@@ -31,15 +31,24 @@ impl Library {
     /// # Errors
     /// If a folder or file cannot be read or a file is broken.
     pub fn from_folder(folder: &Path) -> Result<Self, CaseError> {
-        let mut names = Vec::new();
-        collect(folder, "", &mut names)?;
-        names.sort();
-        let mut files = Vec::new();
-        for name in names {
-            let text = fs::read_to_string(folder.join(&name)).map_err(|e| unreadable(&name, &e))?;
-            files.push(CaseFile::parse(&name, &text)?);
-        }
+        let files = Self::read_each(folder)
+            .into_iter()
+            .collect::<Result<_, _>>()?;
         Ok(Self { files })
+    }
+
+    /// All files ending in `.json` below a folder, each with its own error.
+    pub fn read_each(folder: &Path) -> Vec<Result<CaseFile, CaseError>> {
+        let mut names = Vec::new();
+        if let Err(error) = collect(folder, "", &mut names) {
+            return vec![Err(error)];
+        }
+        names.sort();
+        let read = |name: String| {
+            let text = fs::read_to_string(folder.join(&name)).map_err(|e| unreadable(&name, &e))?;
+            CaseFile::parse(&name, &text)
+        };
+        names.into_iter().map(read).collect()
     }
 
     /// The files.

@@ -1,8 +1,12 @@
 //! The cases of a command: library, selection, building.
 
+use crate::check::check;
 use crate::failure::Failure;
 use crate::flags::CaseArguments;
-use etalon_case::{Case, CaseError, CaseRef, Library, Profile};
+use crate::near::did_you_mean;
+use crate::output::say;
+use etalon_case::{Case, CaseError, CaseFile, CaseRef, Library, Profile};
+use std::collections::{BTreeSet, HashSet};
 use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::path::PathBuf;
@@ -22,11 +26,49 @@ pub(crate) fn is_measuring_area(area: &str) -> bool {
     MEASURING.contains(&area)
 }
 
-/// Returns the selected cases, built, so that errors of case files show before anything is drawn.
+/// Returns the selected cases, built, so that errors of case files show before anything is drawn. Warnings on files of
+/// a user's own are printed.
 pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
     let library = library(arguments.cases.as_ref())?;
     let cases = build(&library, arguments.profile.into(), &arguments.globs)?;
-    some(cases, &arguments.globs)
+    let cases = some(cases, &arguments.globs)?;
+    if arguments.cases.is_some() {
+        warn(&library, &cases);
+    }
+    Ok(cases)
+}
+
+/// The most cases that are judged for warnings before they are drawn.
+const JUDGED: usize = 64;
+
+/// Prints the warnings of `etalon check` on the files of these cases: all if they are few, else those that need no
+/// judge.
+fn warn(library: &Library, cases: &[Case]) {
+    let ids: HashSet<&str> = cases.iter().map(|case| case.id.as_str()).collect();
+    let files = library.files().iter();
+    let of_these = |file: &&CaseFile| {
+        file.cases(Profile::Full)
+            .any(|c| ids.contains(c.id().as_str()))
+    };
+    let files: Vec<CaseFile> = files.filter(of_these).cloned().collect();
+    let few = files
+        .iter()
+        .map(|file| file.cases(Profile::Quick).count())
+        .sum::<usize>()
+        <= JUDGED;
+    let warnings: Vec<CaseError> = match few {
+        true => check(&files, Profile::Quick)
+            .into_iter()
+            .flat_map(|f| f.warnings)
+            .collect(),
+        false => files.iter().flat_map(CaseFile::warnings).collect(),
+    };
+    for warning in &warnings {
+        say!("warning: {warning}");
+    }
+    if !few && !warnings.is_empty() {
+        say!("`etalon check` says more of these files");
+    }
 }
 
 /// Returns the ids of the selected cases. Those of a folder are built all the same, so that errors show.
@@ -42,6 +84,21 @@ pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<String>, Failu
     some(ids, &arguments.globs)
 }
 
+/// Returns the number of cases of the full profile that match as well as the selected ones, and that the profile
+/// leaves out. An area without a selected case has none.
+pub(crate) fn left_out(arguments: &CaseArguments, selected: &[String]) -> Result<u64, Failure> {
+    if Profile::from(arguments.profile) == Profile::Full {
+        return Ok(0);
+    }
+    let area = |id: &str| id.split('/').next().unwrap_or_default().to_owned();
+    let areas: BTreeSet<String> = selected.iter().map(|id| area(id)).collect();
+    let library = library(arguments.cases.as_ref())?;
+    let all = etalon_runner::select(&library, Profile::Full, &arguments.globs);
+    let all = all.map_err(Failure::usage)?;
+    let same = all.cases.iter().filter(|c| areas.contains(&area(&c.id())));
+    Ok((same.count() - selected.len()) as u64)
+}
+
 /// Returns what was selected, unless it is nothing.
 fn some<T>(selected: Vec<T>, globs: &[String]) -> Result<Vec<T>, Failure> {
     if selected.is_empty() {
@@ -49,12 +106,40 @@ fn some<T>(selected: Vec<T>, globs: &[String]) -> Result<Vec<T>, Failure> {
             "there are no cases".to_owned()
         } else {
             format!(
-                "no case matches {}; `etalon list` lists all",
-                globs.join(" ")
+                "no case matches {}{}; `etalon list` lists all",
+                globs.join(" "),
+                proposed(globs)
             )
         }));
     }
     Ok(selected)
+}
+
+/// Returns what the globs may have meant: an area, a case file, or a case.
+fn proposed(globs: &[String]) -> String {
+    let Ok(library) = library(None) else {
+        return String::new();
+    };
+    let mut known: BTreeSet<String> = BTreeSet::new();
+    for file in library.files() {
+        let stem = file.name().trim_end_matches(".json");
+        known.insert(stem.to_owned());
+        known.extend(stem.split('/').next().map(str::to_owned));
+    }
+    let each = globs.iter().map(|glob| {
+        let word = glob.trim_end_matches(['*', '/']);
+        match word.contains('=') {
+            true => nearest_cases(&library, word),
+            false => did_you_mean(word, known.iter().map(String::as_str)),
+        }
+    });
+    each.collect()
+}
+
+/// Returns the cases whose ids are nearest to a text.
+pub(crate) fn nearest_cases(library: &Library, word: &str) -> String {
+    let ids: Vec<String> = library.cases(Profile::Full).map(|case| case.id()).collect();
+    did_you_mean(word, ids.iter().map(String::as_str))
 }
 
 /// Returns the cases of a folder, or the built-in ones.

@@ -1,8 +1,8 @@
 //! The command line: one subcommand per file of `commands`.
 
 use crate::commands::{
-    adapters, bench, completions, diff, expectations, explain, list, man, merge, mutants, reduce,
-    report, run,
+    adapters, bench, bisect, check, completions, diff, expectations, explain, list, man, merge,
+    mutants, reduce, report, run,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -27,6 +27,8 @@ pub(crate) enum Command {
     Adapters(adapters::Arguments),
     /// List case ids, one per line
     List(list::Arguments),
+    /// Check case files without a driver: errors, what nothing uses, what is not asserted, and how sharply
+    Check(check::Arguments),
     /// Print the JSON schema of case files
     Schema,
     /// Draw cases on adapters, judge every texel, write records and reports
@@ -42,6 +44,8 @@ pub(crate) enum Command {
     Bench(bench::Arguments),
     /// Compare two runs or two benches: verdicts, pixels, times
     Diff(diff::Arguments),
+    /// Find the releases of a driver that draw cases wrong
+    Bisect(bisect::Arguments),
     /// Explain one texel, operation by operation, with rules and citations
     Explain(explain::Arguments),
     /// Reduce a failing case to the smallest one that fails in the same way

@@ -29,6 +29,16 @@ pub(crate) enum CaseProfile {
     Full,
 }
 
+impl CaseProfile {
+    /// The name that the command line takes.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Quick => "quick",
+            Self::Full => "full",
+        }
+    }
+}
+
 impl From<CaseProfile> for etalon_case::Profile {
     fn from(profile: CaseProfile) -> Self {
         match profile {
@@ -50,4 +60,14 @@ pub(crate) struct CaseArguments {
     /// Share of each family of cases
     #[arg(long, value_enum, default_value = "quick")]
     pub(crate) profile: CaseProfile,
+}
+
+/// Parses a time limit in seconds.
+pub(crate) fn parse_timeout(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().unwrap_or(f64::NAN);
+    if (0.1..=86_400.0).contains(&seconds) {
+        Ok(seconds)
+    } else {
+        Err("expected a number of seconds from 0.1 to 86400".to_owned())
+    }
 }

@@ -14,12 +14,15 @@
 mod adapters;
 mod blessing;
 mod cases;
+mod check;
 mod command_line;
 mod commands;
 mod expectations;
 mod failure;
 mod flags;
 mod interruption;
+mod near;
+mod out_folder;
 mod output;
 mod progress;
 mod provenance;
@@ -44,6 +47,7 @@ fn main() -> ExitCode {
     let outcome = match command_line.command {
         Command::Adapters(arguments) => commands::adapters::run(&arguments),
         Command::List(arguments) => commands::list::run(&arguments),
+        Command::Check(arguments) => commands::check::run(&arguments),
         Command::Schema => commands::schema::run(),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
@@ -51,6 +55,7 @@ fn main() -> ExitCode {
         Command::Expectations(command) => commands::expectations::run(&command),
         Command::Bench(arguments) => commands::bench::run(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),
+        Command::Bisect(arguments) => commands::bisect::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Reduce(arguments) => commands::reduce::run(&arguments),
         Command::Mutants(arguments) => commands::mutants::run(&arguments),

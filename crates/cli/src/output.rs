@@ -84,8 +84,14 @@ pub(crate) fn color() -> bool {
     !refused && io::stdout().is_terminal()
 }
 
-/// Returns the width of the terminal in columns, 120 without a terminal.
+/// A width that nothing reaches: what is no terminal gets whole lines.
+const UNLIMITED: usize = 1 << 20;
+
+/// Returns the width of the terminal in columns; without a terminal nothing is wrapped or cut.
 pub(crate) fn width() -> usize {
+    if !io::stdout().is_terminal() {
+        return UNLIMITED;
+    }
     let known = rustix::termios::tcgetwinsize(io::stdout())
         .ok()
         .map(|size| usize::from(size.ws_col))

@@ -43,6 +43,13 @@ pub struct Release {
 }
 
 impl AdapterRecord {
+    /// The name up to an `@`, behind which one release of a driver is told from others: expectations speak of
+    /// all of them.
+    pub fn without_release(&self) -> &str {
+        let (name, _) = self.name.split_once('@').unwrap_or((&self.name, ""));
+        name
+    }
+
     /// Driver and version in one text, which the `driver` globs of expectations match.
     pub fn driver_text(&self) -> String {
         format!("{} {}", self.driver, self.driver_version)

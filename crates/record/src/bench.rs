@@ -13,7 +13,7 @@ mod record;
 mod time;
 mod write;
 
-pub use header::{BENCH_FORMAT, BenchHeader};
+pub use header::{BENCH_FORMAT, BenchHeader, BenchSettings};
 pub use line::{BenchLine, Ended, Picture, Round};
 pub use read::Bench;
 pub use record::BenchRecord;

@@ -1,6 +1,7 @@
 //! Differences that keep two runs from being one: on resuming, and on merging.
 
 use crate::adapter::AdapterRecord;
+use crate::bench::BenchHeader;
 use crate::header::{Header, Settings};
 
 impl Header {
@@ -59,6 +60,64 @@ impl AdapterRecord {
         }
         (self.limits != other.limits).then(|| format!("the limits of {} have changed", self.name))
     }
+}
+
+/// The first difference that keeps the bench of one header from going on with the other; `None` if there is
+/// none.
+pub(crate) fn bench_conflict(there: &BenchHeader, here: &BenchHeader) -> Option<String> {
+    let differ = |what: &str, x: &str, y: &str| {
+        (x != y).then(|| format!("{what} was {x} there and is {y} here"))
+    };
+    let shard = |h: &BenchHeader| {
+        h.settings
+            .shard
+            .map_or("none".to_owned(), |s| s.to_string())
+    };
+    let seconds = |h: &BenchHeader| {
+        h.settings
+            .seconds
+            .map_or("unknown".to_owned(), |s| s.to_string())
+    };
+    let commit = |h: &BenchHeader| h.commit.clone().unwrap_or_default();
+    let names =
+        |h: &BenchHeader| -> Vec<String> { h.adapters.iter().map(|a| a.name.clone()).collect() };
+    differ("the version of etalon", &there.etalon, &here.etalon)
+        .or_else(|| differ("the commit of etalon", &commit(there), &commit(here)))
+        .or_else(|| {
+            let (a, b) = (&there.settings.selection, &here.settings.selection);
+            differ("the selection of cases", a, b)
+        })
+        .or_else(|| differ("the shard", &shard(there), &shard(here)))
+        .or_else(|| {
+            differ(
+                "--rounds",
+                &there.rounds.to_string(),
+                &here.rounds.to_string(),
+            )
+        })
+        .or_else(|| differ("--seconds", &seconds(there), &seconds(here)))
+        .or_else(|| {
+            differ(
+                "the shader cache",
+                there.shader_cache.name(),
+                here.shader_cache.name(),
+            )
+        })
+        .or_else(|| differ("the ruler", &there.ruler, &here.ruler))
+        .or_else(|| {
+            differ(
+                "the list of adapters",
+                &names(there).join(", "),
+                &names(here).join(", "),
+            )
+        })
+        .or_else(|| {
+            there
+                .adapters
+                .iter()
+                .zip(&here.adapters)
+                .find_map(|(a, b)| a.conflict(b))
+        })
 }
 
 /// The first difference that keeps the run of one header from going on with the other; `None` if there is

@@ -1,5 +1,6 @@
 //! Errors of run folders, bench folders and expectations.
 
+use crate::folder::FolderKind;
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -35,11 +36,28 @@ pub enum RecordError {
         /// The folder.
         path: PathBuf,
     },
-    /// A bench was to be written over a run.
-    #[error("{} holds a run; choose another folder for the bench", path.display())]
-    HoldsRun {
+    /// A run was to be written over a bench, or a bench over another one.
+    #[error(
+        "{} holds a {}; choose another folder with --out, or replace it by --force",
+        path.display(), kind.noun()
+    )]
+    Holds {
         /// The folder.
         path: PathBuf,
+        /// What it holds.
+        kind: FolderKind,
+    },
+    /// A bench is in the folder already.
+    #[error(
+        "{} already holds a bench, of which {missing} rounds are missing: choose another folder with --out, --resume \
+         measures what is missing, --force replaces it",
+        path.display()
+    )]
+    OccupiedByBench {
+        /// The folder.
+        path: PathBuf,
+        /// Rounds that it lacks.
+        missing: u64,
     },
     /// Another process writes into the folder.
     #[error(
@@ -66,7 +84,7 @@ pub enum RecordError {
     },
     /// The run in the folder is not the one to resume.
     #[error(
-        "the run in {} cannot be resumed: {reason}; --force replaces it",
+        "what {} holds cannot be resumed: {reason}; --force replaces it",
         path.display()
     )]
     Another {

@@ -197,7 +197,8 @@ fn is_plain(glob: &str) -> bool {
 
 impl Globs {
     fn match_adapter(&self, adapter: &AdapterRecord) -> bool {
-        self.adapters.iter().any(|g| g.is_match(&adapter.name))
+        let named = |name: &str| self.adapters.iter().any(|g| g.is_match(name));
+        (named(&adapter.name) || named(adapter.without_release()))
             && self.driver.is_match(adapter.driver_text())
             && self.version.as_ref().is_none_or(|range| {
                 version_of(adapter).is_some_and(|version| range.matches(&version))
@@ -629,6 +630,15 @@ mod tests {
             });
             range.look_up(&adapter, "a/b", Verdict::Fail) != Expectation::None
         };
+        let release = adapter("gl:x@25.0", "Mesa", "Mesa 25.0.7");
+        let plain = Expectations::parse(
+            &TEXT.replace("gl:*", "gl:x").replace("Mesa 25.*", "Mesa *"),
+            Path::new("e.json"),
+        )
+        .unwrap();
+        let case = "blend/factors/format=rgba8unorm";
+        let agrees = plain.look_up(&release, case, Verdict::Fail);
+        assert!(matches!(agrees, Expectation::Agrees(_)), "{agrees:?}");
         assert!(described("23") && described("22.3.0.1"));
         assert!(!described("26"));
     }

@@ -27,6 +27,14 @@ pub enum FolderKind {
 }
 
 impl FolderKind {
+    /// The noun: run or bench.
+    pub fn noun(self) -> &'static str {
+        match self {
+            Self::Run => "run",
+            Self::Bench => "bench",
+        }
+    }
+
     /// The kind of a folder, by the file in it; `None` where it holds neither or is no folder.
     pub fn of(folder: &Path) -> Option<Self> {
         if folder.join(BENCH_FILE).is_file() {

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::error::Category;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 /// The limits and messages of one kind of file.
@@ -31,6 +31,19 @@ pub(crate) struct Extent {
     pub(crate) bytes: u64,
     /// True if the last line was cut off.
     pub(crate) truncated: bool,
+}
+
+/// Cuts a file behind its whole lines, and goes to its end.
+pub(crate) fn cut(file: &mut File, whole: u64) -> std::io::Result<()> {
+    file.set_len(whole)?;
+    file.seek(SeekFrom::Start(whole.saturating_sub(1)))?;
+    let mut last = [0];
+    file.read_exact(&mut last)?;
+    // A line may lack no more than its newline.
+    if last != *b"\n" {
+        file.write_all(b"\n")?;
+    }
+    Ok(())
 }
 
 #[derive(Deserialize)]

@@ -14,6 +14,7 @@
 mod adapter;
 mod bench;
 mod bless;
+mod clear;
 mod conflict;
 mod dead;
 mod driver_version;
@@ -42,14 +43,17 @@ mod selection;
 mod shader_cache;
 mod shorten;
 mod verdict;
+mod versions;
+mod violation;
 mod writer;
 
 pub use adapter::{AbsentAdapter, AdapterRecord, Release};
 pub use bench::{
-    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchWriter, Ended, Picture, Round,
-    Time,
+    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchSettings, BenchWriter, Ended,
+    Picture, Round, Time,
 };
 pub use bless::Blessing;
+pub use clear::clear;
 pub use dead::{Dead, DeadKind};
 pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations, Known, Source};
@@ -74,4 +78,8 @@ pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
 pub use shader_cache::ShaderCache;
 pub use verdict::Verdict;
+pub use versions::{
+    CaseVersions, ReleaseRecord, Standing, VERSIONS_FILE, VERSIONS_FORMAT, Versions, VersionsHeader,
+};
+pub use violation::Violation;
 pub use writer::RunWriter;

@@ -2,8 +2,8 @@
 
 use crate::dead::Dead;
 use crate::error::RecordError;
-use crate::folder::MISSING_FILE;
-use crate::header::{FORMAT, Header};
+use crate::folder::{CASES_FILE, MISSING_FILE};
+use crate::header::{FORMAT, Header, Settings};
 use crate::paths::below;
 use crate::record::Record;
 use crate::report_files::ReportFiles;
@@ -11,7 +11,7 @@ use crate::run::Run;
 use crate::selection::read_cases;
 use crate::verdict::Verdict;
 use crate::writer::RunWriter;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -221,6 +221,10 @@ fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError
             reason,
         };
         if let Some(reason) = whole.conflict(header) {
+            let reason = match selections(first, &whole.settings, folder, &header.settings) {
+                Some(globs) => format!("the selection of cases differs: {globs}"),
+                None => reason,
+            };
             return Err(apart(first, reason));
         }
         if header.started < whole.started {
@@ -265,6 +269,53 @@ fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError
     let count = digest.split('-').next().and_then(|n| n.parse().ok());
     whole.cases = count.unwrap_or(whole.cases);
     Ok(whole)
+}
+
+/// The most globs that are named of each side.
+const GLOBS: usize = 4;
+
+/// The globs of the case files in which two selections differ; `None` if they are the same, or a list is missing.
+fn selections(one: &Path, of_one: &Settings, other: &Path, of_other: &Settings) -> Option<String> {
+    if of_one.selection == of_other.selection {
+        return None;
+    }
+    let ids = |folder: &Path| -> Option<BTreeSet<String>> {
+        let text = fs::read_to_string(folder.join(CASES_FILE)).ok()?;
+        Some(text.lines().map(str::to_owned).collect())
+    };
+    let (a, b) = (ids(one)?, ids(other)?);
+    let only = |folder: &Path, ids: &BTreeSet<String>, others: &BTreeSet<String>| {
+        let mut globs: BTreeMap<String, usize> = BTreeMap::new();
+        for id in ids.difference(others) {
+            let record = Record::new(id.as_str(), "", Verdict::Pass);
+            // Of an area that the other lacks as a whole, the area says it.
+            let area = format!("{}/", record.area());
+            let whole = !others.iter().any(|other| other.starts_with(&area));
+            let glob = match whole {
+                true => record.area().to_owned(),
+                false => record.case_file().to_owned(),
+            };
+            *globs.entry(format!("{glob}/*")).or_default() += 1;
+        }
+        let named: Vec<String> = globs
+            .iter()
+            .take(GLOBS)
+            .map(|(glob, n)| format!("{glob} ({n})"))
+            .collect();
+        let more = globs.len().saturating_sub(GLOBS);
+        let more = if more > 0 {
+            format!(" and {more} more")
+        } else {
+            String::new()
+        };
+        (!named.is_empty())
+            .then(|| format!("only {} has {}{more}", folder.display(), named.join(", ")))
+    };
+    let sides: Vec<String> = only(one, &a, &b)
+        .into_iter()
+        .chain(only(other, &b, &a))
+        .collect();
+    (!sides.is_empty()).then(|| sides.join("; "))
 }
 
 /// The record of a case that came out differently in two parts.

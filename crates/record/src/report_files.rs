@@ -25,7 +25,10 @@ impl ReportFiles {
     };
 
     /// Removes them; what does not exist needs no removing.
-    pub(crate) fn remove(self, folder: &Path) -> Result<(), RecordError> {
+    ///
+    /// # Errors
+    /// When one cannot be removed.
+    pub fn remove(self, folder: &Path) -> Result<(), RecordError> {
         for name in self.folders {
             removed(fs::remove_dir_all(folder.join(name)), folder, name)?;
         }

@@ -2,17 +2,18 @@
 
 use crate::conflict::resume_conflict;
 use crate::error::RecordError;
-use crate::folder::{CASES_FILE, DEAD_FILE, FRAMES, MISSING_FILE, PICTURES, RUN_FILE};
+use crate::folder::{CASES_FILE, DEAD_FILE, FRAMES, FolderKind, MISSING_FILE, PICTURES, RUN_FILE};
 use crate::frame_writer::FrameWriter;
 use crate::header::Header;
 use crate::json::json_line;
+use crate::json_lines::cut;
 use crate::record::Record;
 use crate::report_files::ReportFiles;
 use crate::run::Run;
 use crate::selection::write_cases;
 use crate::shorten::fit;
 use std::fs::{self, File};
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -29,7 +30,7 @@ pub struct RunWriter {
 const SYNC_EVERY: Duration = Duration::from_secs(1);
 /// The files of a run beside its reports, in the order of removal. The records go last: while they are
 /// there, the rest is known to belong to a run.
-const OWN: ReportFiles = ReportFiles {
+pub(crate) const OWN: ReportFiles = ReportFiles {
     folders: &[FRAMES, PICTURES],
     files: &[MISSING_FILE, DEAD_FILE, CASES_FILE, RUN_FILE],
 };
@@ -39,7 +40,7 @@ impl RunWriter {
     /// holds is replaced, and its reports stay; a folder without a run loses nothing.
     ///
     /// # Errors
-    /// When the folder cannot be written to.
+    /// When the folder cannot be written to, or holds a bench, whose report would be overwritten.
     pub fn create(folder: &Path, header: &Header) -> Result<Self, RecordError> {
         Self::replace(folder, header, ReportFiles::NONE)
     }
@@ -47,13 +48,19 @@ impl RunWriter {
     /// [`RunWriter::create`], which also removes the reports of the run before.
     ///
     /// # Errors
-    /// When the folder cannot be written to.
+    /// When the folder cannot be written to, or holds a bench, whose report would be overwritten.
     pub fn replace(
         folder: &Path,
         header: &Header,
         reports: ReportFiles,
     ) -> Result<Self, RecordError> {
         let path = folder.join(RUN_FILE);
+        if let Some(kind @ FolderKind::Bench) = FolderKind::of(folder) {
+            return Err(RecordError::Holds {
+                path: folder.to_owned(),
+                kind,
+            });
+        }
         if path.is_file() {
             reports.remove(folder)?;
             OWN.remove(folder)?;
@@ -89,18 +96,7 @@ impl RunWriter {
             .write(true)
             .open(&path)
             .map_err(RecordError::io("write", &path))?;
-        let cut = |file: &mut File| -> std::io::Result<()> {
-            file.set_len(whole)?;
-            file.seek(SeekFrom::Start(whole.saturating_sub(1)))?;
-            let mut last = [0];
-            file.read_exact(&mut last)?;
-            // A record may lack no more than its newline.
-            if last != *b"\n" {
-                file.write_all(b"\n")?;
-            }
-            Ok(())
-        };
-        cut(&mut file).map_err(RecordError::io("write", &path))?;
+        cut(&mut file, whole).map_err(RecordError::io("write", &path))?;
         run.truncated = false;
         Ok((Self::new(folder, path, file), run))
     }

@@ -8,7 +8,7 @@
 mod round;
 mod ruler;
 
-use crate::drawing::{DRAW_TIMEOUT, Drawing};
+use crate::drawing::Drawing;
 use crate::judge::Judge;
 use crate::launch::Launch;
 use crate::loss::Failure;
@@ -18,12 +18,13 @@ use crate::worker::Worker;
 use etalon_case::Case;
 use etalon_frame::{Limits, WrongTexel};
 use etalon_record::{
-    AdapterRecord, BenchHeader, BenchLine, BenchWriter, Ended, Expectations, Picture, Record,
-    RecordError, ReportFiles, Round, Verdict,
+    AdapterRecord, BenchHeader, BenchLine, BenchRecord, BenchWriter, Ended, Expectations, Picture,
+    Record, RecordError, ReportFiles, Round, Verdict,
 };
 use etalon_reference::Rules;
 use etalon_scene::Invariance;
 use round::{fingerprint, seconds};
+use std::collections::HashMap;
 use std::path::Path;
 use std::time::{Duration, Instant};
 use thiserror::Error;
@@ -38,8 +39,12 @@ pub struct BenchPlan<'a> {
     /// The time that the timed frames of a case take together on an adapter in each round, about; the warm-up
     /// may take as long again.
     pub budget: Duration,
+    /// The time that a worker has for each answer.
+    pub timeout: Duration,
     /// The known bad verdicts.
     pub expectations: &'a Expectations,
+    /// True if the bench in the folder is continued: what it lacks is measured.
+    pub resume: bool,
     /// The bench folder.
     pub folder: &'a Path,
     /// The reports that are removed from a bench which is replaced.
@@ -57,6 +62,8 @@ pub enum BenchEvent {
         picture: Picture,
         /// True if that counts against the bench.
         unexpected: bool,
+        /// The rounds that the bench has of it already.
+        known: u32,
     },
     /// A round of a case on an adapter is complete.
     Timed {
@@ -109,8 +116,23 @@ pub fn bench(
     plan: BenchPlan<'_>,
     events: &mut dyn FnMut(BenchEvent),
 ) -> Result<BenchSummary, BenchError> {
-    let writer = BenchWriter::replace(plan.folder, &plan.header, plan.reports)
-        .map_err(BenchError::Folder)?;
+    let (writer, before) = match plan.resume {
+        true => {
+            let resumed = BenchWriter::resume(plan.folder, &plan.header);
+            let (writer, before) = resumed.map_err(BenchError::Folder)?;
+            (writer, before.records)
+        }
+        false => {
+            let begun = BenchWriter::replace(plan.folder, &plan.header, plan.reports);
+            (begun.map_err(BenchError::Folder)?, Vec::new())
+        }
+    };
+    let last = before.iter().flat_map(|r| &r.rounds).map(|round| round.at);
+    let offset = last.fold(0.0, f64::max);
+    let before = before.into_iter().map(|record| {
+        let picture = &record.picture;
+        ((picture.case.clone(), picture.adapter.clone()), record)
+    });
     let adapters = plan
         .adapters
         .into_iter()
@@ -126,7 +148,10 @@ pub fn bench(
         writer,
         events,
         summary: BenchSummary::default(),
+        before: before.collect(),
+        offset,
         start: Instant::now(),
+        timeout: plan.timeout,
         rounds: plan.header.rounds,
         budget: plan.budget,
     };
@@ -152,6 +177,8 @@ struct Pair {
     case: usize,
     adapter: usize,
     picture: u64,
+    /// The rounds that it has already.
+    rounds: u32,
 }
 
 struct Bench<'a, 'e> {
@@ -161,7 +188,12 @@ struct Bench<'a, 'e> {
     writer: BenchWriter,
     events: &'e mut dyn FnMut(BenchEvent),
     summary: BenchSummary,
+    /// What the bench that is continued holds, by case and adapter.
+    before: HashMap<(String, String), BenchRecord>,
+    /// The time of the last round before, in seconds.
+    offset: f64,
     start: Instant,
+    timeout: Duration,
     rounds: u32,
     budget: Duration,
 }
@@ -173,6 +205,14 @@ impl Bench<'_, '_> {
         let mut pairs = Vec::new();
         for (number, case) in self.cases.iter().enumerate() {
             for index in 0..self.adapters.len() {
+                let key = (case.id.clone(), self.adapters[index].record.name.clone());
+                let known = self.before.remove(&key);
+                if let Some(known) = &known
+                    && !self.lacks_rounds(known)
+                {
+                    self.skip(known);
+                    continue;
+                }
                 let (mut record, picture) = self.draw(&judge, number, case, index);
                 record.expect(self.expectations, &self.adapters[index].record);
                 let channels: u64 = record.assertions.iter().map(|a| a.channels).sum();
@@ -184,7 +224,12 @@ impl Bench<'_, '_> {
                     asserted: asserted as f64 / channels.max(1) as f64,
                     message: message(&record),
                 };
-                self.writer.append(&BenchLine::Picture(judged.clone()))?;
+                let rounds = known.as_ref().map_or(0, |k| k.rounds.len() as u32);
+                if known.is_none() {
+                    self.writer.append(&BenchLine::Picture(judged.clone()))?;
+                } else if !judged.may_be_timed() {
+                    self.end(&judged, rounds)?;
+                }
                 self.summary.pictures += 1;
                 self.summary.unexpected += u64::from(record.unexpected());
                 if let Some(picture) = picture
@@ -195,15 +240,52 @@ impl Bench<'_, '_> {
                         case: number,
                         adapter: index,
                         picture,
+                        rounds,
                     });
                 }
                 (self.events)(BenchEvent::Judged {
                     picture: judged,
                     unexpected: record.unexpected(),
+                    known: rounds,
                 });
             }
         }
         Ok(pairs)
+    }
+
+    /// True if a case on an adapter is not complete.
+    fn lacks_rounds(&self, known: &BenchRecord) -> bool {
+        let due = known.picture.may_be_timed() && known.ended.is_none();
+        due && known.rounds.len() < self.rounds as usize
+    }
+
+    /// Counts a case on an adapter of which nothing is missing.
+    fn skip(&mut self, known: &BenchRecord) {
+        self.summary.pictures += 1;
+        self.summary.timed += u64::from(known.picture.may_be_timed());
+        let ended = known.ended.as_ref().is_some_and(|e| e.verdict.is_bad());
+        self.summary.unexpected += u64::from(ended);
+        (self.events)(BenchEvent::Judged {
+            picture: known.picture.clone(),
+            unexpected: false,
+            known: self.rounds,
+        });
+    }
+
+    /// Ends a case whose picture was right before the bench was stopped and is not any more.
+    fn end(&mut self, judged: &Picture, had: u32) -> Result<(), RecordError> {
+        let ended = Ended {
+            case: judged.case.clone(),
+            adapter: judged.adapter.clone(),
+            verdict: judged.verdict,
+            message: format!("when the bench was resumed: {}", judged.message),
+        };
+        self.writer.append(&BenchLine::Ended(ended.clone()))?;
+        (self.events)(BenchEvent::Ended {
+            ended,
+            missing: self.rounds - had,
+        });
+        Ok(())
     }
 
     /// Draws a case once and judges it. Returns the record and the fingerprint of the picture.
@@ -227,7 +309,7 @@ impl Bench<'_, '_> {
             return failed(Verdict::NotSupported, missing.to_string());
         }
         let drawing = match adapter.supervisor.worker() {
-            Ok(worker) => worker.draw_case(0, case, Wait::of(DRAW_TIMEOUT)),
+            Ok(worker) => worker.draw_case(0, case, Wait::of(self.timeout)),
             Err(loss) => Drawing::failed(loss.into()),
         };
         match drawing.frames {
@@ -248,7 +330,10 @@ impl Bench<'_, '_> {
             adapter.supervisor.stop();
         }
         for index in 0..self.adapters.len() {
-            if pairs.iter().any(|p| p.adapter == index) {
+            if pairs
+                .iter()
+                .any(|p| p.adapter == index && p.rounds <= number)
+            {
                 // A start that fails is reported by the adapter's first case.
                 let _ = self.adapters[index].supervisor.worker();
             }
@@ -256,12 +341,16 @@ impl Bench<'_, '_> {
         let mut kept = Vec::new();
         let mut before = ruler::measure();
         for pair in pairs.drain(..) {
-            let at = self.start.elapsed().as_secs_f64();
+            if number < pair.rounds {
+                kept.push(pair);
+                continue;
+            }
+            let at = self.offset + self.start.elapsed().as_secs_f64();
             let case = &self.cases[pair.case];
             let adapter = &mut self.adapters[pair.adapter];
             let name = adapter.record.name.clone();
             let measured = match adapter.supervisor.worker() {
-                Ok(worker) => worker.round(&case.scene, self.budget),
+                Ok(worker) => worker.round(&case.scene, self.budget, self.timeout),
                 Err(loss) => Err(Failure::Lost(loss)),
             };
             let after = ruler::measure();

@@ -161,7 +161,10 @@ impl Candidate {
             && !answers(&worker.hello.info, word)
         {
             let info = &worker.hello.info;
-            let reason = format!("another driver answers: {}, {}", info.device, info.driver);
+            let reason = format!(
+                "another driver answers: {}, {}; its name should contain `{word}`, the `answers` of its description",
+                info.device, info.driver
+            );
             return Err(NoStart::Absent(self.absent(reason, self.remedy())));
         }
         let origin = self.origin(resolved, &launch);

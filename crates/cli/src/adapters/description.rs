@@ -32,7 +32,7 @@ const MANIFEST_FOLDERS: [&str; 6] = [
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Description {
-    /// The adapter's name: ASCII letters, digits, `:`, `-`, `_` and `.`, at most [`MAX_NAME`].
+    /// The adapter's name: ASCII letters, digits, `:`, `-`, `_`, `.` and `@`, at most [`MAX_NAME`].
     pub(super) name: String,
     pub(super) backend: BackendName,
     /// Environment variables of the worker; `null` removes a variable.
@@ -118,6 +118,59 @@ pub(crate) fn described_names(file: Option<&Path>) -> Result<Vec<String>, Failur
     Ok(all.into_iter().map(|entry| entry.name).collect())
 }
 
+/// Returns the adapters of a line, oldest release first.
+///
+/// # Errors
+/// If there are fewer than two, or two of one version.
+pub(crate) fn releases_of(
+    file: Option<&Path>,
+    line: &str,
+) -> Result<Vec<(String, Release)>, Failure> {
+    let entries = match file {
+        Some(file) => read(file)?,
+        None => built_in()?,
+    };
+    let what = file.map_or("the built-in adapters.json".to_owned(), |f| {
+        f.display().to_string()
+    });
+    let described = |entry: &Description| Some((entry.name.clone(), entry.release()?));
+    let all: Vec<(String, Release)> = entries.iter().filter_map(described).collect();
+    let mut releases: Vec<(String, Release)> = all
+        .iter()
+        .filter(|(_, r)| r.line == line)
+        .cloned()
+        .collect();
+    releases.sort_by_key(|(_, release)| version_key(&release.version));
+    if let Some(pair) = releases.windows(2).find(|pair| pair[0].1 == pair[1].1) {
+        return Err(Failure::usage(format!(
+            "{what}: `{}` and `{}` are both version {} of {line}; give one of them a line of its own",
+            pair[0].0, pair[1].0, pair[0].1.version
+        )));
+    }
+    if releases.len() < 2 {
+        let lines: BTreeSet<&str> = all.iter().map(|(_, r)| r.line.as_str()).collect();
+        let known = match lines.len() {
+            0 => "none; --adapters takes a file whose entries have `line` and `version`".to_owned(),
+            _ => lines.into_iter().collect::<Vec<_>>().join(", "),
+        };
+        return Err(Failure::usage(format!(
+            "{what}: {} of the line `{}`, and a search needs two; its lines are: {known}",
+            match releases.len() {
+                0 => "no release",
+                _ => "one release",
+            },
+            line.escape_default()
+        )));
+    }
+    Ok(releases)
+}
+
+/// Returns the numbers of a version, by which it is ordered.
+fn version_key(version: &str) -> Vec<u64> {
+    let parts = version.split('.').map(|part| part.parse().unwrap_or(0));
+    parts.collect()
+}
+
 /// Reads the entries of a file.
 pub(super) fn read(path: &Path) -> Result<Vec<Description>, Failure> {
     let what = path.display().to_string();
@@ -172,8 +225,8 @@ impl Description {
     fn check(&self) -> Result<(), String> {
         if !is_name(&self.name) {
             return Err(format!(
-                "a name starts with an ASCII letter or digit and continues with letters, digits, `:`, `-`, `_` \
-                 and `.`, at most {MAX_NAME} in all"
+                "a name starts with an ASCII letter or digit and continues with letters, digits, `:`, `-`, `_`, \
+                 `.` and `@`, at most {MAX_NAME} in all"
             ));
         }
         for (name, value) in &self.environment {

@@ -10,6 +10,7 @@ use super::origin::Origin;
 use super::planted_fault::PlantedFault;
 use super::query::Query;
 use crate::failure::Failure;
+use crate::near::did_you_mean;
 use crate::output::say;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, Worker};
@@ -110,8 +111,9 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
         if !is_known(&candidates, name) {
             let known: Vec<&str> = candidates.iter().map(Candidate::name).collect();
             return Err(Failure::usage(format!(
-                "there is no adapter `{}`; known are: {}",
+                "there is no adapter `{}`{}; known are: {}",
                 name.escape_default(),
+                did_you_mean(name, known.iter().copied()),
                 known.join(", ")
             )));
         }

@@ -3,12 +3,16 @@
 use crate::adapters::{Query, cache, discover, refuse_absent};
 use crate::cases::chosen;
 use crate::failure::{Failure, UNEXPECTED};
-use crate::flags::{AdapterFileArguments, CaseArguments, CaseProfile, Format};
+use crate::flags::{AdapterFileArguments, CaseArguments, CaseProfile, Format, parse_timeout};
+use crate::out_folder::Out;
 use crate::output::{say, summarize, summarize_json, table_options};
 use crate::progress::progress;
-use crate::{expectations, provenance, report_files};
+use crate::{expectations, provenance, report_files, shard};
 use clap::Args;
-use etalon_record::{BENCH_FORMAT, Bench, BenchHeader, ShaderCache};
+use etalon_record::{
+    BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, FolderLock, ShaderCache, Shard,
+    selection_digest, shard_of,
+};
 use etalon_runner::{BenchError, BenchEvent, BenchPlan};
 use serde_json::json;
 use std::collections::BTreeSet;
@@ -27,6 +31,19 @@ pub(crate) struct Arguments {
     /// Folder for samples and reports
     #[arg(long, value_name = "DIR", default_value = "reports/bench-latest")]
     pub(crate) out: PathBuf,
+    /// Continue the bench in the folder: measure what is missing
+    #[arg(long, conflicts_with = "force")]
+    pub(crate) resume: bool,
+    /// Replace the run or bench in the folder
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Measure shard M of N, chosen by a hash of the id; 1/1 is everything. Default: the shard given by the
+    /// variables of GitLab, Bazel, Slurm or a Kubernetes indexed job
+    #[arg(long, value_name = "M/N", value_parser = crate::shard::parse)]
+    pub(crate) shard: Option<Shard>,
+    /// Time limit in seconds of a picture, and of each answer of a driver in a round
+    #[arg(long, value_name = "S", default_value = "60", value_parser = parse_timeout)]
+    pub(crate) timeout: f64,
     /// Number of rounds, each in new processes; fewer than 7 cannot show a difference
     #[arg(long, value_name = "N", default_value = "12", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub(crate) rounds: u32,
@@ -41,6 +58,9 @@ pub(crate) struct Arguments {
     pub(crate) format: Format,
 }
 
+/// The folder that each bench without `--out` replaces.
+const LATEST: &str = "reports/bench-latest";
+
 /// The cases that are measured by default.
 const DEFAULT: &str = "perf/*";
 
@@ -50,7 +70,24 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if selection.globs.is_empty() {
         selection.globs.push(DEFAULT.to_owned());
     }
-    let cases = chosen(&selection)?;
+    let mut cases = chosen(&selection)?;
+    let all: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
+    let shard = shard::chosen(arguments.shard)?;
+    if let Some(shard) = shard {
+        cases.retain(|case| shard_of(&case.id, shard.count) == shard.index);
+        say!("shard {shard}: {} of {} cases", cases.len(), all.len());
+    }
+    let out = Out {
+        folder: &arguments.out,
+        kind: FolderKind::Bench,
+        latest: LATEST,
+        resume: arguments.resume,
+        force: arguments.force,
+    };
+    // The samples of a concurrent or an earlier bench must not be lost.
+    let lock = || FolderLock::acquire(&arguments.out).map_err(Failure::usage);
+    let early = arguments.out.exists().then(lock).transpose()?;
+    let resume = out.resumes()?;
     let expectations = expectations::read(None)?;
     let adapters = discover(&Query {
         names: &arguments.adapters,
@@ -87,9 +124,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             false => ShaderCache::Warm,
         },
         ruler: etalon_runner::ruler().to_owned(),
+        settings: BenchSettings {
+            selection: selection_digest(all.iter().map(String::as_str)),
+            shard,
+            seconds: Some(arguments.seconds),
+            timeout: Some(arguments.timeout),
+        },
         adapters: adapters.ready.iter().map(|(_, w)| w.into()).collect(),
         absent: adapters.absent,
     };
+    let _lock = early.map_or_else(lock, Ok)?;
+    out.clear_other()?;
     let rounds = u64::from(arguments.rounds);
     // A picture counts as one step, like a round.
     let bar = progress((cases.len() * adapters.ready.len()) as u64 * (1 + rounds));
@@ -98,7 +143,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         cases: &cases,
         adapters: adapters.ready,
         budget: Duration::from_secs_f64(arguments.seconds),
+        timeout: Duration::from_secs_f64(arguments.timeout),
         expectations: &expectations,
+        resume,
         folder: &arguments.out,
         header,
     };
@@ -106,12 +153,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         BenchEvent::Judged {
             picture,
             unexpected,
+            known,
         } => {
             bar.set_message(format!("judging {}", picture.adapter));
             bar.inc(1);
-            if !picture.may_be_timed() {
-                bar.inc(rounds);
-            }
+            bar.inc(match picture.may_be_timed() {
+                true => u64::from(known),
+                false => rounds,
+            });
             if unexpected {
                 let (verdict, adapter) = (picture.verdict, &picture.adapter);
                 bar.suspend(|| {

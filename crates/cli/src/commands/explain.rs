@@ -1,7 +1,7 @@
 //! `etalon explain`.
 
 use crate::adapters::{Query, discover, refuse_absent};
-use crate::cases::library;
+use crate::cases::{library, nearest_cases};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::AdapterFileArguments;
 use crate::output::print;
@@ -48,8 +48,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         .find(|c| c.id() == arguments.case)
     else {
         return Err(Failure::usage(format!(
-            "there is no case `{}`; `etalon list --profile full` lists all cases",
-            arguments.case
+            "there is no case `{}`{}; `etalon list --profile full` lists all cases",
+            arguments.case,
+            nearest_cases(&library, &arguments.case)
         )));
     };
     let case = found.build().map_err(Failure::usage)?;

@@ -5,7 +5,7 @@ use crate::flags::Format;
 use crate::output::{say, summarize, summarize_json, table_options};
 use crate::{provenance, report_files};
 use clap::Args;
-use etalon_record::{FolderKind, FolderLock, MISSING_FILE, Merge, Merged, RecordError, Run};
+use etalon_record::{FolderKind, FolderLock, MISSING_FILE, Merge, Merged, RecordError, Run, clear};
 use serde_json::json;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ pub(crate) struct Arguments {
     /// Folder for the merged run
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// Replace the run in the folder
+    /// Replace the run or bench in the folder
     #[arg(long)]
     pub(crate) force: bool,
     /// Output format
@@ -43,8 +43,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut merge = Merge::read(&arguments.folders).map_err(Failure::usage)?;
     merge.header_mut().command = provenance::command();
     let _lock = FolderLock::acquire(out).map_err(Failure::usage)?;
-    if FolderKind::of(out) == Some(FolderKind::Run) && !arguments.force {
-        return Err(Failure::usage(occupied(out)));
+    match FolderKind::of(out) {
+        Some(FolderKind::Run) if !arguments.force => {
+            return Err(Failure::usage(occupied(out)));
+        }
+        Some(kind @ FolderKind::Bench) if !arguments.force => {
+            let path = out.clone();
+            return Err(Failure::usage(RecordError::Holds { path, kind }));
+        }
+        Some(kind @ FolderKind::Bench) => {
+            clear(out, kind, report_files::BENCH).map_err(Failure::usage)?;
+        }
+        _ => {}
     }
     let merged = merge
         .write(out, report_files::RUN)

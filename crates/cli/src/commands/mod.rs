@@ -2,6 +2,8 @@
 
 pub(crate) mod adapters;
 pub(crate) mod bench;
+pub(crate) mod bisect;
+pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod diff;
 pub(crate) mod expectations;

@@ -4,24 +4,27 @@ use crate::adapters::{
     Adapters, Query, cache, described_names, discover, refuse_absent, take_unstarted,
 };
 use crate::blessing::{bless, to_bless};
-use crate::cases::{all_ids, chosen, is_measuring, is_measuring_area, round_trips};
+use crate::cases::{all_ids, chosen, is_measuring, is_measuring_area, left_out, round_trips};
 use crate::expectations::{self, today};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
-use crate::flags::{AdapterFileArguments, CaseArguments, Format};
+use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::interruption::{how_to_resume, listen};
+use crate::out_folder::Out;
 use crate::output::{say, summarize, summarize_json, table_options};
 use crate::progress::progress;
 use crate::{provenance, report_files, shard};
 use clap::{Args, ValueEnum};
 use etalon_case::Case;
 use etalon_record::{
-    AdapterRecord, Dead, Expectations, FolderKind, FolderLock, Header, RecordError, Run, Settings,
-    ShaderCache, Shard, selection_digest, shard_of,
+    AdapterRecord, Dead, Expectations, FolderKind, FolderLock, Header, Run, Settings, ShaderCache,
+    Shard, Verdict, selection_digest, shard_of,
 };
-use etalon_runner::{Event, Options, Plan, RunError, RunSummary};
+use etalon_runner::{Event, Options, Plan, Rechecks, RunError, RunSummary};
 use indicatif::ProgressBar;
 use serde_json::json;
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Mutex;
 use std::time::Duration;
 
 /// The folder that each run without `--out` replaces.
@@ -51,7 +54,7 @@ pub(crate) struct Arguments {
     /// Continue the run in the folder: draw what is missing
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
-    /// Replace the run in the folder
+    /// Replace the run or bench in the folder
     #[arg(long)]
     pub(crate) force: bool,
     /// Use these expectations instead of the built-in findings: a list, a finding, or a folder of findings
@@ -82,6 +85,10 @@ pub(crate) struct Arguments {
     /// Number of workers that draw at the same time. Default: one per processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) jobs: Option<u16>,
+    /// Check again in a new process: unexpected bad verdicts, of each kind on each adapter until N are confirmed.
+    /// Kinds differ in verdict, aspect, operation and direction. `off`: none, so that nothing is found to be flaky
+    #[arg(long, value_name = "N|off", default_value = "4", value_parser = parse_recheck)]
+    pub(crate) recheck: Recheck,
     /// Draw each case N times, each time in a new process; a case whose verdicts differ is flaky
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(crate) repeat: u32,
@@ -99,13 +106,30 @@ pub(crate) struct Arguments {
     pub(crate) format: Format,
 }
 
-fn parse_timeout(text: &str) -> Result<f64, String> {
-    let seconds: f64 = text.parse().unwrap_or(f64::NAN);
-    if (0.1..=86_400.0).contains(&seconds) {
-        Ok(seconds)
-    } else {
-        Err("expected a number of seconds from 0.1 to 86400".to_owned())
+/// The number of records of each verdict on each adapter.
+fn verdicts(run: &Run) -> BTreeMap<&str, BTreeMap<&str, u64>> {
+    let mut counts: BTreeMap<&str, BTreeMap<&str, u64>> = BTreeMap::new();
+    for adapter in &run.header.adapters {
+        counts.entry(&adapter.name).or_default();
     }
+    for record in &run.records {
+        let of_adapter = counts.entry(&record.adapter).or_default();
+        *of_adapter.entry(record.verdict.name()).or_default() += 1;
+    }
+    counts
+}
+
+/// The number of confirmations of each kind of bad verdict; 0 is off.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Recheck(u32);
+
+fn parse_recheck(text: &str) -> Result<Recheck, String> {
+    let number = match text {
+        "off" => Some(0),
+        text => text.parse().ok().filter(|n| (1..=256).contains(n)),
+    };
+    let wrong = || "expected a number from 1 to 256, or `off`".to_owned();
+    number.map(Recheck).ok_or_else(wrong)
 }
 
 fn parse_percent(text: &str) -> Result<f64, String> {
@@ -153,7 +177,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     // The records of a concurrent or an earlier run must not be lost.
     let lock = || FolderLock::acquire(&arguments.out).map_err(Failure::usage);
     let early = arguments.out.exists().then(lock).transpose()?;
-    let resume = resumes(arguments)?;
+    let out = Out {
+        folder: &arguments.out,
+        kind: FolderKind::Run,
+        latest: LATEST,
+        resume: arguments.resume,
+        force: arguments.force,
+    };
+    let resume = out.resumes()?;
     let stop = listen()?;
     let mut adapters = discover(&Query {
         names: &arguments.adapters,
@@ -169,7 +200,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     refuse_absent(&arguments.adapters, &adapters.absent)?;
     // A new folder is created only once there is something to write.
     let _lock = early.map_or_else(lock, Ok)?;
-    let header = header(arguments, &cases, &selection, shard, &adapters, &dead);
+    out.clear_other()?;
+    let mut header = header(arguments, &cases, &selection, shard, &adapters, &dead);
+    header.settings.left_out = Some(left_out(&arguments.selection, &selection)?);
     let names: Vec<String> = header.adapters.iter().map(|a| a.name.clone()).collect();
     let plan = Plan {
         reports: report_files::RUN,
@@ -183,7 +216,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             timeout: Duration::from_secs_f64(arguments.timeout),
             memory: Some(arguments.memory),
             repeat: arguments.repeat,
-            look_again: true,
+            recheck: arguments.recheck.0,
         },
         expectations: &expectations,
         folder: &arguments.out,
@@ -212,14 +245,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "missing": run.missing(),
             "unexpected": outcome.unexpected,
             "improvements": outcome.improvements,
+            "rechecked": outcome.rechecks.done,
+            "not_rechecked": outcome.rechecks.left,
             "interrupted": outcome.interrupted,
             "dead_expectations": dead,
             "adapters": names,
+            "verdicts": verdicts(&run),
             "folder": arguments.out,
             "report": written.html,
         }))?;
     } else {
         summarize(&etalon_report::table(&run, table_options()));
+        summarize(&rechecked(arguments.recheck, outcome.rechecks));
         summarize(&format!("\nReport: {}\n", written.html.display()));
     }
     if run.missing() > 0 {
@@ -279,6 +316,19 @@ fn dead_expectations(
     Ok(expectations.dead(run, &ids, &described))
 }
 
+/// Returns a line on the bad verdicts that were checked again; nothing where there were none.
+fn rechecked(recheck: Recheck, Rechecks { done, left }: Rechecks) -> String {
+    match (recheck.0, done, left) {
+        (_, 0, 0) => String::new(),
+        (0, ..) => "Not rechecked (--recheck off): no bad verdict was drawn again.\n".to_owned(),
+        (n, done, 0) => format!("Rechecked: all {done} unexpected bad verdicts (--recheck {n}).\n"),
+        (n, done, left) => format!(
+            "Rechecked: {done} of {} unexpected bad verdicts, until {n} of a kind were confirmed on an adapter (--recheck N|off).\n",
+            done + left
+        ),
+    }
+}
+
 /// Returns true if enough was asserted, and a line that says how much was: the share of the records of cases that
 /// are judged, not measured, whose frame was held against something.
 fn asserted(run: &Run, percent: f64) -> (bool, String) {
@@ -307,29 +357,6 @@ fn shuffle(cases: &mut [Case], seed: u64) {
     }
 }
 
-/// Returns true if the run in the folder is continued; refuses to replace it without `--force`.
-fn resumes(arguments: &Arguments) -> Result<bool, Failure> {
-    let folder = &arguments.out;
-    if FolderKind::of(folder) != Some(FolderKind::Run) {
-        return Ok(false);
-    }
-    let replaced = arguments.force || folder == Path::new(LATEST);
-    if arguments.resume || replaced {
-        return Ok(arguments.resume);
-    }
-    let run = Run::read(folder).map_err(|e| {
-        Failure::usage(format!(
-            "{e}; or replace the run in {} by --force",
-            folder.display()
-        ))
-    })?;
-    Err(Failure::usage(RecordError::Occupied {
-        path: folder.clone(),
-        records: run.records.len() as u64,
-        expected: run.header.expected_records(),
-    }))
-}
-
 fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
@@ -353,6 +380,8 @@ fn header(
         settings: Settings {
             selection: selection_digest(selection.iter().map(String::as_str)),
             shard,
+            profile: Some(arguments.selection.profile.name().to_owned()),
+            left_out: None,
             shuffle: arguments.shuffle,
             repeat: (arguments.repeat > 1).then_some(arguments.repeat),
             shader_cache: Some(
@@ -381,13 +410,17 @@ fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<RunSummary, RunError> {
     };
     bar.inc(before);
     bar.reset_eta();
+    // Each is told once, with its reason, when the run has ended; until then the bar counts them.
+    let bad: Mutex<BTreeMap<Verdict, u64>> = Mutex::default();
     etalon_runner::run(plan, &|event| match event {
-        Event::AdapterStarted { adapter, .. } => bar.set_message(adapter),
+        Event::AdapterStarted { .. } => {}
         Event::Recorded(record) => {
-            if record.unexpected() {
-                bar.suspend(|| {
-                    say!("{} {} {}", record.verdict, record.adapter, record.case);
-                });
+            if record.unexpected()
+                && let Ok(mut bad) = bad.lock()
+            {
+                *bad.entry(record.verdict).or_default() += 1;
+                let counts = bad.iter().map(|(verdict, n)| format!("{n} {verdict}"));
+                bar.set_message(counts.collect::<Vec<_>>().join(", "));
             }
             bar.inc(1);
         }

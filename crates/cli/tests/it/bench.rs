@@ -91,7 +91,8 @@ fn a_slower_rasterizer_answers_as_cpu_and_is_not_listed() {
     );
     assert_eq!(bench_of.header.shader_cache, ShaderCache::Cold);
     let both = ["--adapter", "cpu", "--adapter", "cpu:slower=5%"];
-    bench(cases.path(), out.path(), &both)
+    let other = tempfile::tempdir().unwrap();
+    bench(cases.path(), other.path(), &both)
         .code(64)
         .stderr(contains("report the name cpu"));
     etalon(&["adapters"])
@@ -132,4 +133,145 @@ fn wrong_usage_is_64_and_nothing_chosen_is_4() {
         fs::read_to_string(run.path().join("run.jsonl")).unwrap(),
         "{}"
     );
+}
+
+#[test]
+fn what_was_recorded_is_not_replaced_without_force() {
+    let cases = cases();
+    let out = tempfile::tempdir().unwrap();
+    let right = ["perf/right", "--adapter", "cpu"];
+    bench(cases.path(), out.path(), &right).code(0);
+    let file = out.path().join("bench.jsonl");
+    let before = fs::read(&file).unwrap();
+    bench(cases.path(), out.path(), &right)
+        .code(64)
+        .stderr(contains("already holds a bench").and(contains("--force")));
+    let run = |arguments: &[&str]| {
+        let mut command = etalon(&["run", "perf/right", "--adapter", "cpu", "--cases"]);
+        command.arg(cases.path()).arg("--out").arg(out.path());
+        command.args(arguments).assert()
+    };
+    for arguments in [&[][..], &["--resume"]] {
+        run(arguments)
+            .code(64)
+            .stderr(contains("holds a bench").and(contains("--force")));
+    }
+    etalon(&["merge", "--out"])
+        .args([out.path(), out.path()])
+        .assert()
+        .code(64);
+    assert_eq!(fs::read(&file).unwrap(), before);
+    assert!(out.path().join("bencher.json").is_file());
+
+    run(&["--force"]).code(0);
+    assert_eq!(FolderKind::of(out.path()), Some(FolderKind::Run));
+    assert!(!out.path().join("bencher.json").exists());
+    let other = [&right[..], &["--resume"]].concat();
+    bench(cases.path(), out.path(), &other)
+        .code(64)
+        .stderr(contains("holds a run"));
+    let forced = [&right[..], &["--force"]].concat();
+    bench(cases.path(), out.path(), &forced).code(0);
+    assert_eq!(FolderKind::of(out.path()), Some(FolderKind::Bench));
+    assert!(!out.path().join("junit.xml").exists());
+}
+
+#[test]
+fn a_bench_that_was_stopped_is_resumed() {
+    let cases = cases();
+    let out = tempfile::tempdir().unwrap();
+    bench(cases.path(), out.path(), &["--adapter", "cpu"]).code(0);
+    let file = out.path().join("bench.jsonl");
+    let text = fs::read_to_string(&file).unwrap();
+    // The header, both pictures and the first round; half of the second.
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines.len(), 5);
+    let half = &lines[4][..lines[4].len() / 2];
+    let stopped = format!("{}\n{half}", lines[..4].join("\n"));
+    fs::write(&file, &stopped).unwrap();
+    assert_eq!(Bench::read(out.path()).unwrap().missing(), 1);
+    bench(
+        cases.path(),
+        out.path(),
+        &["--adapter", "cpu", "--resume", "--cold"],
+    )
+    .code(64)
+    .stderr(contains("the shader cache was warm there and is cold here"));
+    bench(
+        cases.path(),
+        out.path(),
+        &["--adapter", "cpu", "--resume", "perf/right"],
+    )
+    .code(64)
+    .stderr(contains("the selection of cases"));
+    assert_eq!(fs::read_to_string(&file).unwrap(), stopped);
+    bench(
+        cases.path(),
+        out.path(),
+        &["--adapter", "cpu", "--resume", "--timeout", "30"],
+    )
+    .code(0);
+    let done = Bench::read(out.path()).unwrap();
+    assert_eq!((done.missing(), done.truncated), (0, false));
+    let rounds = &done.record("perf/right", "cpu").unwrap().rounds;
+    assert_eq!(rounds.len(), 2);
+    assert!(rounds[1].at >= rounds[0].at, "{rounds:?}");
+    // What was measured stays.
+    let now = fs::read_to_string(&file).unwrap();
+    assert!(now.starts_with(&lines[..4].join("\n")), "{now}");
+}
+
+#[test]
+fn shards_of_a_bench_are_the_whole() {
+    let cases = cases();
+    let mut seen = Vec::new();
+    for shard in ["1/2", "2/2"] {
+        let out = tempfile::tempdir().unwrap();
+        bench(
+            cases.path(),
+            out.path(),
+            &["--adapter", "cpu", "--shard", shard],
+        )
+        .stderr(contains(format!("shard {shard}: ")));
+        let part = Bench::read(out.path()).unwrap();
+        assert_eq!(part.header.settings.shard.unwrap().to_string(), shard);
+        seen.extend(part.records.into_iter().map(|r| r.picture.case));
+    }
+    seen.sort();
+    assert_eq!(seen, ["perf/right", "perf/wrong"]);
+}
+
+#[test]
+fn a_bench_waits_no_longer_than_its_time_limit() {
+    let cases = cases();
+    let text = fs::read_to_string(cases.path().join("perf/right.json")).unwrap();
+    let mut file: Value = serde_json::from_str(&text).unwrap();
+    file["axes"] = json!({ "n": { "from": 1, "count": 24 } });
+    file["scene"]["attachments"]["color"]["size"] = json!([8, "$n"]);
+    fs::write(cases.path().join("perf/sizes.json"), file.to_string()).unwrap();
+    let out = tempfile::tempdir().unwrap();
+    // One scene out of eight hangs.
+    let hanging = [
+        "perf/sizes",
+        "--adapter",
+        "cpu:fault=hang",
+        "--timeout",
+        "0.3",
+        "--rounds",
+        "1",
+    ];
+    let mut command = etalon(&["bench", "--seconds", "0.001", "--cases"]);
+    command
+        .arg(cases.path())
+        .arg("--out")
+        .arg(out.path())
+        .args(hanging);
+    command.assert().code(1);
+    let bench = Bench::read(out.path()).unwrap();
+    let timeouts = bench
+        .records
+        .iter()
+        .filter(|r| r.picture.verdict == Verdict::Timeout)
+        .count();
+    assert!((1..20).contains(&timeouts), "{timeouts}");
 }

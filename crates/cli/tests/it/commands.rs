@@ -523,3 +523,48 @@ fn adapters_tells_programs_who_is_there() {
         .collect();
     assert_eq!(names, told);
 }
+
+#[test]
+fn list_tells_programs_what_a_case_is() {
+    let output = etalon(&["list", CLEARED, "early-z/shaderless", "--format", "json"])
+        .output()
+        .unwrap();
+    let all: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
+    let one = all.iter().find(|case| case["id"] == CLEARED).unwrap();
+    assert_eq!(
+        (&one["area"], &one["file"]),
+        (&"depth".into(), &"depth/clear".into())
+    );
+    assert_eq!(
+        one["axes"],
+        serde_json::json!({ "clear": "1", "format": "depth32float" })
+    );
+    assert!(one["about"].as_str().unwrap().ends_with('.'), "{one}");
+    assert!(!one["spec"].as_array().unwrap().is_empty());
+    let features = |case: &Value| case["features"].as_array().unwrap().len();
+    assert!(all.iter().any(|case| features(case) > 0), "{all:?}");
+}
+
+#[test]
+fn what_is_misspelt_is_proposed() {
+    for (word, meant) in [
+        ("dpeth", "did you mean `depth`?"),
+        ("blend/factrs/*", "did you mean `blend/factors`?"),
+        ("depth/clear/clear=1/format=depth23float", CLEARED),
+    ] {
+        etalon(&["list", word])
+            .assert()
+            .code(4)
+            .stderr(contains("did you mean").and(contains(meant)));
+    }
+    refused(
+        &[
+            "explain",
+            "depth/clear/clear=1/format=dept32float",
+            "--texel",
+            "0,0",
+        ],
+        &["did you mean", CLEARED],
+    );
+    refused(&["run", "--adapter", "cppu"], &["did you mean `cpu`?"]);
+}

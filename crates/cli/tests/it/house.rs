@@ -54,7 +54,7 @@ const TABLE: [(&str, &[&str], &[&str]); 20] = [
         &[],
     ),
     ("explore", &["case"], &[]),
-    ("report", &["frame", "record", "stats"], &[]),
+    ("report", &["frame", "methods", "record", "stats"], &[]),
     (
         "cli",
         &[

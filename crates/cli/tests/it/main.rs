@@ -3,7 +3,9 @@
 
 mod adapters;
 mod bench;
+mod bisect;
 mod call_faults;
+mod check;
 mod ci_files;
 mod circles;
 mod commands;

@@ -62,7 +62,10 @@ fn a_crash_records_its_signal_and_its_last_words() {
         assert_eq!((end.signal, end.exit), (Some(6), None));
         assert_eq!(end.stderr, "about to abort, as planted");
         assert!(record.message.contains("signal 6 (abort)"));
-        assert_eq!(record.repeats, [Verdict::Crash], "a fresh process too");
+        assert!(
+            record.repeats.is_empty(),
+            "a recheck that agrees is not recorded"
+        );
     }
     for record in lost("segv", Verdict::Crash, LossKind::Died, &[]) {
         assert_eq!(record.process.unwrap().signal, Some(11));
@@ -568,4 +571,143 @@ fn results_do_not_depend_on_order_or_the_number_of_workers() {
         };
         assert_eq!(bare(&verdicts(more)), bare(&due), "{more:?}");
     }
+}
+
+#[test]
+fn so_many_of_a_kind_are_checked_again_and_the_output_says_so() {
+    let run = |recheck: &str, fault: &str| -> (serde_json::Value, Run) {
+        let out = folder();
+        let adapter = format!("cpu:fault={fault}");
+        let arguments = [
+            "run",
+            "depth/*",
+            "--adapter",
+            &adapter,
+            "--recheck",
+            recheck,
+            "--format",
+            "json",
+            "--jobs",
+            "1",
+            "--out",
+        ];
+        let output = etalon(&arguments).arg(out.path()).output().unwrap();
+        (
+            serde_json::from_slice(&output.stdout).unwrap(),
+            Run::read(out.path()).unwrap(),
+        )
+    };
+    let crashes = |run: &Run| {
+        run.records
+            .iter()
+            .filter(|r| r.verdict == Verdict::Crash)
+            .count() as u64
+    };
+    let (told, all) = run("2", "abort");
+    let crashed = crashes(&all);
+    assert!(crashed > 8, "{crashed}");
+    assert_eq!(
+        (told["rechecked"].as_u64(), told["not_rechecked"].as_u64()),
+        (Some(2), Some(crashed - 2))
+    );
+    let (told, none) = run("off", "abort");
+    assert_eq!(
+        (told["rechecked"].as_u64(), told["not_rechecked"].as_u64()),
+        (Some(0), Some(crashed))
+    );
+    // The number changes no record.
+    let plain = |run: Run| -> Vec<(String, Verdict, Vec<Verdict>)> {
+        run.records
+            .into_iter()
+            .map(|r| (r.case, r.verdict, r.repeats))
+            .collect()
+    };
+    assert_eq!(plain(all), plain(none));
+    // What is refuted does not use the number up.
+    let (told, flaky) = (0..8)
+        .map(|_| run("1", "flaky"))
+        .find(|(_, run)| run.records.iter().any(|r| r.verdict.is_bad()))
+        .unwrap();
+    let found = flaky
+        .records
+        .iter()
+        .filter(|r| r.verdict == Verdict::Flaky)
+        .count() as u64;
+    assert!(
+        found + 1 >= told["rechecked"].as_u64().unwrap().min(2),
+        "{told}"
+    );
+
+    let text = etalon(&[
+        "run",
+        "depth/*",
+        "--adapter",
+        "cpu:fault=abort",
+        "--recheck",
+        "3",
+        "--out",
+    ])
+    .arg(folder().path())
+    .assert()
+    .code(1);
+    let text = String::from_utf8_lossy(&text.get_output().stdout).into_owned();
+    assert!(text.contains("Rechecked: 3 of "), "{text}");
+    etalon(&["run", "--recheck", "0"]).assert().code(64);
+}
+
+#[test]
+fn a_bad_verdict_is_told_once_with_its_reason() {
+    let out = folder();
+    let arguments = [
+        "run",
+        "depth/*",
+        "--adapter",
+        "cpu:fault=abort",
+        "--recheck",
+        "off",
+        "--out",
+    ];
+    let output = etalon(&arguments).arg(out.path()).output().unwrap();
+    let text = format!(
+        "{}{}",
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let run = Run::read(out.path()).unwrap();
+    let crashed: Vec<&Record> = run
+        .records
+        .iter()
+        .filter(|r| r.verdict == Verdict::Crash)
+        .collect();
+    assert!(!crashed.is_empty());
+    for record in crashed.iter().take(20) {
+        let told: Vec<&str> = text
+            .lines()
+            .filter(|line| line.contains(&format!("{}:", record.case)))
+            .collect();
+        assert_eq!(told.len(), 1, "{text}");
+        assert!(told[0].contains("about to abort, as planted"), "{told:?}");
+    }
+    assert!(!text.contains('…'), "{text}");
+    let arguments = [
+        "run",
+        "depth/*",
+        "--adapter",
+        "cpu:fault=abort",
+        "--format",
+        "json",
+        "--out",
+    ];
+    let output = etalon(&arguments).arg(folder().path()).output().unwrap();
+    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let counts = &told["verdicts"]["cpu:fault=abort"];
+    assert_eq!(
+        counts["crash"].as_u64(),
+        Some(crashed.len() as u64),
+        "{told:#}"
+    );
+    assert_eq!(
+        counts["pass"].as_u64(),
+        Some((run.records.len() - crashed.len()) as u64)
+    );
 }

@@ -1,6 +1,7 @@
 //! The first line of a bench.
 
 use crate::adapter::{AbsentAdapter, AdapterRecord};
+use crate::header::Shard;
 use crate::machine::Machine;
 use crate::shader_cache::ShaderCache;
 use serde::{Deserialize, Serialize};
@@ -36,10 +37,31 @@ pub struct BenchHeader {
     /// A description of the fixed work on the processor that is timed around each round. It changes when the
     /// work does. Benches with different rulers cannot be corrected by them.
     pub ruler: String,
+    /// The settings that it was measured with.
+    #[serde(default)]
+    pub settings: BenchSettings,
     /// The adapters that were timed.
     pub adapters: Vec<AdapterRecord>,
     /// The adapters that were looked for and cannot be used.
     pub absent: Vec<AbsentAdapter>,
+}
+
+/// The settings of a bench. They must be the same when it is resumed, but for the time limit.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BenchSettings {
+    /// The digest of the ids that were selected before sharding, as a run's.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub selection: String,
+    /// The part of the selection that is measured; all of it where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shard: Option<Shard>,
+    /// Seconds that the timed frames of a case take in a round, about.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
+    /// Seconds that one answer of a worker may take.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub timeout: Option<f64>,
 }
 
 impl BenchHeader {

@@ -34,6 +34,11 @@ impl Bench {
     /// that is not above zero, a round of a picture that was not judged or is wrong, an adapter that
     /// the header does not name.
     pub fn read(folder: &Path) -> Result<Self, RecordError> {
+        Ok(Self::read_prefix(folder)?.0)
+    }
+
+    /// [`Bench::read`], with the number of bytes that the header and the whole lines take.
+    pub(crate) fn read_prefix(folder: &Path) -> Result<(Self, u64), RecordError> {
         let path = folder.join(BENCH_FILE);
         let file = File::open(&path).map_err(|e| match e.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory => RecordError::NoBench {
@@ -54,11 +59,12 @@ impl Bench {
             places: HashMap::new(),
         };
         let (assembly, extent) = lines.read(file, begin, Assembly::take)?;
-        Ok(Self {
+        let bench = Self {
             header: assembly.header,
             records: assembly.records,
             truncated: extent.truncated,
-        })
+        };
+        Ok((bench, extent.bytes))
     }
 
     /// The record of a case on an adapter.

@@ -2,9 +2,12 @@
 
 use super::header::BenchHeader;
 use super::line::BenchLine;
+use super::read::Bench;
+use crate::conflict::bench_conflict;
 use crate::error::RecordError;
 use crate::folder::{BENCH_FILE, FolderKind};
 use crate::json::json_line;
+use crate::json_lines::cut;
 use crate::report_files::ReportFiles;
 use std::fs::{self, File};
 use std::io::Write;
@@ -38,9 +41,10 @@ impl BenchWriter {
     ) -> Result<Self, RecordError> {
         let path = folder.join(BENCH_FILE);
         match FolderKind::of(folder) {
-            Some(FolderKind::Run) => {
-                return Err(RecordError::HoldsRun {
+            Some(kind @ FolderKind::Run) => {
+                return Err(RecordError::Holds {
                     path: folder.to_owned(),
+                    kind,
                 });
             }
             Some(FolderKind::Bench) => reports.remove(folder)?,
@@ -51,6 +55,30 @@ impl BenchWriter {
         let mut writer = Self { path, file };
         writer.write(&json_line("the header", header)?)?;
         Ok(writer)
+    }
+
+    /// Resumes the bench that a folder holds, and returns what it holds. A last line that was cut off is
+    /// removed.
+    ///
+    /// # Errors
+    /// When there is no bench, it is damaged, or it is another bench than that of the header.
+    pub fn resume(folder: &Path, header: &BenchHeader) -> Result<(Self, Bench), RecordError> {
+        let (mut bench, whole) = Bench::read_prefix(folder)?;
+        if let Some(reason) = bench_conflict(&bench.header, header) {
+            return Err(RecordError::Another {
+                path: folder.to_owned(),
+                reason,
+            });
+        }
+        let path = folder.join(BENCH_FILE);
+        let mut file = File::options()
+            .read(true)
+            .write(true)
+            .open(&path)
+            .map_err(RecordError::io("write", &path))?;
+        cut(&mut file, whole).map_err(RecordError::io("write", &path))?;
+        bench.truncated = false;
+        Ok((Self { path, file }, bench))
     }
 
     /// Appends one line in a single write.

@@ -27,6 +27,7 @@ fn header() -> BenchHeader {
         rounds: 3,
         shader_cache: ShaderCache::Cold,
         ruler: "counting".to_owned(),
+        settings: Default::default(),
         adapters: vec![serde_json::from_value(adapter).unwrap()],
         absent: Vec::new(),
     }
@@ -230,5 +231,5 @@ fn a_bench_replaces_a_bench_and_no_run() {
     fs::write(run.path().join("run.jsonl"), "").unwrap();
     assert_eq!(FolderKind::of(run.path()), Some(FolderKind::Run));
     let error = BenchWriter::create(run.path(), &header()).unwrap_err();
-    assert!(matches!(error, RecordError::HoldsRun { .. }), "{error}");
+    assert!(matches!(error, RecordError::Holds { .. }), "{error}");
 }

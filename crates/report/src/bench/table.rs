@@ -27,6 +27,8 @@ pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
             }
         }
         if rows > 0 {
+            // Samples, the visible change, the other times, the interval.
+            let (builder, _) = terminal::fit(builder, options, &[8, 7, 6, 9, 5, 4]);
             let table = wrapped(terminal::table(builder, options, 3), options);
             text.push_str(&format!("{title}\n{table}\n\n"));
         }

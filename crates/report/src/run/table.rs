@@ -120,20 +120,62 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
             let n: u64 = verdicts.iter().map(|v| tally.plain(*v)).sum();
             row.push(dotted(n));
             if n > 0 {
-                painted.push((Cell::new(at + 1, i + 1), color.clone()));
+                painted.push((at + 1, i + 1, color.clone()));
             }
         }
         row.push(dotted(tally.excused()));
         row.push(rate(records));
         builder.push_record(row);
     }
+    // What is 0 everywhere goes first, then what says least about the driver.
+    let empty = |i: &usize| {
+        let none = |verdicts: &[Verdict]| {
+            rows.iter()
+                .all(|(_, r)| !r.iter().any(|r| verdicts.contains(&r.verdict)))
+        };
+        none(columns[*i].1)
+    };
+    let mut optional: Vec<usize> = (0..columns.len()).filter(empty).map(|i| i + 1).collect();
+    optional.push(columns.len() + 2);
+    for name in ["imprecise", "skipped", "measured", "not supported", "open"] {
+        let place = columns
+            .iter()
+            .position(|(other, ..)| *other == name)
+            .map(|i| i + 1);
+        optional.extend(place.filter(|i| !optional.contains(i)));
+    }
+    let heads: Vec<&str> = columns.iter().map(|(name, ..)| *name).collect();
+    let (builder, left_out) = terminal::fit(builder, options, &optional);
     let mut table = terminal::table(builder, options, 1);
     if options.color {
-        for (cell, color) in painted {
-            table.modify(cell, color);
+        for (row, column, color) in painted {
+            let before = left_out.iter().filter(|c| **c < column).count();
+            if !left_out.contains(&column) {
+                table.modify(Cell::new(row, column - before), color);
+            }
         }
     }
-    wrapped(table, options)
+    let mut text = wrapped(table, options);
+    let named: Vec<String> = left_out
+        .iter()
+        .map(|column| {
+            heads
+                .get(*column - 1)
+                .copied()
+                .unwrap_or("cases/s")
+                .to_owned()
+        })
+        .collect();
+    if !named.is_empty() {
+        text.push('\n');
+        text.push_str(&terminal::listed(
+            "Left out for width: ",
+            &named,
+            2,
+            options,
+        ));
+    }
+    text
 }
 
 /// The number of records of cases that were not drawn, and the reasons, with counts per adapter.
@@ -151,9 +193,13 @@ fn not_drawn(run: &Run, options: TableOptions) -> String {
     for reason in reasons.iter().take(REASONS) {
         let adapters = reason.adapters.iter();
         let each: Vec<String> = adapters.map(|(name, n)| format!("{name} {n}")).collect();
-        let line = format!("{}: {}", plain(&reason.text(), 80), each.join(", "));
-        let line = plain(&line, options.room(width + 4));
-        text.push_str(&format!("  {:>width$}  {line}\n", reason.records()));
+        let head = format!(
+            "  {:>width$}  {}: ",
+            reason.records(),
+            plain(&reason.text(), 160)
+        );
+        text.push_str(&terminal::listed(&head, &each, width + 6, options));
+        text.push('\n');
     }
     if reasons.len() > REASONS {
         let rest = &reasons[REASONS..];
@@ -191,12 +237,9 @@ fn unexpected(run: &Run, options: TableOptions) -> String {
         };
         let head = options.paint(&format!("{sign} {}", name(record.verdict)), "31");
         let adapter = plain(&record.adapter, 60);
-        text.push_str(&format!(
-            "{head}  {adapter}  {}\n",
-            plain(&record.case, 300)
-        ));
-        let line = plain(&headline(record), options.room(4));
-        text.push_str(&format!("    {line}\n"));
+        // One line, whole: a terminal breaks it where it must, and a program finds all of it.
+        let (case, reason) = (plain(&record.case, 300), headline(record));
+        text.push_str(&format!("{head}  {adapter}  {case}: {reason}\n"));
     }
     match bad.len().saturating_sub(LISTED) {
         0 => {}

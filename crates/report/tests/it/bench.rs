@@ -32,6 +32,7 @@ pub(crate) fn header() -> BenchHeader {
         rounds: 9,
         shader_cache: ShaderCache::Warm,
         ruler: "a million multiplications".to_owned(),
+        settings: Default::default(),
         adapters: vec![
             adapter("cpu", Api::Vulkan),
             adapter("vulkan:lavapipe", Api::Vulkan),

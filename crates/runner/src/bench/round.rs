@@ -1,6 +1,6 @@
 //! One round of frame times of one case on one worker.
 
-use crate::drawing::{DRAW_TIMEOUT, wrong_answer};
+use crate::drawing::wrong_answer;
 use crate::loss::Failure;
 use crate::process::WorkerProcess;
 use crate::protocol::{Payload, Request};
@@ -36,20 +36,25 @@ pub(crate) struct RoundTimes {
 }
 
 impl WorkerProcess {
-    /// Prepares a scene, warms up, times frames for about `budget`, and reads back.
+    /// Prepares a scene, warms up, times frames for about `budget`, and reads back. `timeout` limits each answer.
     ///
     /// Warm-up ends when the median of the last five frames lies within 5 % of that of the five before,
     /// after 60 frames, or when it has taken as long as the timed frames may. Drivers compile at the
     /// first frame and some once more at the second, so two frames are never timed.
-    pub(crate) fn round(&mut self, scene: &Scene, budget: Duration) -> Result<RoundTimes, Failure> {
+    pub(crate) fn round(
+        &mut self,
+        scene: &Scene,
+        budget: Duration,
+        timeout: Duration,
+    ) -> Result<RoundTimes, Failure> {
         let request = Request::Prepare {
             slot: SLOT,
             scene: Cow::Borrowed(scene),
         };
-        let (_, prepare) = self.ask(request, DRAW_TIMEOUT)?;
-        let outcome = self.prepared_round(prepare, budget);
+        let (_, prepare) = self.ask(request, timeout)?;
+        let outcome = self.prepared_round(prepare, budget, timeout);
         if !matches!(outcome, Err(Failure::Lost(_))) {
-            self.ask(Request::Drop { slot: SLOT }, DRAW_TIMEOUT)?;
+            self.ask(Request::Drop { slot: SLOT }, timeout)?;
         }
         outcome
     }
@@ -58,16 +63,13 @@ impl WorkerProcess {
         &mut self,
         prepare: Duration,
         budget: Duration,
+        timeout: Duration,
     ) -> Result<RoundTimes, Failure> {
         let warming = Instant::now();
         let mut warm: Vec<Duration> = Vec::new();
         while warm.len() < MOST_WARM_UP && !steady(&warm) {
             let number = if warm.len() < 2 { 1 } else { 2 };
-            warm.extend(
-                self.submit(SLOT, number, DRAW_TIMEOUT)?
-                    .iter()
-                    .map(|t| t.wall),
-            );
+            warm.extend(self.submit(SLOT, number, timeout)?.iter().map(|t| t.wall));
             if warm.len() >= 2 && warming.elapsed() > budget {
                 break;
             }
@@ -75,14 +77,14 @@ impl WorkerProcess {
         let recent = median(warm.get(warm.len().saturating_sub(3)..).unwrap_or_default());
         let [fewest, most] = FRAMES;
         let fit = (budget.as_secs_f64() / seconds(recent)) as u32;
-        let frames = self.submit(SLOT, fit.clamp(fewest, most), DRAW_TIMEOUT)?;
+        let frames = self.submit(SLOT, fit.clamp(fewest, most), timeout)?;
         let mut read_back = Vec::new();
         let mut picture = 0;
         let reading = Instant::now();
         while read_back.is_empty()
             || (read_back.len() < MOST_READ_BACKS && reading.elapsed() < budget / 4)
         {
-            let (payload, took) = self.ask(Request::ReadBack { slot: SLOT }, DRAW_TIMEOUT)?;
+            let (payload, took) = self.ask(Request::ReadBack { slot: SLOT }, timeout)?;
             let Payload::Frame(frame) = payload else {
                 return Err(wrong_answer().into());
             };

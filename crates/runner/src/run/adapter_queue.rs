@@ -1,11 +1,12 @@
 //! The queue of one adapter's cases, and the state that its workers share.
 
+use super::plan::Rechecks;
 use super::round_trips::RoundTrips;
 use crate::launch::Launch;
 use crate::supervisor::FailedStarts;
 use crate::sync::lock;
 use crate::worker::Worker;
-use etalon_record::{AdapterRecord, Verdict};
+use etalon_record::{AdapterRecord, Violation};
 use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
@@ -17,8 +18,6 @@ use std::time::{Duration, Instant};
 const CHUNK: usize = 16;
 /// The most cases of an adapter that are checked again.
 const MAX_RECHECKS: u32 = 256;
-/// The most of these that timed out.
-const MAX_TIMEOUT_RECHECKS: u32 = 8;
 /// The most cases of an adapter for which the cases that must precede them are searched.
 const MAX_SEARCHES: u32 = 8;
 
@@ -59,8 +58,10 @@ pub(super) struct First {
 pub(super) struct State {
     /// Frame files of imprecise cases, by case file.
     pub(super) imprecise_frames: HashMap<String, u32>,
-    rechecks: u32,
-    timeout_rechecks: u32,
+    /// Rechecks that gave the same verdict again, by kind.
+    confirmed: HashMap<Violation, u32>,
+    /// The counts of bad verdicts that were checked again, and that were not.
+    rechecks: Rechecks,
     searches: u32,
     begun: Option<Instant>,
 }
@@ -193,18 +194,33 @@ impl AdapterQueue {
         self.threads.fetch_sub(1, Ordering::Relaxed);
     }
 
-    /// True if a bad verdict may be checked again. The number of checks is limited, so that a broken driver
-    /// does not double a run.
-    pub(super) fn may_recheck(&self, verdict: Verdict) -> bool {
+    /// True if a bad verdict is to be checked again: so many of each kind, so that a broken driver does not double
+    /// a run. The limits are counts, never times.
+    pub(super) fn may_recheck(&self, kind: &Violation, most: u32) -> bool {
         let mut state = self.state();
-        let timeouts = u32::from(verdict == Verdict::Timeout);
-        let fits = state.rechecks < MAX_RECHECKS
-            && state.timeout_rechecks + timeouts <= MAX_TIMEOUT_RECHECKS;
+        let confirmed = state.confirmed.get(kind).copied().unwrap_or(0);
+        let fits = confirmed < most && state.rechecks.done < u64::from(MAX_RECHECKS);
         if fits {
-            state.rechecks += 1;
-            state.timeout_rechecks += timeouts;
+            // Counted as confirmed until it is not, so that no other worker exceeds the limit meanwhile.
+            *state.confirmed.entry(kind.clone()).or_default() += 1;
+            state.rechecks.done += 1;
+        } else {
+            state.rechecks.left += 1;
         }
         fits
+    }
+
+    /// Notes that a recheck gave another verdict: its kind stays to be checked.
+    pub(super) fn refuted(&self, kind: &Violation) {
+        let mut state = self.state();
+        if let Some(confirmed) = state.confirmed.get_mut(kind) {
+            *confirmed = confirmed.saturating_sub(1);
+        }
+    }
+
+    /// The counts of bad verdicts that were checked again, and that were not.
+    pub(super) fn rechecks(&self) -> Rechecks {
+        self.state().rechecks
     }
 
     /// True if the cases that must precede a case may be searched.

@@ -2,7 +2,7 @@
 
 use super::adapter_queue::{self, AdapterQueue, First};
 use super::pictures::pictured;
-use super::plan::{Plan, RunError, RunSummary};
+use super::plan::{Plan, Rechecks, RunError, RunSummary};
 use super::shared::Shared;
 use super::worker_loop::WorkerLoop;
 use crate::event::Event;
@@ -109,6 +109,11 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
         return Err(RunError::Write(error));
     }
     let mut summary = *lock(&shared.summary);
+    for queue in &queues {
+        let Rechecks { done, left } = queue.rechecks();
+        summary.rechecks.done += done;
+        summary.rechecks.left += left;
+    }
     summary.interrupted = shared.stopped() && queues.iter().any(AdapterQueue::is_unfinished);
     Ok(summary)
 }

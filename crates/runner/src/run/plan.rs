@@ -39,6 +39,18 @@ pub struct Plan<'a> {
     pub stop: &'a AtomicBool,
 }
 
+/// [`Options::recheck`] where nothing else is said.
+const DEFAULT_RECHECK: u32 = 4;
+
+/// Counts of unexpected bad verdicts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rechecks {
+    /// Those that were checked again in a fresh process.
+    pub done: u64,
+    /// Those that were not, since so many of their kind were confirmed before.
+    pub left: u64,
+}
+
 /// The limits and repetitions of drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
@@ -50,8 +62,9 @@ pub struct Options {
     pub memory: Option<u64>,
     /// The number of times that each case is drawn, each but the first in a fresh process; at least one.
     pub repeat: u32,
-    /// True if a bad and unexpected verdict is checked again in a fresh process.
-    pub look_again: bool,
+    /// The number of bad and unexpected verdicts of each kind and adapter that are checked again in a fresh
+    /// process and confirmed; with 0 none is checked.
+    pub recheck: u32,
 }
 
 impl Default for Options {
@@ -61,7 +74,7 @@ impl Default for Options {
             timeout: DRAW_TIMEOUT,
             memory: None,
             repeat: 1,
-            look_again: true,
+            recheck: DEFAULT_RECHECK,
         }
     }
 }
@@ -75,6 +88,8 @@ pub struct RunSummary {
     pub unexpected: u64,
     /// Verdicts better than the expectations.
     pub improvements: u64,
+    /// Unexpected bad verdicts that were checked again, and that were not.
+    pub rechecks: Rechecks,
     /// True if the run was stopped before it was complete.
     pub interrupted: bool,
 }

@@ -7,7 +7,7 @@ use crate::process::WorkerProcess;
 use crate::story::tell_chain;
 use crate::supervisor::{FailureReport, start};
 use crate::sync::lock;
-use etalon_record::{LossKind, Verdict};
+use etalon_record::{LossKind, Verdict, Violation};
 use std::time::{Duration, Instant};
 
 /// The time after which a search for the preceding cases is not narrowed further.
@@ -28,7 +28,7 @@ pub(super) fn confirm(
 ) -> Option<Observation> {
     let options = run.shared.options;
     let more = match options.repeat.max(1) - 1 {
-        0 if options.look_again && needs_confirmation(run, &first) => 1,
+        0 if needs_confirmation(run, &first, options.recheck) => 1,
         more if first.record.verdict != Verdict::NotSupported => more,
         _ => 0,
     };
@@ -42,8 +42,15 @@ pub(super) fn confirm(
     }
     let verdict = first.record.verdict;
     let repeats: Vec<Verdict> = others.iter().map(|s| s.record.verdict).collect();
+    if repeats.iter().any(|v| *v != verdict) {
+        run.queue.refuted(&Violation::of(&first.record));
+    }
     if repeats.iter().all(|v| *v == verdict) {
-        first.record.repeats = repeats;
+        // Which verdicts of a kind are checked depends on the order of drawing: records tell of it only where it
+        // changed something, so that they are the same in every run.
+        if options.repeat > 1 {
+            first.record.repeats = repeats;
+        }
         return Some(first);
     }
     let only_after_others = verdict.is_bad() && repeats.iter().all(|v| !v.is_bad());
@@ -85,7 +92,7 @@ pub(super) fn confirm(
 }
 
 /// True if a verdict is bad, not expected, and a fresh process may change it.
-fn needs_confirmation(run: &AdapterRun<'_, '_>, observed: &Observation) -> bool {
+fn needs_confirmation(run: &AdapterRun<'_, '_>, observed: &Observation, most: u32) -> bool {
     let mut record = observed.record.clone();
     record.expect(run.shared.expectations, &run.queue.adapter);
     let started = record
@@ -97,7 +104,9 @@ fn needs_confirmation(run: &AdapterRun<'_, '_>, observed: &Observation) -> bool 
         && record.verdict.is_bad()
         && started
         && !due
-        && run.queue.may_recheck(record.verdict)
+        && run
+            .queue
+            .may_recheck(&Violation::of(&observed.record), most)
 }
 
 /// The result of drawing a case in a fresh process.

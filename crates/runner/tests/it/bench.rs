@@ -105,6 +105,7 @@ fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchSummary, Vec<String>) 
         rounds: ROUNDS,
         shader_cache: ShaderCache::Warm,
         ruler: etalon_runner::ruler().to_owned(),
+        settings: Default::default(),
         adapters: adapters.iter().map(|(_, w)| w.into()).collect(),
         absent: Vec::new(),
     };
@@ -112,6 +113,8 @@ fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchSummary, Vec<String>) 
         cases: &cases,
         adapters,
         budget: Duration::from_millis(2),
+        timeout: std::time::Duration::from_secs(60),
+        resume: false,
         expectations: &Expectations::default(),
         folder: &out,
         reports: ReportFiles::NONE,
@@ -281,6 +284,8 @@ fn a_folder_that_cannot_be_written_to_is_told_before_anything_is_timed() {
     let plan = BenchPlan {
         cases: &cases,
         budget: Duration::from_millis(1),
+        timeout: std::time::Duration::from_secs(60),
+        resume: false,
         expectations: &Expectations::default(),
         folder: &blocked,
         reports: ReportFiles::NONE,
@@ -296,6 +301,7 @@ fn a_folder_that_cannot_be_written_to_is_told_before_anything_is_timed() {
             rounds: 1,
             shader_cache: ShaderCache::Warm,
             ruler: String::new(),
+            settings: Default::default(),
             adapters: vec![(&one.1).into()],
             absent: Vec::new(),
         },

@@ -309,7 +309,7 @@ fn run_with(launch: Launch, jobs: usize, libraries: &[&Library]) -> (Vec<Record>
         dead: Vec::new(),
         options: Options {
             // A second look starts workers of its own, which these tests count.
-            look_again: false,
+            recheck: 0,
             timeout: Duration::from_secs(10),
             jobs,
             ..Options::default()

@@ -97,6 +97,7 @@ fn changes_table(changes: &[&TimeChange], options: TableOptions) -> String {
             c.visible.map_or_else(|| "·".to_owned(), change),
         ]);
     }
+    let (builder, _) = terminal::fit(builder, options, &[7, 3, 4, 6]);
     let mut table = terminal::table(builder, options, 3);
     if options.color {
         for (row, color) in painted {

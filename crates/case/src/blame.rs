@@ -1,0 +1,200 @@
+//! The place in a case file that an error of one case comes from.
+//!
+//! A scene is checked with all values in their places, so an error leads to a key of the scene. The fault is the
+//! axis value's where `"$name"` stands there, or where the same scene builds with every other value tried.
+
+use crate::error::{At, Step};
+use crate::file::CaseRef;
+use serde_json::Value;
+
+/// The most other values of an axis that are tried.
+const TRIED: usize = 6;
+
+impl CaseRef<'_> {
+    /// Moves an error of this case to the axis value that causes it, if one does.
+    pub(crate) fn blame(&self, at: At) -> At {
+        if matches!(at.path.first(), Some(Step::Key(key)) if key == "axes" || key == "derived") {
+            return at;
+        }
+        let used = at.place();
+        let moved = self
+            .by_placeholder(&at)
+            .or_else(|| self.by_other_values().map(|axis| self.own_value(&axis)));
+        match moved {
+            Some(path) => At {
+                path,
+                message: match used.as_str() {
+                    "" => at.message,
+                    used => format!("{} (used at {used})", at.message),
+                },
+            },
+            None => at,
+        }
+    }
+
+    /// The path of the value behind the `"$name"` that an error's path leads to.
+    fn by_placeholder(&self, at: &At) -> Option<Vec<Step>> {
+        let text: Value = serde_json::from_str(&self.file.text).ok()?;
+        let mut value = &text;
+        let mut steps = at.path.iter();
+        loop {
+            if let Some(name) = value.as_str().and_then(|text| text.strip_prefix('$')) {
+                let mut path = self.origin(name)?;
+                path.extend(steps.cloned());
+                return Some(path);
+            }
+            value = match steps.next()? {
+                Step::Key(key) => value.get(key)?,
+                Step::Index(index) => value.get(index)?,
+            };
+        }
+    }
+
+    /// The path of the value that a name stands for in this case.
+    fn origin(&self, name: &str) -> Option<Vec<Step>> {
+        let wire = &self.file.wire;
+        if wire.axes.contains_key(name) {
+            return Some(self.own_value(name));
+        }
+        let derived = wire.derived.get(name)?;
+        let axis = wire.axes.get(&derived.axis)?;
+        let at =
+            (self.file.positions(self.index)[derived.axis.as_str()] + derived.shift) % axis.len();
+        let given = derived
+            .values
+            .as_ref()
+            .is_some_and(|values| at < values.len());
+        let path = ["derived", name, "values"].map(|key| Step::Key(key.to_owned()));
+        Some(match given {
+            true => path.into_iter().chain([Step::Index(at)]).collect(),
+            false => value_of(
+                &self.file.wire.axes[&derived.axis][at].value,
+                &derived.axis,
+                at,
+                &self.file.text,
+            ),
+        })
+    }
+
+    /// The path of this case's value on an axis.
+    fn own_value(&self, axis: &str) -> Vec<Step> {
+        let at = self.file.positions(self.index)[axis];
+        value_of(
+            &self.file.wire.axes[axis][at].value,
+            axis,
+            at,
+            &self.file.text,
+        )
+    }
+
+    /// The one axis of which every other value builds; `None` if there is none, or several.
+    fn by_other_values(&self) -> Option<String> {
+        let lengths: Vec<(&String, usize)> = self
+            .file
+            .wire
+            .axes
+            .iter()
+            .map(|(name, axis)| (name, axis.len()))
+            .collect();
+        let own = self.file.positions(self.index);
+        let mut found = None;
+        for (axis, length) in &lengths {
+            let others = (0..*length).filter(|at| *at != own[axis.as_str()]);
+            let mut tried = 0;
+            let all = others.take(TRIED).all(|other| {
+                tried += 1;
+                let place = |(name, length): &(&String, usize)| match name == axis {
+                    true => (other, *length),
+                    false => (own[name.as_str()], *length),
+                };
+                let index = lengths
+                    .iter()
+                    .map(place)
+                    .fold(0, |index, (at, length)| index * length + at);
+                Self {
+                    file: self.file,
+                    index,
+                }
+                .try_build()
+                .is_ok()
+            });
+            if tried > 0 && all && found.replace((*axis).clone()).is_some() {
+                return None;
+            }
+        }
+        found
+    }
+}
+
+/// The path of a value of an axis in the file: below `value` where it has a name, the whole axis where it is a range.
+fn value_of(value: &Value, axis: &str, at: usize, text: &str) -> Vec<Step> {
+    let mut path = vec![Step::Key("axes".to_owned()), Step::Key(axis.to_owned())];
+    let file: Option<Value> = serde_json::from_str(text).ok();
+    let listed = file.and_then(|file| file.get("axes")?.get(axis)?.get(at).cloned());
+    if let Some(listed) = listed {
+        path.push(Step::Index(at));
+        if listed != *value {
+            path.push(Step::Key("value".to_owned()));
+        }
+    }
+    path
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{CaseError, CaseFile, Profile};
+
+    const FILE: &str = r#"{ "about": "t", "spec": ["t"],
+  "axes": {
+    "compare": ["less",
+      "lesser"],
+    "format": ["rgba8unorm", "depth16unorm"],
+    "rect": [{ "name": "all", "value": [0, 0, 4, 4] },
+      { "name": "out", "value": [0, 0, 4] }]
+  },
+  "scene": { "attachments": { "c": { "format": "FORMAT" }, "d": { "format": "depth32float" } },
+    "passes": [ { "color": ["c"], "depth_stencil": "d", "draws": [ { "mesh": { "kind": "full" },
+      "shader": "uniform_color", "params": { "color": [1, 0, 0, 1] }, "scissor": RECT,
+      "depth": { "compare": COMPARE, "write": true } } ] } ],
+    "read": ["c"] } }"#;
+
+    fn first_error(format: &str, rect: &str, compare: &str) -> CaseError {
+        let text = FILE
+            .replace("FORMAT", format)
+            .replace("RECT", rect)
+            .replace("COMPARE", compare);
+        let file = CaseFile::parse("t.json", &text).expect("parses");
+        let found = file
+            .cases(Profile::Full)
+            .find_map(|case| case.build().err());
+        found.expect("some case is wrong")
+    }
+
+    #[test]
+    fn a_wrong_axis_value_is_blamed_on_its_own_line() {
+        let error = first_error("rgba8unorm", "null", "\"$compare\"");
+        assert_eq!((error.line, error.key.as_str()), (4, "axes.compare[1]"));
+        assert!(error.message.contains("lesser"), "{error}");
+        assert!(
+            error
+                .message
+                .contains("used at scene.passes[0].draws[0].depth.compare"),
+            "{error}"
+        );
+        let error = first_error("rgba8unorm", "\"$rect\"", "\"less\"");
+        assert_eq!((error.line, error.key.as_str()), (7, "axes.rect[1].value"));
+        // The pass refuses the attachment: the key is the pass's, the fault the format's.
+        let error = first_error("$format", "null", "\"less\"");
+        assert_eq!((error.line, error.key.as_str()), (5, "axes.format[1]"));
+        assert!(
+            error.message.contains("`c` is not a colour attachment"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn what_no_axis_value_causes_keeps_its_place() {
+        let error = first_error("rgba8unorm", "null", "\"smaller\"");
+        assert_eq!(error.key, "scene.passes[0].draws[0].depth.compare");
+    }
+}

@@ -1,0 +1,304 @@
+//! What the judge says of cases that nobody drew: what they assert, how sharply, and where their inputs leave a
+//! driver a choice.
+//!
+//! Legal sets need no frame, so a case file can be checked before any driver sees it. The limits are those of the
+//! rasterizer with the coarsest vertex positions that an API allows: what is decided there is decided everywhere.
+
+pub(crate) mod edges;
+
+use edges::{Near, nearest};
+use etalon_backend::Backend;
+use etalon_case::{Case, CaseError, CaseFile, CaseRef, Profile};
+use etalon_cpu::CpuBackend;
+use etalon_frame::{Api, ApiVersion, Aspect, CodeInterval, LegalSet, Limits};
+use etalon_record::Assertion;
+use etalon_reference::{Judgement, Rules, judgements};
+use std::collections::BTreeMap;
+use std::num::NonZero;
+use std::panic::resume_unwind;
+use std::thread;
+
+/// The fewest sub-pixel bits that an API allows (Vulkan: Limits, `subPixelPrecisionBits`).
+const SUB_PIXEL_BITS: u8 = 4;
+
+/// One case, checked.
+pub(crate) struct CheckedCase {
+    pub(crate) id: String,
+    /// What the legal set and the yardstick assert, per aspect; empty where the case is measured, not judged.
+    pub(crate) assertions: Vec<Assertion>,
+    /// The channels that are read back and of which nothing is asserted, with all that are read back.
+    pub(crate) channels: BTreeMap<Channel, bool>,
+    /// True if anything is asserted: of a texel, of a counter, or by a relation.
+    pub(crate) asserts: bool,
+    /// The edge of a mesh that leaves it open which texels it covers.
+    pub(crate) near: Option<Near>,
+    /// True if points, lines or outlines are drawn, which begin at centres.
+    pub(crate) outlines: bool,
+}
+
+/// A channel of an attachment.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Channel {
+    pub(crate) attachment: String,
+    pub(crate) aspect: Aspect,
+    pub(crate) channel: usize,
+}
+
+/// One file, checked.
+pub(crate) struct CheckedFile {
+    pub(crate) name: String,
+    pub(crate) errors: Vec<CaseError>,
+    pub(crate) warnings: Vec<CaseError>,
+    /// Those of the profile.
+    pub(crate) cases: Vec<CheckedCase>,
+    /// The number of all cases of the file.
+    pub(crate) all: usize,
+}
+
+/// Checks files: all of their cases are built, those of the profile are judged.
+pub(crate) fn check(files: &[CaseFile], profile: Profile) -> Vec<CheckedFile> {
+    let mut checked: Vec<CheckedFile> = Vec::new();
+    for (file, built) in files.iter().zip(in_parallel(files, build_all)) {
+        checked.push(CheckedFile {
+            name: file.name().to_owned(),
+            errors: built,
+            warnings: file.warnings(),
+            cases: Vec::new(),
+            all: file.cases(Profile::Full).count(),
+        });
+    }
+    let sound = files.iter().zip(&checked).enumerate();
+    let sound = sound.filter(|(_, (_, checked))| checked.errors.is_empty());
+    let cases: Vec<(usize, CaseRef<'_>)> = sound
+        .flat_map(|(number, (file, _))| file.cases(profile).map(move |case| (number, case)))
+        .collect();
+    let judged = in_parallel(&cases, |(number, case)| {
+        (*number, case.build().map(|c| check_case(&c)))
+    });
+    for (number, case) in judged {
+        match case {
+            Ok(case) => checked[number].cases.push(case),
+            Err(error) => checked[number].errors.push(error),
+        }
+    }
+    for (file, checked) in files.iter().zip(&mut checked) {
+        checked.warnings.extend(of_cases(file, &checked.cases));
+    }
+    checked
+}
+
+/// Builds all cases of a file, and returns each error once.
+fn build_all(file: &CaseFile) -> Vec<CaseError> {
+    let mut errors: Vec<CaseError> = Vec::new();
+    for error in file
+        .cases(Profile::Full)
+        .filter_map(|case| case.build().err())
+    {
+        if !errors
+            .iter()
+            .any(|e| (e.line, &e.key) == (error.line, &error.key))
+        {
+            errors.push(error);
+        }
+    }
+    errors
+}
+
+/// Applies a function to all of a list, on all cores; the results stand in the order of the list.
+fn in_parallel<T: Sync, R: Send>(all: &[T], one: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let share = all.len().div_ceil(4 * threads).max(1);
+    let parts: Vec<&[T]> = all.chunks(share).collect();
+    let next = std::sync::atomic::AtomicUsize::new(0);
+    let (one, parts, next) = (&one, &parts, &next);
+    let mut done: Vec<(usize, Vec<R>)> = thread::scope(|scope| {
+        let work = || {
+            let mut mine = Vec::new();
+            while let at = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed)
+                && let Some(part) = parts.get(at)
+            {
+                mine.push((at, part.iter().map(one).collect()));
+            }
+            mine
+        };
+        let started: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        let done = started.into_iter();
+        done.flat_map(|part| part.join().unwrap_or_else(|panic| resume_unwind(panic)))
+            .collect()
+    });
+    done.sort_by_key(|(at, _)| *at);
+    done.into_iter().flat_map(|(_, part)| part).collect()
+}
+
+fn limits(api: Api) -> Limits {
+    let version = match api {
+        Api::Vulkan => ApiVersion::new(1, 4),
+        Api::OpenGl => ApiVersion::new(4, 6),
+        Api::OpenGlEs => ApiVersion::new(3, 2),
+        Api::WebGpu => ApiVersion::UNKNOWN,
+    };
+    Limits {
+        api,
+        version,
+        sub_pixel_bits: SUB_PIXEL_BITS,
+        ..CpuBackend::new("cpu").limits().clone()
+    }
+}
+
+/// Judges one case.
+pub(crate) fn check_case(case: &Case) -> CheckedCase {
+    let mut checked = CheckedCase {
+        id: case.id.clone(),
+        assertions: Vec::new(),
+        channels: BTreeMap::new(),
+        asserts: true,
+        near: None,
+        outlines: case
+            .scene
+            .passes
+            .iter()
+            .flat_map(|p| &p.draws)
+            .any(edges::draws_outlines),
+    };
+    // Their pictures are large, and what they assert is a distance.
+    if case.method.is_some() || case.area() == "perf" {
+        return checked;
+    }
+    let scene = case.judged_scene();
+    let mut apis = [Api::Vulkan, Api::WebGpu, Api::OpenGl, Api::OpenGlEs].into_iter();
+    while let Some(api) = apis.next()
+        && (checked.channels.is_empty() || checked.channels.values().any(|asserted| !asserted))
+    {
+        let limits = limits(api);
+        let judged = judgements(scene, &limits);
+        let Some(first) = judged.first() else {
+            break;
+        };
+        for judgement in &judged {
+            note_channels(&judgement.legal, &mut checked.channels);
+        }
+        if api == Api::Vulkan {
+            checked.assertions = assertions(first);
+            checked.near = nearest(scene, &first.legal).filter(|_| case.relation.is_none());
+        }
+        let counters = first
+            .legal
+            .counters
+            .iter()
+            .any(|c| !c.range.is_open(c.kind));
+        let relation = case.relation.as_ref();
+        let related =
+            relation.is_some_and(|r| Rules::invariance(&limits, r.invariance).value().is_some());
+        checked.asserts =
+            counters || related || checked.channels.values().any(|asserted| *asserted);
+    }
+    checked
+}
+
+fn assertions(judgement: &Judgement) -> Vec<Assertion> {
+    let yardstick = judgement.yardstick.statistics();
+    let legal = judgement.legal.statistics().iter();
+    legal
+        .map(|(aspect, legal)| {
+            let own = yardstick.iter().find(|(other, _)| other == aspect);
+            Assertion::new(
+                *aspect,
+                *legal,
+                own.map_or_else(Default::default, |(_, own)| *own),
+            )
+        })
+        .collect()
+}
+
+/// Notes of each channel that is read back if something is asserted of it.
+fn note_channels(legal: &LegalSet, channels: &mut BTreeMap<Channel, bool>) {
+    for image in &legal.images {
+        let sets = legal.groups[image.group].distinct();
+        for (channel, encoding) in image.channels.iter().enumerate() {
+            let all = CodeInterval::new(encoding.min_order(), encoding.max_order()).count();
+            let asserted = sets.iter().any(|(set, times)| {
+                *times > 0 && !set.is_open() && set.count(image.first_channel + channel) < all
+            });
+            let key = Channel {
+                attachment: image.attachment.clone(),
+                aspect: image.aspect,
+                channel,
+            };
+            *channels.entry(key).or_default() |= asserted;
+        }
+    }
+}
+
+/// Returns the warnings that follow from a file's cases.
+fn of_cases(file: &CaseFile, cases: &[CheckedCase]) -> Vec<CaseError> {
+    let mut all = Vec::new();
+    let silent: Vec<&CheckedCase> = cases.iter().filter(|c| !c.asserts).collect();
+    if let Some(first) = silent.first() {
+        all.push(file.warning(
+            &[file.scene_key()],
+            format!(
+                "{} of {} judged cases assert nothing and can be no more than open, {} for one: choose inputs that \
+                 the specifications pin down",
+                silent.len(),
+                cases.len(),
+                first.id
+            ),
+        ));
+    }
+    let mut channels: BTreeMap<&Channel, bool> = BTreeMap::new();
+    for (channel, asserted) in cases.iter().flat_map(|c| &c.channels) {
+        *channels.entry(channel).or_default() |= asserted;
+    }
+    // Where whole cases are silent, that is said already.
+    for (channel, _) in channels
+        .iter()
+        .filter(|(_, asserted)| !**asserted && silent.is_empty())
+    {
+        all.push(file.warning(
+            &[file.scene_key(), "read"],
+            format!("no case asserts anything of {channel}: make its inputs exact, or do not read it back"),
+        ));
+    }
+    let mut told: Vec<[usize; 2]> = Vec::new();
+    // What is drawn filled and as an outline has its vertices where outlines want them.
+    let filled = !cases.iter().any(|c| c.outlines);
+    for case in cases.iter().filter(|_| filled) {
+        let Some(near) = &case.near else {
+            continue;
+        };
+        if told.contains(&near.draw) {
+            continue;
+        }
+        told.push(near.draw);
+        let [pass, draw] = near.draw;
+        let keys = [
+            file.scene_key(),
+            "passes",
+            &pass.to_string(),
+            "draws",
+            &draw.to_string(),
+            "mesh",
+        ];
+        all.push(file.warning(
+            &keys,
+            format!(
+                "an edge passes at {:.3} texels from the centre of texel {},{}, so that drivers may cover it or not, in \
+                 {}: move the vertices, or use a mesh that keeps its edges off the centres",
+                near.distance, near.texel[0], near.texel[1], case.id
+            ),
+        ));
+    }
+    all
+}
+
+impl std::fmt::Display for Channel {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.aspect {
+            Aspect::Color => {
+                let name = ["red", "green", "blue", "alpha"][self.channel.min(3)];
+                write!(f, "{name} of `{}`", self.attachment)
+            }
+            other => write!(f, "{other} of `{}`", self.attachment),
+        }
+    }
+}
