@@ -10,6 +10,7 @@ mod case;
 mod codes;
 mod draw;
 mod error;
+mod expanded;
 mod fetch;
 mod file;
 mod library;

@@ -15,6 +15,7 @@ mod adapter;
 mod bench;
 mod bless;
 mod clear;
+mod condition;
 mod conflict;
 mod dead;
 mod driver_version;
@@ -53,6 +54,7 @@ pub use bench::{
 };
 pub use bless::Blessing;
 pub use clear::clear;
+pub use condition::Condition;
 pub use dead::{Dead, DeadKind};
 pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations, Known, Source};

@@ -14,3 +14,4 @@ pub(crate) mod mutants;
 pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod schema;
+pub(crate) mod show;

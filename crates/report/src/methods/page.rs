@@ -51,6 +51,7 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
         title: &format!("etalon methods {}", run.header.started),
         styles: &[chart::STYLE],
         script: None,
+        beside: false,
         main,
         source: "run.jsonl and pictures/ in this folder",
     }
