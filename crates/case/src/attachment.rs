@@ -180,8 +180,9 @@ fn encode(encoding: ChannelEncoding, value: f64) -> Result<u32, At> {
             let code = encoding.nearest_code(value);
             let found = encoding.value_of_order(encoding.order_of_code(code));
             let limit = encoding.value_of_order(encoding.max_order());
-            // A 32-bit float is what a decimal number means; a shorter one must be hit exactly.
-            if value.abs() > limit || (encoding != ChannelEncoding::Float32 && found != value) {
+            // A 32-bit float is what a decimal number means; a shorter one must be hit by that float exactly.
+            let hit = encoding == ChannelEncoding::Float32 || found as f32 == value as f32;
+            if value.abs() > limit || !hit {
                 return Err(At::new(format!("the number is no {encoding}")));
             }
             Ok(code)

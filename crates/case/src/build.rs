@@ -75,7 +75,7 @@ impl CaseRef<'_> {
     }
 
     /// A scene drawn by a method.
-    fn method_case(&self, values: &BTreeMap<&str, &Value>) -> Result<Case, At> {
+    pub(crate) fn method_case(&self, values: &BTreeMap<&str, &Value>) -> Result<Case, At> {
         let wire = &self.file.wire;
         let others = [
             &wire.scene,

@@ -19,7 +19,8 @@ pub enum Profile {
     /// Of files that say `"quick": "pairwise"` so many cases that every two values of every two axes
     /// meet, of those that say `"quick": { "each": 2 }` so many that every value stands in two, of those
     /// that say `"quick": { "where": … }` the cases with these values, of those that say `"quick": { "any": [ … ] }`
-    /// the cases with the values of any row; of all others everything.
+    /// the cases with the values of any row; of all others everything. Files of methods give all methods at
+    /// some values of the other axes.
     #[default]
     Quick,
     /// Everything.
@@ -138,6 +139,14 @@ impl CaseFile {
         };
         if let Some(at) = wrong {
             return Err(fail(at.key("quick")));
+        }
+        if !wire.method.is_null()
+            && let Some(quick) = &wire.quick
+            && !quick.takes_all_of(METHOD)
+        {
+            let message = "methods are compared at the same parameters, so that the quick profile takes all of them: \
+                           `{ \"where\": … }` or `{ \"any\": [ … ] }`, without `method`";
+            return Err(fail(At::new(message).key("quick")));
         }
         Ok(Self {
             name: name.to_owned(),

@@ -18,10 +18,10 @@ mod slower;
 mod unstarted;
 
 pub(crate) use backend_name::BackendName;
-pub(crate) use description::described_names;
+pub(crate) use description::{described_names, releases_of};
 pub(crate) use devices::HardwareDevice;
 pub(crate) use discovery::{Adapters, discover, refuse_absent};
-pub(crate) use open::Open;
+pub(crate) use open::{FROM_INPUT, Open};
 pub(crate) use origin::Origin;
 pub(crate) use query::Query;
 pub(crate) use unstarted::take_unstarted;

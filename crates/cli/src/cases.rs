@@ -84,6 +84,21 @@ pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<String>, Failu
     some(ids, &arguments.globs)
 }
 
+/// Returns the number of cases of the full profile that match as well as the selected ones, and that the profile
+/// leaves out. An area without a selected case has none.
+pub(crate) fn left_out(arguments: &CaseArguments, selected: &[String]) -> Result<u64, Failure> {
+    if Profile::from(arguments.profile) == Profile::Full {
+        return Ok(0);
+    }
+    let area = |id: &str| id.split('/').next().unwrap_or_default().to_owned();
+    let areas: BTreeSet<String> = selected.iter().map(|id| area(id)).collect();
+    let library = library(arguments.cases.as_ref())?;
+    let all = etalon_runner::select(&library, Profile::Full, &arguments.globs);
+    let all = all.map_err(Failure::usage)?;
+    let same = all.cases.iter().filter(|c| areas.contains(&area(&c.id())));
+    Ok((same.count() - selected.len()) as u64)
+}
+
 /// Returns what was selected, unless it is nothing.
 fn some<T>(selected: Vec<T>, globs: &[String]) -> Result<Vec<T>, Failure> {
     if selected.is_empty() {

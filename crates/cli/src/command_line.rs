@@ -1,8 +1,8 @@
 //! The command line: one subcommand per file of `commands`.
 
 use crate::commands::{
-    adapters, bench, check, completions, diff, expectations, explain, list, man, merge, mutants,
-    report, run, show,
+    adapters, bench, bisect, check, completions, diff, expectations, explain, list, man, merge,
+    mutants, reduce, report, run, show,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -46,8 +46,12 @@ pub(crate) enum Command {
     Bench(bench::Arguments),
     /// Compare two runs or two benches: verdicts, pixels, times
     Diff(diff::Arguments),
+    /// Find the releases of a driver that draw cases wrong
+    Bisect(bisect::Arguments),
     /// Explain one texel, operation by operation, with rules and citations
     Explain(explain::Arguments),
+    /// Reduce a failing case to the smallest one that fails in the same way
+    Reduce(reduce::Arguments),
     /// Plant bugs in the cpu rasterizer and report which of them the cases catch
     Mutants(mutants::Arguments),
     /// Print a completion script for a shell

@@ -29,6 +29,16 @@ pub(crate) enum CaseProfile {
     Full,
 }
 
+impl CaseProfile {
+    /// The name that the command line takes.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Quick => "quick",
+            Self::Full => "full",
+        }
+    }
+}
+
 impl From<CaseProfile> for etalon_case::Profile {
     fn from(profile: CaseProfile) -> Self {
         match profile {

@@ -58,7 +58,9 @@ fn main() -> ExitCode {
         Command::Expectations(command) => commands::expectations::run(&command),
         Command::Bench(arguments) => commands::bench::run(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),
+        Command::Bisect(arguments) => commands::bisect::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
+        Command::Reduce(arguments) => commands::reduce::run(&arguments),
         Command::Mutants(arguments) => commands::mutants::run(&arguments),
         Command::Completions(arguments) => {
             commands::completions::run(&arguments, &CommandLine::command())

@@ -134,7 +134,7 @@ fn of_draw(scene: &Scene, number: usize, draw: &Draw, [width, height]: [u32; 2])
     plain.mesh.vertices.clear();
     let mut own = draw.clone();
     own.mesh.vertices.clear();
-    let plain_target = plain.targets[0].clone();
+    let plain_target = plain.targets[0];
     for (i, target) in draw.targets.iter().enumerate() {
         let [own, plain] =
             [target, &plain_target].map(|t| serde_json::to_value(t).unwrap_or_default());

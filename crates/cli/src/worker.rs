@@ -1,12 +1,15 @@
 //! `etalon worker`, the child process: it opens one backend, or lists the devices of a backend.
 
-use crate::adapters::{BackendName, HardwareDevice, Open};
+use crate::adapters::{BackendName, FROM_INPUT, HardwareDevice, Open};
 use crate::failure::Failure;
 use clap::Args;
 use etalon_backend::{Backend, Unavailable};
 use etalon_cpu::CpuBackend;
+use etalon_runner::Setup;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, ErrorKind, Write};
+use std::path::Path;
+use std::process::Command;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -20,6 +23,10 @@ pub(crate) struct Arguments {
 
 /// Serves one adapter, or prints the devices of a backend.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let text = match arguments.open.as_deref() {
+        Some(FROM_INPUT) => Some(set_up()?),
+        other => other.map(str::to_owned),
+    };
     let mut output = private_output()?;
     if let Some(name) = &arguments.enumerate {
         let name: BackendName = parse(&format!("\"{name}\""))?;
@@ -28,10 +35,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         output.write_all(text.as_bytes())?;
         return Ok(0);
     }
-    let Some(text) = &arguments.open else {
+    let Some(text) = text else {
         return Err(Failure::usage("a worker needs --open or --enumerate"));
     };
-    let what: Open = parse(text)?;
+    let what: Open = parse(&text)?;
     let input = BufReader::new(io::stdin());
     let pipe = output.try_clone()?;
     let mut output = BufWriter::new(output);
@@ -40,6 +47,46 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(0),
         served => Ok(served.map(|()| 0)?),
     }
+}
+
+/// Returns the request that a parent sends through a launcher. Where that lost variables of the environment,
+/// this process becomes one that has them.
+fn set_up() -> Result<String, Failure> {
+    let setup = Setup::receive(io::stdin().lock())
+        .map_err(|e| Failure::usage(format!("--open - takes a request from etalon: {e}")))?;
+    let missing = setup.missing();
+    if missing.is_empty() {
+        return Ok(setup.open);
+    }
+    let own = std::env::current_exe()?;
+    let mut command = Command::new(&own);
+    command.args(["worker", "--open", &setup.open]);
+    for (name, value) in missing {
+        match value {
+            Some(value) => command.env(name, value),
+            None => command.env_remove(name),
+        };
+    }
+    Err(become_other(command, &own))
+}
+
+/// Replaces this process; returns only if that fails.
+#[cfg(unix)]
+fn become_other(mut command: Command, own: &Path) -> Failure {
+    let error = std::os::unix::process::CommandExt::exec(&mut command);
+    Failure::usage(format!(
+        "{} cannot be started with the environment that the adapter needs: {error}",
+        own.display()
+    ))
+}
+
+/// Returns the reason for which no process can be replaced.
+#[cfg(not(unix))]
+fn become_other(_: Command, own: &Path) -> Failure {
+    Failure::usage(format!(
+        "{}: the launcher does not pass the environment on; put `env NAME=VALUE` behind it",
+        own.display()
+    ))
 }
 
 fn parse<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Failure> {

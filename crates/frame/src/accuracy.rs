@@ -17,6 +17,10 @@ const NOT_FINITE: f64 = 4_294_967_296.0;
 pub struct Accuracy {
     /// The aspect.
     pub aspect: Aspect,
+    /// The encoding of the channels, whose codes are counted; none in records of older versions, which hold
+    /// codes of several together.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub encoding: Option<ChannelEncoding>,
     /// Channels of samples of which the yardstick asserts something.
     pub channels: u64,
     /// Their mean distance.
@@ -26,7 +30,12 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// Adds another frame's figures of the same aspect.
+    /// True if figures are of the same aspect and encoding, so that they can be added.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        (self.aspect, self.encoding) == (other.aspect, other.encoding)
+    }
+
+    /// Adds another frame's figures of the same aspect and encoding.
     pub fn add(&mut self, other: &Self) {
         let all = self.channels.saturating_add(other.channels);
         if other.channels > 0 {
@@ -117,11 +126,12 @@ impl<'a> Distances<'a> {
             let aspect = channel.info.aspect;
             let own = Accuracy {
                 aspect,
+                encoding: Some(channel.encoding),
                 channels: channel.asserted,
                 mean: channel.sum / channel.asserted.max(1) as f64,
                 max: channel.max,
             };
-            match result.binary_search_by_key(&aspect, |a| a.aspect) {
+            match result.binary_search_by_key(&(aspect, own.encoding), |a| (a.aspect, a.encoding)) {
                 Ok(at) => result[at].add(&own),
                 Err(at) => result.insert(at, own),
             }
@@ -241,6 +251,7 @@ mod tests {
             result,
             [Accuracy {
                 aspect: Aspect::Color,
+                encoding: Some(unorm),
                 channels: 5,
                 mean: (1.0 + 3.0) / 5.0,
                 max: 3.0,
@@ -249,9 +260,58 @@ mod tests {
     }
 
     #[test]
+    fn codes_of_different_encodings_are_not_added() {
+        let encodings = [ChannelEncoding::Float32, ChannelEncoding::Unorm(8)];
+        let image = |attachment: &str, group: usize, encoding| ImageInfo {
+            attachment: attachment.to_owned(),
+            aspect: Aspect::Color,
+            size: [1, 1],
+            samples: 1,
+            channels: vec![encoding],
+            read: ReadPath::Copy,
+            group,
+            first_channel: 0,
+        };
+        let mut result = Vec::new();
+        for (i, encoding) in encodings.into_iter().enumerate() {
+            let info = image("color", i, encoding);
+            let mut distances = Distances::new(&[(i, &info)]);
+            let due = TexelSet {
+                worlds: vec![WorldBox {
+                    channels: [CodeInterval::exact(encoding.order_of_code(0))]
+                        .into_iter()
+                        .collect(),
+                }],
+            };
+            distances.add(
+                &due,
+                &[encoding.order_of_code(if i == 0 { 0x3f80_0000 } else { 2 })],
+                1,
+            );
+            distances.into(&mut result);
+        }
+        let told: Vec<_> = result.iter().map(|a| (a.encoding, a.max)).collect();
+        assert_eq!(
+            told,
+            [
+                (Some(ChannelEncoding::Unorm(8)), 2.0),
+                (Some(ChannelEncoding::Float32), 2_f64.powi(24))
+            ]
+        );
+        assert!(!result[0].is_alike(&result[1]));
+        // As shares of what the encodings can hold they compare.
+        assert_eq!(
+            result[0].max / ChannelEncoding::Unorm(8).range(),
+            2.0 / 255.0
+        );
+        assert_eq!(result[1].max / ChannelEncoding::Float32.range(), 2.0);
+    }
+
+    #[test]
     fn figures_add_up_by_their_channels() {
         let of = |channels, mean, max| Accuracy {
             aspect: Aspect::Depth,
+            encoding: None,
             channels,
             mean,
             max,

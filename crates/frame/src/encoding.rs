@@ -30,6 +30,19 @@ pub enum ChannelEncoding {
 }
 
 impl ChannelEncoding {
+    /// The number of codes that a distance of the whole range takes: from one end of a normalized or integer
+    /// encoding to the other, from a power of two to the next one of a float.
+    pub fn range(self) -> f64 {
+        match self {
+            Self::Unorm(bits) | Self::Uint(bits) => f64::from(bits).exp2() - 1.0,
+            Self::Snorm(bits) => f64::from(bits).exp2() - 2.0,
+            Self::Srgb8 => 255.0,
+            Self::Float16 => 10_f64.exp2(),
+            Self::Float32 => 23_f64.exp2(),
+            Self::Ufloat(mantissa) => f64::from(mantissa).exp2(),
+        }
+    }
+
     /// The largest order of any finite code.
     pub fn max_order(self) -> i64 {
         match self {

@@ -4,6 +4,12 @@
 //! stored in between is rounded each time; a difference from the colour that is less than half a code
 //! over `a` stays for good.
 
+mod claims;
+mod lessons;
+
+pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
+
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
 use crate::polygon::{self, Polygon};

@@ -1,5 +1,11 @@
 //! Culling: faces by their winding, and whole objects outside of the picture.
 
+mod claims;
+mod lessons;
+
+pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
+
 use crate::error::{ParameterError, within};
 use crate::grid::settle;
 use crate::method_scene::MethodScene;

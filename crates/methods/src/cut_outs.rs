@@ -13,8 +13,13 @@ use etalon_scene::{
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+mod claims;
+mod lessons;
 #[cfg(test)]
 mod tests;
+
+pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
 
 /// Cards of grass and how they are drawn.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

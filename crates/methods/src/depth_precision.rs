@@ -4,6 +4,12 @@
 //! holds both to be equal goes wrong in half of the texels. Vertices come projected, with a depth that
 //! is rounded to 32 bits once, as a vertex shader would hand it on.
 
+mod claims;
+mod lessons;
+
+pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
+
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
 use crate::polygon::{self, Polygon};

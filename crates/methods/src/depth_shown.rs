@@ -1,6 +1,10 @@
 //! Depth shown by formulae that have one right result: as grey, as distance, as fog; and two
 //! pictures that dissolve into each other.
 
+mod lessons;
+
+pub(crate) use lessons::LESSONS;
+
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
 use crate::polygon::{self, Polygon};

@@ -7,6 +7,7 @@
 
 mod accumulation;
 mod anti_aliasing;
+mod claim;
 #[cfg(test)]
 mod corners;
 mod culling;
@@ -15,6 +16,7 @@ mod depth_precision;
 mod depth_shown;
 mod error;
 mod grid;
+mod lesson;
 mod method;
 mod method_scene;
 mod noise;
@@ -31,8 +33,10 @@ mod validity;
 mod view;
 mod visibility_cost;
 
+pub use claim::{Claim, Condition, Quantity, Test, Values};
 pub use error::ParameterError;
+pub use lesson::Lesson;
 pub use method::{Method, Parameter};
 pub use method_scene::MethodScene;
-pub use question::{MethodWire, make};
+pub use question::{MethodWire, claims, lessons, make};
 pub use truth::{Coverage, Paint, Surface, Texture, Truth};

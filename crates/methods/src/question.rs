@@ -1,6 +1,8 @@
 //! The questions that methods answer, each with its scenes and methods.
 
+use crate::claim::Claim;
 use crate::error::ParameterError;
+use crate::lesson::Lesson;
 use crate::method_scene::MethodScene;
 use crate::{
     accumulation, anti_aliasing, culling, cut_outs, depth_precision, depth_shown, stencil_effects,
@@ -48,5 +50,37 @@ pub fn make(wire: &MethodWire) -> Result<MethodScene, ParameterError> {
         MethodWire::StencilEffects(wire) => stencil_effects::make(wire),
         MethodWire::Accumulation(wire) => accumulation::make(wire),
         MethodWire::DepthShown(wire) => depth_shown::make(wire),
+    }
+}
+
+/// Returns every claim of the literature about methods, by question.
+pub fn claims() -> impl Iterator<Item = &'static Claim> {
+    [
+        transparency::CLAIMS,
+        anti_aliasing::CLAIMS,
+        cut_outs::CLAIMS,
+        culling::CLAIMS,
+        visibility_cost::CLAIMS,
+        depth_precision::CLAIMS,
+        stencil_effects::CLAIMS,
+        accumulation::CLAIMS,
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// Returns the explanations of a question's methods; none for a question that there is not.
+pub fn lessons(question: &str) -> &'static [Lesson] {
+    match question {
+        "transparency" => transparency::LESSONS,
+        "cut-outs" => cut_outs::LESSONS,
+        "anti-aliasing" => anti_aliasing::LESSONS,
+        "depth-precision" => depth_precision::LESSONS,
+        "visibility-cost" => visibility_cost::LESSONS,
+        "culling" => culling::LESSONS,
+        "stencil-effects" => stencil_effects::LESSONS,
+        "accumulation" => accumulation::LESSONS,
+        "depth-shown" => depth_shown::LESSONS,
+        _ => &[],
     }
 }

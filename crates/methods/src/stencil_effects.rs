@@ -1,9 +1,14 @@
 //! Stencil effects: outlines, a mirror, shadow volumes.
 
+mod claims;
+mod lessons;
 mod mirror;
 mod outlines;
 mod shadows;
 mod shown;
+
+pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;

@@ -1,6 +1,12 @@
 //! The cost of visibility: rooms behind rooms, seen through openings, with a
 //! fragment shader that does much work. All methods give the same picture.
 
+mod claims;
+mod lessons;
+
+pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
+
 use crate::error::{ParameterError, within};
 use crate::grid::settle;
 use crate::method_scene::MethodScene;

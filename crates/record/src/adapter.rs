@@ -25,11 +25,31 @@ pub struct AdapterRecord {
     pub api_version: String,
     /// True if the device is the processor.
     pub software: bool,
+    /// The release of the driver, as its description says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub release: Option<Release>,
     /// Its limits and features.
     pub limits: Limits,
 }
 
+/// One release of a driver.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Release {
+    /// The line: one driver over its releases, such as `swiftshader`.
+    pub line: String,
+    /// The version within the line, numbers with dots.
+    pub version: String,
+}
+
 impl AdapterRecord {
+    /// The name up to an `@`, behind which one release of a driver is told from others: expectations speak of
+    /// all of them.
+    pub fn without_release(&self) -> &str {
+        let (name, _) = self.name.split_once('@').unwrap_or((&self.name, ""));
+        name
+    }
+
     /// Driver and version in one text, which the `driver` globs of expectations match.
     pub fn driver_text(&self) -> String {
         format!("{} {}", self.driver, self.driver_version)

@@ -5,14 +5,14 @@
 
 use crate::adapter::AdapterRecord;
 use crate::condition::Condition;
-use crate::driver_version::driver_version;
+use crate::driver_version::version_of;
 use crate::expectations::{Entry, Expectation, Expectations, Known, Source};
 use crate::findings::{Evidence, Finding};
 use crate::grade::Grade;
 use crate::record::Record;
 use crate::run::Run;
+use crate::symptom::Symptom;
 use crate::verdict::Verdict;
-use crate::violation::Violation;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The expectations after a run was blessed.
@@ -118,7 +118,7 @@ fn entry(record: &Record, adapter: &AdapterRecord, run: &Run, today: &str) -> En
     Entry {
         adapter: globset::escape(&record.adapter),
         driver: globset::escape(&adapter.driver_text()),
-        version: driver_version(&adapter.driver_version).map(|v| format!("={v}")),
+        version: version_of(adapter).map(|v| format!("={v}")),
         case: globset::escape(&record.case),
         verdict: record.verdict,
         reason: format!("Not explained yet; blessed on {today}."),
@@ -146,7 +146,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
             entry.verdict,
             file,
             &entry.adapter,
-            Violation::of(record),
+            Symptom::of(record),
         );
         groups.entry(key).or_default().push(one);
     }

@@ -1,11 +1,28 @@
-//! The version number in the text that a driver reports.
+//! The version number of a driver: from its description, or in the text that it reports.
 
+use crate::adapter::AdapterRecord;
 use semver::Version;
+
+/// Returns the version of an adapter's driver: that of its description, else the one it reports.
+pub(crate) fn version_of(adapter: &AdapterRecord) -> Option<Version> {
+    match &adapter.release {
+        Some(release) => release_version(&release.version),
+        None => driver_version(&adapter.driver_version),
+    }
+}
+
+/// Returns a version of numbers with dots, of which the first three count; `None` if it is anything else. A
+/// single number is one too: `118`.
+pub(crate) fn release_version(text: &str) -> Option<Version> {
+    let parts: Option<Vec<u64>> = text.split('.').map(|part| part.parse().ok()).collect();
+    let part = |n: usize| parts.as_ref().map(|all| all.get(n).copied().unwrap_or(0));
+    Some(Version::new(part(0)?, part(1)?, part(2)?))
+}
 
 /// The version in a text such as `4.5 (Core Profile) Mesa 22.3.6`: the number after `Mesa`, else the first
 /// one with a dot. Missing parts of three are 0, further parts are dropped; `None` if there is no such
 /// number.
-pub(crate) fn driver_version(text: &str) -> Option<Version> {
+fn driver_version(text: &str) -> Option<Version> {
     let after_mesa = text.split_once("Mesa ").map(|(_, rest)| rest);
     after_mesa
         .and_then(|rest| number(rest.split_whitespace().next()?))
@@ -29,6 +46,21 @@ fn number(word: &str) -> Option<Version> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn releases_are_numbers_with_dots() {
+        let of = |text: &str| release_version(text).map(|v| v.to_string());
+        for (text, due) in [
+            ("118", Some("118.0.0")),
+            ("26.2", Some("26.2.0")),
+            ("149.0.7827.2", Some("149.0.7827")),
+            ("", None),
+            ("v118", None),
+            ("1..2", None),
+        ] {
+            assert_eq!(of(text).as_deref(), due, "{text}");
+        }
+    }
 
     #[test]
     fn drivers_say_it_in_many_ways() {

@@ -3,7 +3,7 @@
 //! They come from two kinds of files, a list of entries and a finding per bug, and are looked up in one form, [`Known`].
 
 use crate::adapter::AdapterRecord;
-use crate::driver_version::driver_version;
+use crate::driver_version::version_of;
 use crate::error::RecordError;
 use crate::findings::{self, Finding};
 use crate::grade::Grade;
@@ -197,10 +197,11 @@ fn is_plain(glob: &str) -> bool {
 
 impl Globs {
     fn match_adapter(&self, adapter: &AdapterRecord) -> bool {
-        self.adapters.iter().any(|g| g.is_match(&adapter.name))
+        let named = |name: &str| self.adapters.iter().any(|g| g.is_match(name));
+        (named(&adapter.name) || named(adapter.without_release()))
             && self.driver.is_match(adapter.driver_text())
             && self.version.as_ref().is_none_or(|range| {
-                driver_version(&adapter.driver_version).is_some_and(|v| range.matches(&v))
+                version_of(adapter).is_some_and(|version| range.matches(&version))
             })
     }
 
@@ -536,6 +537,7 @@ fn line_of(text: &str, value: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::adapter::Release;
     use etalon_frame::{Api, Limits};
 
     fn adapter(name: &str, driver: &str, version: &str) -> AdapterRecord {
@@ -548,6 +550,7 @@ mod tests {
             driver_id: String::new(),
             api_version: String::new(),
             software: true,
+            release: None,
             limits: Limits {
                 api: Api::OpenGl,
                 version: etalon_frame::ApiVersion::UNKNOWN,
@@ -618,6 +621,26 @@ mod tests {
         assert!(!found("Mesa 25.1.0"));
         assert!(!found("Mesa 22.2"));
         assert!(!found("unknown"));
+        // What the description says, where the driver tells nothing or something else.
+        let described = |version: &str| {
+            let mut adapter = adapter("vulkan:x", "SwiftShader", "Mesa 22.3.6");
+            adapter.release = Some(Release {
+                line: "swiftshader".to_owned(),
+                version: version.to_owned(),
+            });
+            range.look_up(&adapter, "a/b", Verdict::Fail) != Expectation::None
+        };
+        let release = adapter("gl:x@25.0", "Mesa", "Mesa 25.0.7");
+        let plain = Expectations::parse(
+            &TEXT.replace("gl:*", "gl:x").replace("Mesa 25.*", "Mesa *"),
+            Path::new("e.json"),
+        )
+        .unwrap();
+        let case = "blend/factors/format=rgba8unorm";
+        let agrees = plain.look_up(&release, case, Verdict::Fail);
+        assert!(matches!(agrees, Expectation::Agrees(_)), "{agrees:?}");
+        assert!(described("23") && described("22.3.0.1"));
+        assert!(!described("26"));
     }
 
     #[test]

@@ -43,11 +43,12 @@ mod run;
 mod selection;
 mod shader_cache;
 mod shorten;
+mod symptom;
 mod verdict;
-mod violation;
+mod versions;
 mod writer;
 
-pub use adapter::{AbsentAdapter, AdapterRecord};
+pub use adapter::{AbsentAdapter, AdapterRecord, Release};
 pub use bench::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchSettings, BenchWriter, Ended,
     Picture, Round, Time,
@@ -78,6 +79,9 @@ pub use report_files::ReportFiles;
 pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
 pub use shader_cache::ShaderCache;
+pub use symptom::Symptom;
 pub use verdict::Verdict;
-pub use violation::Violation;
+pub use versions::{
+    CaseVersions, ReleaseRecord, Standing, VERSIONS_FILE, VERSIONS_FORMAT, Versions, VersionsHeader,
+};
 pub use writer::RunWriter;

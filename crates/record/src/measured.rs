@@ -61,4 +61,8 @@ pub struct Times {
     /// Between GPU timestamps, where there are any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gpu: Option<f64>,
+    /// Two of the wall times between which the median lies with 95 % confidence; the shortest and the longest
+    /// where there are fewer than six frames.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interval: Option<[f64; 2]>,
 }

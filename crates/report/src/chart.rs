@@ -7,7 +7,7 @@ mod plot;
 mod scale;
 
 pub(crate) use label::Labels;
-pub(crate) use marker::{color, key, marker};
+pub(crate) use marker::{color, dash, key, line_key, marker};
 pub(crate) use number::n;
 pub(crate) use plot::{BOTTOM, HEIGHT, LEFT, Plot, RIGHT, TOP, chart, zero_band};
 pub(crate) use scale::Scale;

@@ -25,6 +25,7 @@ mod page;
 mod picture;
 mod run;
 mod terminal;
+mod versions;
 mod words;
 
 pub use bench::{BENCH_FILES, WrittenBench, bench_table, write_bench};
@@ -38,3 +39,4 @@ pub use error::ReportError;
 pub use hunt::{WrittenHunt, hunt_table, write_hunt};
 pub use run::{RUN_FILES, RUN_FOLDERS, Written, dead_lines, table, write};
 pub use terminal::TableOptions;
+pub use versions::{versions_table, write_versions};

@@ -10,6 +10,7 @@ mod front;
 mod made;
 mod name;
 mod page;
+mod pictures;
 mod scatter;
 mod stability;
 mod summary;

@@ -15,6 +15,7 @@ impl From<&Worker> for AdapterRecord {
             driver_id: info.driver_id.clone(),
             api_version: info.api_version.clone(),
             software: info.software,
+            release: worker.release.clone(),
             limits: worker.hello.limits.clone(),
         }
     }

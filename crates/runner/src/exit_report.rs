@@ -14,8 +14,14 @@ pub(crate) struct ExitReport {
 }
 
 impl ExitReport {
-    /// The report on a worker lost in this way. `status` is its exit status if it ended by itself.
-    pub(crate) fn new(loss: Loss, status: Option<ExitStatus>, stderr: String) -> Self {
+    /// The report on a worker lost in this way. `status` is the exit status of its process if that ended by
+    /// itself; that of a launcher says nothing about the worker.
+    pub(crate) fn new(
+        loss: Loss,
+        status: Option<ExitStatus>,
+        launched: bool,
+        stderr: String,
+    ) -> Self {
         let (kind, cause) = match loss {
             Loss::Timeout(limit) => (
                 LossKind::Timeout,
@@ -33,12 +39,15 @@ impl ExitReport {
             Loss::Died | Loss::Cancelled => (
                 LossKind::Died,
                 match status {
-                    Some(status) => describe(status),
+                    Some(status) if launched => {
+                        format!("the worker was lost, and its launcher {}", ending(status))
+                    }
+                    Some(status) => format!("the worker {}", ending(status)),
                     None => "the worker closed its pipe".to_owned(),
                 },
             ),
         };
-        let own_status = status.filter(|_| kind == LossKind::Died);
+        let own_status = status.filter(|_| kind == LossKind::Died && !launched);
         let message = match stderr.as_str() {
             "" => cause,
             text => format!("{cause}; stderr ends with: {text}"),
@@ -69,10 +78,10 @@ fn signal(status: ExitStatus) -> Option<i32> {
     }
 }
 
-fn describe(status: ExitStatus) -> String {
+fn ending(status: ExitStatus) -> String {
     match signal(status) {
-        Some(signal) => format!("the worker died of signal {signal}{}", signal_name(signal)),
-        None => format!("the worker ended with {status}"),
+        Some(signal) => format!("died of signal {signal}{}", signal_name(signal)),
+        None => format!("ended with {status}"),
     }
 }
 

@@ -266,11 +266,7 @@ fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
         }
     }
     for accuracy in &other.record.accuracy {
-        match record
-            .accuracy
-            .iter_mut()
-            .find(|a| a.aspect == accuracy.aspect)
-        {
+        match record.accuracy.iter_mut().find(|a| a.is_alike(accuracy)) {
             Some(own) => own.add(accuracy),
             None => record.accuracy.push(*accuracy),
         }

@@ -1,7 +1,13 @@
 //! The command that starts a worker.
 
+use crate::protocol::receive;
 use etalon_backend::Unavailable;
+use etalon_record::Release;
+use serde::{Deserialize, Serialize};
+use std::ffi::OsStr;
+use std::io::{self, Read};
 use std::path::PathBuf;
+use std::process::Command;
 use thiserror::Error;
 
 /// The command that starts a worker.
@@ -15,6 +21,72 @@ pub struct Launch {
     pub arguments: Vec<String>,
     /// Environment variables on top of the parent's; `None` removes one.
     pub environment: Vec<(String, Option<String>)>,
+    /// The command that starts the program elsewhere; `None` starts it here.
+    pub launcher: Option<Launcher>,
+    /// The release of the driver, where the adapter's description says it.
+    pub release: Option<Release>,
+}
+
+/// A command prefix behind which a worker runs in another userland, a container or on another machine.
+///
+/// Some prefixes take the worker's words apart (ssh's remote shell), others lose its environment (a
+/// container): what the worker must know goes through its standard input instead.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Launcher {
+    /// The words of the prefix; at least one.
+    pub prefix: Vec<String>,
+    /// What the worker is to open, as the text behind its `--open`.
+    pub open: String,
+}
+
+/// The first message to a worker behind a launcher.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Setup {
+    /// What it is to open.
+    pub open: String,
+    /// The variables that it needs; `None` is one that must not be set.
+    pub environment: Vec<(String, Option<String>)>,
+}
+
+impl Setup {
+    /// Reads the first message of the parent.
+    ///
+    /// # Errors
+    /// When the input ends before it or is something else.
+    pub fn receive(mut input: impl Read) -> io::Result<Self> {
+        receive(&mut input)?.ok_or_else(|| io::ErrorKind::UnexpectedEof.into())
+    }
+
+    /// Returns the variables that differ from those of this process.
+    pub fn missing(&self) -> Vec<(String, Option<String>)> {
+        let differs = |(name, wanted): &&(String, Option<String>)| {
+            let set = std::env::var_os(name);
+            set.as_deref() != wanted.as_deref().map(OsStr::new)
+        };
+        self.environment.iter().filter(differs).cloned().collect()
+    }
+}
+
+impl Launch {
+    /// Returns the worker's command. Its environment is set here too: prefixes that run on this machine pass it on.
+    pub(crate) fn command(&self) -> Command {
+        let mut command = match self.launcher.as_ref().map(|l| l.prefix.as_slice()) {
+            Some([first, rest @ ..]) => {
+                let mut command = Command::new(first);
+                command.args(rest).arg(&self.program);
+                command
+            }
+            _ => Command::new(&self.program),
+        };
+        command.args(&self.arguments);
+        for (name, value) in &self.environment {
+            match value {
+                Some(value) => command.env(name, value),
+                None => command.env_remove(name),
+            };
+        }
+        command
+    }
 }
 
 /// Why a worker did not start.
@@ -23,6 +95,9 @@ pub enum StartError {
     /// The worker reports that its adapter is unavailable.
     #[error("{0}")]
     Unavailable(Unavailable),
+    /// No worker greeted behind the launcher, which says nothing about a driver.
+    #[error("{0}")]
+    Launcher(String),
     /// The worker died, hung or broke the protocol.
     #[error("{0}")]
     Broken(String),

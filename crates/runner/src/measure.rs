@@ -163,7 +163,26 @@ fn medians(all: &[FrameTime]) -> Option<Times> {
         wall: median(all.iter().map(|t| t.wall).collect())?,
         cpu: median(all.iter().map(|t| t.cpu).collect())?,
         gpu: median(all.iter().filter_map(|t| t.gpu).collect()),
+        interval: interval(all.iter().map(|t| t.wall).collect()),
     })
+}
+
+/// The two order statistics closest to each other between which the median lies with 95 % confidence, whatever
+/// the distribution (the binomial test of signs); the ends of fewer than six times, which reach no such level.
+fn interval(mut times: Vec<Duration>) -> Option<[f64; 2]> {
+    times.sort_unstable();
+    let last = times.len().checked_sub(1)?;
+    // The probability that at most `low` of the times lie below the median.
+    let (mut low, mut tail, mut term) = (0, 0.0, 0.5_f64.powi(times.len() as i32));
+    while low < last / 2 {
+        tail += term;
+        term *= (times.len() - low) as f64 / (low + 1) as f64;
+        if tail + term > 0.025 {
+            break;
+        }
+        low += 1;
+    }
+    Some([times[low], times[last - low]].map(|t| t.as_secs_f64()))
 }
 
 #[cfg(test)]
@@ -184,7 +203,25 @@ mod tests {
             wall: 0.004,
             cpu: 0.001,
             gpu: Some(0.003),
+            interval: Some([0.002, 0.009]),
         };
         assert_eq!(found, Some(due));
+    }
+
+    #[test]
+    fn the_interval_holds_the_median_with_the_level_that_is_stated() {
+        let of = |count: u64| {
+            let times = (1..=count).map(Duration::from_secs).collect();
+            interval(times).map(|ends| ends.map(|e| e as u64))
+        };
+        assert_eq!(of(0), None);
+        assert_eq!(of(1), Some([1, 1]));
+        assert_eq!(of(5), Some([1, 5]), "93.75 % at most");
+        // Tables of the sign test: 6 to 8 times lose none at either end, 9 to 11 one, 12 to 14 two, 31 nine.
+        assert_eq!(of(6), Some([1, 6]));
+        assert_eq!(of(8), Some([1, 8]));
+        assert_eq!(of(9), Some([2, 8]));
+        assert_eq!(of(12), Some([3, 10]));
+        assert_eq!(of(31), Some([10, 22]));
     }
 }

@@ -4,15 +4,16 @@
 //! parent: the parent waits with a limit, and kills.
 
 use crate::exit_report::ExitReport;
-use crate::launch::{Launch, StartError};
+use crate::greeting;
+use crate::launch::{Launch, Setup, StartError};
 use crate::loss::Loss;
 use crate::memory::MemoryLimit;
-use crate::protocol::{Request, Response, encode_behind, receive};
+use crate::protocol::{Request, Response, encode, encode_behind, receive};
 use crate::stderr_tail::StderrTail;
 use crate::sync::lock;
 use std::collections::VecDeque;
-use std::io::{self, BufReader, Write};
-use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::io::{BufReader, Error, Write};
+use std::process::{Child, ChildStdin, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex};
@@ -54,11 +55,15 @@ const MALLOC: (&str, &str) = (
 );
 
 /// An answer, or the end of all answers, and the time at which it came.
-type Answer = (Instant, io::Result<Response>);
+type Answer = (Instant, Result<Response, Loss>);
 
 /// A worker's process and its pipes.
 pub(crate) struct WorkerProcess {
     child: Arc<Mutex<Child>>,
+    /// True if the process is a launcher, of which signals and memory tell nothing about the worker.
+    launched: bool,
+    /// Set when a worker has greeted.
+    greeted: Arc<AtomicBool>,
     /// To the thread that writes requests.
     requests: Option<Sender<Vec<u8>>>,
     responses: Receiver<Vec<Answer>>,
@@ -74,14 +79,7 @@ pub(crate) struct WorkerProcess {
 
 impl WorkerProcess {
     pub(crate) fn spawn(launch: &Launch) -> Result<Self, StartError> {
-        let mut command = Command::new(&launch.program);
-        command.args(&launch.arguments);
-        for (name, value) in &launch.environment {
-            match value {
-                Some(value) => command.env(name, value),
-                None => command.env_remove(name),
-            };
-        }
+        let mut command = launch.command();
         let chosen = |name: &str| launch.environment.iter().any(|(n, _)| n == name);
         if std::env::var_os(MALLOC.0).is_none() && !chosen(MALLOC.0) {
             command.env(MALLOC.0, MALLOC.1);
@@ -94,21 +92,43 @@ impl WorkerProcess {
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
-            .map_err(|e| StartError::Broken(format!("the worker cannot be started: {e}")))?;
+            .map_err(|e| cannot_start(launch, &e))?;
         let no_pipe = || StartError::Broken("the worker has no pipes".to_owned());
         let input = child.stdin.take().ok_or_else(no_pipe)?;
         let output = child.stdout.take().ok_or_else(no_pipe)?;
         let errors = child.stderr.take().ok_or_else(no_pipe)?;
 
         let (requests, to_write) = channel();
+        if let Some(launcher) = &launch.launcher {
+            let setup = Setup {
+                open: launcher.open.clone(),
+                environment: launch.environment.clone(),
+            };
+            let bytes = encode(&setup).map_err(|e| StartError::Broken(e.to_string()))?;
+            // A broken pipe shows when the greeting is awaited.
+            let _ = requests.send(bytes);
+        }
         thread::spawn(move || write_all(input, &to_write));
         let (sender, responses) = channel();
+        let launched = launch.launcher.is_some();
+        let greeted = Arc::<AtomicBool>::default();
+        let greets = Arc::clone(&greeted);
         thread::spawn(move || {
             let mut output = BufReader::new(output);
             let mut answers = Vec::new();
+            match greeting::check(&mut output, launched) {
+                Ok(true) => greets.store(true, Ordering::Relaxed),
+                Ok(false) => return,
+                Err(loss) => {
+                    // A parent that has stopped waiting has no use for it.
+                    let _ = sender.send(vec![(Instant::now(), Err(loss))]);
+                    return;
+                }
+            }
             loop {
                 let message = receive::<Response>(&mut output).transpose();
                 let ended = !matches!(message, Some(Ok(_)));
+                let message = message.map(|m| m.map_err(|e| Loss::Garbage(e.to_string())));
                 answers.extend(message.map(|message| (Instant::now(), message)));
                 // What came together is handed over together.
                 let all = ended || output.buffer().is_empty();
@@ -120,6 +140,8 @@ impl WorkerProcess {
         });
         Ok(Self {
             child: Arc::new(Mutex::new(child)),
+            launched,
+            greeted,
             requests: Some(requests),
             responses,
             came: VecDeque::new(),
@@ -130,10 +152,18 @@ impl WorkerProcess {
         })
     }
 
-    /// Kills the worker as soon as it holds more than `limit` MiB of memory.
+    /// Kills the worker as soon as it holds more than `limit` MiB of memory, unless a launcher hides it.
     pub(crate) fn limit_memory(&mut self, limit: u64) {
+        if self.launched {
+            return;
+        }
         let (child, ended) = (Arc::clone(&self.child), Arc::clone(&self.ended));
         self.memory = Some(MemoryLimit::watch(child, limit, ended));
+    }
+
+    /// True if a worker has greeted.
+    pub(crate) fn has_greeted(&self) -> bool {
+        self.greeted.load(Ordering::Relaxed)
     }
 
     /// The time of the last answer, or of the start.
@@ -167,7 +197,7 @@ impl WorkerProcess {
                     self.answered = at;
                     return Ok(response);
                 }
-                Some((_, Err(e))) => return Err(self.cause(Loss::Garbage(e.to_string()))),
+                Some((_, Err(loss))) => return Err(self.cause(loss)),
                 None => {}
             }
             let left = until.saturating_duration_since(Instant::now());
@@ -213,7 +243,7 @@ impl WorkerProcess {
         };
         // The reader of stderr may still be a moment behind.
         thread::sleep(Duration::from_millis(20));
-        ExitReport::new(loss, status, self.stderr.text())
+        ExitReport::new(loss, status, self.launched, self.stderr.text())
     }
 
     fn wait(&mut self, limit: Duration) -> Option<ExitStatus> {
@@ -246,6 +276,17 @@ impl Drop for WorkerProcess {
             self.kill();
         }
         self.ended.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Returns the error for a worker whose process cannot be started.
+fn cannot_start(launch: &Launch, error: &Error) -> StartError {
+    match launch.launcher.as_ref().and_then(|l| l.prefix.first()) {
+        Some(word) => StartError::Launcher(format!(
+            "the launcher `{}` cannot be started: {error}",
+            word.escape_debug()
+        )),
+        None => StartError::Broken(format!("the worker cannot be started: {error}")),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The worker's side of the protocol: requests are answered until the parent closes the pipe.
 
+use crate::greeting;
 use crate::protocol::{Hello, Payload, Request, Response, encode, receive, send};
 use etalon_backend::{Backend, BackendError, Prepared, Unavailable};
 use std::any::Any;
@@ -23,6 +24,7 @@ pub fn serve(
     input: impl Read + Send + 'static,
     output: &mut impl Write,
 ) -> io::Result<()> {
+    greeting::send(output)?;
     let backend = match open() {
         Ok(backend) => backend,
         Err(unavailable) => return send(output, &Response::Hello(Err(unavailable))),

@@ -151,7 +151,7 @@ impl FailureReport {
             Failure::Lost(loss) => {
                 let ExitReport { message, end } = match worker {
                     Some(process) => process.exit_report(loss),
-                    None => ExitReport::new(loss, None, String::new()),
+                    None => ExitReport::new(loss, None, false, String::new()),
                 };
                 Self {
                     verdict,

@@ -8,6 +8,7 @@ use crate::protocol::{Hello, Response};
 use etalon_backend::BackendError;
 use etalon_case::Case;
 use etalon_frame::Frame;
+use etalon_record::Release;
 use std::time::Duration;
 use thiserror::Error;
 
@@ -18,6 +19,8 @@ const START_TIMEOUT: Duration = Duration::from_secs(60);
 pub struct Worker {
     /// The adapter as the worker describes it.
     pub hello: Hello,
+    /// The release of its driver, where its description says it.
+    pub release: Option<Release>,
     pub(crate) process: WorkerProcess,
 }
 
@@ -31,16 +34,24 @@ impl Worker {
         match process.response(START_TIMEOUT) {
             Ok(Response::Hello(Ok(hello))) => Ok(Self {
                 hello: *hello,
+                release: launch.release.clone(),
                 process,
             }),
             Ok(Response::Hello(Err(unavailable))) => Err(StartError::Unavailable(unavailable)),
             Ok(Response::Done { .. }) => Err(StartError::Broken(
                 "the worker's first message is not a greeting".to_owned(),
             )),
-            Err(loss) => Err(StartError::Broken(format!(
-                "the driver did not start: {}",
-                process.exit_report(loss).message
-            ))),
+            Err(loss) => {
+                // The driver is opened behind the greeting.
+                let of_launcher = launch.launcher.is_some() && !process.has_greeted();
+                let message = process.exit_report(loss).message;
+                Err(match of_launcher {
+                    true => StartError::Launcher(format!(
+                        "no worker answers behind the launcher: {message}"
+                    )),
+                    false => StartError::Broken(format!("the driver did not start: {message}")),
+                })
+            }
         }
     }
 

@@ -6,6 +6,9 @@ use super::order::{self, Members};
 use super::picture::TruthPicture;
 use super::surface::{Overlap, PreparedSurface};
 use etalon_methods::{Coverage, Truth};
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::{available_parallelism, scope};
 
 /// Returns the true picture of a scene.
 ///
@@ -30,22 +33,83 @@ pub fn truth(scene: &Truth) -> TruthPicture {
         .iter()
         .filter_map(PreparedSurface::new)
         .collect();
-    let [width, height] = scene.size;
-    let mut renderer = Renderer {
-        surfaces: &surfaces,
-        background: scene.background,
-        coverage: scene.coverage,
-        picture: TruthPicture {
-            size: scene.size,
-            rgb: vec![scene.background; width as usize * height as usize],
-            error: 0.0,
-        },
-    };
     let all: Vec<usize> = (0..surfaces.len()).collect();
-    if width > 0 && height > 0 {
-        renderer.block([0, 0], [width, height], &all);
+    let (blocks, next) = (blocks(scene.size), AtomicUsize::new(0));
+    let work = || {
+        let mut renderer = Renderer {
+            surfaces: &surfaces,
+            background: scene.background,
+            coverage: scene.coverage,
+            picture: empty(scene),
+        };
+        let mut done = Vec::new();
+        while let Some([low, high]) = blocks.get(next.fetch_add(1, Ordering::Relaxed)) {
+            renderer.block(*low, *high, &all);
+            done.push([*low, *high]);
+        }
+        (renderer.picture, done)
+    };
+    let threads = available_parallelism().map_or(1, usize::from);
+    let parts: Vec<(TruthPicture, Vec<[[u32; 2]; 2]>)> = scope(|scope| {
+        let others: Vec<_> = (1..threads.min(blocks.len()))
+            .map(|_| scope.spawn(work))
+            .collect();
+        let own = work();
+        let others = others
+            .into_iter()
+            .map(|o| o.join().unwrap_or_else(|cause| resume_unwind(cause)));
+        [own].into_iter().chain(others).collect()
+    });
+    let mut picture = empty(scene);
+    for (part, done) in parts {
+        picture.error = picture.error.max(part.error);
+        for [low, high] in done {
+            for y in low[1]..high[1] {
+                let row = y as usize * scene.size[0] as usize;
+                let texels = row + low[0] as usize..row + high[0] as usize;
+                picture.rgb[texels.clone()].copy_from_slice(&part.rgb[texels]);
+            }
+        }
     }
-    renderer.picture
+    picture
+}
+
+/// A picture of the background alone.
+fn empty(scene: &Truth) -> TruthPicture {
+    let [width, height] = scene.size;
+    TruthPicture {
+        size: scene.size,
+        rgb: vec![scene.background; width as usize * height as usize],
+        error: 0.0,
+    }
+}
+
+/// Parts of a picture for threads, several times as many as there are cores since some take longer: its corners
+/// as [`Renderer::block`] would halve it, so that no texel depends on the number of threads.
+fn blocks([width, height]: [u32; 2]) -> Vec<[[u32; 2]; 2]> {
+    const TEXELS: u64 = 1024;
+    let mut blocks = Vec::new();
+    let mut open = match width > 0 && height > 0 {
+        true => vec![[[0, 0], [width, height]]],
+        false => Vec::new(),
+    };
+    while let Some([low, high]) = open.pop() {
+        if u64::from(high[0] - low[0]) * u64::from(high[1] - low[1]) <= TEXELS {
+            blocks.push([low, high]);
+            continue;
+        }
+        open.extend(halves(low, high));
+    }
+    blocks
+}
+
+/// A block in halves, along its longer side.
+fn halves(low: [u32; 2], high: [u32; 2]) -> [[[u32; 2]; 2]; 2] {
+    let axis = usize::from(high[1] - low[1] > high[0] - low[0]);
+    let (mut before, mut after) = (high, low);
+    before[axis] = low[axis] + (high[axis] - low[axis]) / 2;
+    after[axis] = before[axis];
+    [[low, before], [after, high]]
 }
 
 /// The picture while blocks of it are filled.
@@ -82,12 +146,9 @@ impl Renderer<'_> {
             };
             return self.fill(low, high, color);
         }
-        let axis = usize::from(height > width);
-        let (mut before, mut after) = (high, low);
-        before[axis] = low[axis] + (high[axis] - low[axis]) / 2;
-        after[axis] = before[axis];
-        self.block(low, before, &touching);
-        self.block(after, high, &touching);
+        for [low, high] in halves(low, high) {
+            self.block(low, high, &touching);
+        }
     }
 
     fn fill(&mut self, low: [u32; 2], high: [u32; 2], color: [f64; 3]) {

@@ -187,6 +187,17 @@ pub(crate) enum QuickWire {
     Any(Vec<BTreeMap<String, String>>),
 }
 
+impl QuickWire {
+    /// True if each case has its like with every value of an axis.
+    pub(crate) fn takes_all_of(&self, axis: &str) -> bool {
+        match self {
+            Self::Pairwise | Self::Each(_) | Self::First(_) => false,
+            Self::Where(due) => !due.contains_key(axis),
+            Self::Any(rows) => rows.iter().all(|due| !due.contains_key(axis)),
+        }
+    }
+}
+
 /// One literal colour that must come back.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

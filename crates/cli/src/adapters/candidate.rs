@@ -5,14 +5,14 @@ use super::cache;
 use super::description::{Description, Resolved, Unresolved};
 use super::devices::HardwareDevice;
 use super::hidden::Hidden;
-use super::open::Open;
+use super::open::{FROM_INPUT, Open};
 use super::origin::Origin;
 use super::planted_fault::PlantedFault;
 use super::query::Query;
 use super::runtime_folder::default_runtime_folder;
 use etalon_backend::AdapterInfo;
 use etalon_record::AbsentAdapter;
-use etalon_runner::{Launch, StartError, Worker};
+use etalon_runner::{Launch, Launcher, StartError, Worker};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -24,7 +24,7 @@ const LIBRARY_PATH: &str = "LD_LIBRARY_PATH";
 /// An adapter that may be usable.
 pub(super) enum Candidate {
     /// An entry of this file; `None` is the built-in one.
-    Described(Description, Option<PathBuf>),
+    Described(Box<Description>, Option<PathBuf>),
     /// A device that a backend enumerated.
     Enumerated(Open),
     /// An adapter that is not listed.
@@ -65,7 +65,7 @@ fn open(name: &str, backend: BackendName) -> Open {
 
 impl Candidate {
     pub(super) fn described(description: Description, file: Option<&Path>) -> Self {
-        Self::Described(description, file.map(Path::to_owned))
+        Self::Described(Box::new(description), file.map(Path::to_owned))
     }
 
     pub(super) fn enumerated(device: HardwareDevice, backend: BackendName) -> Self {
@@ -144,18 +144,20 @@ impl Candidate {
                 let remedy = if own { &u.remedy } else { self.remedy() };
                 NoStart::Absent(self.absent(&u.reason, remedy))
             }
+            StartError::Launcher(reason) => {
+                let file = match self {
+                    Self::Described(_, Some(file)) => file.display().to_string(),
+                    _ => "the built-in adapters.json".to_owned(),
+                };
+                NoStart::Wrong(format!("{file}: entry `{}`: {reason}", self.name()))
+            }
             StartError::Broken(reason) => {
                 let backend = self.open(&resolved, query.validate).backend;
                 NoStart::Failed(backend, self.absent(reason, self.remedy()))
             }
         })?;
-        if let Self::Described(
-            Description {
-                answers: Some(word),
-                ..
-            },
-            _,
-        ) = self
+        if let Self::Described(description, _) = self
+            && let Some(word) = &description.answers
             && !answers(&worker.hello.info, word)
         {
             let info = &worker.hello.info;
@@ -220,8 +222,11 @@ impl Candidate {
     }
 
     fn launch(&self, resolved: &Resolved, query: &Query<'_>) -> Result<Launch, String> {
-        let program = std::env::current_exe()
-            .map_err(|e| format!("cannot find the program file of etalon: {e}"))?;
+        let program = match &resolved.program {
+            Some(program) => program.clone(),
+            None => std::env::current_exe()
+                .map_err(|e| format!("cannot find the program file of etalon: {e}"))?,
+        };
         let mut environment = resolved.environment.clone();
         if let Some(manifest) = &resolved.manifest {
             let manifest = manifest.to_string_lossy().into_owned();
@@ -235,7 +240,10 @@ impl Candidate {
             }
         }
         if !resolved.library_path.is_empty() {
-            let before = std::env::var_os(LIBRARY_PATH).unwrap_or_default();
+            let here = resolved.launcher.is_empty();
+            let before = std::env::var_os(LIBRARY_PATH)
+                .filter(|_| here)
+                .unwrap_or_default();
             let before = std::env::split_paths(&before).filter(|p| !p.as_os_str().is_empty());
             let folders = resolved.library_path.iter().cloned().chain(before);
             let path = std::env::join_paths(folders).map_err(|e| e.to_string())?;
@@ -248,11 +256,21 @@ impl Candidate {
         environment.extend(default_runtime_folder().map(|(name, value)| (name, Some(value))));
         let open = serde_json::to_string(&self.open(resolved, query.validate))
             .map_err(|e| e.to_string())?;
+        let launcher = (!resolved.launcher.is_empty()).then(|| Launcher {
+            prefix: resolved.launcher.clone(),
+            open: open.clone(),
+        });
+        let open = launcher.as_ref().map_or(open, |_| FROM_INPUT.to_owned());
         Ok(Launch {
             adapter: self.name().to_owned(),
             program,
             arguments: vec!["worker".to_owned(), "--open".to_owned(), open],
             environment,
+            launcher,
+            release: match self {
+                Self::Described(description, _) => description.release(),
+                Self::Enumerated(_) | Self::Hidden(_) => None,
+            },
         })
     }
 
@@ -267,6 +285,7 @@ impl Candidate {
         };
         Origin {
             described_in,
+            launcher: resolved.launcher,
             environment: launch.environment.iter().cloned().collect(),
             manifest: resolved.manifest,
             egl: resolved.egl,

@@ -4,6 +4,7 @@ use super::backend_name::BackendName;
 use super::names::{MAX_NAME, is_name};
 use crate::failure::Failure;
 use etalon_backend::{CallFault, ReadFault};
+use etalon_record::Release;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
@@ -31,7 +32,7 @@ const MANIFEST_FOLDERS: [&str; 6] = [
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Description {
-    /// The adapter's name: ASCII letters, digits, `:`, `-`, `_` and `.`, at most [`MAX_NAME`].
+    /// The adapter's name: ASCII letters, digits, `:`, `-`, `_`, `.` and `@`, at most [`MAX_NAME`].
     pub(super) name: String,
     pub(super) backend: BackendName,
     /// Environment variables of the worker; `null` removes a variable.
@@ -58,6 +59,16 @@ pub(super) struct Description {
     /// A planted fault of the driver's calls; no file can name one.
     #[serde(skip)]
     pub(super) call_fault: Option<CallFault>,
+    /// The words of a command behind which the worker runs elsewhere: another userland, a container, another
+    /// machine. Paths are then those of that place and not checked.
+    #[serde(default)]
+    launcher: Vec<String>,
+    /// The path of etalon behind the launcher; by default this program's own.
+    program: Option<String>,
+    /// The driver that it is a release of; with `version`.
+    line: Option<String>,
+    /// The version of the release: numbers with dots.
+    version: Option<String>,
     /// The way to get the driver.
     #[serde(default)]
     pub(super) remedy: String,
@@ -66,6 +77,10 @@ pub(super) struct Description {
 /// An entry with the paths and variables of this machine.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Resolved {
+    /// The words of the launcher; none if the worker runs here.
+    pub(super) launcher: Vec<String>,
+    /// The path of etalon behind the launcher, if it is another.
+    pub(super) program: Option<PathBuf>,
     pub(super) environment: Vec<(String, Option<String>)>,
     pub(super) manifest: Option<PathBuf>,
     pub(super) egl: Option<PathBuf>,
@@ -101,6 +116,59 @@ pub(crate) fn described_names(file: Option<&Path>) -> Result<Vec<String>, Failur
         all.append(&mut read(file)?);
     }
     Ok(all.into_iter().map(|entry| entry.name).collect())
+}
+
+/// Returns the adapters of a line, oldest release first.
+///
+/// # Errors
+/// If there are fewer than two, or two of one version.
+pub(crate) fn releases_of(
+    file: Option<&Path>,
+    line: &str,
+) -> Result<Vec<(String, Release)>, Failure> {
+    let entries = match file {
+        Some(file) => read(file)?,
+        None => built_in()?,
+    };
+    let what = file.map_or("the built-in adapters.json".to_owned(), |f| {
+        f.display().to_string()
+    });
+    let described = |entry: &Description| Some((entry.name.clone(), entry.release()?));
+    let all: Vec<(String, Release)> = entries.iter().filter_map(described).collect();
+    let mut releases: Vec<(String, Release)> = all
+        .iter()
+        .filter(|(_, r)| r.line == line)
+        .cloned()
+        .collect();
+    releases.sort_by_key(|(_, release)| version_key(&release.version));
+    if let Some(pair) = releases.windows(2).find(|pair| pair[0].1 == pair[1].1) {
+        return Err(Failure::usage(format!(
+            "{what}: `{}` and `{}` are both version {} of {line}; give one of them a line of its own",
+            pair[0].0, pair[1].0, pair[0].1.version
+        )));
+    }
+    if releases.len() < 2 {
+        let lines: BTreeSet<&str> = all.iter().map(|(_, r)| r.line.as_str()).collect();
+        let known = match lines.len() {
+            0 => "none; --adapters takes a file whose entries have `line` and `version`".to_owned(),
+            _ => lines.into_iter().collect::<Vec<_>>().join(", "),
+        };
+        return Err(Failure::usage(format!(
+            "{what}: {} of the line `{}`, and a search needs two; its lines are: {known}",
+            match releases.len() {
+                0 => "no release",
+                _ => "one release",
+            },
+            line.escape_default()
+        )));
+    }
+    Ok(releases)
+}
+
+/// Returns the numbers of a version, by which it is ordered.
+fn version_key(version: &str) -> Vec<u64> {
+    let parts = version.split('.').map(|part| part.parse().unwrap_or(0));
+    parts.collect()
 }
 
 /// Reads the entries of a file.
@@ -157,8 +225,8 @@ impl Description {
     fn check(&self) -> Result<(), String> {
         if !is_name(&self.name) {
             return Err(format!(
-                "a name starts with an ASCII letter or digit and continues with letters, digits, `:`, `-`, `_` \
-                 and `.`, at most {MAX_NAME} in all"
+                "a name starts with an ASCII letter or digit and continues with letters, digits, `:`, `-`, `_`, \
+                 `.` and `@`, at most {MAX_NAME} in all"
             ));
         }
         for (name, value) in &self.environment {
@@ -177,6 +245,8 @@ impl Description {
         {
             return Err("a path is empty or holds a zero".to_owned());
         }
+        self.check_launcher()?;
+        self.check_release()?;
         let is_gl = matches!(self.backend, BackendName::Gl | BackendName::GlEs);
         if self.egl.is_some() && !is_gl {
             return Err(
@@ -193,6 +263,56 @@ impl Description {
         Ok(())
     }
 
+    fn check_launcher(&self) -> Result<(), String> {
+        let mut words = self.launcher.iter().chain(&self.program);
+        if words.any(|word| word.contains('\0'))
+            || self.launcher.first().is_some_and(String::is_empty)
+        {
+            return Err("`launcher` and `program` hold a zero, or no command".to_owned());
+        }
+        if self.program.is_some() && self.launcher.is_empty() {
+            return Err("`program` is for entries with a `launcher`; remove it".to_owned());
+        }
+        let named = |text: &String| !text.contains('/');
+        if !self.launcher.is_empty() && self.manifests.iter().any(named) {
+            return Err(
+                "behind a `launcher` manifests are not searched; give the path there".to_owned(),
+            );
+        }
+        Ok(())
+    }
+
+    fn check_release(&self) -> Result<(), String> {
+        match (&self.line, &self.version) {
+            (None, None) => Ok(()),
+            (Some(line), Some(version)) => {
+                if !is_name(line) {
+                    return Err("a line is named as an adapter is".to_owned());
+                }
+                let numbers = version.split('.').all(|part| part.parse::<u64>().is_ok());
+                match numbers {
+                    true => Ok(()),
+                    false => Err(format!(
+                        "the version `{}` is not made of numbers with dots",
+                        version.escape_default()
+                    )),
+                }
+            }
+            _ => Err("`line` and `version` belong together; give both or none".to_owned()),
+        }
+    }
+
+    /// The release of the driver that the entry speaks of.
+    pub(super) fn release(&self) -> Option<Release> {
+        let (Some(line), Some(version)) = (&self.line, &self.version) else {
+            return None;
+        };
+        Some(Release {
+            line: line.clone(),
+            version: version.clone(),
+        })
+    }
+
     /// Resolves the entry on this machine; `folder` is the folder of its file.
     pub(super) fn resolve(
         &self,
@@ -204,6 +324,10 @@ impl Description {
             let value = value.as_deref().map(|v| expand(v, variable)).transpose()?;
             resolved.environment.push((name.clone(), value));
         }
+        for word in &self.launcher {
+            resolved.launcher.push(expand(word, variable)?);
+        }
+        let here = self.launcher.is_empty();
         let path = |text: &str| -> Result<PathBuf, Unresolved> {
             let text = expand(text, variable)?;
             // A name without a folder is searched by the loader.
@@ -216,7 +340,7 @@ impl Description {
         };
         for text in &self.library_path {
             let found = folder.join(path(text)?);
-            if !found.is_dir() {
+            if here && !found.is_dir() {
                 return Err(missing(format!(
                     "the folder {} does not exist",
                     found.display()
@@ -226,7 +350,7 @@ impl Description {
         }
         if let Some(text) = &self.egl {
             let found = path(text)?;
-            if found.components().count() > 1 && !found.is_file() {
+            if here && found.components().count() > 1 && !found.is_file() {
                 return Err(missing(format!(
                     "the library {} does not exist",
                     found.display()
@@ -236,8 +360,15 @@ impl Description {
         }
         let manifests = self.manifests.iter().map(|text| path(text));
         let manifests = manifests.collect::<Result<Vec<_>, _>>()?;
+        if let Some(program) = &self.program {
+            resolved.program = Some(path(program)?);
+        }
         if let Some(first) = manifests.first() {
-            let found = manifest(&manifests, variable).ok_or_else(|| {
+            let found = match here {
+                true => manifest(&manifests, variable),
+                false => Some(first.clone()),
+            };
+            let found = found.ok_or_else(|| {
                 missing(format!(
                     "no Vulkan driver manifest {} found",
                     first.display()
@@ -383,6 +514,30 @@ mod tests {
                 r#"[{"name":"a","backend":"cpu","device":0}]"#,
                 "backend cpu",
             ),
+            (
+                r#"[{"name":"a","backend":"gl","launcher":[""]}]"#,
+                "no command",
+            ),
+            (
+                r#"[{"name":"a","backend":"gl","program":"/x"}]"#,
+                "entries with a `launcher`",
+            ),
+            (
+                r#"[{"name":"a","backend":"vulkan","launcher":["env"],"manifests":["x.json"]}]"#,
+                "the path there",
+            ),
+            (
+                r#"[{"name":"a","backend":"gl","line":"mesa"}]"#,
+                "belong together",
+            ),
+            (
+                r#"[{"name":"a","backend":"gl","line":"mesa","version":"22-rc1"}]"#,
+                "numbers with dots",
+            ),
+            (
+                r#"[{"name":"a","backend":"gl","line":"me sa","version":"22"}]"#,
+                "named as an adapter",
+            ),
             (&long, "at most 64"),
         ] {
             let error = parse(text, "mine.json").map(|_| ()).unwrap_err();
@@ -417,6 +572,7 @@ mod tests {
                 manifest: Some(folder.path().join("./driver.json")),
                 egl: Some(PathBuf::from("libEGL.so.9")),
                 library_path: vec![folder.path().join("a")],
+                ..Resolved::default()
             }
         );
         for (key, word) in [

@@ -5,7 +5,7 @@ pub(super) const MAX_NAME: usize = 64;
 
 /// True if a text is a valid name.
 pub(super) fn is_name(text: &str) -> bool {
-    let inside = |c: char| c.is_ascii_alphanumeric() || [':', '-', '_', '.'].contains(&c);
+    let inside = |c: char| c.is_ascii_alphanumeric() || [':', '-', '_', '.', '@'].contains(&c);
     text.len() <= MAX_NAME
         && text.starts_with(|c: char| c.is_ascii_alphanumeric())
         && text.chars().all(inside)
@@ -15,7 +15,13 @@ pub(super) fn is_name(text: &str) -> bool {
 pub(super) fn sanitized(name: &str) -> String {
     let plain: String = name
         .chars()
-        .map(|c| if is_name(&format!("a{c}")) { c } else { '-' })
+        .map(|c| {
+            if c != '@' && is_name(&format!("a{c}")) {
+                c
+            } else {
+                '-'
+            }
+        })
         .take(MAX_NAME - 4)
         .collect();
     if is_name(&plain) {
@@ -30,9 +36,21 @@ mod tests {
     use super::*;
 
     #[test]
+    fn no_device_is_named_as_a_release() {
+        assert_eq!(sanitized("gl:a@b"), "gl:a-b");
+    }
+
+    #[test]
     fn names_are_plain() {
         let longest = "a".repeat(MAX_NAME);
-        for good in ["cpu", "gl:es:llvmpipe-25", "vulkan:radv_1.2", "9", &longest] {
+        for good in [
+            "cpu",
+            "gl:softpipe@26.2.6",
+            "gl:es:llvmpipe-25",
+            "vulkan:radv_1.2",
+            "9",
+            &longest,
+        ] {
             assert!(is_name(good), "{good}");
         }
         let longer = "a".repeat(MAX_NAME + 1);

@@ -1,10 +1,13 @@
-//! The request that a worker process gets on its command line.
+//! The request that a worker process gets on its command line, or behind a launcher through its standard input.
 
 use super::backend_name::BackendName;
 use super::hidden::Hidden;
 use etalon_backend::{CallFault, ReadFault};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
+
+/// The word in place of a request that comes through standard input.
+pub(crate) const FROM_INPUT: &str = "-";
 
 /// The adapter that a worker opens.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -9,6 +9,8 @@ use std::path::PathBuf;
 pub(crate) struct Origin {
     /// `built-in`, `found` by enumeration, or the path of the user's file.
     pub(crate) described_in: String,
+    /// The words of the launcher; none if the worker runs here.
+    pub(crate) launcher: Vec<String>,
     /// Environment variables of the worker; `null` is one that is removed.
     pub(crate) environment: BTreeMap<String, Option<String>>,
     /// The manifest of the Vulkan driver, if one was chosen.

@@ -26,6 +26,7 @@ pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, Str
             driver_id: String::new(),
             api_version: String::new(),
             software: false,
+            release: None,
             limits: Limits {
                 api,
                 version: etalon_frame::ApiVersion::UNKNOWN,

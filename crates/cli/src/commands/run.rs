@@ -4,7 +4,9 @@ use crate::adapters::{
     Adapters, Query, cache, described_names, discover, refuse_absent, take_unstarted,
 };
 use crate::blessing::{bless, to_bless};
-use crate::cases::{all_ids, chosen, is_measuring, is_measuring_area, library, round_trips};
+use crate::cases::{
+    all_ids, chosen, is_measuring, is_measuring_area, left_out, library, round_trips,
+};
 use crate::catalogue::catalogue;
 use crate::expectations::{self, today};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
@@ -202,7 +204,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     // A new folder is created only once there is something to write.
     let _lock = early.map_or_else(lock, Ok)?;
     out.clear_other()?;
-    let header = header(arguments, &cases, &selection, shard, &adapters, &dead);
+    let mut header = header(arguments, &cases, &selection, shard, &adapters, &dead);
+    header.settings.left_out = Some(left_out(&arguments.selection, &selection)?);
     let names: Vec<String> = header.adapters.iter().map(|a| a.name.clone()).collect();
     let plan = Plan {
         reports: report_files::RUN,
@@ -383,6 +386,8 @@ fn header(
         settings: Settings {
             selection: selection_digest(selection.iter().map(String::as_str)),
             shard,
+            profile: Some(arguments.selection.profile.name().to_owned()),
+            left_out: None,
             shuffle: arguments.shuffle,
             repeat: (arguments.repeat > 1).then_some(arguments.repeat),
             shader_cache: Some(

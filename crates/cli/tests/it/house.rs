@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 19] = [
+const TABLE: [(&str, &[&str], &[&str]); 20] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -53,13 +53,15 @@ const TABLE: [(&str, &[&str], &[&str]); 19] = [
         ],
         &[],
     ),
-    ("report", &["frame", "record", "stats"], &[]),
+    ("explore", &["case"], &[]),
+    ("report", &["frame", "methods", "record", "stats"], &[]),
     (
         "cli",
         &[
             "backend",
             "case",
             "cpu",
+            "explore",
             "frame",
             "gl",
             "mutants",

@@ -3,6 +3,7 @@
 
 mod adapters;
 mod bench;
+mod bisect;
 mod call_faults;
 mod check;
 mod ci_files;
@@ -15,11 +16,13 @@ mod expectations;
 mod findings;
 mod help;
 mod house;
+mod launchers;
 mod methods;
 mod mutants;
 mod parts;
 mod pipes;
 mod read_faults;
+mod reduce;
 mod round_trips;
 mod runs;
 mod sample;

@@ -2,12 +2,16 @@
 //!
 //! Each scene is a ground on texel borders and pieces with slanted edges on it, everything opaque.
 
+mod claims;
+mod lessons;
 mod pieces;
 mod scenes;
 #[cfg(test)]
 mod tests;
 mod wire;
 
+pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
 pub(crate) use wire::Wire;
 
 use crate::error::ParameterError;

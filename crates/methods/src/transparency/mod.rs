@@ -3,7 +3,9 @@
 //! Opaque surfaces come first or last, as a method needs it; all methods test transparent surfaces
 //! against their depth. Blending equations are those of Porter and Duff (1984).
 
+mod claims;
 mod draws;
+mod lessons;
 mod many_samples;
 mod ordered;
 mod peeling;
@@ -13,6 +15,8 @@ mod tests;
 mod weighted;
 mod wire;
 
+pub(crate) use claims::CLAIMS;
+pub(crate) use lessons::LESSONS;
 pub(crate) use wire::Wire;
 
 use crate::error::{ParameterError, within};

@@ -32,6 +32,7 @@ fn header() -> Header {
             driver_id: "7".to_owned(),
             api_version: "3.2".to_owned(),
             software: true,
+            release: None,
             limits: Limits {
                 api: Api::OpenGlEs,
                 version: etalon_frame::ApiVersion::new(3, 2),
@@ -103,6 +104,7 @@ fn measured(f: &[u64; 7]) -> Measured {
             wall: eighths(f[6]),
             cpu: 0.001,
             gpu: even(f[5]).then_some(0.002),
+            interval: even(f[4]).then_some([0.25, 0.5]),
         }),
         passes: f[0] as u32,
         draws: f[1] as u32,
@@ -138,7 +140,7 @@ prop_compose! {
             yardstick_exact: f[4], yardstick_codes: f[5], yardstick_asserted: f[6],
         };
         let accuracy = |f: &[u64; 7]| Accuracy {
-            aspect: Aspect::Depth, channels: f[0], mean: eighths(f[1]), max: eighths(f[2]),
+            aspect: Aspect::Depth, encoding: (f[3].is_multiple_of(2)).then_some(ChannelEncoding::Unorm(24)), channels: f[0], mean: eighths(f[1]), max: eighths(f[2]),
         };
         Record {
             process: lost.map(|(signal, stderr)| ProcessEnd {

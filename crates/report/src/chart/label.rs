@@ -2,8 +2,11 @@
 
 use super::plot::{BOTTOM, LEFT, RIGHT, TOP};
 
-/// Texts beside points, each where it covers neither a point nor another text; a text that finds no
-/// such place is left out, since hover text and table have it too.
+/// The distance in which a line is sampled, in chart units.
+const STEP: f64 = 4.0;
+
+/// Texts beside points, each where it covers neither a point, a line nor another text; a text that finds no
+/// such place is left out, since the legend, hover text and table have it too.
 pub(crate) struct Labels {
     taken: Vec<[f64; 4]>,
 }
@@ -17,9 +20,22 @@ impl Labels {
         }
     }
 
+    /// Keeps texts clear of a line through these corners.
+    pub(crate) fn avoid(&mut self, corners: &[(f64, f64)]) {
+        for pair in corners.windows(2) {
+            let [(x0, y0), (x1, y1)] = [pair[0], pair[1]];
+            let steps = ((x1 - x0).hypot(y1 - y0) / STEP).ceil().clamp(1.0, 500.0);
+            for i in 0..=steps as u32 {
+                let t = f64::from(i) / steps;
+                let (x, y) = (x0 + (x1 - x0) * t, y0 + (y1 - y0) * t);
+                self.taken.push([x - 1.5, y - 1.5, x + 1.5, y + 1.5]);
+            }
+        }
+    }
+
     /// The place of a text that belongs to a point: its left end and its base line.
     pub(crate) fn place(&mut self, text: &str, (x, y): (f64, f64)) -> Option<(f64, f64)> {
-        let width = 5.6 * text.chars().count() as f64;
+        let width = 5.8 * text.chars().count() as f64;
         let places = [
             (x + 6.0, y - 7.0),
             (x + 8.0, y + 3.5),
@@ -55,12 +71,28 @@ mod tests {
     fn labels_cover_nothing() {
         let mut labels = Labels::new([(100.0, 100.0), (112.0, 100.0)]);
         let (left, base) = labels.place("a method", (100.0, 100.0)).unwrap();
-        let across = left < 117.0 && left + 8.0 * 5.6 > 107.0;
+        let across = left < 117.0 && left + 8.0 * 5.8 > 107.0;
         let along = base - 8.5 < 105.0 && base + 2.0 > 95.0;
         assert!(!(across && along), "{left} {base}");
         let places: Vec<_> = (0..20)
             .map_while(|_| labels.place("a method", (100.0, 100.0)))
             .collect();
         assert!(places.len() < 8, "no room for all");
+    }
+
+    #[test]
+    fn no_line_strikes_through_a_label() {
+        let free = Labels::new([(200.0, 150.0)]).place("method", (200.0, 150.0));
+        let (left, base) = free.unwrap();
+        let mut labels = Labels::new([(200.0, 150.0)]);
+        // A step of a front right through where the text would stand.
+        labels.avoid(&[(200.0, base - 4.0), (300.0, base - 4.0), (300.0, 40.0)]);
+        let (x, y) = labels.place("method", (200.0, 150.0)).unwrap();
+        assert_ne!((x, y), (left, base));
+        let line = base - 4.0;
+        assert!(
+            y + 2.0 < line || y - 8.5 > line || x + 6.0 * 5.8 < 200.0,
+            "{x} {y}"
+        );
     }
 }

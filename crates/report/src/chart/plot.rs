@@ -6,11 +6,11 @@ use maud::{Markup, html};
 
 /// Width and height of a chart in its own units, which are pixels at full size.
 pub(crate) const WIDTH: f64 = 400.0;
-pub(crate) const HEIGHT: f64 = 300.0;
+pub(crate) const HEIGHT: f64 = 280.0;
 /// The plot's place within.
-pub(crate) const LEFT: f64 = 58.0;
-pub(crate) const RIGHT: f64 = WIDTH - 12.0;
-pub(crate) const TOP: f64 = 30.0;
+pub(crate) const LEFT: f64 = 74.0;
+pub(crate) const RIGHT: f64 = WIDTH - 22.0;
+pub(crate) const TOP: f64 = 10.0;
 pub(crate) const BOTTOM: f64 = HEIGHT - 42.0;
 
 /// Height of the band for pictures that are exactly right: none where there are no such pictures.
@@ -71,14 +71,16 @@ impl Plot {
     }
 }
 
-/// One chart: an image with a title and a description for screen readers.
+/// One chart: an image with a description for screen readers below its title, which may take several lines.
 pub(crate) fn chart(height: f64, title: &str, about: &str, body: &Markup) -> Markup {
     let view = format!("0 0 {WIDTH} {height}");
     html! {
-        svg.chart viewBox=(view) width=(WIDTH) height=(height) role="img" {
-            title { (title) ". " (about) }
-            text.head x=(n(LEFT)) y="18" { (title) }
-            (body)
+        figure.plot {
+            figcaption.head { (title) }
+            svg.chart viewBox=(view) width=(WIDTH) height=(height) role="img" {
+                title { (title) ". " (about) }
+                (body)
+            }
         }
     }
 }

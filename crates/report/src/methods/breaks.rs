@@ -25,6 +25,8 @@ pub(super) struct Crossing {
     pub(super) value: f64,
     /// True if the error is above the limit behind it.
     pub(super) leaves: bool,
+    /// The values of the parameter on both sides that were measured.
+    pub(super) between: [f64; 2],
 }
 
 impl Crossing {
@@ -64,6 +66,7 @@ pub(super) fn find(curve: &[(f64, f64)], log: bool) -> Option<Break> {
         crossings.push(Crossing {
             value,
             leaves: beyond(e1),
+            between: [x0, x1],
         });
     }
     Some(Break::Crossings(crossings))
@@ -109,6 +112,11 @@ mod tests {
             panic!()
         };
         assert!((at - 0.5).abs() < 1e-12 && leaves);
+        let Some(Break::Crossings(all)) = find(&[(0.0, 0.1), (2.0, 0.1), (3.0, 0.001)], false)
+        else {
+            panic!()
+        };
+        assert_eq!(all[0].between, [2.0, 3.0], "what was measured beside it");
         // A quarter of the way, falling.
         let [(at, leaves)] = crossings(&[(2.0, 0.1), (6.0, 1e-5)], false)[..] else {
             panic!()

@@ -1,41 +1,46 @@
 //! Claims of the literature, compared with the measurements of a run.
 
-mod claim;
-mod cost;
-mod pair;
-mod picture;
+mod check;
+mod outcome;
+mod words;
 
 use super::data::Methods;
-use claim::{Claim, Figure, Reproduction};
+use check::{Checked, check};
+use etalon_methods::claims;
 use maud::{Markup, html};
-
-fn all() -> impl Iterator<Item = &'static Claim> {
-    cost::CLAIMS.iter().chain(picture::CLAIMS)
-}
+use outcome::{Figure, Holds, Reproduction};
 
 /// The table of claims.
 pub(super) fn section(methods: &Methods<'_>) -> Markup {
-    let checked: Vec<(&Claim, Vec<Figure>)> = all().map(|c| (c, (c.check)(methods))).collect();
+    let checked: Vec<Checked<'_>> = claims().map(|c| check(c, methods)).collect();
     html! {
         p {
-            "Claims of publications, and this run's measurements of them. A claim holds in a scene on an adapter if the figure "
-            "there meets the condition beside it; it is reproduced if it holds everywhere."
+            "Claims of publications, and this run's measurements of them. A claim is checked in every case where all that it "
+            "compares was drawn at the same parameters of the same scene on the same adapter. Times are ratios of medians, with the interval that the "
+            "intervals of both leave; a case whose interval reaches over the limit decides nothing. A claim is reproduced if it holds in every "
+            "case, and not reproduced if it holds in none."
         }
         div.wide { table.text {
-            thead { tr { th { "Claim" } th { "Condition" } th { "Measured" } th { "Outcome" } } }
+            thead { tr { th scope="col" { "Claim" } th scope="col" { "Compared" } th scope="col" { "Measured" } th scope="col" { "Outcome" } } }
             tbody {
-                @for (claim, figures) in &checked {
-                    @let found = Reproduction::of(figures);
+                @for checked in &checked {
+                    @let found = Reproduction::of(&checked.figures);
                     tr {
-                        th scope="row" { (claim.title) br; cite { (claim.source) } }
-                        td { (claim.formula) }
+                        th scope="row" { (checked.claim.title) br; cite { (checked.claim.source) } }
+                        td { (words::compared(checked.claim)) }
                         td {
-                            @if figures.is_empty() { "–" }
-                            @for (text, places, holds) in together(figures) {
-                                div { @if !holds { "✗ " } b { (text) } small { " " (places) } }
+                            @if checked.figures.is_empty() { "–" }
+                            @for told in together(&checked.figures) {
+                                div {
+                                    @if let Some(sign) = told.holds.sign() { (sign) " " }
+                                    b { (told.text) } small { " " (told.places) }
+                                }
+                            }
+                            @if !checked.blind.is_empty() {
+                                div.u { span.chip.u { "not measured" } " on " (checked.blind.join(", ")) ", where fragments are counted before the depth test" }
                             }
                         }
-                        td.verdict class=(found.class()) { span class={ "chip " (found.class()) } { (found.text()) } }
+                        td class={ "verdict " (found.class()) } { span class={ "chip " (found.class()) } { (found.text()) } }
                     }
                 }
             }
@@ -43,42 +48,53 @@ pub(super) fn section(methods: &Methods<'_>) -> Markup {
     }
 }
 
-/// Figures that read the same, with the places they were found in.
-fn together(figures: &[Figure]) -> Vec<(&str, String, bool)> {
-    let mut texts: Vec<(&str, bool)> = Vec::new();
-    for f in figures {
-        if !texts.contains(&(&f.text, f.holds)) {
-            texts.push((&f.text, f.holds));
-        }
-    }
-    let with = |text, holds| {
-        let alike: Vec<&Figure> = figures
-            .iter()
-            .filter(|f| f.text == text && f.holds == holds)
-            .collect();
-        (text, places(&alike, figures), holds)
-    };
-    texts.into_iter().map(|(t, h)| with(t, h)).collect()
+/// Figures of one outcome, as a range.
+struct Told {
+    holds: Holds,
+    text: String,
+    places: String,
 }
 
-/// Scenes, each with its adapters unless those are all that have some figure of the scene.
-fn places(some: &[&Figure], all: &[Figure]) -> String {
-    let mut scenes: Vec<&str> = some.iter().map(|f| f.scene.as_str()).collect();
-    scenes.dedup();
-    let in_scene = |scene: &str| {
-        let here: Vec<&Figure> = some.iter().copied().filter(|f| f.scene == scene).collect();
-        let adapters: Vec<&str> = here.iter().map(|f| f.adapter.as_str()).collect();
-        let every = all.iter().filter(|f| f.scene == scene).count() == here.len();
-        match (scene, adapters.as_slice()) {
-            (scene, [""]) => scene.to_owned(),
-            ("", adapters) if every && adapters.len() > 1 => "all adapters".to_owned(),
-            ("", adapters) => adapters.join(", "),
-            (scene, adapters) if every && adapters.len() > 1 => scene.to_owned(),
-            (scene, adapters) => format!("{scene} on {}", adapters.join(", ")),
+/// The figures of each outcome and each adapter that has others, with the cases they were found in.
+fn together(figures: &[Figure]) -> Vec<Told> {
+    let mut groups: Vec<(Holds, &str, Vec<&Figure>)> = Vec::new();
+    for figure in figures {
+        let same = |g: &&mut (Holds, &str, Vec<&Figure>)| {
+            g.0 == figure.holds && g.1 == figure.scene && g.2[0].texts_alike(figure)
+        };
+        match groups.iter_mut().find(same) {
+            Some(group) => group.2.push(figure),
+            None => groups.push((figure.holds, &figure.scene, vec![figure])),
         }
-    };
-    let parts: Vec<String> = scenes.into_iter().map(in_scene).collect();
-    parts.join("; ")
+    }
+    let told = groups.into_iter().map(|(holds, scene, all)| {
+        let mut adapters: Vec<&str> = Vec::new();
+        let mut settings: Vec<&str> = Vec::new();
+        for f in &all {
+            if !adapters.contains(&f.adapter.as_str()) {
+                adapters.push(&f.adapter);
+            }
+            if !settings.contains(&f.setting.as_str()) {
+                settings.push(&f.setting);
+            }
+        }
+        let at = match settings.as_slice() {
+            [] | [""] => String::new(),
+            [one] => format!(" at {one}"),
+            some => format!(
+                " in {} cases, {} to {}",
+                some.len(),
+                some[0],
+                some[some.len() - 1]
+            ),
+        };
+        Told {
+            holds,
+            text: Figure::range(&all),
+            places: format!("{scene}{at} on {}", adapters.join(", ")),
+        }
+    });
+    told.collect()
 }
 
 #[cfg(test)]

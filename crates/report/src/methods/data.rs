@@ -1,5 +1,6 @@
 //! The method records of a run, sorted by question, scene and method.
 
+use super::name::value_text;
 use etalon_record::{Measured, Record, Run};
 use std::collections::BTreeMap;
 
@@ -87,6 +88,36 @@ pub(crate) struct Point<'a> {
     pub(crate) measured: &'a Measured,
 }
 
+/// The parameters of a scene at which methods are held against each other: only what was drawn at the same
+/// ones is compared.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Setting<'a> {
+    /// As [`Series::variant`].
+    pub(crate) variant: String,
+    /// The parameter and its value.
+    pub(crate) parameter: Option<(&'a str, f64)>,
+}
+
+impl Setting<'_> {
+    /// The setting in words: `alpha 0.4, address=repeat`; empty where the scene has no parameter.
+    pub(crate) fn text(&self) -> String {
+        let parameter = self
+            .parameter
+            .map(|(name, value)| format!("{name} {}", value_text(value)));
+        let variant = (!self.variant.is_empty()).then(|| self.variant.clone());
+        let parts: Vec<String> = parameter.into_iter().chain(variant).collect();
+        parts.join(", ")
+    }
+
+    /// The setting behind a name: ` at alpha 0.4`; empty where the scene has no parameter.
+    pub(crate) fn at(&self) -> String {
+        match self.text() {
+            text if text.is_empty() => text,
+            text => format!(" at {text}"),
+        }
+    }
+}
+
 /// The records of a family of cases.
 type Family<'a> = Vec<(&'a Record, &'a Measured)>;
 
@@ -107,9 +138,25 @@ impl Point<'_> {
         let wall = self.measured.time?.wall;
         (usable(wall) && wall >= 1e-12).then_some(wall)
     }
+
+    /// The interval of the frame time, where there is one around it that can be drawn.
+    pub(crate) fn interval(&self) -> Option<[f64; 2]> {
+        let wall = self.wall()?;
+        let [low, high] = self.measured.time?.interval?;
+        let drawn = usable(high) && low >= 1e-12 && low <= wall && wall <= high;
+        drawn.then_some([low, high])
+    }
 }
 
 impl<'a> Series<'a> {
+    /// The setting of one of its points.
+    pub(crate) fn setting(&self, point: &Point<'a>) -> Setting<'a> {
+        Setting {
+            variant: self.variant.clone(),
+            parameter: self.parameter.zip(point.value),
+        }
+    }
+
     /// Method and variant in one text.
     pub(crate) fn name(&self) -> String {
         match self.variant.as_str() {
@@ -125,13 +172,6 @@ impl<'a> Series<'a> {
         values
     }
 
-    /// The value that stands for the whole series where only one can: the middle one, of an even number
-    /// the larger of both.
-    pub(crate) fn middle(&self) -> Option<f64> {
-        let values = self.values();
-        values.get(values.len() / 2).copied()
-    }
-
     /// The points of one adapter in the order of values.
     pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = &Point<'a>> {
         self.points.iter().filter(move |p| p.adapter == adapter)
@@ -142,6 +182,80 @@ impl<'a> Series<'a> {
         self.on(adapter)
             .filter_map(|p| Some((p.value?, p.error()?)))
             .collect()
+    }
+}
+
+impl<'a> SceneSeries<'a> {
+    /// Every setting that some method was drawn at: by variant, then along the parameter.
+    pub(crate) fn settings(&self) -> Vec<Setting<'a>> {
+        let mut all: Vec<Setting<'a>> = Vec::new();
+        for series in &self.series {
+            for point in &series.points {
+                let setting = series.setting(point);
+                if !all.contains(&setting) {
+                    all.push(setting);
+                }
+            }
+        }
+        all.sort_by(|a, b| {
+            let key = |s: &Setting<'a>| s.parameter.map_or(("", 0.0), |p| p);
+            let ((a_name, a_value), (b_name, b_value)) = (key(a), key(b));
+            a.variant
+                .cmp(&b.variant)
+                .then(a_name.cmp(b_name))
+                .then(a_value.total_cmp(&b_value))
+        });
+        all
+    }
+
+    /// The setting that stands for the scene where only one can: of those at which most methods were
+    /// measured, the middle one of the first variant.
+    pub(crate) fn main(&self) -> Option<Setting<'a>> {
+        let all = self.settings();
+        let measured = |s: &Setting<'a>| self.measured(s).len();
+        let most = all.iter().map(measured).max()?;
+        let mut best: Vec<Setting<'a>> = all.into_iter().filter(|s| measured(s) == most).collect();
+        let variant = best.first()?.variant.clone();
+        best.retain(|s| s.variant == variant);
+        Some(best.swap_remove(best.len() / 2))
+    }
+
+    /// What was drawn at a setting.
+    pub(crate) fn at<'s>(
+        &'s self,
+        setting: &'s Setting<'a>,
+    ) -> impl Iterator<Item = (&'s Series<'a>, &'s Point<'a>)> {
+        self.series.iter().flat_map(move |series| {
+            let here = move |p: &&Point<'a>| series.setting(p) == *setting;
+            series.points.iter().filter(here).map(move |p| (series, p))
+        })
+    }
+
+    /// The methods that have an error at a setting on some adapter, each once.
+    pub(crate) fn measured(&self, setting: &Setting<'a>) -> Vec<&'a str> {
+        let some = self.at(setting).filter(|(_, p)| p.error().is_some());
+        let mut names: Vec<&str> = some.map(|(s, _)| s.method).collect();
+        names.dedup();
+        names
+    }
+
+    /// The methods that the run drew of the scene at any setting, each once.
+    pub(crate) fn methods(&self) -> Vec<&'a str> {
+        let mut names: Vec<&str> = self.series.iter().map(|s| s.method).collect();
+        names.dedup();
+        names
+    }
+
+    /// The methods that were drawn at another setting or on another adapter, but not at this one on this
+    /// adapter.
+    pub(crate) fn unmeasured(&self, setting: &Setting<'a>, adapter: usize) -> Vec<&'a str> {
+        let here = |method: &str| {
+            self.at(setting)
+                .any(|(s, p)| s.method == method && p.adapter == adapter && p.error().is_some())
+        };
+        let mut names = self.methods();
+        names.retain(|method| !here(method));
+        names
     }
 }
 
@@ -330,9 +444,31 @@ mod tests {
             .map(|p| (p.value, p.adapter))
             .collect();
         assert_eq!(values, [(Some(0.1), 0), (Some(0.1), 1), (Some(0.9), 0)]);
-        assert_eq!(windows.series[1].middle(), Some(0.9));
+        let settings: Vec<String> = windows.settings().iter().map(Setting::text).collect();
+        let due = [
+            "alpha 0.1, size=4",
+            "alpha 0.5, size=4",
+            "alpha 0.9, size=4",
+            "alpha 0.5, size=8",
+        ];
+        assert_eq!(settings, due);
         assert_eq!(methods.kinds(), [Kind::Software, Kind::Hardware]);
         assert_eq!(methods.questions[1].style("b"), 1);
+    }
+
+    #[test]
+    fn only_what_was_drawn_at_the_same_parameters_is_held_together() {
+        let of =
+            |method: &str, value| Made::new(&format!("t/wedge/method={method}")).at("o", value);
+        // A covering array: each method at a value of its own, two of them at 4.
+        let run = run(&[of("a", 1.0), of("b", 2.0), of("c", 4.0), of("d", 4.0)]);
+        let methods = Methods::of(&run).unwrap();
+        let scene = methods.scenes().next().unwrap();
+        let main = scene.main().unwrap();
+        assert_eq!(main.text(), "o 4");
+        assert_eq!(scene.measured(&main), ["c", "d"]);
+        assert_eq!(scene.unmeasured(&main, 0), ["a", "b"]);
+        assert_eq!(scene.methods().len(), 4);
     }
 
     #[test]

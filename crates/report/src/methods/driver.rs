@@ -1,11 +1,11 @@
 //! The accuracy of drivers: the distance of their codes from the ideal ones, beside their speed.
 
 use crate::chart::{LEFT, RIGHT, Scale, TOP, chart, key, marker, n};
-use crate::numbers::{digits, duration};
+use crate::numbers::{digits, duration, share};
 use crate::page::adapter::breakable;
 use crate::run::grid::Grid;
 use crate::words::plain;
-use etalon_frame::{Accuracy, Aspect};
+use etalon_frame::{Accuracy, Aspect, ChannelEncoding};
 use etalon_record::{Record, Verdict};
 use maud::{Markup, html};
 use std::collections::BTreeMap;
@@ -38,8 +38,8 @@ impl<'a> Figures<'a> {
     }
 }
 
-/// A line of the table: an area's aspect on every adapter.
-type Rows<'a> = BTreeMap<(&'a str, Aspect), Vec<Figures<'a>>>;
+/// A line of the table: an area's aspect in an encoding on every adapter. Codes of two encodings are never added.
+type Rows<'a> = BTreeMap<(&'a str, Aspect, Option<ChannelEncoding>), Vec<Figures<'a>>>;
 
 fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
     let mut rows: Rows<'a> = BTreeMap::new();
@@ -58,7 +58,7 @@ fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
                 };
                 for accuracy in record.accuracy.iter().filter(|a| drawable(a)) {
                     let row = rows
-                        .entry((area.name, accuracy.aspect))
+                        .entry((area.name, accuracy.aspect, accuracy.encoding))
                         .or_insert_with(|| vec![Figures::default(); grid.adapters.len()]);
                     row[column].add(&record.case, accuracy, legal);
                 }
@@ -117,14 +117,15 @@ pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
     }
     let aspects: Vec<Aspect> = [Aspect::Color, Aspect::Depth, Aspect::Stencil]
         .into_iter()
-        .filter(|a| rows.keys().any(|(_, aspect)| aspect == a))
+        .filter(|a| rows.keys().any(|(_, aspect, _)| aspect == a))
         .collect();
     let section = html! {
         section id="accuracy" {
             h2 { "Accuracy and speed of drivers" }
             p {
                 "How far the codes of legal frames lie from the ideal ones, the middle of the yardstick's "
-                "interval, in codes: an ideal value halfway between two codes leaves either of them half a code away. "
+                "interval. Codes of different encodings are steps of different sizes: the charts show shares of the range, from the least "
+                "to the largest value of an encoding, and the table codes too. A float's range is that from a power of two to the next. "
                 "Each mark is an adapter's mean over an area."
             }
             p.legend {
@@ -139,7 +140,8 @@ pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
                 summary { "Table and command" }
                 p.again { "Drawn by " code { (grid.run.header.command.join(" ")) } }
                 p.note {
-                    "Mean and, behind a stroke, the largest distance in codes of legal frames. In brackets, where there "
+                    "Mean and, behind a stroke, the largest distance in codes of legal frames, and below both as shares of the range. An ideal value "
+                    "halfway between two codes leaves either of them half a code away. In brackets, where there "
                     "are any, the largest of frames that failed. A draw time is of one case, drawing and reading "
                     "back, its pipelines made anew; a frame time is of a method case that was drawn again and again. Hover "
                     "over a cell for the case that is farthest off: a depth bias counts in steps that a driver may double, which "
@@ -158,27 +160,28 @@ fn table(grid: &Grid<'_>, rows: &Rows<'_>) -> Markup {
     html! {
         div.wide { table.numbers {
             thead { tr {
-                th { "Area" } th { "Aspect" }
+                th { "Area" } th { "Aspect" } th { "Encoding" }
                 @for adapter in &grid.adapters { th { (breakable(adapter)) } }
             } }
             tbody {
-                @for ((area, aspect), figures) in rows {
+                @for ((area, aspect, encoding), figures) in rows {
                     tr {
                         th scope="row" { (area) } td { (aspect.name()) }
-                        @for f in figures { (cell(f)) }
+                        td { @if let Some(encoding) = encoding { (encoding) } @else { "several" } }
+                        @for f in figures { (cell(f, *encoding)) }
                     }
                 }
                 tr.sum {
-                    th scope="row" colspan="2" { "cases per second" }
+                    th scope="row" colspan="3" { "cases per second" }
                     @for s in &speeds { td { @if let Some(rate) = s.cases_per_second { (digits(rate, 3)) } @else { "–" } } }
                 }
                 tr {
-                    th scope="row" colspan="2" { "median draw time" }
+                    th scope="row" colspan="3" { "median draw time" }
                     @for s in &speeds { td { (time(s.draw)) } }
                 }
                 @if speeds.iter().any(|s| s.frame.is_some()) {
                     tr {
-                        th scope="row" colspan="2" { "median frame time of methods" }
+                        th scope="row" colspan="3" { "median frame time of methods" }
                         @for s in &speeds { td { (time(s.frame)) } }
                     }
                 }
@@ -187,11 +190,29 @@ fn table(grid: &Grid<'_>, rows: &Rows<'_>) -> Markup {
     }
 }
 
-fn cell(figures: &Figures<'_>) -> Markup {
+/// Codes as a share of an encoding's range; none where it is not known.
+fn of_range(codes: f64, encoding: Option<ChannelEncoding>) -> Option<f64> {
+    let part = codes / encoding?.range();
+    part.is_finite().then_some(part)
+}
+
+/// A share of a range; beyond all of it, no more than that is told.
+fn part(value: f64) -> String {
+    if value > 1.0 {
+        "over 100\u{a0}%".to_owned()
+    } else {
+        share(value)
+    }
+}
+
+fn cell(figures: &Figures<'_>, encoding: Option<ChannelEncoding>) -> Markup {
     html! {
         td title=[figures.legal.map(|_| format!("The largest: {}", figures.farthest))] {
             @if let Some(legal) = &figures.legal {
                 (digits(legal.mean, 2)) " / " (digits(legal.max, 3))
+                @if let (Some(mean), Some(max)) = (of_range(legal.mean, encoding), of_range(legal.max, encoding)) {
+                    br; small { (part(mean)) " / " (part(max)) }
+                }
             } @else { "–" }
             @if let Some(wrong) = &figures.wrong {
                 " (" (digits(wrong.max, 3)) ")"
@@ -200,20 +221,61 @@ fn cell(figures: &Figures<'_>) -> Markup {
     }
 }
 
+/// The mean and the largest distance over all encodings, as shares of their ranges.
+#[derive(Clone, Copy)]
+struct Shares {
+    channels: f64,
+    mean: f64,
+    max: f64,
+}
+
+/// The shares of each area and adapter; areas whose encodings are not known have none.
+fn shares<'a>(
+    rows: &Rows<'a>,
+    aspect: Aspect,
+    adapters: usize,
+) -> BTreeMap<&'a str, Vec<Option<Shares>>> {
+    let mut result: BTreeMap<&str, Vec<Option<Shares>>> = BTreeMap::new();
+    for ((area, _, encoding), figures) in rows.iter().filter(|((_, a, _), _)| *a == aspect) {
+        for (adapter, f) in figures.iter().enumerate() {
+            let Some(legal) = f.legal else { continue };
+            let (Some(mean), Some(max)) = (
+                of_range(legal.mean, *encoding),
+                of_range(legal.max, *encoding),
+            ) else {
+                continue;
+            };
+            let own = result.entry(area).or_insert_with(|| vec![None; adapters]);
+            let sum = own[adapter].get_or_insert(Shares {
+                channels: 0.0,
+                mean: 0.0,
+                max: 0.0,
+            });
+            let channels = legal.channels as f64;
+            sum.channels += channels;
+            sum.mean += (mean - sum.mean) * channels / sum.channels;
+            sum.max = sum.max.max(max);
+        }
+    }
+    result
+}
+
 /// A row per area, a mark per adapter at its mean distance.
 fn panel(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
     const ROW: f64 = 24.0;
     const NAMES: f64 = 96.0;
     const ZERO: f64 = 30.0;
-    let of_aspect: Vec<(&str, &Vec<Figures<'_>>)> = rows
-        .iter()
-        .filter(|((_, a), _)| *a == aspect)
-        .map(|((area, _), figures)| (*area, figures))
-        .collect();
-    let means = of_aspect
-        .iter()
-        .flat_map(|(_, f)| f.iter().filter_map(|f| Some(f.legal?.mean)));
-    let scale = Scale::log(means.filter(|m| *m > 0.0).chain([0.1, 0.5]));
+    let of_aspect = shares(rows, aspect, grid.adapters.len());
+    if of_aspect.is_empty() {
+        return html! {};
+    }
+    let means = of_aspect.values().flat_map(|f| f.iter().flatten());
+    let scale = Scale::log(
+        means
+            .map(|s| s.mean)
+            .filter(|m| *m > 0.0)
+            .chain([0.0005, 0.002]),
+    );
     let start = LEFT + NAMES - 40.0;
     let x = |mean: f64| {
         if mean > 0.0 {
@@ -229,20 +291,20 @@ fn panel(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
         @for tick in scale.ticks(5) {
             path.grid d={ "M" (n(x(tick))) " " (n(TOP)) "V" (n(bottom)) } {}
             @if x(tick) > start + ZERO + 14.0 {
-                text.tick x=(n(x(tick))) y=(n(bottom + 14.0)) text-anchor="middle" { (digits(tick, 2)) }
+                text.tick x=(n(x(tick))) y=(n(bottom + 14.0)) text-anchor="middle" { (share(tick)) }
             }
         }
         rect.box x=(n(start)) y=(n(TOP)) width=(n(RIGHT - start)) height=(n(bottom - TOP)) {}
-        text.axis x=(n(f64::midpoint(start, RIGHT))) y=(n(bottom + 32.0)) text-anchor="middle" { "mean distance in codes" }
+        text.axis x=(n(f64::midpoint(start, RIGHT))) y=(n(bottom + 32.0)) text-anchor="middle" { "← more accurate: mean distance, share of the range" }
         @for (i, (area, figures)) in of_aspect.iter().enumerate() {
             @let y = TOP + ROW * (i as f64 + 0.5);
             text.tick x=(n(start - 5.0)) y=(n(y + 3.5)) text-anchor="end" { (plain(area, 18)) }
             @if i > 0 { path.grid d={ "M" (n(start)) " " (n(y - ROW / 2.0)) "H" (n(RIGHT)) } {} }
             @for (adapter, f) in figures.iter().enumerate() {
-                @if let Some(legal) = &f.legal {
+                @if let Some(legal) = f {
                     // Marks of equal means lie one below the other.
                     @let shift = (adapter as f64 + 0.5) / figures.len() as f64 - 0.5;
-                    @let text = format!("{}, {area}: mean {}, largest {} codes", grid.adapters[adapter], digits(legal.mean, 2), digits(legal.max, 3));
+                    @let text = format!("{}, {area}: mean {}, largest {} of the range", grid.adapters[adapter], part(legal.mean), part(legal.max));
                     (marker(adapter, (x(legal.mean), y + shift * (ROW - 10.0)), true, &text))
                 }
             }
@@ -252,6 +314,54 @@ fn panel(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
         "{}: distance from the ideal",
         super::page::title(aspect.name())
     );
-    let about = "A row per area, a mark per adapter at its mean distance in codes.";
+    let about = "A row per area, a mark per adapter at its mean distance as a share of the range.";
     chart(bottom + 42.0, &title, about, &body)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_of_floats_and_of_eight_bits_meet_as_shares_only() {
+        let of = |encoding, mean, max| {
+            let legal = Accuracy {
+                aspect: Aspect::Color,
+                encoding,
+                channels: 100,
+                mean,
+                max,
+            };
+            let figures = vec![Figures {
+                legal: Some(legal),
+                ..Figures::default()
+            }];
+            (("blend", Aspect::Color, encoding), figures)
+        };
+        let [eight, float] = [ChannelEncoding::Unorm(8), ChannelEncoding::Float32];
+        let rows: Rows<'_> = [
+            of(Some(eight), 0.51, 1.0),
+            of(Some(float), 83_886.08, 4_294_967_296.0),
+            of(None, 1.0, 7.0),
+        ]
+        .into();
+        let all = shares(&rows, Aspect::Color, 1);
+        let mean = all["blend"][0].unwrap().mean;
+        assert!((mean - (0.002 + 0.01) / 2.0).abs() < 1e-9, "{mean}");
+        let text = |encoding, i: usize| {
+            let figures = rows.values().nth(i).unwrap();
+            cell(&figures[0], encoding).into_string()
+        };
+        assert!(text(None, 0).contains("1 / 7<"), "{}", text(None, 0));
+        assert!(
+            text(Some(eight), 1).contains("<small>0.2\u{a0}% / 0.392\u{a0}%"),
+            "{}",
+            text(Some(eight), 1)
+        );
+        assert!(
+            text(Some(float), 2).contains("<small>1\u{a0}% / over 100\u{a0}%"),
+            "{}",
+            text(Some(float), 2)
+        );
+    }
 }

@@ -15,7 +15,9 @@ pub(crate) struct Made {
     pub(crate) rmse: f64,
     pub(crate) max: f64,
     pub(crate) wall: Option<f64>,
+    pub(crate) interval: Option<[f64; 2]>,
     pub(crate) passes: u32,
+    pub(crate) draws: u32,
     pub(crate) fragments: Option<u64>,
 }
 
@@ -29,7 +31,9 @@ impl Made {
             rmse: 0.0,
             max: 0.0,
             wall: Some(0.001),
+            interval: None,
             passes: 1,
+            draws: 1,
             fragments: None,
         }
     }
@@ -77,9 +81,10 @@ impl Made {
                 wall,
                 cpu: wall,
                 gpu: None,
+                interval: self.interval,
             }),
             passes: self.passes,
-            draws: 1,
+            draws: self.draws,
             fragments: self.fragments,
             bytes: 4,
             picture: None,
@@ -104,6 +109,7 @@ pub(crate) fn run(made: &[Made]) -> Run {
         driver_id: String::new(),
         api_version: String::new(),
         software: !name.starts_with("hw"),
+        release: None,
         limits: Limits {
             api: Api::Vulkan,
             version: etalon_frame::ApiVersion::new(1, 3),

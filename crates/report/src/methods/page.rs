@@ -1,30 +1,33 @@
 //! `methods.html`.
 
-use super::data::{Methods, Point, Question, SceneSeries, Series};
+use super::data::{Methods, Point, Question, SceneSeries, Series, Setting};
 use super::name::{anchor, value_text};
+use super::pictures::Pictures;
 use super::{claims, scatter, stability};
-use crate::chart::{self, key};
+use crate::chart::{self, color, key, line_key};
 use crate::command::quoted;
 use crate::numbers::{bytes, count, digits, duration, share};
-use crate::page::Page;
 use crate::page::adapter::breakable;
+use crate::page::{self, Page};
 use crate::words;
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
+use etalon_methods::{Lesson, lessons};
 use etalon_record::Run;
 use maud::{Markup, html};
 use std::path::Path;
 
-/// The most bytes of one picture, and of all pictures together, that the page holds.
-const PICTURE: u64 = 256 << 10;
-const PICTURES: usize = 6 << 20;
+const STYLE: &str = include_str!("page/methods.css");
+
+/// The sliders, the legend's pins, other limits of breaks, and the enlarged pictures. All else needs no script.
+const SCRIPT: &str = concat!(
+    include_str!("page/flip.js"),
+    include_str!("page/pictures.js"),
+    include_str!("page/breaks.js"),
+    include_str!("page/settings.js"),
+);
 
 /// The whole page. Pictures are read from the folder as they are needed.
 pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
-    let mut pictures = Pictures {
-        folder,
-        room: PICTURES,
-    };
+    let mut pictures = Pictures::new(folder);
     let questions: Vec<Markup> = methods
         .questions
         .iter()
@@ -33,6 +36,7 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
         .collect();
     let main = html! {
         (head(run, methods))
+        noscript { p.note { "Scripts are off: each scene shows one setting, and its pictures cannot be enlarged." } }
         section id="claims" {
             h2 { "Claims of the literature" }
             (claims::section(methods))
@@ -46,11 +50,12 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
             (stability::caption())
         }
         @for question in questions { (question) }
+        (page::script(SCRIPT))
     };
     Page {
         title: &format!("etalon methods {}", run.header.started),
-        styles: &[chart::STYLE],
-        script: None,
+        styles: &[chart::STYLE, STYLE],
+        script: Some(SCRIPT),
         beside: false,
         main,
         source: "run.jsonl and pictures/ in this folder",
@@ -74,6 +79,7 @@ fn head(run: &Run, methods: &Methods<'_>) -> Markup {
             }
             dl.facts {
                 dt { "Run" } dd { a href="index.html" { "verdicts and findings" } ", " (h.started) }
+                dt { "Profile" } dd { (profile(run)) }
                 dt { "Command" } dd { code { (h.command.join(" ")) } }
                 dt { "Machine" } dd { (words::machine(&h.machine)) }
                 dt { "Scope" } dd {
@@ -91,6 +97,23 @@ fn head(run: &Run, methods: &Methods<'_>) -> Markup {
                 @for (q, question) in methods.questions.iter().enumerate() {
                     a href={ "#q" (q) } { (title(question.name)) } " "
                 }
+            }
+        }
+    }
+}
+
+/// The profile of the run, and what it leaves out.
+fn profile(run: &Run) -> Markup {
+    let settings = &run.header.settings;
+    let left = settings.left_out.unwrap_or(0);
+    html! {
+        @match settings.profile.as_deref() {
+            None => "not recorded: a run of an older version",
+            Some("full") => { b { "full" } ": every method of a scene at every value of its parameter" }
+            Some(name) => {
+                b { (name) } ": whole scenes at a few parameters, every method of a scene at the same ones. Left out: "
+                (count(left, "case")) " at other values, and so most curves and break points; "
+                code { "--profile full" } " draws them"
             }
         }
     }
@@ -119,23 +142,35 @@ fn breaks(methods: &Methods<'_>) -> Markup {
             }
         }
     }
+    let curves = rows.len();
     let (broken, steady): (Vec<_>, Vec<_>) = rows.into_iter().partition(|(_, _, _, f)| f.crosses());
+    let single = single_values(methods);
     html! {
-        section id="breaks" {
+        section id="breaks" data-curves=(stability::json(methods)) {
             h2 { "Break points" }
             p {
-                "The parameter at which a method's RMSE crosses 1 % of full brightness."
+                "The parameter at which a method's RMSE crosses "
+                span #limit-text { "1 %" } " of full brightness, interpolated between the two values beside it that were drawn."
             }
-            @if broken.is_empty() { p { "No method crosses it." } }
+            @if curves > 0 {
+                p #limit-field hidden {
+                    label for="limit" { "Limit of RMSE in percent " }
+                    input #limit type="number" value="1" min="0.001" max="100" step="any" inputmode="decimal";
+                }
+            }
+            @if curves == 0 {
+                p.u { "Not measured: no method was drawn at two values of its parameter." }
+            } @else if broken.is_empty() { p { "No method crosses it." } }
             @else {
                 div.wide { table.text {
-                    thead { tr { th { "Scene" } th { "Method" } th { "Break" } th { "Adapters" } } }
-                    tbody {
+                    thead { tr { th scope="col" { "Scene" } th scope="col" { "Method" } th scope="col" { "Break" } th scope="col" { "Pictures" } th scope="col" { "Adapters" } } }
+                    tbody #break-rows {
                         @for (anchor, question, scene, found) in &broken {
                             tr {
                                 td { a href={ "#" (anchor) } { (question.name) "/" (scene.name) } }
                                 td { (key(question.style(found.method))) " " (found.series) }
                                 td { (found.sentence) }
+                                td { (beside(scene, anchor, &found.between)) }
                                 td { (stability::who(methods, found)) }
                             }
                         }
@@ -143,7 +178,31 @@ fn breaks(methods: &Methods<'_>) -> Markup {
                 } }
             }
             @if !steady.is_empty() {
-                p.note { (count(steady.len() as u64, "curve")) " along a parameter never cross it; they are listed beside their charts." }
+                p.note #steady { (count(steady.len() as u64, "curve")) " along a parameter never cross it; they are listed beside their charts." }
+            }
+            @if curves > 0 && single > 0 {
+                p.note { "Not measured: " (count(single, "method")) " drawn at one value of a parameter only." }
+            }
+        }
+    }
+}
+
+/// The number of series with a parameter of which there is one value.
+fn single_values(methods: &Methods<'_>) -> u64 {
+    let all = methods.scenes().flat_map(|s| &s.series);
+    all.filter(|s| s.values().len() == 1).count() as u64
+}
+
+/// Links to the pictures on both sides of crossings.
+fn beside(scene: &SceneSeries<'_>, anchor: &str, between: &[[Setting<'_>; 2]]) -> Markup {
+    let settings = scene.settings();
+    html! {
+        @for (i, pair) in between.iter().enumerate() {
+            @if i > 0 { "; " }
+            @for (j, setting) in pair.iter().enumerate() {
+                @if j > 0 { " → " }
+                @let at = settings.iter().position(|s| s == setting);
+                a href={ "#" (anchor) } data-go=[at] { @if let Some((_, value)) = setting.parameter { (value_text(value)) } }
             }
         }
     }
@@ -164,7 +223,27 @@ fn in_question(
     html! {
         section id={ "q" (q) } {
             h2 { (title(question.name)) }
+            (explained(question))
             @for scene in scenes { (scene) }
+        }
+    }
+}
+
+/// The methods of a question: how each works, and where and why it fails.
+fn explained(question: &Question<'_>) -> Markup {
+    let of = |method: &&str| lessons(question.name).iter().find(|l| l.method == *method);
+    let known: Vec<&Lesson> = question.methods.iter().filter_map(of).collect();
+    html! {
+        @if !known.is_empty() {
+            details open {
+                summary { "The methods, and where they fail" }
+                dl.lessons {
+                    @for lesson in known {
+                        dt { (key(question.style(lesson.method))) " " (lesson.method) }
+                        dd { (lesson.works) " " (lesson.fails) " " cite { (lesson.source) } }
+                    }
+                }
+            }
         }
     }
 }
@@ -176,26 +255,49 @@ fn in_scene(
     question: &Question<'_>,
     (anchor, scene): (&str, &SceneSeries<'_>),
 ) -> Markup {
-    let mut names: Vec<&str> = scene.series.iter().map(|s| s.method).collect();
-    names.dedup();
     let truth = scene
         .series
         .iter()
         .flat_map(|s| &s.points)
         .map(|p| p.measured.distance.truth_error)
         .fold(0.0, f64::max);
+    let settings = scene.settings();
+    let shown = scene.main();
+    let main = settings.iter().position(|s| Some(s) == shown.as_ref());
+    let main = main.unwrap_or(0);
+    let speed = scatter::charts(methods, question, scene, &settings, main);
+    let curves = stability::charts(methods, question, scene, &settings, main);
+    let together = speed.len() == 1;
+    // Two charts leave room beside them on a wide page, for a few pictures.
+    let shots = pictures.of(methods, question, scene, &settings, main);
+    let panels = speed.iter().map(|k| k.panels.len()).sum::<usize>() + curves.len();
+    let beside = together && panels <= 2 && scene.methods().len() <= 4;
     html! {
-        article.scene id=(anchor) {
+        article.scene id=(anchor) data-name={ (scene.question) "/" (scene.name) } {
             h3 { (title(scene.name)) }
             p.legend {
-                @for name in &names {
-                    span.key { (key(question.style(name))) " " (name) }
+                @for name in scene.methods() {
+                    @let style = question.style(name);
+                    button class={ "key " (color(style)) } type="button" aria-pressed="false" { (line_key(style)) " " (name) }
                 }
             }
-            @if let Some(text) = middles(scene) { p.cap { (text) } }
-            (scatter::charts(methods, question, scene))
-            (stability::charts(methods, question, scene))
-            (pictures.strip(scene))
+            (slider(anchor, &settings, main))
+            @for (i, kind) in speed.iter().enumerate() {
+                @if let Some(heading) = kind.heading { p.cap { (heading) } }
+                div.charts.speed {
+                    @for panel in &kind.panels { (panel) }
+                    @if together && i == 0 { @for panel in &curves { (panel) } }
+                    @if beside { (shots) }
+                }
+            }
+            @if !together && !curves.is_empty() {
+                div.charts { @for panel in &curves { (panel) } }
+            }
+            @for (i, setting) in settings.iter().enumerate() {
+                (unmeasured(methods, scene, setting, (i, i == main)))
+            }
+            @if !curves.is_empty() { (stability::list(methods, scene)) }
+            @if !beside { (shots) }
             p.cap {
                 @if truth > 0.0 { "The truth itself may be off by " (share(truth)) " in a channel. " }
                 @else { "The truth is exact. " }
@@ -210,30 +312,77 @@ fn in_scene(
     }
 }
 
-/// The values that stand for methods with a parameter in the charts of accuracy against speed.
-fn middles(scene: &SceneSeries<'_>) -> Option<String> {
-    let mut shown: Vec<(String, Vec<&str>)> = Vec::new();
-    for series in &scene.series {
-        if let (Some(parameter), Some(value)) = (series.parameter, series.middle()) {
-            let text = format!("{parameter} {}", value_text(value));
-            match shown.iter_mut().find(|(t, _)| *t == text) {
-                Some((_, of)) => of.push(series.method),
-                None => shown.push((text, vec![series.method])),
+/// The setting that charts and pictures show, and the slider to others. Without scripts it stays where it is.
+fn slider(anchor: &str, settings: &[Setting<'_>], main: usize) -> Markup {
+    let names: Vec<String> = settings.iter().map(Setting::text).collect();
+    let input = format!("{anchor}-at");
+    html! {
+        @match settings {
+            [] => {},
+            [only] => { @if !only.text().is_empty() { p.setting { "At " b { (only.text()) } } } },
+            several => {
+                p.setting {
+                    label for=(input) { "At " output for=(input) { (names[main]) } }
+                    " " input id=(input) type="range" min="0" max=(several.len() - 1) step="1" value=(main)
+                        data-names=(serde_json::json!(names)) aria-valuetext=(names[main]) disabled;
+                }
             }
         }
     }
-    let parts: Vec<String> = match shown.as_mut_slice() {
-        [] => return None,
-        [(text, _)] => vec![text.clone()],
-        several => several
-            .iter_mut()
-            .map(|(text, of)| {
-                of.dedup();
-                format!("{text} ({})", of.join(", "))
-            })
-            .collect(),
+}
+
+/// The methods of the scene that have no error, or no time, at a setting.
+fn unmeasured(
+    methods: &Methods<'_>,
+    scene: &SceneSeries<'_>,
+    setting: &Setting<'_>,
+    (index, shown): (usize, bool),
+) -> Markup {
+    let mut missing: Vec<(&str, Vec<&str>)> = Vec::new();
+    let mut drew = 0;
+    for (i, adapter) in methods.adapters.iter().enumerate() {
+        if !scene.series.iter().any(|s| s.on(i).next().is_some()) {
+            continue;
+        }
+        drew += 1;
+        for method in scene.unmeasured(setting, i) {
+            match missing.iter_mut().find(|(m, _)| *m == method) {
+                Some((_, on)) => on.push(adapter.name),
+                None => missing.push((method, vec![adapter.name])),
+            }
+        }
+    }
+    let untimed: Vec<&str> = {
+        let all = scene
+            .at(setting)
+            .filter(|(_, p)| p.error().is_some() && p.wall().is_none());
+        let mut names: Vec<&str> = all.map(|(s, _)| s.method).collect();
+        names.dedup();
+        names
     };
-    Some(format!("Full points: {}.", parts.join("; ")))
+    let class = if shown {
+        "missing at"
+    } else {
+        "missing at off"
+    };
+    html! {
+        @if !missing.is_empty() || !untimed.is_empty() {
+            p class=(class) data-at=(index) {
+                @if !missing.is_empty() {
+                    span.chip.u { "not measured" } (setting.at()) ": "
+                    @for (i, (method, on)) in missing.iter().enumerate() {
+                        @if i > 0 { ", " }
+                        (method)
+                        @if on.len() < drew { " on " (on.join(" and ")) }
+                    }
+                    ". "
+                }
+                @if !untimed.is_empty() {
+                    span.chip.u { "no frame time" } (setting.at()) ": " (untimed.join(", ")) "."
+                }
+            }
+        }
+    }
 }
 
 fn table(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
@@ -244,7 +393,7 @@ fn table(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
                 th { "Method" }
                 @if parameter { th { "Parameter" } }
                 th { "Adapter" } th { "RMSE" } th { "Largest" } th { "FLIP" } th { "Wrong texels" }
-                th { "Wall" } th { "CPU" } th { "GPU" } th { "Frames" } th { "Passes" } th { "Draws" }
+                th { "Wall" } th { "Interval" } th { "CPU" } th { "GPU" } th { "Frames" } th { "Passes" } th { "Draws" }
                 th { "Fragments" } th { "Attachments" } th { "Verdict" }
             } }
             tbody {
@@ -272,6 +421,7 @@ fn row(methods: &Methods<'_>, series: &Series<'_>, point: &Point<'_>, parameter:
             td { (digits(m.distance.flip, 3)) }
             td { (share(m.distance.wrong)) }
             td { (time(m.time.map(|t| t.wall))) }
+            td { @if let Some([low, high]) = point.interval() { (duration(low)) " to " (duration(high)) } @else { "–" } }
             td { (time(m.time.map(|t| t.cpu))) }
             td { (time(m.time.and_then(|t| t.gpu))) }
             td { (m.time.map_or(0, |t| t.samples)) }
@@ -281,62 +431,5 @@ fn row(methods: &Methods<'_>, series: &Series<'_>, point: &Point<'_>, parameter:
             td { (bytes(m.bytes)) }
             td { (words::symbol(record.verdict)) " " (words::name(record.verdict)) }
         }
-    }
-}
-
-/// Pictures below the run folder, as far as there is room for them in the page.
-struct Pictures<'a> {
-    folder: &'a Path,
-    room: usize,
-}
-
-impl Pictures<'_> {
-    /// The truth and what each method drew, at its middle value where there is a picture of that.
-    fn strip(&mut self, scene: &SceneSeries<'_>) -> Markup {
-        let mut figures: Vec<(String, String)> = Vec::new();
-        for series in &scene.series {
-            let middle = series.middle();
-            let drawn = || {
-                series
-                    .points
-                    .iter()
-                    .filter(|p| p.measured.picture.is_some())
-            };
-            let Some(point) = drawn()
-                .find(|p| p.value == middle)
-                .or_else(|| drawn().next())
-            else {
-                continue;
-            };
-            let m = point.measured;
-            if figures.is_empty()
-                && let Some(truth) = m.truth.as_deref().and_then(|t| self.read(t))
-            {
-                figures.push(("truth".to_owned(), truth));
-            }
-            if let Some(picture) = m.picture.as_deref().and_then(|p| self.read(p)) {
-                let name = match (series.parameter, point.value) {
-                    (Some(p), Some(v)) => format!("{}, {p} {}", series.name(), value_text(v)),
-                    _ => series.name(),
-                };
-                figures.push((name, picture));
-            }
-        }
-        html! {
-            @if !figures.is_empty() {
-                div.pictures {
-                    @for (name, data) in &figures {
-                        figure { img src=(data) alt={ "Picture: " (name) } width="128"; figcaption { (name) } }
-                    }
-                }
-            }
-        }
-    }
-
-    /// A picture as a link that holds it. One that cannot be read has no place in a page of numbers.
-    fn read(&mut self, path: &str) -> Option<String> {
-        let bytes = Run::read_picture(self.folder, path, PICTURE).ok()??;
-        self.room = self.room.checked_sub(bytes.len())?;
-        Some(format!("data:image/png;base64,{}", STANDARD.encode(bytes)))
     }
 }

@@ -1,10 +1,9 @@
-//! Accuracy against speed: a chart per scene and adapter, with fronts.
+//! Accuracy against speed: a chart per scene and adapter, with a front for each setting.
 
-use super::data::{Kind, Methods, Point, Question, SceneSeries};
+use super::data::{Kind, Methods, Point, Question, SceneSeries, Setting};
 use super::front::front;
-use super::name::value_text;
 use crate::chart::{
-    BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, marker, n, zero_band,
+    BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, marker, n, zero_band,
 };
 use crate::numbers::{duration, round_duration, share};
 use maud::{Markup, html};
@@ -18,45 +17,61 @@ struct Dot<'s, 'a> {
     point: &'s Point<'a>,
     /// Position of the method in its question.
     style: usize,
-    name: String,
-    /// True if it stands for its series: the only point, or that of the middle value.
-    main: bool,
+    /// Position of its setting.
+    setting: usize,
     time: f64,
     error: f64,
 }
 
-/// All charts of a scene: software and hardware adapters apart.
+/// The charts of one kind of adapters.
+pub(super) struct OfKind {
+    /// A line above them, where there are several kinds.
+    pub(super) heading: Option<&'static str>,
+    /// One chart per adapter.
+    pub(super) panels: Vec<Markup>,
+}
+
+/// All charts of a scene: software and hardware adapters apart. The axes hold all settings, so that a
+/// method's mark moves on them from setting to setting; `main` is the one that is shown first.
 pub(super) fn charts(
     methods: &Methods<'_>,
     question: &Question<'_>,
     scene: &SceneSeries<'_>,
-) -> Markup {
-    let dots = dots(question, scene);
+    settings: &[Setting<'_>],
+    main: usize,
+) -> Vec<OfKind> {
+    let dots = dots(question, scene, settings);
     let positive: Vec<f64> = dots.iter().map(|d| d.error).filter(|e| *e > 0.0).collect();
     let y = Scale::log(positive.iter().copied().chain([0.01]));
     let zero = zero_band(dots.iter().map(|d| d.error));
     let kinds = methods.kinds();
-    html! {
-        @for kind in &kinds {
-            @let of_kind: Vec<&Dot<'_, '_>> = dots
-                .iter()
-                .filter(|d| methods.adapters[d.point.adapter].kind == *kind)
-                .collect();
-            @if !of_kind.is_empty() {
-                @if kinds.len() > 1 { p.cap { (heading(*kind)) } }
-                @let x = Scale::log(of_kind.iter().map(|d| d.time));
-                @let plot = Plot { x, y, zero };
-                div.charts.speed {
-                    @for (index, adapter) in methods.adapters.iter().enumerate() {
-                        @let own: Vec<&Dot<'_, '_>> = of_kind.iter().copied().filter(|d| d.point.adapter == index).collect();
-                        @if !own.is_empty() {
-                            (panel(scene, adapter.name, &plot, &of_kind, &own))
-                        }
-                    }
-                }
-            }
+    let mut result = Vec::new();
+    for kind in &kinds {
+        let of_kind: Vec<&Dot<'_, '_>> = dots
+            .iter()
+            .filter(|d| methods.adapters[d.point.adapter].kind == *kind)
+            .collect();
+        if of_kind.is_empty() {
+            continue;
         }
+        let ends = |d: &&Dot<'_, '_>| {
+            let interval = d.point.interval();
+            [d.time].into_iter().chain(interval.into_iter().flatten())
+        };
+        let x = Scale::log(of_kind.iter().flat_map(ends));
+        let plot = Plot { x, y, zero };
+        let adapters = methods.adapters.iter().enumerate();
+        let panels = adapters.filter_map(|(index, adapter)| {
+            let drew = of_kind.iter().any(|d| d.point.adapter == index);
+            let title = format!("{} on {}", scene.name, adapter.name);
+            drew.then(|| panel(&title, &plot, &of_kind, index, settings, main))
+        });
+        result.push(OfKind {
+            heading: (kinds.len() > 1).then(|| heading(*kind)),
+            panels: panels.collect(),
+        });
     }
+    result
 }
 
 fn heading(kind: Kind) -> &'static str {
@@ -67,23 +82,19 @@ fn heading(kind: Kind) -> &'static str {
     }
 }
 
-fn dots<'s, 'a>(question: &Question<'a>, scene: &'s SceneSeries<'a>) -> Vec<Dot<'s, 'a>> {
+fn dots<'s, 'a>(
+    question: &Question<'a>,
+    scene: &'s SceneSeries<'a>,
+    settings: &'s [Setting<'a>],
+) -> Vec<Dot<'s, 'a>> {
     let mut dots = Vec::new();
-    for series in &scene.series {
-        let style = question.style(series.method);
-        let middle = series.middle();
-        for point in &series.points {
+    for (index, setting) in settings.iter().enumerate() {
+        for (series, point) in scene.at(setting) {
             if let (Some(time), Some(error)) = (point.wall(), point.error()) {
                 dots.push(Dot {
                     point,
-                    style,
-                    name: match (point.value, series.parameter) {
-                        (Some(v), Some(p)) => {
-                            format!("{}, {p} {}", series.name(), value_text(v))
-                        }
-                        _ => series.name(),
-                    },
-                    main: point.value == middle,
+                    style: question.style(series.method),
+                    setting: index,
                     time,
                     error,
                 });
@@ -94,86 +105,181 @@ fn dots<'s, 'a>(question: &Question<'a>, scene: &'s SceneSeries<'a>) -> Vec<Dot<
 }
 
 fn panel(
-    scene: &SceneSeries<'_>,
-    adapter: &str,
+    title: &str,
     plot: &Plot,
     all: &[&Dot<'_, '_>],
-    own: &[&Dot<'_, '_>],
+    adapter: usize,
+    settings: &[Setting<'_>],
+    main: usize,
 ) -> Markup {
+    let mut about = String::new();
+    let groups: Vec<Markup> = settings
+        .iter()
+        .enumerate()
+        .map(|(index, setting)| {
+            let same: Vec<&Dot<'_, '_>> =
+                all.iter().copied().filter(|d| d.setting == index).collect();
+            let own: Vec<&Dot<'_, '_>> = same
+                .iter()
+                .copied()
+                .filter(|d| d.point.adapter == adapter)
+                .collect();
+            let (text, body) = at_setting(plot, &same, &own, setting);
+            if index == main {
+                about = text;
+            }
+            let hidden = if index == main { "at" } else { "at off" };
+            html! { g class=(hidden) data-at=(index) { (body) } }
+        })
+        .collect();
+    let body = html! {
+        (plot.frame(round_duration, share, "← faster: frame time", "← more accurate: RMSE"))
+        (line_at(plot, 0.01, "one"))
+        (line_at(plot, ROUNDING, "rounding"))
+        @for group in &groups { (group) }
+    };
+    chart(HEIGHT, title, &about, &body)
+}
+
+/// The marks and fronts of one setting, and the front in words.
+fn at_setting(
+    plot: &Plot,
+    same: &[&Dot<'_, '_>],
+    own: &[&Dot<'_, '_>],
+    setting: &Setting<'_>,
+) -> (String, Markup) {
     let costs = |dots: &[&Dot<'_, '_>]| -> Vec<(f64, f64)> {
         dots.iter().map(|d| (d.time, d.error)).collect()
     };
-    let main = |dots: &[&Dot<'_, '_>]| -> Vec<(f64, f64)> {
-        let main: Vec<&Dot<'_, '_>> = dots.iter().copied().filter(|d| d.main).collect();
-        costs(&main)
-    };
-    let (every, mine) = (main(all), main(own));
-    let best = front(&mine);
-    let leaders: Vec<&Dot<'_, '_>> = {
-        let own: Vec<&Dot<'_, '_>> = own.iter().copied().filter(|d| d.main).collect();
-        best.iter().map(|i| own[*i]).collect()
-    };
+    let (every, mine) = (costs(same), costs(own));
+    let leaders: Vec<&Dot<'_, '_>> = front(&mine).iter().map(|i| own[*i]).collect();
     let names: Vec<&str> = leaders
         .iter()
         .map(|d| d.point.measured.method.as_str())
         .collect();
+    let at = setting.at();
     let about = match names.as_slice() {
-        [] => "No method was timed.".to_owned(),
-        [one] => format!("No method is faster or more accurate than {one}."),
-        several => format!("The front, from fast to accurate: {}.", several.join(", ")),
-    };
-    let at = |d: &Dot<'_, '_>| (plot.x(d.time), plot.y(d.error));
-    let mut labels = Labels::new(own.iter().map(|d| at(d)));
-    let title = format!("{} on {adapter}", scene.name);
-    let body = html! {
-        (plot.frame(round_duration, share, "frame time", "RMSE, share of full brightness"))
-        (line_at(plot, 0.01, "one"))
-        (line_at(plot, ROUNDING, "rounding"))
-        @if every != mine { (steps(plot, &every, "group")) }
-        (steps(plot, &mine, "front"))
-        @for dot in own.iter().filter(|d| !d.main).chain(own.iter().filter(|d| d.main)) {
-            @let text = format!("{}: RMSE {}, {} on {adapter}", dot.name, share(dot.error), duration(dot.time));
-            (marker(dot.style, at(dot), !dot.main, &text))
+        [] => format!("No method was timed{at}."),
+        [one] if own.len() == 1 => {
+            format!("Only {one} was timed{at}: there is nothing to compare.")
         }
-        @for dot in &leaders {
-            @let name = &dot.point.measured.method;
-            @if let Some((x, y)) = labels.place(name, at(dot)) {
-                text.label x=(n(x)) y=(n(y)) { (name) }
+        [one] => format!("No method is faster or more accurate than {one}{at}."),
+        several => format!(
+            "The front{at}, from fast to accurate: {}.",
+            several.join(", ")
+        ),
+    };
+    let place = |d: &Dot<'_, '_>| (plot.x(d.time), plot.y(d.error));
+    let mut labels = Labels::new(own.iter().map(|d| place(d)));
+    for level in [0.01, ROUNDING] {
+        labels.avoid(&[(LEFT, plot.y(level)), (RIGHT, plot.y(level))]);
+    }
+    let lines = [(every.clone(), "group"), (mine.clone(), "front")];
+    // A single point is no front: nothing was held against it.
+    let lines: Vec<(Vec<(f64, f64)>, &str)> = lines
+        .into_iter()
+        .filter(|(points, class)| points.len() > 1 && (*class == "front" || every != mine))
+        .map(|(points, class)| (steps(plot, &points), class))
+        .collect();
+    for (corners, _) in &lines {
+        labels.avoid(corners);
+    }
+    for dot in own {
+        if let Some([low, high]) = dot.point.interval() {
+            let y = plot.y(dot.error);
+            labels.avoid(&[(plot.x(low), y), (plot.x(high), y)]);
+        }
+    }
+    // Leaders first: where there is no room for all names, the front keeps its own.
+    let others = own.iter().copied();
+    let others = others.filter(|d| !leaders.iter().any(|l| std::ptr::eq(*l, *d)));
+    let named: Vec<(&Dot<'_, '_>, Option<(f64, f64)>)> = leaders
+        .iter()
+        .copied()
+        .chain(others)
+        .map(|d| (d, labels.place(&d.point.measured.method, place(d))))
+        .collect();
+    let body = html! {
+        @for (corners, class) in &lines { path class=(class) d=(path(corners)) {} }
+        @for (dot, label) in named.iter().rev() {
+            @let m = dot.point.measured;
+            @let interval = dot.point.interval();
+            g class={ "of " (color(dot.style)) } {
+                @if let Some([low, high]) = interval {
+                    @let (y, from, to) = (plot.y(dot.error), plot.x(low), plot.x(high));
+                    @if to - from > 1.0 {
+                        path.spread d={ "M" (n(from)) " " (n(y - 3.0)) "v6M" (n(from)) " " (n(y)) "H" (n(to)) "M" (n(to)) " " (n(y - 3.0)) "v6" } {}
+                    }
+                }
+                (marker(dot.style, place(dot), false, &format!("{}{at}: RMSE {}, {}", m.method, share(dot.error), with_interval(dot.time, interval))))
+                @if let Some((x, y)) = label {
+                    text.label x=(n(*x)) y=(n(*y)) { (m.method) }
+                }
             }
         }
     };
-    chart(HEIGHT, &title, &about, &body)
+    (about, body)
 }
 
-/// The front as steps: between two of its points nothing better than the faster one is known.
-fn steps(plot: &Plot, points: &[(f64, f64)], class: &str) -> Markup {
-    let mut path = String::new();
-    for (i, at) in front(points).into_iter().enumerate() {
-        let (x, y) = (plot.x(points[at].0), plot.y(points[at].1));
-        if i == 0 {
-            path.push_str(&format!("M{} {}V{}", n(x), n(TOP), n(y)));
-        } else {
-            path.push_str(&format!("H{}V{}", n(x), n(y)));
+/// A time with its interval: `1.2 ms (1.1 ms to 1.4 ms)`.
+pub(super) fn with_interval(time: f64, interval: Option<[f64; 2]>) -> String {
+    match interval {
+        Some([low, high]) => {
+            format!(
+                "{} ({} to {})",
+                duration(time),
+                duration(low),
+                duration(high)
+            )
         }
+        None => duration(time),
     }
-    if !path.is_empty() {
-        path.push_str(&format!("H{}", n(RIGHT)));
+}
+
+/// The corners of the front as steps: between two of its points nothing better than the faster one is known.
+fn steps(plot: &Plot, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut corners: Vec<(f64, f64)> = Vec::new();
+    for at in front(points) {
+        let (x, y) = (plot.x(points[at].0), plot.y(points[at].1));
+        match corners.last() {
+            None => corners.push((x, TOP)),
+            Some((_, above)) => corners.push((x, *above)),
+        }
+        corners.push((x, y));
     }
-    html! { @if !path.is_empty() { path class=(class) d=(path) {} } }
+    if let Some((_, y)) = corners.last().copied() {
+        corners.push((RIGHT, y));
+    }
+    corners
+}
+
+fn path(corners: &[(f64, f64)]) -> String {
+    let mut path = String::new();
+    for (i, (x, y)) in corners.iter().enumerate() {
+        let letter = if i == 0 { 'M' } else { 'L' };
+        path.push_str(&format!("{letter}{} {}", n(*x), n(*y)));
+    }
+    path
 }
 
 /// The explanation of the charts of accuracy against speed.
 pub(super) fn caption() -> Markup {
     html! {
         p {
-            "Each chart is one adapter: a point is a method, the farther left the faster, the farther "
-            "down the nearer to the truth. Of a method with a parameter the middle value is the full "
-            "point and all others are the faint ones. The " b { "solid line" } " is the Pareto front of this "
-            "adapter's full points: a method above or right of it is beaten by another. The "
+            "Each chart is one adapter at one setting of the scene: a point is a method, the farther left the faster, the farther "
+            "down the nearer to the truth. Methods are compared at the same parameters only; the slider moves all of them to "
+            "other ones. The " b { "solid line" } " is the Pareto front of this "
+            "adapter: a method above or right of it is beaten by another. The "
             b { "dashed line" } " is the front of all adapters of the same kind; software and hardware never "
             "share one. Where there are pictures without any error, a band at the bottom holds them. Dotted lines: an RMSE of 1 %, and what "
             "rounding to 8 bits alone costs (" (share(ROUNDING)) "). Frame time is the median wall time of a "
-            "frame until the device was done; a picture that the rules forbid gets no time."
+            "frame until the device was done; a picture that the rules forbid gets no time. The bar is the interval that holds the median "
+            "with 95 % confidence or, of fewer than six frames, the fastest and the slowest."
+        }
+        p {
+            b { "Short times are overhead." } " A picture has about 128 by 128 texels: submission, waiting and the start of each pass are a large "
+            "part of a frame below a millisecond, and most of it on a fast device. Such times order methods by their number of passes and draws "
+            "rather than by their fragments, which are counted in the table."
         }
     }
 }

@@ -1,10 +1,12 @@
 //! Stability: the error along a parameter, one curve per method, with break points.
 
 use super::breaks::{self, Break, LIMIT};
-use super::data::{Methods, Question, SceneSeries, Series};
-use super::name::value_text;
+use super::data::{Methods, Question, SceneSeries, Series, Setting};
+use super::name::{anchor, value_text};
 use super::scatter::{ROUNDING, line_at};
-use crate::chart::{HEIGHT, Labels, Plot, Scale, chart, color, marker, n, zero_band};
+use crate::chart::{
+    BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, dash, marker, n, zero_band,
+};
 use crate::numbers::share;
 use maud::{Markup, html};
 
@@ -17,6 +19,8 @@ pub(super) struct CurveBreak<'a> {
     pub(super) sentence: String,
     /// The parameter with its ends: `alpha 0.1 to 0.9`.
     range: String,
+    /// The settings on both sides of each crossing.
+    pub(super) between: Vec<[Setting<'a>; 2]>,
 }
 
 impl CurveBreak<'_> {
@@ -72,6 +76,7 @@ pub(super) fn found<'a>(methods: &Methods<'a>, scene: &SceneSeries<'a>) -> Vec<C
                 match result[first..].iter_mut().find(|f| f.sentence == sentence) {
                     Some(same) => same.adapters.push(adapter.name),
                     None => result.push(CurveBreak {
+                        between: between(series, &found),
                         method: series.method,
                         series: series.name(),
                         adapters: vec![adapter.name],
@@ -86,30 +91,89 @@ pub(super) fn found<'a>(methods: &Methods<'a>, scene: &SceneSeries<'a>) -> Vec<C
     result
 }
 
-/// All charts of a scene, with the list of breaks; nothing where no method has a parameter.
+/// The settings on both sides of each crossing of a curve.
+fn between<'a>(series: &Series<'a>, found: &Break) -> Vec<[Setting<'a>; 2]> {
+    let Break::Crossings(crossings) = found else {
+        return Vec::new();
+    };
+    let setting = |value: f64| Setting {
+        variant: series.variant.clone(),
+        parameter: series.parameter.map(|name| (name, value)),
+    };
+    let pairs = crossings.iter().map(|c| c.between.map(setting));
+    pairs.collect()
+}
+
+/// All charts of a scene; none where no method has several values of a parameter.
 pub(super) fn charts<'a>(
     methods: &Methods<'a>,
     question: &Question<'a>,
     scene: &SceneSeries<'a>,
-) -> Markup {
-    let parameters = parameters(scene);
-    html! {
-        @if !parameters.is_empty() {
-            div.charts {
-                @for parameter in &parameters {
-                    @let series = curves(scene, parameter);
-                    @for adapters in alike(methods, &series) {
-                        (panel(methods, question, scene, parameter, &series, &adapters))
-                    }
-                }
+    settings: &[Setting<'a>],
+    main: usize,
+) -> Vec<Markup> {
+    let mut panels = Vec::new();
+    for parameter in parameters(scene) {
+        let all = curves(scene, parameter);
+        let mut variants: Vec<&str> = all.iter().map(|s| s.variant.as_str()).collect();
+        variants.sort_unstable();
+        variants.dedup();
+        for variant in variants {
+            let of = all.iter().copied().filter(|s| s.variant == variant);
+            let series: Vec<&Series<'a>> = of.collect();
+            for adapters in alike(methods, &series) {
+                let curves = (parameter, variant, &series[..]);
+                let place = (settings, main);
+                panels.push(panel(methods, question, scene, curves, &adapters, place));
             }
-            (list(methods, scene))
         }
     }
+    panels
+}
+
+/// The curves of the page, for other limits than the one that the page is written with.
+pub(super) fn json(methods: &Methods<'_>) -> serde_json::Value {
+    let mut all = Vec::new();
+    for (q, question) in methods.questions.iter().enumerate() {
+        for (s, scene) in question.scenes.iter().enumerate() {
+            let settings = scene.settings();
+            for parameter in parameters(scene) {
+                let curves = curves(scene, parameter);
+                let log = matches!(scale(&curves), Scale::Log { .. });
+                for (series, (index, adapter)) in curves
+                    .iter()
+                    .flat_map(|c| methods.adapters.iter().enumerate().map(move |a| (c, a)))
+                {
+                    let curve = series.curve(index);
+                    if curve.len() < 2 {
+                        continue;
+                    }
+                    let at = |value: &f64| {
+                        let here = Setting {
+                            variant: series.variant.clone(),
+                            parameter: Some((parameter, *value)),
+                        };
+                        settings.iter().position(|s| *s == here)
+                    };
+                    all.push(serde_json::json!({
+                        "scene": format!("{}/{}", question.name, scene.name),
+                        "anchor": anchor(q, s),
+                        "name": series.name(),
+                        "style": question.style(series.method),
+                        "parameter": parameter,
+                        "log": log,
+                        "adapter": adapter.name,
+                        "curve": curve.iter().map(|(v, e)| (*v, *e, at(v), value_text(*v))).collect::<Vec<_>>(),
+                    }));
+                }
+            }
+        }
+    }
+    serde_json::Value::Array(all)
 }
 
 /// The breaks of a scene: each crossing in a sentence, all that never crosses together.
-fn list(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
+pub(super) fn list(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
     let (broken, steady): (Vec<_>, Vec<_>) =
         found(methods, scene).into_iter().partition(|f| f.crosses());
     let mut groups: Vec<(String, Vec<String>)> = Vec::new();
@@ -178,9 +242,9 @@ fn panel<'a>(
     methods: &Methods<'a>,
     question: &Question<'a>,
     scene: &SceneSeries<'a>,
-    parameter: &str,
-    series: &[&Series<'a>],
+    (parameter, variant, series): (&str, &str, &[&Series<'a>]),
     adapters: &[usize],
+    (settings, main): (&[Setting<'a>], usize),
 ) -> Markup {
     let on = adapters[0];
     let errors = series
@@ -194,10 +258,14 @@ fn panel<'a>(
         zero: zero_band(errors),
     };
     let names: Vec<&str> = adapters.iter().map(|a| methods.adapters[*a].name).collect();
+    let what = match variant {
+        "" => format!("{} along {parameter}", scene.name),
+        variant => format!("{} along {parameter}, {variant}", scene.name),
+    };
     let title = match names.len() {
-        n if n == methods.adapters.len() && n > 1 => format!("{}, all adapters", scene.name),
-        1 | 2 => format!("{} on {}", scene.name, names.join(", ")),
-        n => format!("{} on {} and {} like it", scene.name, names[0], n - 1),
+        n if n == methods.adapters.len() && n > 1 => format!("{what}, all adapters"),
+        1 | 2 => format!("{what} on {}", names.join(", ")),
+        n => format!("{what} on {} and {} like it", names[0], n - 1),
     };
     let places = |s: &Series<'_>| -> Vec<(f64, f64)> {
         s.curve(on)
@@ -206,42 +274,69 @@ fn panel<'a>(
             .collect()
     };
     let mut labels = Labels::new(series.iter().flat_map(|s| places(s)));
+    for s in series {
+        labels.avoid(&places(s));
+    }
+    labels.avoid(&[(LEFT, plot.y(LIMIT)), (RIGHT, plot.y(LIMIT))]);
+    let cursors = settings.iter().enumerate().filter_map(|(index, setting)| {
+        let (name, value) = setting.parameter?;
+        (name == parameter && setting.variant == variant).then(|| (index, plot.x(value)))
+    });
+    let crossings = |s: &Series<'_>| match breaks::find(&s.curve(on), log) {
+        Some(Break::Crossings(crossings)) => crossings,
+        _ => Vec::new(),
+    };
+    // Breaks before names: a name stands in the legend too.
+    let rings: Vec<Vec<_>> = series
+        .iter()
+        .map(|s| {
+            let of = crossings(s).into_iter().map(|c| {
+                let at = (plot.x(c.value), plot.y(LIMIT));
+                (c, at, labels.place(&c.text(), at))
+            });
+            of.collect()
+        })
+        .collect();
+    let ends: Vec<Option<(f64, f64)>> = series
+        .iter()
+        .map(|s| labels.place(s.method, places(s).last().copied()?))
+        .collect();
     let body = html! {
-        (plot.frame(value_text, share, parameter, "RMSE, share of full brightness"))
+        (plot.frame(value_text, share, parameter, "← more accurate: RMSE"))
         (line_at(&plot, LIMIT, "one"))
-        @for s in series {
-            @let places = places(s);
-            path class={ "curve " (color(question.style(s.method))) } d=(line(&places)) {}
+        @for (index, x) in cursors {
+            @let hidden = if index == main { "cursor at" } else { "cursor at off" };
+            path class=(hidden) data-at=(index) d={ "M" (n(x)) " " (n(TOP)) "V" (n(BOTTOM)) } {}
         }
         @for s in series {
             @let (style, places) = (question.style(s.method), places(s));
-            @for ((value, error), place) in s.curve(on).into_iter().zip(places) {
-                @let text = format!("{}: RMSE {} at {parameter} {}", s.name(), share(error), value_text(value));
-                (marker(style, place, true, &text))
+            g class={ "of " (color(style)) } {
+                path class={ "curve " (color(style)) } d=(line(&places)) stroke-dasharray=(dash(style)) {}
+                @for ((value, error), place) in s.curve(on).into_iter().zip(places) {
+                    @let text = format!("{}: RMSE {} at {parameter} {}", s.name(), share(error), value_text(value));
+                    (marker(style, place, true, &text))
+                }
             }
         }
-        @for s in series {
-            @if let Some(Break::Crossings(crossings)) = breaks::find(&s.curve(on), log) {
-                @for c in crossings {
-                    @let text = c.text();
-                    @let at = (plot.x(c.value), plot.y(LIMIT));
-                    circle class={ "break " (color(question.style(s.method))) } cx=(n(at.0)) cy=(n(at.1)) r="6" {
-                        title { (s.name()) @if c.leaves { " leaves" } @else { " comes within" } " 1 % RMSE at " (parameter) " " (text) }
-                    }
-                    @if let Some((x, y)) = labels.place(&text, at) {
-                        text.label x=(n(x)) y=(n(y)) { (text) }
+        g.rings {
+            @for (s, rings) in series.iter().zip(&rings) {
+                @let style = color(question.style(s.method));
+                @for (c, at, label) in rings {
+                    g class={ "of " (style) } {
+                        circle class={ "break " (style) } cx=(n(at.0)) cy=(n(at.1)) r="6" {
+                            title { (s.name()) @if c.leaves { " leaves" } @else { " comes within" } " 1 % RMSE at " (parameter) " " (c.text()) }
+                        }
+                        @if let Some((x, y)) = label {
+                            text.label x=(n(*x)) y=(n(*y)) { (c.text()) }
+                        }
                     }
                 }
             }
         }
-    };
-    let body = html! {
-        (body)
-        @for s in series {
-            @if let Some(end) = places(s).last().copied() {
-                @let name = s.name();
-                @if let Some((x, y)) = labels.place(&name, end) {
-                    text.label x=(n(x)) y=(n(y)) { (name) }
+        @for (s, end) in series.iter().zip(&ends) {
+            @if let Some((x, y)) = end {
+                g class={ "of " (color(question.style(s.method))) } {
+                    text.label x=(n(*x)) y=(n(*y)) { (s.method) }
                 }
             }
         }
@@ -266,7 +361,8 @@ fn line(places: &[(f64, f64)]) -> String {
 pub(super) fn caption() -> Markup {
     html! {
         p {
-            "The error along the parameter of a scene, one curve per method. Where a curve crosses an RMSE of "
+            "The error along the parameter of a scene, one curve per method; the broad line marks the value that the other "
+            "charts and the pictures show. Where a curve crosses an RMSE of "
             "1 % of full brightness, the dotted line, the method breaks: the ring marks the place, "
             "interpolated between the logarithms of the errors beside it. Adapters whose "
             "errors differ by less than a tenth, or by no more than a few roundings to 8 bits make, share a chart, which shows the first of them."

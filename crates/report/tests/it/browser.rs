@@ -7,6 +7,7 @@ mod hostile;
 mod index;
 mod large;
 mod made;
+mod methods;
 mod unscripted;
 
 use driver::Chromium;
@@ -24,6 +25,10 @@ fn pages_work_in_a_browser() {
     };
     for (name, of) in index::CHECKS {
         check(name, &|| of(&chromium, &path));
+    }
+    let methods_page = methods::write(folder.path());
+    for (name, of) in methods::CHECKS {
+        check(name, &|| of(&chromium, &methods_page));
     }
     check("hostile names", &|| {
         hostile::hostile_names_stay_text(&chromium)

@@ -56,6 +56,7 @@ pub(crate) fn rich(case: &str) -> Record {
     record.texels.imprecise = 3;
     record.accuracy = vec![Accuracy {
         aspect: Aspect::Color,
+        encoding: None,
         channels: 1024,
         mean: 0.25,
         max: 1.0,
@@ -82,6 +83,7 @@ pub(crate) fn rich(case: &str) -> Record {
             wall: 0.01,
             cpu: 0.001,
             gpu: None,
+            interval: None,
         }),
         passes: 1,
         draws: 3,

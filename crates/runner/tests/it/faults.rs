@@ -2,13 +2,13 @@
 //! right one.
 
 use crate::cases::cases;
-use crate::worker::{FAULT, fail_starts, protocol, serve, starts};
+use crate::worker::{FAULT, LAUNCHED, TO_OPEN, fail_starts, protocol, serve, starts};
 use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared, Unavailable};
 use etalon_case::Library;
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Feature, Frame, Limits, Requirement};
 use etalon_record::{Expectations, FORMAT, Header, Machine, Record, ReportFiles, Run, Verdict};
-use etalon_runner::{Event, Launch, Options, Plan, RunSummary, StartError, Worker};
+use etalon_runner::{Event, Launch, Launcher, Options, Plan, RunSummary, StartError, Worker};
 use etalon_scene::Scene;
 use std::io::Write;
 use std::sync::Mutex;
@@ -145,15 +145,86 @@ fn script(text: &str) -> Launch {
         program: "/bin/sh".into(),
         arguments: vec!["-c".to_owned(), text.to_owned()],
         environment: Vec::new(),
+        launcher: None,
+        release: None,
     }
 }
 
 fn broken(launch: &Launch) -> String {
     match Worker::start(launch) {
         Err(StartError::Broken(text)) => text,
-        Err(StartError::Unavailable(u)) => panic!("said that it is unavailable: {u}"),
+        Err(other) => panic!("not the driver's fault: {other}"),
         Ok(_) => panic!("started"),
     }
+}
+
+/// Puts a shell's script in front of a worker, which gets its command as "$0" "$@".
+fn behind(mut launch: Launch, script: &str) -> Launch {
+    launch.launcher = Some(Launcher {
+        prefix: ["/bin/sh", "-c", script].map(str::to_owned).to_vec(),
+        open: TO_OPEN.to_owned(),
+    });
+    let launched = (LAUNCHED.to_owned(), Some("yes".to_owned()));
+    launch.environment.push(launched);
+    launch
+}
+
+#[test]
+fn a_launcher_that_prints_or_brings_no_worker_is_told_from_a_driver() {
+    for (script, word) in [
+        (
+            "echo Welcome to the machine",
+            "`Welcome to the machine` in place of a greeting",
+        ),
+        (
+            "echo etalon worker 0.0.9, protocol 1; cat",
+            "the same program",
+        ),
+        ("echo no such host >&2; exit 255", "no such host"),
+        ("exit 0", "its launcher ended with exit status: 0"),
+        ("kill -SEGV $$", "its launcher died of signal 11"),
+    ] {
+        match Worker::start(&behind(launch("none"), script)) {
+            Err(StartError::Launcher(text)) => assert!(text.contains(word), "{script}: {text}"),
+            Err(other) => panic!("{script}: {other}"),
+            Ok(_) => panic!("{script}: started"),
+        }
+    }
+    let mut nowhere = behind(launch("none"), "");
+    if let Some(launcher) = &mut nowhere.launcher {
+        launcher.prefix = vec!["/nowhere/ssh".to_owned()];
+    }
+    match Worker::start(&nowhere) {
+        Err(StartError::Launcher(text)) => assert!(text.contains("`/nowhere/ssh`"), "{text}"),
+        _ => panic!("started"),
+    }
+    // Behind the greeting it is the driver again.
+    match Worker::start(&behind(launch("panic"), PLAIN)) {
+        Err(StartError::Broken(text)) => assert!(text.contains("planted panic"), "{text}"),
+        _ => panic!("not broken"),
+    }
+}
+
+/// A launcher that does nothing but start the worker.
+const PLAIN: &str = r#""$0" "$@""#;
+
+#[test]
+fn a_launcher_hides_how_its_worker_ended() {
+    let (records, _) = run(behind(launch("abort@submit"), PLAIN));
+    let lost: Vec<_> = records.iter().filter_map(|r| r.process.as_ref()).collect();
+    assert_eq!(lost.len(), 1);
+    // A shell says 128 and the signal, another launcher something else.
+    assert_eq!((lost[0].signal, lost[0].exit), (None, None));
+    let crashed = records.iter().find(|r| r.process.is_some()).unwrap();
+    let message = &crashed.message;
+    assert!(message.contains("its launcher ended with"), "{message}");
+    assert!(
+        records
+            .iter()
+            .filter(|r| r.verdict == Verdict::Pass)
+            .count()
+            > 1
+    );
 }
 
 #[test]
@@ -197,7 +268,7 @@ fn an_adapter_that_is_not_there_says_why() {
         Err(StartError::Unavailable(u)) => {
             assert_eq!(u, Unavailable::new("the moon is full", "wait"));
         }
-        Err(StartError::Broken(text)) => panic!("broken: {text}"),
+        Err(other) => panic!("{other}"),
         Ok(_) => panic!("started"),
     }
 }

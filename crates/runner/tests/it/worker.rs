@@ -3,7 +3,7 @@
 //! libtest prints to standard output, so the protocol goes to descriptor 3.
 
 use etalon_backend::{Backend, Unavailable};
-use etalon_runner::Launch;
+use etalon_runner::{Launch, Setup};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, Write};
 use std::path::Path;
@@ -14,6 +14,11 @@ pub(crate) const NAME: &str = "ETALON_TEST_NAME";
 pub(crate) const FAULT: &str = "ETALON_TEST_FAULT";
 /// The variable with a file that gets one line per start; numbers after it are starts that fail.
 const STARTS: &str = "ETALON_TEST_STARTS";
+
+/// The variable of a worker that runs behind a launcher.
+pub(crate) const LAUNCHED: &str = "ETALON_TEST_LAUNCHED";
+/// What such a worker is told to open.
+pub(crate) const TO_OPEN: &str = "what to open";
 
 /// The command that starts a worker by running an ignored test.
 pub(crate) fn launch(test: &str, adapter: &str, fault: &str) -> Launch {
@@ -31,6 +36,8 @@ pub(crate) fn launch(test: &str, adapter: &str, fault: &str) -> Launch {
         environment: [(NAME, adapter), (FAULT, fault)]
             .map(|(key, value)| (key.to_owned(), Some(value.to_owned())))
             .to_vec(),
+        launcher: None,
+        release: None,
     }
 }
 
@@ -67,6 +74,10 @@ pub(crate) fn serve(open: impl FnOnce() -> Result<Box<dyn Backend>, Unavailable>
         if failing.split(' ').any(|f| f.parse() == Ok(number)) {
             std::process::exit(9);
         }
+    }
+    if std::env::var_os(LAUNCHED).is_some() {
+        let setup = Setup::receive(io::stdin().lock()).unwrap();
+        assert_eq!((&*setup.open, setup.missing()), (TO_OPEN, Vec::new()));
     }
     let input = BufReader::new(io::stdin());
     etalon_runner::serve(open, input, &mut protocol()).unwrap();

@@ -149,3 +149,32 @@ fn what_cannot_be_compared_has_no_distance() {
     image.codes.clear();
     assert_eq!(distance(&empty, &image), None);
 }
+
+/// The codes of two pictures of 16 by 8 texels, which the page of methods compares too: its own FLIP is held
+/// against this number in `crates/report/tests/it/browser/methods.rs`.
+#[test]
+fn two_known_pictures_have_the_flip_that_pages_must_find() {
+    let truth = |x: u32, y: u32| [(x * 16) as u8, (y * 32) as u8, (x * y * 2) as u8];
+    let picture = |x: u32, y: u32| {
+        let [r, g, b] = truth(x, y);
+        if x >= 8 {
+            [255 - r, g, b]
+        } else {
+            [r, g / 2, b]
+        }
+    };
+    let texels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y)));
+    let expected = TruthPicture {
+        size: SIZE,
+        rgb: texels
+            .map(|(x, y)| truth(x, y).map(|c| f64::from(c) / 255.0))
+            .collect(),
+        error: 0.0,
+    };
+    let drawn = image(TextureFormat::Rgba8Unorm, |x, y| {
+        let [r, g, b] = picture(x, y).map(|c| f64::from(c) / 255.0);
+        vec![r, g, b, 1.0]
+    });
+    let found = distance(&expected, &drawn).unwrap();
+    assert!((found.flip - 0.7392).abs() < 5e-5, "{}", found.flip);
+}

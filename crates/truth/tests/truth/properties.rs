@@ -262,3 +262,44 @@ proptest! {
         }
     }
 }
+
+/// Threads take parts of a picture: no texel may depend on where they are cut.
+#[test]
+fn a_part_of_a_picture_is_as_the_picture_of_that_part() {
+    let ramp = |shift: f64| Surface {
+        corners: vec![
+            [-9.0 - shift, 3.0, 0.2],
+            [131.0 - shift, 17.0, 0.9],
+            [40.0 - shift, 140.0, 0.4],
+        ],
+        paint: Paint::Depth,
+    };
+    let pane = |shift: f64| Surface {
+        corners: vec![
+            [10.0 - shift, -5.0, 0.3],
+            [90.0 - shift, 60.0, 0.5],
+            [20.0 - shift, 120.0, 0.8],
+        ],
+        paint: Paint::Flat([0.9, 0.2, 0.1, 0.4]),
+    };
+    let of = |width: u32, shift: f64| {
+        truth(&Truth {
+            size: [width, 128],
+            background: [0.1, 0.2, 0.3],
+            coverage: Coverage::Area,
+            surfaces: vec![ramp(shift), pane(shift)],
+        })
+    };
+    let whole = of(128, 0.0);
+    // Small enough for one part, and at another place of it.
+    let strip = of(8, 60.0);
+    for (y, x) in (0..128).flat_map(|y| (0..8).map(move |x| (y, x))) {
+        let (one, other) = (whole.rgb[y * 128 + 60 + x], strip.rgb[y * 8 + x]);
+        for c in 0..3 {
+            assert!(
+                (one[c] - other[c]).abs() < 1e-12,
+                "{x},{y}: {one:?} {other:?}"
+            );
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! The ids of method cases, and how many there are.
 
-use etalon_case::{Library, Profile};
+use etalon_case::{CaseFile, Library, Profile};
+use etalon_methods::{claims, lessons};
 use std::collections::BTreeSet;
 
 #[test]
@@ -39,8 +40,64 @@ fn ids_name_question_scene_and_method_and_are_not_too_many() {
             }
         }
     }
-    assert!((40..=80).contains(&quick), "{quick}");
+    assert!((100..=130).contains(&quick), "{quick}");
     assert!((300..=500).contains(&full), "{full}");
+}
+
+/// A chart of methods at different parameters compares nothing.
+#[test]
+fn the_quick_profile_draws_whole_scenes() {
+    let library = Library::built_in().expect("built-in files parse");
+    let mut quick = 0;
+    for file in library
+        .files()
+        .iter()
+        .filter(|f| f.name().starts_with("methods/"))
+    {
+        let split = |id: String| -> (String, String) {
+            let (before, rest) = id.split_once("/method=").expect("an axis of methods");
+            let (method, setting) = rest.split_once('/').unwrap_or((rest, ""));
+            (method.to_owned(), format!("{before}/{setting}"))
+        };
+        let of = |profile| -> BTreeSet<(String, String)> {
+            file.cases(profile).map(|c| split(c.id())).collect()
+        };
+        let (some, all) = (of(Profile::Quick), of(Profile::Full));
+        let methods: BTreeSet<&String> = all.iter().map(|(method, _)| method).collect();
+        let settings: BTreeSet<&String> = some.iter().map(|(_, setting)| setting).collect();
+        for (method, setting) in methods
+            .iter()
+            .flat_map(|m| settings.iter().map(move |s| (m, s)))
+        {
+            let due = ((*method).clone(), (*setting).clone());
+            assert!(some.contains(&due), "{}: {due:?}", file.name());
+        }
+        quick += some.len();
+    }
+    assert!((160..=190).contains(&quick), "{quick}");
+}
+
+#[test]
+fn a_covering_array_of_methods_is_refused() {
+    let file = |quick: &str| {
+        let text = format!(
+            r#"{{"about":"t","spec":["t"],"quick":{quick},"axes":{{"method":["a","b"],"k":[1,2]}},
+            "method":{{"question":"transparency"}}}}"#
+        );
+        CaseFile::parse("methods/transparency/t.json", &text)
+    };
+    for bad in [
+        r#""pairwise""#,
+        r#"{"each":1}"#,
+        r#"{"first":2}"#,
+        r#"{"where":{"method":"a"}}"#,
+        r#"{"any":[{"k":"1"},{"k":"2","method":"b"}]}"#,
+    ] {
+        let error = file(bad).expect_err(bad);
+        assert_eq!((error.key.as_str(), error.line), ("quick", 1), "{error}");
+    }
+    let good = file(r#"{"any":[{"k":"1"},{"k":"2"}]}"#).expect("parses");
+    assert_eq!(good.cases(Profile::Quick).count(), 4);
 }
 
 #[test]
@@ -72,4 +129,51 @@ fn ids_begin_with_the_method_and_files_name_a_parameter() {
         "visibility-cost",
     ];
     assert!(due.iter().all(|q| seen.contains(*q)), "{seen:?}");
+}
+
+#[test]
+fn every_method_is_explained_and_every_claim_names_methods_that_there_are() {
+    let library = Library::built_in().expect("built-in files parse");
+    let mut methods: BTreeSet<(String, String)> = BTreeSet::new();
+    let mut families: BTreeSet<(String, String)> = BTreeSet::new();
+    for case in library.cases(Profile::Full) {
+        let id = case.id();
+        let parts: Vec<&str> = id.split('/').collect();
+        let ["methods", question, family, method, ..] = parts[..] else {
+            continue;
+        };
+        let method = method.trim_start_matches("method=");
+        methods.insert((question.to_owned(), method.to_owned()));
+        families.insert((question.to_owned(), family.to_owned()));
+    }
+    for (question, method) in &methods {
+        let found = lessons(question).iter().filter(|l| l.method == method);
+        assert_eq!(found.count(), 1, "{question}/{method}");
+    }
+    let told: BTreeSet<&String> = methods.iter().map(|(q, _)| q).collect();
+    for lesson in told.iter().flat_map(|q| lessons(q)) {
+        assert!(
+            methods.iter().any(|(_, m)| m == lesson.method),
+            "{}",
+            lesson.method
+        );
+        assert!(
+            lesson.works.ends_with('.') && lesson.fails.ends_with('.'),
+            "{}",
+            lesson.method
+        );
+    }
+    for claim in claims() {
+        for family in claim.families {
+            let named = (claim.question.to_owned(), (*family).to_owned());
+            assert!(families.contains(&named), "{}: {family}", claim.title);
+        }
+        let text = format!("{:?}", claim.test);
+        let quoted: Vec<&str> = text.split('"').skip(1).step_by(2).collect();
+        assert!(!quoted.is_empty(), "{text}");
+        for method in quoted {
+            let named = (claim.question.to_owned(), method.to_owned());
+            assert!(methods.contains(&named), "{}: {method}", claim.title);
+        }
+    }
 }

@@ -217,8 +217,11 @@ fn codes(texel: &WrongTexel) -> BTreeMap<String, u32> {
 
 fn accuracy(found: &mut Details, before: &[Accuracy], after: &[Accuracy]) {
     for old in before {
-        if let Some(new) = after.iter().find(|a| a.aspect == old.aspect) {
-            let aspect = old.aspect;
+        if let Some(new) = after.iter().find(|a| a.is_alike(old)) {
+            let aspect = match old.encoding {
+                Some(encoding) => format!("{} in {encoding}", old.aspect),
+                None => old.aspect.to_string(),
+            };
             found.add("accuracy", format!("{aspect} mean"), old.mean, new.mean);
             found.add("accuracy", format!("{aspect} largest"), old.max, new.max);
         }

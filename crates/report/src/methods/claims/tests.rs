@@ -1,381 +1,392 @@
 use super::*;
 use crate::methods::made::{Made, run};
+use etalon_methods::{Claim, Condition, Quantity, Test, Values};
 
 /// The claim whose title begins like this, checked against a run.
-fn check(title: &str, made: &[Made]) -> (Reproduction, Vec<Figure>) {
+fn outcome(title: &str, made: &[Made]) -> (Reproduction, Vec<Figure>, Vec<String>) {
+    let claim = claims().find(|c| c.title.starts_with(title)).unwrap();
+    of(claim, made)
+}
+
+fn of(claim: &'static Claim, made: &[Made]) -> (Reproduction, Vec<Figure>, Vec<String>) {
     let run = run(made);
-    let claim = all().find(|c| c.title.starts_with(title)).unwrap();
-    let figures = Methods::of(&run).map_or_else(Vec::new, |m| (claim.check)(&m));
-    (Reproduction::of(&figures), figures)
+    let methods = Methods::of(&run).unwrap();
+    let checked = check(claim, &methods);
+    let blind = checked.blind.iter().map(|b| (*b).to_owned()).collect();
+    (Reproduction::of(&checked.figures), checked.figures, blind)
 }
 
-fn outcome(title: &str, made: &[Made]) -> Reproduction {
-    check(title, made).0
+fn told(figures: &[Figure]) -> Vec<String> {
+    let all = together(figures);
+    all.into_iter()
+        .map(|t| format!("{}{} {}", t.holds.sign().unwrap_or(""), t.text, t.places))
+        .collect()
 }
 
-fn passes(id: &str, passes: u32) -> Made {
-    Made {
-        passes,
-        ..Made::new(id)
+/// A figure that meets a condition, and one that does not.
+fn figures(condition: Condition) -> [f64; 2] {
+    match condition {
+        Condition::Below(limit) | Condition::AtMost(limit) => [limit * 0.8, limit * 1.5],
+        Condition::Above(limit) => [limit * 1.5, limit * 0.8],
+        Condition::Between(low, high) => [f64::midpoint(low, high), high * 2.0],
     }
 }
 
-fn fragments(id: &str, fragments: u64) -> Made {
-    Made {
-        fragments: Some(fragments),
-        ..Made::new(id)
+/// The first family of a claim, and two values of its parameter that count.
+fn place(claim: &Claim) -> (String, [f64; 2]) {
+    let family = claim.families.first().copied().unwrap_or("scene");
+    let values = match claim.values {
+        Values::All => [1.0, 2.0],
+        Values::Between(low, high) => [low, (low + 1.0).min(high)],
+    };
+    (format!("{}/{family}", claim.question), values)
+}
+
+fn with(made: Made, quantity: Quantity, figure: f64) -> Made {
+    match quantity {
+        Quantity::Rmse => Made {
+            rmse: figure,
+            ..made
+        },
+        Quantity::Largest => Made {
+            max: figure,
+            ..made
+        },
+        Quantity::Passes => Made {
+            passes: figure as u32,
+            ..made
+        },
+        Quantity::Draws => Made {
+            draws: (figure * 100.0) as u32,
+            ..made
+        },
+        Quantity::Fragments => Made {
+            fragments: Some((figure * 1000.0) as u64),
+            ..made
+        },
+        Quantity::Time => Made {
+            wall: Some(figure),
+            interval: Some([figure * 0.999, figure * 1.001]),
+            ..made
+        },
     }
 }
 
-fn wall(id: &str, wall: f64) -> Made {
-    Made {
-        wall: Some(wall),
-        ..Made::new(id)
-    }
-}
-
-#[test]
-fn nothing_is_measured_where_methods_are_missing() {
-    let lonely = [Made::new("elsewhere/scene/method=other").at("k", 1.0)];
-    for claim in all() {
-        let (outcome, figures) = check(claim.title, &lonely);
-        assert_eq!(
-            outcome,
-            Reproduction::NotMeasured,
-            "{} {figures:?}",
-            claim.title
-        );
-        assert_eq!(check(claim.title, &[]).0, Reproduction::NotMeasured);
-    }
-}
-
-#[test]
-fn one_method_alone_says_nothing() {
-    for id in [
-        "transparency/peeling/method=depth-peeling",
-        "culling/closed-mesh/method=back",
-        "anti-aliasing/edges/method=none",
-        "anti-aliasing/edges/method=msaa-4",
-        "visibility-cost/rooms/method=front-to-back",
-        "depth-precision/planes/method=depth24",
-        "stencil-effects/shadow-volume/method=shadow-volume-depth-pass",
-    ] {
-        for claim in all() {
-            assert_eq!(
-                outcome(claim.title, &[fragments(id, 7)]),
-                Reproduction::NotMeasured
-            );
+/// Records that meet a claim, or that refute it.
+fn made(claim: &Claim, good: bool) -> Vec<Made> {
+    let (scene, values) = place(claim);
+    let at =
+        |method: &str, value: f64| Made::new(&format!("{scene}/method={method}")).at("p", value);
+    let pick = |condition| figures(condition)[usize::from(!good)];
+    let mut all = Vec::new();
+    match claim.test {
+        Test::Value {
+            quantity,
+            of,
+            holds,
+        } => {
+            all.extend(values.map(|v| with(at(of, v), quantity, pick(holds))));
         }
-    }
-}
-
-#[test]
-fn dual_peeling_is_counted_at_equal_pictures() {
-    let one = |k: f64, rmse: f64| {
-        passes("transparency/peeling/method=depth-peeling", 2 * k as u32)
-            .at("k", k)
-            .off(rmse)
-    };
-    let dual = |k: f64, rmse: f64| {
-        passes(
-            "transparency/peeling/method=dual-depth-peeling",
-            2 * k as u32 + 1,
-        )
-        .at("k", k)
-        .off(rmse)
-    };
-    let halves = [
-        one(8.0, 0.05),
-        one(16.0, 0.004),
-        dual(4.0, 0.06),
-        dual(8.0, 0.002),
-        dual(16.0, 0.002),
-    ];
-    let (outcome, figures) = check("Dual depth", &halves);
-    assert_eq!(outcome, Reproduction::Reproduced);
-    assert_eq!(figures[0].text, "32 → 17 passes, RMSE ×0.5 to ×1.2");
-    let worse = [one(8.0, 0.05), dual(4.0, 0.08)];
-    assert_eq!(
-        super::tests::outcome("Dual depth", &worse),
-        Reproduction::NotReproduced
-    );
-    let unpaired = [one(8.0, 0.001), dual(8.0, 0.001)];
-    assert_eq!(
-        super::tests::outcome("Dual depth", &unpaired),
-        Reproduction::NotMeasured
-    );
-    // Without a number of peels, the richest scene that both get right.
-    let layers = |method: &str, n: f64, p: u32, rmse| {
-        passes(&format!("transparency/thin/method={method}"), p)
-            .at("layers", n)
-            .off(rmse)
-    };
-    let richest = [
-        layers("depth-peeling", 2.0, 4, 0.001),
-        layers("dual-depth-peeling", 2.0, 3, 0.001),
-        layers("depth-peeling", 8.0, 16, 0.001),
-        layers("dual-depth-peeling", 8.0, 9, 0.001),
-        layers("depth-peeling", 16.0, 18, 0.1),
-        layers("dual-depth-peeling", 16.0, 10, 0.1),
-    ];
-    assert_eq!(check("Dual depth", &richest).1[0].text, "16 → 9 passes");
-}
-
-#[test]
-fn weighted_blending_takes_two_passes_everywhere() {
-    let of = |scene: &str, n| passes(&format!("transparency/{scene}/method=weighted-blended"), n);
-    assert_eq!(
-        outcome("Weighted", &[of("a", 2), of("b", 2)]),
-        Reproduction::Reproduced
-    );
-    assert_eq!(
-        outcome("Weighted", &[of("a", 2), of("b", 3)]),
-        Reproduction::Partly(1, 2)
-    );
-    assert_eq!(
-        outcome("Weighted", &[of("a", 4)]),
-        Reproduction::NotReproduced
-    );
-}
-
-#[test]
-fn culling_is_judged_by_its_closed_mesh() {
-    let of =
-        |scene: &str, method: &str, n| fragments(&format!("culling/{scene}/method={method}"), n);
-    let halved = [
-        of("closed-mesh", "none", 1000),
-        of("closed-mesh", "back", 510),
-    ];
-    assert_eq!(outcome("Culling", &halved), Reproduction::Reproduced);
-    let kept = [
-        of("closed-mesh", "none", 1000),
-        of("closed-mesh", "back", 900),
-    ];
-    assert_eq!(outcome("Culling", &kept), Reproduction::NotReproduced);
-    let other = [of("open-mesh", "none", 1000), of("open-mesh", "back", 900)];
-    assert_eq!(outcome("Culling", &other), Reproduction::NotMeasured);
-    let zero = [of("closed-mesh", "none", 0), of("closed-mesh", "back", 0)];
-    assert_eq!(outcome("Culling", &zero), Reproduction::NotMeasured);
-}
-
-#[test]
-fn sampling_costs_are_ratios_per_adapter() {
-    let of = |method: &str| format!("anti-aliasing/edges/method={method}");
-    let four = [
-        fragments(&of("none"), 1000),
-        fragments(&of("supersampling-2x2"), 5100),
-    ];
-    assert_eq!(outcome("Supersampling", &four), Reproduction::Reproduced);
-    let two = [
-        fragments(&of("none"), 1000),
-        fragments(&of("supersampling-2x2"), 2000),
-    ];
-    assert_eq!(outcome("Supersampling", &two), Reproduction::NotReproduced);
-    let times = |msaa, full| {
-        vec![
-            wall(&of("none"), 1.0),
-            wall(&of("msaa-4"), msaa),
-            wall(&of("supersampling-2x2"), full),
-        ]
-    };
-    assert_eq!(
-        outcome("Multisampling", &times(1.5, 4.0)),
-        Reproduction::Reproduced
-    );
-    assert_eq!(
-        outcome("Multisampling", &times(4.5, 4.0)),
-        Reproduction::NotReproduced
-    );
-    let mut both = times(1.5, 4.0);
-    both.extend(times(5.0, 4.0).into_iter().map(|m| m.on("gl:a")));
-    let (found, figures) = check("Multisampling", &both);
-    assert_eq!(found, Reproduction::Partly(1, 2));
-    assert_eq!(figures[1].adapter, "gl:a");
-    let mut untimed = times(1.5, 4.0);
-    untimed[1].wall = None;
-    assert_eq!(
-        outcome("Multisampling", &untimed),
-        Reproduction::NotMeasured
-    );
-}
-
-#[test]
-fn front_to_back_is_held_against_the_prepass() {
-    let of = |sorted, prepass| {
-        [
-            ("unsorted", 1000),
-            ("front-to-back", sorted),
-            ("depth-prepass", prepass),
-        ]
-        .map(|(m, n)| fragments(&format!("visibility-cost/rooms/method={m}"), n).at("layers", 8.0))
-    };
-    assert_eq!(
-        outcome("Drawing front", &of(400, 400)),
-        Reproduction::Reproduced
-    );
-    assert_eq!(
-        outcome("Drawing front", &of(800, 400)),
-        Reproduction::NotReproduced
-    );
-    assert_eq!(
-        outcome("Drawing front", &of(1000, 1000)),
-        Reproduction::NotReproduced
-    );
-    // An adapter that counts what the depth test rejects is judged by its times.
-    let mut blind = of(1000, 2000).to_vec();
-    blind.push(fragments("visibility-cost/rooms/method=no-test", 1000).at("layers", 8.0));
-    assert_eq!(
-        outcome("Drawing front", &blind),
-        Reproduction::NotReproduced
-    );
-    blind[1].wall = Some(0.0005);
-    assert_eq!(outcome("Drawing front", &blind), Reproduction::Reproduced);
-}
-
-#[test]
-fn early_tests_must_give_the_same_error() {
-    let of = |early| {
-        [("discard", 0.001), ("forced-early-test", early)]
-            .map(|(m, e)| Made::new(&format!("visibility-cost/rooms/method={m}")).off(e))
-    };
-    assert_eq!(outcome("Early tests", &of(0.001)), Reproduction::Reproduced);
-    assert_eq!(
-        outcome("Early tests", &of(0.0011)),
-        Reproduction::NotReproduced
-    );
-}
-
-#[test]
-fn reversed_depth_needs_the_smaller_gap() {
-    let curve = |method: &str, errors: [f64; 3]| {
-        [0.001, 0.01, 0.1]
-            .into_iter()
-            .zip(errors)
-            .map(move |(gap, e)| {
-                Made::new(&format!("depth-precision/planes/method={method}"))
-                    .at("gap", gap)
-                    .off(e)
-            })
-            .collect::<Vec<_>>()
-    };
-    let of =
-        |fixed, reversed| [curve("depth24", fixed), curve("reversed-depth", reversed)].concat();
-    assert_eq!(
-        outcome("Reversed", &of([0.3, 0.3, 0.001], [0.3, 0.001, 0.001])),
-        Reproduction::Reproduced
-    );
-    assert_eq!(
-        outcome("Reversed", &of([0.3, 0.3, 0.3], [0.3, 0.3, 0.001])),
-        Reproduction::Reproduced
-    );
-    assert_eq!(
-        outcome("Reversed", &of([0.3, 0.001, 0.001], [0.3, 0.3, 0.001])),
-        Reproduction::NotReproduced
-    );
-    assert_eq!(
-        outcome("Reversed", &of([0.3, 0.3, 0.3], [0.3, 0.3, 0.3])),
-        Reproduction::NotReproduced
-    );
-}
-
-#[test]
-fn coverage_has_a_level_for_each_sample() {
-    let of = |error: fn(f64) -> f64| -> Vec<Made> {
-        (1..8)
-            .map(|i| f64::from(i) / 8.0)
-            .map(|a| {
-                Made::new("transparency/levels/method=alpha-to-coverage")
-                    .at("alpha", a)
-                    .off(error(a))
-            })
-            .collect()
-    };
-    let levels = |a: f64| 0.4 * (a - (a * 4.0).round() / 4.0).abs() + 0.001;
-    assert_eq!(
-        outcome("Alpha to coverage", &of(levels)),
-        Reproduction::Reproduced
-    );
-    assert_eq!(
-        outcome("Alpha to coverage", &of(|_| 0.001)),
-        Reproduction::NotReproduced,
-        "no levels"
-    );
-    assert_eq!(
-        outcome("Alpha to coverage", &of(|a| 0.1 * a)),
-        Reproduction::NotReproduced
-    );
-}
-
-#[test]
-fn depth_fail_is_right_everywhere() {
-    let of = |pass: [f64; 2], fail: [f64; 2]| {
-        let mut all = Vec::new();
-        for (i, eye) in [0.0, 0.5].into_iter().enumerate() {
-            for (method, error) in [("pass", pass[i]), ("fail", fail[i])] {
-                let id =
-                    format!("stencil-effects/shadow-volume/method=shadow-volume-depth-{method}");
-                all.push(Made::new(&id).at("eye", eye).off(error));
+        Test::Ratio {
+            quantity,
+            of,
+            over,
+            holds,
+        } => {
+            for value in values {
+                // Every negative term is a tenth; the one positive term makes up for it.
+                let mut add = |terms: &[(&str, f64)], sum: f64| {
+                    let less = terms.iter().filter(|t| t.1 < 0.0).count() as f64 * 2.0;
+                    for (method, sign) in terms {
+                        let figure = if *sign < 0.0 { 2.0 } else { sum + less };
+                        all.push(with(at(method, value), quantity, figure));
+                    }
+                };
+                add(over, 1.0);
+                add(of, pick(holds));
+                if let Some([less, more]) = claim.fewer {
+                    for (method, n) in [(less, 2000), (more, 9000)] {
+                        let known = |m: &Made| {
+                            m.id.ends_with(&format!("={method}"))
+                                && m.parameter == Some(("p", value))
+                        };
+                        if !all.iter().any(known) {
+                            all.push(Made {
+                                fragments: Some(n),
+                                ..at(method, value)
+                            });
+                        }
+                    }
+                }
             }
         }
-        all
+        Test::Same { methods: [a, b] } => {
+            all.push(at(a, 1.0).off(0.02));
+            all.push(at(b, 1.0).off(if good { 0.02 } else { 0.0201 }));
+        }
+        Test::Trend {
+            quantity,
+            of,
+            holds,
+        } => {
+            all.push(with(at(of, values[0]), quantity, 0.01));
+            all.push(with(at(of, values[1]), quantity, 0.01 * pick(holds)));
+        }
+        Test::Unlike { right, wrong } => {
+            for (i, value) in values.into_iter().enumerate() {
+                all.push(at(right, value).off(0.001));
+                all.push(at(wrong, value).off(if good && i == 1 { 0.2 } else { 0.001 }));
+            }
+        }
+        Test::Halves { of, over } => {
+            let passes = |made: Made, passes| Made {
+                passes,
+                ..made.off(0.01)
+            };
+            all.push(passes(at(over, 8.0), 16));
+            all.push(passes(at(of, 4.0), if good { 9 } else { 15 }));
+        }
+        Test::Narrowest { of, over, holds } => {
+            let gaps = [0.001, 0.01, 0.1, 1.0];
+            // Where the other resolves from the third gap on, one that resolves from another on.
+            let from = match (holds.met(0.2), good) {
+                (true, true) | (false, false) => 1,
+                _ => 3,
+            };
+            for (i, gap) in gaps.into_iter().enumerate() {
+                all.push(at(over, gap).off(if i < 2 { 0.3 } else { 0.001 }));
+                all.push(at(of, gap).off(if i < from { 0.3 } else { 0.001 }));
+            }
+        }
+        Test::Levels { of, samples } => {
+            for i in 1..2 * samples {
+                let alpha = f64::from(i) / f64::from(2 * samples);
+                let off = if i % 2 == 1 && good { 0.07 } else { 0.001 };
+                all.push(at(of, alpha).off(off));
+            }
+        }
+        Test::HalfCodes { of, holds } => {
+            let alpha = 0.1;
+            let off = pick(holds) * 0.5 / 255.0 / alpha;
+            all.push(at(of, alpha).off(off));
+        }
+    }
+    all
+}
+
+#[test]
+fn every_claim_has_figures_that_reproduce_and_figures_that_refute_it() {
+    assert!(claims().count() >= 21, "{}", claims().count());
+    for claim in claims() {
+        for (good, due) in [
+            (true, Reproduction::Reproduced),
+            (false, Reproduction::NotReproduced),
+        ] {
+            let (found, figures, _) = of(claim, &made(claim, good));
+            assert_eq!(found, due, "{}: {figures:?}", claim.title);
+        }
+        let text = words::compared(claim);
+        assert!(
+            text.contains("Holds") && text.contains(claim.question),
+            "{text}"
+        );
+        assert!(!claim.source.is_empty());
+    }
+}
+
+/// Every comparison needs all of its methods, at the same setting.
+#[test]
+fn nothing_is_measured_where_a_method_is_missing_or_stands_elsewhere() {
+    let lonely = [Made::new("elsewhere/scene/method=other").at("k", 1.0)];
+    for claim in claims() {
+        assert_eq!(
+            of(claim, &lonely).0,
+            Reproduction::NotMeasured,
+            "{}",
+            claim.title
+        );
+        if matches!(
+            claim.test,
+            Test::Value { .. } | Test::Trend { .. } | Test::Levels { .. } | Test::HalfCodes { .. }
+        ) {
+            continue;
+        }
+        let all = made(claim, true);
+        let mut methods: Vec<&str> = all
+            .iter()
+            .map(|m| m.id.rsplit('/').next().unwrap())
+            .collect();
+        methods.sort_unstable();
+        methods.dedup();
+        for missing in methods {
+            let rest: Vec<Made> = all
+                .iter()
+                .filter(|m| !m.id.ends_with(missing))
+                .cloned()
+                .collect();
+            let (found, figures, _) = of(claim, &rest);
+            assert_eq!(
+                found,
+                Reproduction::NotMeasured,
+                "{} without {missing}: {figures:?}",
+                claim.title
+            );
+        }
+        // Each method at values of its own, as a covering array has them.
+        let mut apart = all.clone();
+        for (i, made) in apart.iter_mut().enumerate() {
+            made.parameter = Some(("p", 100.0 + i as f64));
+        }
+        let (found, figures, _) = of(claim, &apart);
+        let expected = [Reproduction::NotMeasured];
+        assert!(expected.contains(&found), "{}: {figures:?}", claim.title);
+    }
+}
+
+/// The prepass draws in the order of `unsorted`: its own fragments are not shaded ones.
+#[test]
+fn the_fragments_of_a_prepass_do_not_count_as_shaded() {
+    let of = |sorted, prepass| {
+        let fragments = [
+            ("no-test", 4000),
+            ("unsorted", 1500),
+            ("front-to-back", sorted),
+            ("depth-prepass", prepass),
+        ];
+        fragments.map(|(method, n)| Made {
+            fragments: Some(n),
+            ..Made::new(&format!("visibility-cost/rooms/method={method}")).at("layers", 8.0)
+        })
     };
-    let title = "Shadow volumes";
+    let title = "Drawing front to back";
+    // 1500 of the prepass and 1000 shaded.
+    let (found, figures, _) = outcome(title, &of(1000, 2500));
+    assert_eq!(found, Reproduction::Reproduced);
+    assert_eq!(told(&figures), ["×1 rooms at layers 8 on cpu"]);
+    // A fifth as many as the prepass runs in all, but far fewer than it shades: ×0.24 against ×1.2 once passed.
+    let (found, figures, _) = outcome(title, &of(300, 2500));
+    assert_eq!(found, Reproduction::NotReproduced, "{figures:?}");
+    // One that shades half as much again.
     assert_eq!(
-        outcome(title, &of([0.001, 0.3], [0.001, 0.001])),
+        outcome(title, &of(1500, 2500)).0,
+        Reproduction::NotReproduced
+    );
+    // An adapter that counts before the depth test says nothing.
+    let mut blind = of(4000, 8000);
+    blind[1].fragments = Some(4000);
+    let (found, _, names) = outcome(title, &blind);
+    assert_eq!(
+        (found, names),
+        (Reproduction::NotMeasured, vec!["cpu".to_owned()])
+    );
+}
+
+#[test]
+fn as_much_is_not_less_and_a_wide_interval_decides_nothing() {
+    let title = "Multisampling takes less time";
+    let times = |msaa: f64, full: f64, spread: f64| {
+        [("msaa-4", msaa), ("supersampling-2x2", full)].map(|(method, wall)| Made {
+            wall: Some(wall),
+            interval: Some([wall * (1.0 - spread), wall * (1.0 + spread)]),
+            ..Made::new(&format!("anti-aliasing/fan/method={method}"))
+        })
+    };
+    assert_eq!(
+        outcome(title, &times(2.0, 4.0, 0.1)).0,
         Reproduction::Reproduced
     );
     assert_eq!(
-        outcome(title, &of([0.001, 0.3], [0.001, 0.3])),
+        outcome(title, &times(4.0, 4.0, 0.0)).0,
         Reproduction::NotReproduced
     );
     assert_eq!(
-        outcome(title, &of([0.001, 0.001], [0.001, 0.001])),
+        outcome(title, &times(5.0, 4.0, 0.02)).0,
         Reproduction::NotReproduced
+    );
+    let (found, figures, _) = outcome(title, &times(3.8, 4.0, 0.2));
+    assert_eq!(found, Reproduction::Undecided);
+    assert_eq!(
+        told(&figures),
+        ["?×0.95 (interval ×0.633 to ×1.42) fan on cpu"]
+    );
+    // A time without an interval is no figure.
+    let mut bare = times(2.0, 4.0, 0.1);
+    bare[0].interval = None;
+    assert_eq!(outcome(title, &bare).0, Reproduction::NotMeasured);
+    // Two adapters, one for and one against.
+    let mut both = times(2.0, 4.0, 0.1).to_vec();
+    both.extend(times(9.0, 4.0, 0.1).map(|m| m.on("gl:a")));
+    let (found, figures, _) = outcome(title, &both);
+    assert_eq!(found, Reproduction::Partly(1, 2));
+    assert_eq!(
+        told(&figures)[1],
+        "✗×2.25 (interval ×1.84 to ×2.75) fan on gl:a"
     );
 }
 
+/// Missing data is no verdict: curves that never resolve, of different gaps or of one gap, say nothing.
 #[test]
-fn accumulated_errors_stay_below_half_a_code_over_alpha() {
-    let at = |parameter, value, e| {
-        Made::new("accumulation/columns/method=ordered-8-bit")
-            .at(parameter, value)
-            .off(e)
+fn gaps_that_nothing_resolves_are_not_measured() {
+    let curve = |method: &str, gaps: &[(f64, f64)]| -> Vec<Made> {
+        let of = |(gap, off): &(f64, f64)| {
+            Made::new(&format!("depth-precision/planes/method={method}"))
+                .at("gap", *gap)
+                .off(*off)
+        };
+        gaps.iter().map(of).collect()
     };
-    let code = 1.0 / 255.0;
-    let title = "The error of blending";
-    let fine = [at("alpha", 0.1, 5.0 * code), at("alpha", 0.5, 0.9 * code)];
-    assert_eq!(outcome(title, &fine), Reproduction::Reproduced);
+    let title = "Reversed float depth";
+    let never = [(0.001, 0.3), (0.01, 0.3)];
+    let of = |a: &[(f64, f64)], b: &[(f64, f64)]| {
+        let all = [curve("depth24", a), curve("reversed-depth", b)].concat();
+        outcome(title, &all).0
+    };
+    assert_eq!(of(&never, &never), Reproduction::NotMeasured);
     assert_eq!(
-        outcome(title, &[at("alpha", 0.1, 7.0 * code)]),
-        Reproduction::NotReproduced
+        of(&[(0.01, 0.3)], &[(0.01, 0.001)]),
+        Reproduction::NotMeasured
     );
-    let grows = [
-        at("layers", 1.0, code),
-        at("layers", 16.0, 4.0 * code),
-        at("layers", 64.0, 3.8 * code),
-    ];
-    assert_eq!(outcome(title, &grows), Reproduction::Reproduced);
-    let falls = [at("layers", 1.0, 4.0 * code), at("layers", 16.0, code)];
-    assert_eq!(outcome(title, &falls), Reproduction::NotReproduced);
+    assert_eq!(
+        of(&[(0.1, 0.3), (1.0, 0.001)], &[(0.001, 0.3), (0.01, 0.001)]),
+        Reproduction::NotMeasured,
+        "curves over different gaps"
+    );
+    let late = [(0.001, 0.3), (0.01, 0.001)];
+    assert_eq!(of(&never, &late), Reproduction::Reproduced);
+    assert_eq!(of(&late, &never), Reproduction::NotReproduced);
 }
 
 #[test]
-fn places_with_one_figure_are_told_together() {
-    let of = |scene: &str, adapter: &str, text: &str| Figure::new((scene, adapter), text, true);
-    let figures = [
-        of("a", "x", "2"),
-        of("a", "y", "2"),
-        of("b", "x", "2"),
-        of("b", "y", "3"),
+fn cases_that_are_told_together_keep_their_range_and_their_places() {
+    let of = |value: f64, alpha: f64, off: f64| {
+        Made::new(&format!(
+            "transparency/windows/method={}",
+            if value > 0.0 {
+                "weighted-blended"
+            } else {
+                "unsorted"
+            }
+        ))
+        .at("alpha", alpha)
+        .off(off)
+    };
+    let made = [
+        of(1.0, 0.1, 0.01),
+        of(0.0, 0.1, 0.02),
+        of(1.0, 0.5, 0.03),
+        of(0.0, 0.5, 0.04),
+        of(1.0, 0.9, 0.3),
+        of(0.0, 0.9, 0.1),
     ];
-    let told: Vec<(&str, String)> = together(&figures)
-        .into_iter()
-        .map(|(t, p, _)| (t, p))
-        .collect();
+    let (found, figures, _) = outcome("Weighted blended transparency is nearer", &made);
+    assert_eq!(found, Reproduction::Partly(2, 3));
     assert_eq!(
-        told,
-        [("2", "a; b on x".to_owned()), ("3", "b on y".to_owned())]
+        told(&figures),
+        [
+            "×0.5 to ×0.75 windows in 2 cases, alpha 0.1 to alpha 0.5 on cpu",
+            "✗×3 windows at alpha 0.9 on cpu"
+        ]
     );
-    let adapters = [of("", "x", "1"), of("", "y", "1")];
-    assert_eq!(together(&adapters)[0].1, "all adapters");
+    let html = section(&Methods::of(&run(&made)).unwrap()).into_string();
+    assert!(html.contains("reproduced in 2 of 3 cases"), "{html}");
 }

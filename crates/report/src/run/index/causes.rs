@@ -8,7 +8,7 @@ use super::mark::{class, mark};
 use crate::numbers::count;
 use crate::run::grid::Grid;
 use crate::words::{self, Tone};
-use etalon_record::{Condition, Record, Verdict, Violation};
+use etalon_record::{Condition, Record, Symptom, Verdict};
 use maud::{Markup, html};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -21,7 +21,7 @@ const FILES: usize = 12;
 /// Records of one adapter and kind.
 struct Cause<'a> {
     adapter: &'a str,
-    kind: Violation,
+    kind: Symptom,
     records: usize,
     /// By case file: what its failing cases have in common, and the first of them.
     files: Vec<(&'a str, Condition, &'a Record)>,
@@ -80,8 +80,7 @@ fn entry(cause: &Cause<'_>) -> Markup {
 }
 
 fn causes<'a>(grid: &Grid<'a>) -> Vec<Cause<'a>> {
-    let mut found: BTreeMap<(usize, Violation), BTreeMap<&'a str, Vec<&'a Record>>> =
-        BTreeMap::new();
+    let mut found: BTreeMap<(usize, Symptom), BTreeMap<&'a str, Vec<&'a Record>>> = BTreeMap::new();
     let mut drawn: BTreeMap<(usize, &str), Vec<&str>> = BTreeMap::new();
     for file in grid.areas.iter().flat_map(|a| &a.files) {
         for column in 0..grid.adapters.len() {
@@ -94,7 +93,7 @@ fn causes<'a>(grid: &Grid<'a>) -> Vec<Cause<'a>> {
                         .push(&record.case);
                 }
                 if record.unexpected() {
-                    let of_kind = found.entry((column, Violation::of(record))).or_default();
+                    let of_kind = found.entry((column, Symptom::of(record))).or_default();
                     of_kind.entry(file.name).or_default().push(record);
                 }
             }

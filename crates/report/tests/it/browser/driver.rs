@@ -168,6 +168,23 @@ impl Page<'_> {
         }
     }
 
+    /// Moves the mouse onto an element.
+    pub(crate) fn hover(&self, selector: &str) {
+        let [x, y]: [f64; 2] = self.eval(&format!(
+            "(e => {{ e.scrollIntoViewIfNeeded(); const r = e.getClientRects()[0]; \
+             return [r.x + r.width / 2, r.y + r.height / 2]; }})(document.querySelector({selector:?}))"
+        ));
+        let event = json!({ "type": "mouseMoved", "x": x, "y": y });
+        self.call("Input.dispatchMouseEvent", &event);
+    }
+
+    /// Makes the window so wide and so high.
+    pub(crate) fn resize(&self, width: u32, height: u32) {
+        let metrics =
+            json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        self.call("Emulation.setDeviceMetricsOverride", &metrics);
+    }
+
     /// Presses and lets go of a key: `Tab`, `Enter`, `j`.
     pub(crate) fn press(&self, key: &str) {
         let (number, text) = match key {
@@ -176,6 +193,8 @@ impl Page<'_> {
             "Escape" => (27, ""),
             "Home" => (36, ""),
             "ArrowLeft" => (37, ""),
+            "ArrowUp" => (38, ""),
+            "ArrowRight" => (39, ""),
             "ArrowDown" => (40, ""),
             character => (0, character),
         };

@@ -7,10 +7,8 @@ use crate::runs_made::Two;
 use crate::synthetic;
 use std::path::{Path, PathBuf};
 
-/// Every page but `index.html` of a run.
+/// Every page but those of a run.
 fn pages(folder: &Path) -> Vec<PathBuf> {
-    let methods = folder.join("methods");
-    synthetic::methods::write(&methods);
     let two = Two::new();
     synthetic::methods::write(&two.before());
     synthetic::methods::write(&two.after());
@@ -18,8 +16,7 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
     std::fs::write(&diff, two.page(&two.diff())).unwrap();
     let benches = bench::pages(&folder.join("bench"));
     let hunt = etalon_report::write_hunt(&folder.join("hunt"), &hunt()).unwrap();
-    let methods = etalon_report::write(&methods).unwrap();
-    let mut all = vec![methods.methods.unwrap(), diff, hunt.html];
+    let mut all = vec![diff, hunt.html];
     all.extend(benches);
     all
 }
@@ -28,7 +25,7 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
 pub(super) fn pages_have_no_script(chromium: &Chromium) {
     let folder = tempfile::tempdir().unwrap();
     let pages = pages(folder.path());
-    assert_eq!(pages.len(), 5);
+    assert_eq!(pages.len(), 4);
     for path in pages {
         let page = chromium.open(&path, "");
         assert_eq!(page.eval::<u64>("document.scripts.length"), 0, "{path:?}");

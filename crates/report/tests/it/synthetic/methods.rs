@@ -105,6 +105,7 @@ fn record(
     };
     r.accuracy.push(Accuracy {
         aspect: Aspect::Color,
+        encoding: Some(etalon_frame::ChannelEncoding::Unorm(8)),
         channels: 65536,
         mean: 0.11 * slow,
         max: 2.0,
@@ -129,6 +130,7 @@ fn record(
             wall,
             cpu: wall * 0.1,
             gpu: (slow < 1.0).then_some(wall * 0.8),
+            interval: Some([wall * 0.9, wall * 1.2]),
         }),
         passes: *passes,
         draws: passes * 6,

@@ -62,6 +62,7 @@ pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
         driver_id: String::new(),
         api_version: "1.4.305".to_owned(),
         software: true,
+        release: None,
         limits: Limits {
             api,
             version: etalon_frame::ApiVersion::UNKNOWN,

@@ -1,0 +1,409 @@
+//! `etalon reduce`.
+
+use crate::adapters::{Query, discover, refuse_absent};
+use crate::cases::library;
+use crate::failure::{Failure, UNEXPECTED};
+use crate::flags::{AdapterFileArguments, Format};
+use crate::output::{summarize, summarize_json};
+use clap::Args;
+use etalon_case::{Case, Profile, build};
+use etalon_explore::{Candidate, MOST_DRAWS, Oracle, Reduction, keys, leaves, reduce, states};
+use etalon_frame::{Frame, Limits};
+use etalon_record::Record;
+use etalon_runner::{Judge, Launch, Trials, Violation, ViolationKind, Worker};
+use serde_json::{Value, json};
+use std::fs;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// The processes in which a case is drawn at the start, and the drawings in each: a failure that depends on
+/// either is no steady one.
+const PROCESSES: usize = 4;
+const DRAWINGS: usize = 3;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// Id of the case
+    #[arg(value_name = "CASE")]
+    pub(crate) case: String,
+    /// The adapter on which it fails
+    #[arg(long, value_name = "NAME")]
+    pub(crate) adapter: String,
+    /// Folder into which the reduced case file is written; `--cases` takes it
+    #[arg(long, value_name = "DIR", default_value = "reports/reduced")]
+    pub(crate) out: PathBuf,
+    /// Read case files from this folder instead of the built-in ones
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
+    /// Form of the summary
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+/// Reduces a case that fails on an adapter, and writes what is left as a case file.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let library = library(arguments.cases.as_ref())?;
+    let mut all = library.cases(Profile::Full);
+    let Some(found) = all.find(|c| c.id() == arguments.case) else {
+        return Err(Failure::usage(format!(
+            "there is no case `{}`; `etalon list --profile full` lists all cases",
+            arguments.case
+        )));
+    };
+    let document = found.document().map_err(Failure::usage)?;
+    let id = file_name(&arguments.case, &arguments.adapter);
+    let case = build(&id, &document).map_err(|e| {
+        let message = format!(
+            "the scene of `{}` cannot be written as a case file: {e}",
+            arguments.case
+        );
+        Failure::usage(message)
+    })?;
+    let (launch, worker) = start(arguments)?;
+    let name = &arguments.adapter;
+    let limits = worker.hello.limits.clone();
+    if let Some(missing) = limits.missing(&case.requirements()) {
+        return Err(Failure::usage(format!("{name} does not support {missing}")));
+    }
+    let steady = repeat(&launch, worker, &case, &limits)?;
+    let (worker, record, violation) = match steady {
+        Outcome::Steady(found) => *found,
+        Outcome::Passes(verdict) => {
+            return Err(Failure::nothing(format!(
+                "{} does not fail on {name}, drawn alone: {verdict}; there is nothing to reduce",
+                arguments.case
+            )));
+        }
+        Outcome::Flaky(message) => {
+            return Err(Failure {
+                code: UNEXPECTED,
+                message: format!(
+                    "{} is flaky on {name}: {message}; only a steady failure can be reduced",
+                    arguments.case
+                ),
+            });
+        }
+    };
+    let begun = Instant::now();
+    let mut judge = DriverOracle {
+        trials: Trials::new(launch.clone(), worker),
+        limits: limits.clone(),
+        violation: violation.clone(),
+        record,
+        error: None,
+    };
+    let failing = Candidate {
+        document: document.clone(),
+        case,
+    };
+    let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
+    let reduction = reduce(failing, MOST_DRAWS, &can_draw, &mut judge);
+    let seconds = begun.elapsed().as_secs_f64();
+    if let Some(error) = judge.error {
+        return Err(Failure::incomplete(format!(
+            "the worker of {name} could not be started again: {error}"
+        )));
+    }
+    confirm(&launch, &reduction.smallest.case, &limits, &judge.violation).map_err(|message| {
+        let code = UNEXPECTED;
+        let message = format!("the reduced case of {} {message}", arguments.case);
+        Failure { code, message }
+    })?;
+    let told = Told {
+        arguments,
+        before: &document["scene"],
+        reduction: &reduction,
+        record: &judge.record,
+        first: &violation,
+        violation: &judge.violation,
+        seconds,
+    };
+    let path = arguments.out.join(format!("{id}.json"));
+    let text = serde_json::to_string_pretty(&told.document())
+        .map_err(|e| Failure::incomplete(format!("cannot write JSON: {e}")))?;
+    fs::create_dir_all(&arguments.out)
+        .and_then(|()| fs::write(&path, text + "\n"))
+        .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))?;
+    match arguments.format {
+        Format::Text => summarize(&told.text(&path.display().to_string())),
+        Format::Json => summarize_json(&told.json(&path.display().to_string()))?,
+    }
+    Ok(0)
+}
+
+/// Returns the name of the case file, which is also the id of its case: letters and digits, as ids have them.
+fn file_name(case: &str, adapter: &str) -> String {
+    let word = |text: &str| -> String {
+        let letters = text.chars();
+        letters
+            .map(|c| {
+                if c.is_ascii_alphanumeric() || "-_.+".contains(c) {
+                    c
+                } else {
+                    '-'
+                }
+            })
+            .collect()
+    };
+    format!("{}.{}", word(case), word(adapter))
+}
+
+fn start(arguments: &Arguments) -> Result<(Launch, Worker), Failure> {
+    let names = std::slice::from_ref(&arguments.adapter);
+    let adapters = discover(&Query {
+        names,
+        file: arguments.file.adapter_file.as_deref(),
+        ..Query::default()
+    })?;
+    refuse_absent(names, &adapters.absent)?;
+    let mut ready = adapters.ready.into_iter();
+    ready
+        .next()
+        .ok_or_else(|| Failure::usage(format!("adapter {} cannot be used", arguments.adapter)))
+}
+
+/// What repeated drawings of a case show.
+enum Outcome {
+    /// It fails in the same way every time.
+    Steady(Box<(Worker, Record, Violation)>),
+    /// It never fails.
+    Passes(String),
+    /// It fails sometimes, or in several ways.
+    Flaky(String),
+}
+
+/// Draws a case several times in several processes, each time alone.
+fn repeat(
+    launch: &Launch,
+    first: Worker,
+    case: &Case,
+    limits: &Limits,
+) -> Result<Outcome, Failure> {
+    let mut records: Vec<Record> = Vec::new();
+    let mut ways: Vec<Option<Violation>> = Vec::new();
+    let mut worker = Some(first);
+    let mut warm = None;
+    for _ in 0..PROCESSES {
+        let mut own = match worker.take() {
+            Some(worker) => worker,
+            None => Worker::start(launch).map_err(Failure::incomplete)?,
+        };
+        for _ in 0..DRAWINGS {
+            let frames = own.draw(case).map_err(|e| {
+                Failure::incomplete(format!("it cannot be drawn on {}: {e}", launch.adapter))
+            })?;
+            let record = judged(case, limits, &frames);
+            ways.push(Violation::of(case, &record));
+            records.push(record);
+        }
+        warm.get_or_insert(own);
+    }
+    let failed = ways.iter().flatten().count();
+    let (Some(worker), Some(record)) = (warm, records.into_iter().next()) else {
+        return Err(Failure::incomplete("nothing was drawn"));
+    };
+    Ok(match ways.swap_remove(0) {
+        None if failed == 0 => Outcome::Passes(match record.message.as_str() {
+            "" => record.verdict.to_string(),
+            message => format!("{}, {message}", record.verdict),
+        }),
+        Some(way) if failed == PROCESSES * DRAWINGS => {
+            match ways.iter().flatten().find(|other| **other != way) {
+                None => Outcome::Steady(Box::new((worker, record, way))),
+                Some(other) => Outcome::Flaky(format!("it fails by {way} and by {other}")),
+            }
+        }
+        _ => Outcome::Flaky(format!(
+            "it fails in {failed} of {} drawings, in {PROCESSES} processes",
+            PROCESSES * DRAWINGS
+        )),
+    })
+}
+
+/// Draws a reduced case in a fresh process.
+fn confirm(
+    launch: &Launch,
+    case: &Case,
+    limits: &Limits,
+    violation: &Violation,
+) -> Result<(), String> {
+    let mut worker = Worker::start(launch).map_err(|e| e.to_string())?;
+    let frames = worker.draw(case).map_err(|e| e.to_string())?;
+    let record = judged(case, limits, &frames);
+    match Violation::of(case, &record) {
+        Some(way) if violation.covers(&way) => Ok(()),
+        _ => Err(format!(
+            "fails only after others in the same process: drawn alone it is {}",
+            record.verdict
+        )),
+    }
+}
+
+/// Judges frames by themselves: legal sets of candidates are of no use to others.
+fn judged(case: &Case, limits: &Limits, frames: &[Frame]) -> Record {
+    Judge::default().judge(0, case, "", limits, frames).record
+}
+
+/// The judge as oracle, with a driver's frames.
+struct DriverOracle {
+    trials: Trials,
+    limits: Limits,
+    /// The violation of the smallest case so far, and its record.
+    violation: Violation,
+    record: Record,
+    error: Option<String>,
+}
+
+impl Oracle for DriverOracle {
+    fn first(&mut self, candidates: &mut dyn Iterator<Item = Candidate>) -> Option<Candidate> {
+        let Self {
+            trials,
+            limits,
+            violation,
+            record,
+            error,
+        } = self;
+        if error.is_some() {
+            return None;
+        }
+        let mut next = || candidates.next();
+        let mut found = |candidate: &Candidate, frames: &[Frame]| {
+            let judged = judged(&candidate.case, limits, frames);
+            let way = Violation::of(&candidate.case, &judged);
+            let Some(way) = way.filter(|way| violation.covers(way)) else {
+                return false;
+            };
+            *violation = way;
+            *record = judged;
+            true
+        };
+        match trials.first(&mut next, |c| &c.case, &mut found) {
+            Ok(found) => found,
+            Err(failed) => {
+                *error = Some(failed.to_string());
+                None
+            }
+        }
+    }
+
+    fn texel(&self) -> Option<[u32; 2]> {
+        self.record.wrong.first().map(|w| [w.x, w.y])
+    }
+}
+
+/// A reduction, for people and programs.
+struct Told<'a> {
+    arguments: &'a Arguments,
+    before: &'a Value,
+    reduction: &'a Reduction,
+    record: &'a Record,
+    /// The violation of the case that was reduced.
+    first: &'a Violation,
+    violation: &'a Violation,
+    seconds: f64,
+}
+
+impl Told<'_> {
+    fn scene(&self) -> &Value {
+        &self.reduction.smallest.document["scene"]
+    }
+
+    /// Returns the sentence on the wrong sample or counter.
+    fn sentence(&self) -> String {
+        let sentence = self.record.story.as_ref().and_then(|s| s.sentence());
+        sentence.unwrap_or_else(|| self.record.message.clone())
+    }
+
+    /// Returns the clause that is violated: that of the last operation that cites one. Coverage cites one for
+    /// primitives that lie elsewhere, and so is the last to be named.
+    fn clause(&self) -> Option<&str> {
+        let story = self.record.story.as_ref()?;
+        let cited = |coverage: bool| {
+            let mut lines = story.operations().iter().rev();
+            lines.find_map(|line| {
+                let own = (line.operation == "coverage") == coverage;
+                line.citation.as_deref().filter(|_| own)
+            })
+        };
+        let verdict = || story.verdict()?.citation.as_deref();
+        if matches!(self.violation.kind, ViolationKind::Relation { .. }) {
+            return verdict();
+        }
+        cited(false).or_else(|| cited(true)).or_else(verdict)
+    }
+
+    fn states(&self) -> String {
+        match states(self.scene()) {
+            all if all.is_empty() => "none but the defaults".to_owned(),
+            all => all.join(", "),
+        }
+    }
+
+    /// Returns the document with what it shows.
+    fn document(&self) -> Value {
+        let Arguments { case, adapter, .. } = self.arguments;
+        let mut about = format!(
+            "Reduced from {case} on {adapter}. States: {}. Violated: {}: {}",
+            self.states(),
+            self.violation,
+            self.sentence()
+        );
+        if let Some(clause) = self.clause() {
+            about.push_str(&format!(" [{clause}]"));
+        }
+        let mut document = self.reduction.smallest.document.clone();
+        document["about"] = json!(about);
+        document
+    }
+
+    fn text(&self, path: &str) -> String {
+        let share = |count: fn(&Value) -> usize| {
+            let (before, after) = (count(self.before), count(self.scene()));
+            let dropped = 100.0 * (1.0 - after as f64 / before.max(1) as f64);
+            format!("{after} of {before} ({dropped:.1} % less)")
+        };
+        let mut text = format!(
+            "{} on {}\n  keys: {}\n  values: {}\n  draws: {} in {:.1} s{}\n  states: {}\n  violated: {}\n  {}\n",
+            self.arguments.case,
+            self.arguments.adapter,
+            share(keys),
+            share(leaves),
+            self.reduction.draws,
+            self.seconds,
+            if self.reduction.finished {
+                ""
+            } else {
+                ", the most: more may be left to reduce"
+            },
+            self.states(),
+            self.violation,
+            self.sentence(),
+        );
+        if let Some(clause) = self.clause() {
+            text.push_str(&format!("  [{clause}]\n"));
+        }
+        text.push_str(&format!("Case file: {path}\n"));
+        text
+    }
+
+    fn json(&self, path: &str) -> Value {
+        let count = |count: fn(&Value) -> usize| json!([count(self.before), count(self.scene())]);
+        json!({
+            "case": self.arguments.case,
+            "adapter": self.arguments.adapter,
+            "file": path,
+            "keys": count(keys),
+            "values": count(leaves),
+            "draws": self.reduction.draws,
+            "finished": self.reduction.finished,
+            "seconds": self.seconds,
+            "states": states(self.scene()),
+            "first_violation": self.first.to_string(),
+            "violation": self.violation.to_string(),
+            "sentence": self.sentence(),
+            "clause": self.clause(),
+        })
+    }
+}

@@ -1,0 +1,226 @@
+//! `etalon reduce`: what is left of failing cases, and what it says of those that cannot be reduced.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use crate::etalon::etalon;
+use etalon_record::{Run, Verdict};
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+/// Reduces a case. Returns the exit code, the summary and the error output.
+fn reduce(case: &str, adapter: &str, out: &Path) -> (i32, Value, String) {
+    let out = out.to_str().unwrap();
+    let arguments = [
+        "reduce",
+        case,
+        "--adapter",
+        adapter,
+        "--format",
+        "json",
+        "--out",
+        out,
+    ];
+    let output = etalon(&arguments).output().unwrap();
+    let summary = serde_json::from_slice(&output.stdout).unwrap_or(Value::Null);
+    let error = String::from_utf8(output.stderr).unwrap();
+    (output.status.code().unwrap(), summary, error)
+}
+
+/// Reduces a case that must reduce, and checks that the case file that comes out fails in the same way.
+fn reduced(case: &str, adapter: &str) -> (Value, Value) {
+    let folder = TempDir::new().unwrap();
+    let cases = folder.path().join("cases");
+    let (code, summary, error) = reduce(case, adapter, &cases);
+    assert_eq!(code, 0, "{case} on {adapter}: {error}");
+    let text = fs::read_to_string(summary["file"].as_str().unwrap()).unwrap();
+    let document: Value = serde_json::from_str(&text).unwrap();
+
+    let number = |key: &str, at: usize| summary[key][at].as_u64().unwrap();
+    assert!(number("keys", 1) <= number("keys", 0), "{summary}");
+    assert!(number("values", 1) <= number("values", 0), "{summary}");
+    assert!(summary["draws"].as_u64().unwrap() <= 1000, "{summary}");
+    let about = document["about"].as_str().unwrap();
+    assert!(
+        about.contains(case) && about.contains("Violated: "),
+        "{about}"
+    );
+
+    // The same attachment and aspect, and no operation that was not there.
+    let parts = |key: &str| {
+        let text = summary[key].as_str().unwrap();
+        let (place, operations) = text.split_once(" (").unwrap_or((text, ""));
+        let operations = operations.trim_end_matches(')').split(", ");
+        (
+            place.to_owned(),
+            operations.map(str::to_owned).collect::<Vec<_>>(),
+        )
+    };
+    let ((place, before), (same, after)) = (parts("first_violation"), parts("violation"));
+    assert_eq!(place, same);
+    assert!(
+        after.iter().all(|o| before.contains(o)),
+        "{before:?} {after:?}"
+    );
+
+    let out = folder.path().join("run");
+    let folders = [&cases, &out].map(|p| p.to_str().unwrap().to_owned());
+    let arguments = [
+        "run",
+        "--profile",
+        "full",
+        "--cases",
+        &folders[0],
+        "--adapter",
+        adapter,
+        "--out",
+        &folders[1],
+    ];
+    etalon(&arguments).output().unwrap();
+    let run = Run::read(&out).unwrap();
+    let own: Vec<_> = run.records.iter().collect();
+    assert_eq!(own.len(), 1, "{case}");
+    assert_eq!(own[0].verdict, Verdict::Fail, "{case} on {adapter}");
+    (summary, document)
+}
+
+/// The draws of a document.
+fn draws(document: &Value) -> Vec<&Value> {
+    let passes = document["scene"]["passes"].as_array().unwrap();
+    let all = passes.iter().map(|p| p["draws"].as_array().unwrap());
+    all.flatten().collect()
+}
+
+#[test]
+fn a_random_scene_becomes_the_one_state_that_the_driver_has_wrong() {
+    let (summary, document) = reduced("combined/extended/seed=16", "gl:softpipe");
+    let all = draws(&document);
+    assert_eq!(all.len(), 1, "{document}");
+    let keys: Vec<&String> = all[0].as_object().unwrap().keys().collect();
+    assert_eq!(keys, ["logic", "mesh", "shader"]);
+    assert_eq!(summary["violation"], "color of color (logic operation)");
+    let values = &summary["values"];
+    let dropped = 1.0 - values[1].as_f64().unwrap() / values[0].as_f64().unwrap();
+    assert!(dropped >= 0.95, "{summary}");
+
+    let (summary, document) = reduced("combined/extended/seed=104", "gl:softpipe");
+    assert_eq!(draws(&document).len(), 1, "{document}");
+    assert_eq!(draws(&document)[0]["depth_clamp"], true);
+    let clause = summary["clause"].as_str().unwrap();
+    assert!(clause.contains("Depth Buffer Test"), "{clause}");
+}
+
+#[test]
+fn a_reduction_is_deterministic() {
+    let [one, other] = [(); 2].map(|()| {
+        let folder = TempDir::new().unwrap();
+        let (code, summary, error) =
+            reduce("combined/extended/seed=16", "gl:es:softpipe", folder.path());
+        if code != 0 {
+            return (json!(code), json!(error.contains("does not support")));
+        }
+        let text = fs::read_to_string(summary["file"].as_str().unwrap()).unwrap();
+        (json!(text), summary["draws"].clone())
+    });
+    assert_eq!(one, other);
+}
+
+#[test]
+fn every_kind_of_violation_is_kept() {
+    for (case, key) in [
+        (
+            "selftest/logic/judged=or",
+            "color of color (logic operation)",
+        ),
+        ("selftest/scissor/judged=right", "color of color (scissor)"),
+        ("selftest/resolve", "color of resolved (resolve)"),
+        (
+            "selftest/counter/right=8",
+            "counter samples-passed counts too much",
+        ),
+        (
+            "selftest/counter-runs",
+            "counter shader-runs counts too little",
+        ),
+        ("selftest/relation-frames", "relation repeat"),
+    ] {
+        let (summary, document) = reduced(case, "cpu");
+        assert_eq!(summary["violation"], key, "{case}");
+        assert!(
+            document.get("judged_as").is_some() || key.starts_with("relation"),
+            "{case}"
+        );
+    }
+}
+
+#[test]
+fn what_a_driver_carries_from_draw_to_draw_stays_in_two_draws() {
+    let case = "sequence/state/scissor/across=draw/first=none/then=left";
+    let (_, document) = reduced(case, "gl:softpipe:call-fault=scissor-kept");
+    let all = draws(&document);
+    assert_eq!(all.len(), 2, "{document}");
+    assert!(all.iter().any(|d| d.get("scissor").is_some()), "{document}");
+}
+
+#[test]
+fn a_case_that_passes_is_not_reduced() {
+    let folder = TempDir::new().unwrap();
+    let (code, _, error) = reduce("combined/common/seed=0", "cpu", folder.path());
+    assert_eq!(code, 4, "{error}");
+    assert!(error.contains("does not fail on cpu"), "{error}");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    let (code, _, error) = reduce("combined/common/seed=none", "cpu", folder.path());
+    assert_eq!(
+        (code, error.contains("there is no case")),
+        (64, true),
+        "{error}"
+    );
+    let (code, _, error) = reduce("combined/common/seed=0", "gl:none", folder.path());
+    assert_eq!(
+        (code, error.contains("there is no adapter")),
+        (64, true),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_flaky_failure_is_told_from_a_steady_one() {
+    // One scene in eight fails, in about half of all processes.
+    let folder = TempDir::new().unwrap();
+    let flaky = (0..60).any(|seed| {
+        let case = format!("combined/common/seed={seed}");
+        let (code, _, error) = reduce(&case, "cpu:fault=flaky", folder.path());
+        if code == 1 {
+            assert!(error.contains("is flaky on cpu:fault=flaky"), "{error}");
+        }
+        code == 1
+    });
+    assert!(flaky);
+}
+
+#[test]
+fn a_reduced_case_can_be_reduced_again_from_its_folder() {
+    let folder = TempDir::new().unwrap();
+    let (code, first, error) = reduce("combined/extended/seed=16", "gl:softpipe", folder.path());
+    assert_eq!(code, 0, "{error}");
+    let path = Path::new(first["file"].as_str().unwrap());
+    let id = path.file_stem().unwrap().to_str().unwrap();
+    let [cases, out] = ["", "again"].map(|name| folder.path().join(name));
+    let arguments = [
+        "reduce",
+        id,
+        "--adapter",
+        "gl:softpipe",
+        "--cases",
+        cases.to_str().unwrap(),
+        "--format",
+        "json",
+        "--out",
+        out.to_str().unwrap(),
+    ];
+    let output = etalon(&arguments).output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    let again: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(again["keys"][0], again["keys"][1]);
+    assert_eq!(again["states"], first["states"]);
+}

@@ -1,0 +1,121 @@
+//! What a document holds, counted and listed.
+
+use crate::edit::{Place, place};
+use serde_json::Value;
+use std::ops::Range;
+
+/// Returns the number of keys in a value: the members of all its objects.
+pub fn keys(value: &Value) -> usize {
+    match value {
+        Value::Object(map) => map.len() + map.values().map(keys).sum::<usize>(),
+        Value::Array(list) => list.iter().map(keys).sum(),
+        _ => 0,
+    }
+}
+
+/// Returns the number of words and numbers in a value.
+pub fn leaves(value: &Value) -> usize {
+    match value {
+        Value::Object(map) => map.values().map(leaves).sum(),
+        Value::Array(list) => list.iter().map(leaves).sum(),
+        _ => 1,
+    }
+}
+
+/// Returns the states of a scene that are not the default, each once and in order of passes and draws:
+/// `logic "xor"`, `depth {"compare":"less","write":true}`.
+pub fn states(scene: &Value) -> Vec<String> {
+    /// The keys of a draw that say what is drawn.
+    const DRAWN: [&str; 4] = ["mesh", "params", "shader", "textures"];
+    /// The keys of a pass that name its parts.
+    const PARTS: [&str; 5] = ["clears", "color", "depth_stencil", "draws", "read"];
+    let mut all: Vec<String> = Vec::new();
+    let mut add = |value: &Value, without: &[&str]| {
+        for (key, value) in value.as_object().into_iter().flatten() {
+            let state = format!("{key} {value}");
+            if !without.contains(&key.as_str()) && !all.contains(&state) {
+                all.push(state);
+            }
+        }
+    };
+    for pass in list(scene, "passes") {
+        add(pass, &PARTS);
+        for clear in list(pass, "clears") {
+            add(&serde_json::json!({ "clear": clear }), &[]);
+        }
+        for draw in list(pass, "draws") {
+            add(draw, &DRAWN);
+        }
+    }
+    if let Some(path) = scene.get("path") {
+        add(&serde_json::json!({ "path": path }), &[]);
+    }
+    all
+}
+
+/// Returns the items of a list; none where there is no list.
+pub(crate) fn list<'v>(value: &'v Value, key: &str) -> &'v [Value] {
+    value.get(key).and_then(Value::as_array).map_or(&[], |l| l)
+}
+
+/// Returns the parts of a list of so many items that are taken away together: all, both halves, quarters, down
+/// to one.
+pub(crate) fn parts(length: usize) -> Vec<Range<usize>> {
+    let mut all = Vec::new();
+    let mut size = length;
+    while size > 0 {
+        let starts = (0..length).step_by(size);
+        all.extend(starts.map(|start| start..(start + size).min(length)));
+        size /= 2;
+    }
+    all
+}
+
+/// Returns the number of a scene's passes.
+pub(crate) fn passes_of(document: &Value) -> usize {
+    list(&document["scene"], "passes").len()
+}
+
+/// Returns the places of all draws.
+pub(crate) fn draws_of(document: &Value) -> Vec<Place> {
+    let passes = list(&document["scene"], "passes").iter();
+    let each = passes.enumerate().flat_map(|(p, pass)| {
+        let draws = 0..list(pass, "draws").len();
+        draws.map(move |d| place!["scene", "passes", p, "draws", d])
+    });
+    each.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn parts_are_all_then_smaller_ones() {
+        assert_eq!(parts(4), [0..4, 0..2, 2..4, 0..1, 1..2, 2..3, 3..4]);
+        assert_eq!(parts(3), [0..3, 0..1, 1..2, 2..3]);
+        assert_eq!(parts(0), []);
+    }
+
+    #[test]
+    fn keys_and_leaves_are_counted_at_every_depth() {
+        let value = json!({ "a": [1, { "b": "c", "d": [] }], "e": { "f": null } });
+        assert_eq!((keys(&value), leaves(&value)), (5, 3));
+    }
+
+    #[test]
+    fn states_are_listed_once() {
+        let draw = json!({ "mesh": { "kind": "full" }, "shader": "flat_color", "logic": "xor" });
+        let scene = json!({
+            "passes": [{ "color": ["c"], "depth_stencil_read_only": true, "draws": [draw, draw] }],
+            "path": { "state": "dynamic" }
+        });
+        let due = [
+            "depth_stencil_read_only true",
+            "logic \"xor\"",
+            "path {\"state\":\"dynamic\"}",
+        ];
+        assert_eq!(states(&scene), due);
+    }
+}

@@ -1,0 +1,18 @@
+//! Exploration: from a case that fails to the smallest one that fails in the same way.
+//!
+//! [`reduce()`] works on a case's document, the JSON of a case file, because that is what comes out of it: what
+//! a key is, and what is left without it, is then said once, where case files are read. Whether a smaller
+//! case still fails is for an [`Oracle`] to say; this crate draws and judges nothing.
+
+#![cfg_attr(
+    test,
+    expect(clippy::unwrap_used, reason = "a test that panics has failed")
+)]
+
+mod document;
+mod edit;
+mod passes;
+mod reduce;
+
+pub use document::{keys, leaves, states};
+pub use reduce::{Candidate, MOST_DRAWS, Oracle, Reduction, reduce};

@@ -1,0 +1,167 @@
+//! Attachments: those of passes, those that are read back, and those that nothing names any more.
+
+use crate::document::{list, parts};
+use crate::edit::{Edit, below, place};
+use serde_json::{Value, json};
+
+/// Each attachment of a pass, with all that is said of it.
+pub(crate) fn bound(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
+    let mut all = Vec::new();
+    for (p, pass) in list(&document["scene"], "passes").iter().enumerate() {
+        let own = place!["scene", "passes", p];
+        if pass.get("depth_stencil").is_some() {
+            all.push(without_depth_stencil(pass, &own));
+        }
+        if pass.get("depth_stencil_resolve").is_some() {
+            all.push(Edit::removal(below(&own, "depth_stencil_resolve")));
+        }
+        for location in (0..list(pass, "color").len()).rev() {
+            all.push(without_color(pass, &own, location));
+        }
+    }
+    all
+}
+
+fn without_depth_stencil(pass: &Value, own: &[crate::edit::Step]) -> Edit {
+    let mut edit = Edit::default();
+    let keys = [
+        "depth_stencil",
+        "depth_stencil_read_only",
+        "depth_stencil_resolve",
+    ];
+    for key in keys {
+        if pass.get(key).is_some() {
+            edit.remove.push(below(own, key));
+        }
+    }
+    for key in ["depth", "stencil"] {
+        if pass["operations"].get(key).is_some() {
+            edit.remove.push(below(&below(own, "operations"), key));
+        }
+    }
+    for (c, clear) in list(pass, "clears").iter().enumerate() {
+        if clear.get("color").is_none() {
+            edit.remove.push(below(&below(own, "clears"), c));
+        }
+    }
+    for (d, draw) in list(pass, "draws").iter().enumerate() {
+        for key in ["depth", "stencil", "depth_bounds"] {
+            if draw.get(key).is_some() {
+                edit.remove
+                    .push(below(&below(&below(own, "draws"), d), key));
+            }
+        }
+    }
+    edit
+}
+
+fn without_color(pass: &Value, own: &[crate::edit::Step], location: usize) -> Edit {
+    let mut edit = Edit::removal(below(&below(own, "color"), location));
+    for (place, all) in [
+        (below(own, "resolve"), list(pass, "resolve")),
+        (
+            below(&below(own, "operations"), "color"),
+            list(&pass["operations"], "color"),
+        ),
+    ] {
+        if all.len() > location {
+            edit.remove.push(below(&place, location));
+        }
+    }
+    for (c, clear) in list(pass, "clears").iter().enumerate() {
+        let place = below(&below(own, "clears"), c);
+        match clear.get("color").and_then(Value::as_u64) {
+            Some(at) if at == location as u64 => edit.remove.push(place),
+            Some(at) if at > location as u64 => {
+                edit.replace.push((below(&place, "color"), json!(at - 1)));
+            }
+            _ => {}
+        }
+    }
+    for (d, draw) in list(pass, "draws").iter().enumerate() {
+        if list(draw, "targets").len() > location {
+            let targets = below(&below(&below(own, "draws"), d), "targets");
+            edit.remove.push(below(&targets, location));
+        }
+    }
+    edit
+}
+
+/// Attachments that are read back.
+pub(crate) fn read(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
+    let count = list(&document["scene"], "read").len();
+    let parts = parts(count).into_iter().filter(|part| part.len() < count);
+    parts
+        .map(|part| Edit {
+            remove: part.map(|i| place!["scene", "read", i]).collect(),
+            ..Edit::default()
+        })
+        .collect()
+}
+
+/// Attachments that nothing names, together and one by one.
+pub(crate) fn unused(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
+    let scene = &document["scene"];
+    let mut named = Vec::new();
+    collect(&scene["passes"], &mut named);
+    collect(&scene["read"], &mut named);
+    let attachments = scene["attachments"].as_object();
+    let names = attachments.into_iter().flatten().map(|(name, _)| name);
+    let unused: Vec<_> = names
+        .filter(|name| !named.contains(&name.as_str()))
+        .map(|name| place!["scene", "attachments", name.as_str()])
+        .collect();
+    let parts = parts(unused.len()).into_iter();
+    parts
+        .map(|part| Edit {
+            remove: unused[part].to_vec(),
+            ..Edit::default()
+        })
+        .collect()
+}
+
+/// Adds all strings in a value.
+fn collect<'v>(value: &'v Value, all: &mut Vec<&'v str>) {
+    match value {
+        Value::String(text) => all.push(text),
+        Value::Array(list) => list.iter().for_each(|v| collect(v, all)),
+        Value::Object(map) => map.values().for_each(|v| collect(v, all)),
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_attachment_goes_with_what_is_said_of_it() {
+        let document = json!({ "scene": {
+            "attachments": { "a": {}, "b": {}, "d": {}, "t": {} },
+            "passes": [{
+                "color": ["a", "b"], "depth_stencil": "d", "resolve": [null, "t"],
+                "clears": [{ "color": 0 }, { "color": 1 }, { "depth": 1 }],
+                "draws": [{ "targets": [{}, { "write_mask": "r" }], "depth": {}, "cull": "back" }]
+            }],
+            "read": ["a"]
+        } });
+        let all = bound(&document, None);
+        let no_depth = all[0].apply(&document).unwrap();
+        let pass = &no_depth["scene"]["passes"][0];
+        assert_eq!(pass.get("depth_stencil"), None);
+        assert_eq!(pass["clears"], json!([{ "color": 0 }, { "color": 1 }]));
+        assert_eq!(pass["draws"][0].get("depth"), None);
+        let no_first = all[2].apply(&document).unwrap();
+        let pass = &no_first["scene"]["passes"][0];
+        assert_eq!(pass["color"], json!(["b"]));
+        assert_eq!(pass["resolve"], json!(["t"]));
+        assert_eq!(pass["clears"], json!([{ "color": 0 }, { "depth": 1 }]));
+        assert_eq!(pass["draws"][0]["targets"], json!([{ "write_mask": "r" }]));
+        assert_eq!(unused(&document, None), []);
+        let unused = unused(&no_depth, None);
+        assert_eq!(
+            unused[0],
+            Edit::removal(place!["scene", "attachments", "d"])
+        );
+    }
+}

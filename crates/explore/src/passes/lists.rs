@@ -1,0 +1,246 @@
+//! Lists: further frames, passes, draws, clear commands and counters are left out.
+
+use crate::document::{draws_of, list, parts, passes_of};
+use crate::edit::{Edit, below, place};
+use serde_json::{Map, Value, json};
+use std::ops::Range;
+
+/// Variants, readings, literal values and the relation between frames.
+pub(crate) fn frames(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
+    let keys = ["variants", "submissions", "relation", "expect"];
+    let given: Vec<&str> = keys
+        .into_iter()
+        .filter(|key| document.get(key).is_some())
+        .collect();
+    let mut all = Vec::new();
+    for sizes in parts(given.len()) {
+        let places = given[sizes].iter().map(|key| place![*key]);
+        all.push(Edit {
+            remove: places.collect(),
+            ..Edit::default()
+        });
+    }
+    for key in ["variants", "submissions", "expect"] {
+        for part in parts(list(document, key).len()) {
+            all.push(Edit {
+                remove: part.map(|i| place![key, i]).collect(),
+                ..Edit::default()
+            });
+        }
+    }
+    all
+}
+
+/// Passes.
+pub(crate) fn passes(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
+    let parts = parts(passes_of(document)).into_iter();
+    parts
+        .map(|part| {
+            let mut edit = renumbered(document, "/passes", &part);
+            edit.remove = part.map(|i| place!["scene", "passes", i]).collect();
+            edit
+        })
+        .collect()
+}
+
+/// Draws. Clear commands keep their places between those that stay.
+pub(crate) fn draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
+    let mut all = Vec::new();
+    for (p, pass) in list(&document["scene"], "passes").iter().enumerate() {
+        for part in parts(list(pass, "draws").len()) {
+            let mut edit = renumbered(document, &format!("/passes/{p}/draws"), &part);
+            for (c, clear) in list(pass, "clears").iter().enumerate() {
+                let Some(before) = clear["before"].as_u64() else {
+                    continue;
+                };
+                let gone = part.clone().filter(|i| (*i as u64) < before).count() as u64;
+                if gone > 0 {
+                    let place = place!["scene", "passes", p, "clears", c, "before"];
+                    edit.replace.push((place, json!(before - gone)));
+                }
+            }
+            let places = part.map(|d| place!["scene", "passes", p, "draws", d]);
+            edit.remove = places.collect();
+            all.push(edit);
+        }
+    }
+    all
+}
+
+/// Clear commands.
+pub(crate) fn clears(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
+    let mut all = Vec::new();
+    for (p, pass) in list(&document["scene"], "passes").iter().enumerate() {
+        for part in parts(list(pass, "clears").len()) {
+            let places = part.map(|c| place!["scene", "passes", p, "clears", c]);
+            all.push(Edit {
+                remove: places.collect(),
+                ..Edit::default()
+            });
+        }
+    }
+    all
+}
+
+/// Counters, with their names in draws.
+pub(crate) fn counters(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
+    let scene = &document["scene"];
+    let Some(counters) = scene.get("counters").and_then(Value::as_object) else {
+        return Vec::new();
+    };
+    let names: Vec<&String> = counters.keys().collect();
+    let mut all = Vec::new();
+    for part in parts(names.len()) {
+        let gone = &names[part];
+        let whole = gone.len() == names.len();
+        let mut edit = Edit {
+            remove: match whole {
+                true => vec![place!["scene", "counters"]],
+                false => gone
+                    .iter()
+                    .map(|name| place!["scene", "counters", name.as_str()])
+                    .collect(),
+            },
+            ..Edit::default()
+        };
+        for draw in draws_of(document) {
+            let own = below(&draw, "counters");
+            let Some(Value::Array(used)) = crate::edit::at(document, &own) else {
+                continue;
+            };
+            let places = used.iter().enumerate().filter_map(|(i, name)| {
+                let name = name.as_str()?;
+                gone.iter().any(|g| *g == name).then(|| below(&own, i))
+            });
+            match whole {
+                true => edit.remove.push(own.clone()),
+                false => edit.remove.extend(places),
+            }
+        }
+        all.push(edit);
+    }
+    // A draw that counts nothing.
+    for draw in draws_of(document) {
+        all.push(Edit::removal(below(&draw, "counters")));
+    }
+    all
+}
+
+/// Returns an edit of the JSON pointers and orders of variants and of the judge's scene, when items of a list
+/// of the scene are left out.
+fn renumbered(document: &Value, list: &str, gone: &Range<usize>) -> Edit {
+    let number = |i: usize| match i {
+        i if gone.contains(&i) => None,
+        i if i >= gone.end => Some(i - gone.len()),
+        i => Some(i),
+    };
+    let pointer = |old: &str| -> Option<String> {
+        let Some(rest) = old.strip_prefix(list).and_then(|r| r.strip_prefix('/')) else {
+            return Some(old.to_owned());
+        };
+        let (item, rest) = rest
+            .split_once('/')
+            .map_or((rest, None), |(i, r)| (i, Some(r)));
+        let Ok(item) = item.parse() else {
+            return Some(old.to_owned());
+        };
+        let item = number(item)?;
+        Some(match rest {
+            Some(rest) => format!("{list}/{item}/{rest}"),
+            None => format!("{list}/{item}"),
+        })
+    };
+    let moved = |changes: &Value| -> Map<String, Value> {
+        let each = changes.as_object().into_iter().flatten();
+        each.filter_map(|(old, value)| Some((pointer(old)?, value.clone())))
+            .collect()
+    };
+    let mut edit = Edit::default();
+    if let Some(changes) = document.get("judged_as") {
+        let changes = moved(changes);
+        if Value::Object(changes.clone()) != document["judged_as"] {
+            edit.replace.push((place!["judged_as"], changes.into()));
+        }
+    }
+    let variants = document.get("variants").and_then(Value::as_array);
+    for (v, variant) in variants.into_iter().flatten().enumerate() {
+        for key in ["patch", "permute"] {
+            let Some(changes) = variant.get(key) else {
+                continue;
+            };
+            let mut changes = moved(changes);
+            if key == "permute"
+                && let Some(Value::Array(order)) = changes.get_mut(list)
+            {
+                let kept = order.iter().filter_map(Value::as_u64);
+                let kept = kept.filter_map(|i| number(i as usize)).map(|i| json!(i));
+                *order = kept.collect();
+            }
+            if Value::Object(changes.clone()) != *variant.get(key).unwrap_or(&Value::Null) {
+                edit.replace
+                    .push((place!["variants", v, key], changes.into()));
+            }
+        }
+    }
+    edit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pointers_orders_and_clears_follow_the_draws() {
+        let document = json!({
+            "scene": { "passes": [{
+                "clears": [{ "before": 0 }, { "before": 2 }, { "before": 3 }],
+                "draws": [{ "shader": "a" }, { "shader": "b" }, { "shader": "c" }]
+            }] },
+            "variants": [{
+                "name": "v",
+                "patch": { "/passes/0/draws/1/shader": "x", "/passes/0/draws/2": "y", "/read": [] },
+                "permute": { "/passes/0/draws": [2, 1, 0] }
+            }],
+            "judged_as": { "/passes/0/draws/2/shader": "z" }
+        });
+        let all = draws(&document, None);
+        // All, then one by one, since half of three is one.
+        let without_second = all[2].apply(&document).unwrap();
+        let pass = &without_second["scene"]["passes"][0];
+        assert_eq!(pass["draws"], json!([{ "shader": "a" }, { "shader": "c" }]));
+        assert_eq!(
+            pass["clears"],
+            json!([{ "before": 0 }, { "before": 1 }, { "before": 2 }])
+        );
+        assert_eq!(
+            without_second["variants"][0],
+            json!({
+                "name": "v",
+                "patch": { "/passes/0/draws/1": "y", "/read": [] },
+                "permute": { "/passes/0/draws": [1, 0] }
+            })
+        );
+        let due = json!({ "/passes/0/draws/1/shader": "z" });
+        assert_eq!(without_second["judged_as"], due);
+    }
+
+    #[test]
+    fn a_counter_goes_with_its_names() {
+        let document = json!({ "scene": {
+            "counters": { "a": "samples-passed", "b": "shader-runs" },
+            "passes": [{ "draws": [{ "counters": ["a", "b"] }, { "counters": ["b"] }] }]
+        } });
+        let all = counters(&document, None);
+        let none = all[0].apply(&document).unwrap();
+        assert_eq!(
+            none,
+            json!({ "scene": { "passes": [{ "draws": [{}, {}] }] } })
+        );
+        let without_a = all[1].apply(&document).unwrap();
+        let draws = &without_a["scene"]["passes"][0]["draws"];
+        assert_eq!(
+            *draws,
+            json!([{ "counters": ["b"] }, { "counters": ["b"] }])
+        );
+    }
+}

@@ -1,0 +1,135 @@
+//! Meshes: one primitive in the place of many, and shorter lists.
+
+use crate::document::{draws_of, parts};
+use crate::edit::{Edit, at, below};
+use serde_json::{Map, Value, json};
+
+/// The kinds of one colour and one depth, the simplest first.
+const WHOLE: [&str; 2] = ["full", "cover"];
+/// The most parts of a mesh that are tried as the whole.
+const PARTS: usize = 12;
+
+/// Each draw's mesh.
+pub(crate) fn meshes(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
+    let mut all = Vec::new();
+    for place in draws_of(document) {
+        let own = below(&place, "mesh");
+        let Some(Value::Object(mesh)) = at(document, &own) else {
+            continue;
+        };
+        let kind = mesh.get("kind").and_then(Value::as_str).unwrap_or_default();
+        let rank = WHOLE.iter().position(|k| *k == kind);
+        for whole in &WHOLE[..rank.unwrap_or(WHOLE.len())] {
+            for mesh in wholes(mesh, whole, texel) {
+                all.push(Edit::replacement(own.clone(), mesh));
+            }
+        }
+        all.extend(shorter(mesh, &own));
+    }
+    all
+}
+
+/// The parts of a mesh as whole meshes of a kind. First the plain one.
+fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec<Value> {
+    let mut all = vec![json!({ "kind": kind })];
+    let list = |key: &str| -> Vec<Value> {
+        let list = mesh.get(key).and_then(Value::as_array);
+        list.cloned().unwrap_or_default()
+    };
+    let (values, z, windings) = (list("values"), list("z"), list("windings"));
+    let one = |key: &str, of: &[Value], part: usize| -> Option<Value> {
+        let single = mesh.get(key).filter(|v| !v.is_array() || key == "value");
+        match of.is_empty() {
+            true => single.cloned(),
+            false => of.get(part % of.len()).cloned(),
+        }
+    };
+    let count = values.len().max(z.len()).max(1);
+    // The part of the wrong texel first, as far as that can be said.
+    let first = texel
+        .map_or(0, |[x, _]| x as usize * count / 16)
+        .min(count - 1);
+    let order = std::iter::once(first).chain((0..count).filter(|i| *i != first));
+    for part in order.take(PARTS) {
+        let mut whole = json!({ "kind": kind });
+        let keys = [
+            ("value", one("value", &values, part)),
+            ("z", one("z", &z, part)),
+            ("winding", one("winding", &windings, part)),
+        ];
+        for (key, value) in keys {
+            let fits = key != "winding" || kind == "full";
+            if let Some(value) = value.filter(|_| fits) {
+                whole[key] = value;
+            }
+        }
+        if !all.contains(&whole) {
+            all.push(whole);
+        }
+    }
+    all
+}
+
+/// The mesh with shorter lists: of vertices one primitive less, of others one item.
+fn shorter(mesh: &Map<String, Value>, own: &[crate::edit::Step]) -> Vec<Edit> {
+    let mut all = Vec::new();
+    for key in ["values", "z", "windings", "uv", "indices"] {
+        let length = mesh.get(key).and_then(Value::as_array).map_or(0, Vec::len);
+        if !(2..=64).contains(&length) {
+            continue;
+        }
+        for part in parts(length).into_iter().filter(|p| p.len() < length) {
+            let places = part.map(|i| below(&below(own, key), i));
+            all.push(Edit {
+                remove: places.collect(),
+                ..Edit::default()
+            });
+        }
+    }
+    let length = |key: &str| mesh.get(key).and_then(Value::as_array).map_or(0, Vec::len);
+    let count = length("positions");
+    if count > 3 && mesh.get("indices").is_none() {
+        for part in parts(count / 3).into_iter().filter(|p| p.len() < count / 3) {
+            let vertices = part.start * 3..part.end * 3;
+            let mut edit = Edit::default();
+            for key in ["positions", "values", "uv"] {
+                if length(key) == count {
+                    let places = vertices.clone().map(|i| below(&below(own, key), i));
+                    edit.remove.extend(places);
+                }
+            }
+            all.push(edit);
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_column_becomes_the_whole() {
+        let document = json!({ "scene": { "passes": [{ "draws": [{ "mesh": {
+            "kind": "columns", "values": [0, [1, 0, 0, 1]], "z": [0.25, 0.5], "windings": ["cw"]
+        } }] }] } });
+        let edits = meshes(&document, Some([15, 0]));
+        let made = |edit: &Edit| {
+            edit.apply(&document).unwrap()["scene"]["passes"][0]["draws"][0]["mesh"].clone()
+        };
+        assert_eq!(made(&edits[0]), json!({ "kind": "full" }));
+        let due = json!({ "kind": "full", "value": [1, 0, 0, 1], "z": 0.5, "winding": "cw" });
+        assert_eq!(made(&edits[1]), due);
+    }
+
+    #[test]
+    fn triangles_go_whole() {
+        let document = json!({ "scene": { "passes": [{ "draws": [{ "mesh": {
+            "kind": "vertices", "positions": [0, 1, 2, 3, 4, 5], "values": [0]
+        } }] }] } });
+        let edits = meshes(&document, None);
+        let last = edits.last().unwrap().apply(&document).unwrap();
+        let mesh = &last["scene"]["passes"][0]["draws"][0]["mesh"];
+        assert_eq!(mesh["positions"], json!([0, 1, 2]));
+    }
+}

@@ -1,0 +1,133 @@
+//! Numbers: 0, 1, a half, or fewer digits.
+
+use super::words::walk;
+use crate::edit::{Edit, Place, Step, at, place};
+use serde_json::{Value, json};
+
+/// The keys of numbers that have a pass of their own, or are no values.
+const NOT_VALUES: [&str; 6] = ["size", "samples", "before", "indices", "positions", "cells"];
+/// The longest list whose numbers are tried one by one.
+const LONGEST: usize = 16;
+
+/// All numbers of a scene: lists as a whole, then each number.
+pub(crate) fn numbers(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
+    let mut lists: Vec<Place> = Vec::new();
+    let mut singles: Vec<(Place, f64)> = Vec::new();
+    walk(&document["scene"], place!["scene"], &mut |place, value| {
+        let named =
+            |step: &Step| matches!(step, Step::Key(key) if NOT_VALUES.contains(&key.as_str()));
+        let Some(number) = value.as_f64().filter(|_| !place.iter().any(named)) else {
+            return;
+        };
+        singles.push((place.clone(), number));
+        if let Some((Step::Item(_), list)) = place.split_last()
+            && lists.last().is_none_or(|last| last != list)
+        {
+            lists.push(list.to_vec());
+        }
+    });
+    let mut all = Vec::new();
+    for list in &lists {
+        let Some(Value::Array(items)) = at(document, list) else {
+            continue;
+        };
+        if !items.iter().all(Value::is_number) {
+            continue;
+        }
+        // Four alike are written as one, where case files take that.
+        if items.len() == 4 && items.iter().all(|item| *item == items[0]) {
+            all.push(Edit::replacement(list.clone(), items[0].clone()));
+        }
+        let rank = |items: &[Value]| {
+            items
+                .iter()
+                .filter_map(Value::as_f64)
+                .map(cost)
+                .sum::<u32>()
+        };
+        for simple in [0, 1] {
+            let alike = vec![json!(simple); items.len()];
+            if rank(&alike) < rank(items) {
+                all.push(Edit::replacement(list.clone(), alike));
+            }
+        }
+    }
+    for (place, number) in singles {
+        let length = place.split_last().map_or(0, |(_, parent)| {
+            at(document, parent)
+                .and_then(Value::as_array)
+                .map_or(0, Vec::len)
+        });
+        if length <= LONGEST {
+            let simple = simpler(number).into_iter();
+            all.extend(simple.map(|n| Edit::replacement(place.clone(), n)));
+        }
+    }
+    // A list of one key alone may be shorter than a default.
+    all.retain(|edit| edit.apply(document).is_some());
+    all
+}
+
+/// The simplest numbers, the first ones the simplest.
+const SIMPLEST: [f64; 5] = [0.0, 1.0, 0.5, -1.0, 255.0];
+
+/// Returns the cost of a number: small for simple ones.
+fn cost(number: f64) -> u32 {
+    let known = SIMPLEST.iter().position(|s| *s == number);
+    known.map_or_else(
+        || 10 + number.to_string().len() as u32,
+        |position| position as u32,
+    )
+}
+
+/// Returns the numbers that may stand for one, the simplest first.
+fn simpler(number: f64) -> Vec<Value> {
+    let rounded = [1.0, 10.0, 100.0].map(|digits| (number * digits).round() / digits);
+    let mut all: Vec<f64> = Vec::new();
+    for other in SIMPLEST.into_iter().chain(rounded) {
+        // A whole number may have to stay one.
+        let fits = number.fract() != 0.0 || other.fract() == 0.0 || number == 1.0;
+        if fits && cost(other) < cost(number) && !all.contains(&other) {
+            all.push(other);
+        }
+    }
+    let value = |number: f64| match number.fract() == 0.0 {
+        true => json!(number as i64),
+        false => json!(number),
+    };
+    all.into_iter().map(value).collect()
+}
+
+/// Returns a place with a key.
+#[cfg(test)]
+fn of(key: &str) -> Place {
+    place!["scene", key]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_lose_digits_and_become_common() {
+        assert_eq!(simpler(0.0), Vec::<Value>::new());
+        assert_eq!(simpler(1.0), [json!(0)]);
+        assert_eq!(simpler(37.0), [json!(0), json!(1), json!(-1), json!(255)]);
+        let due = [0.0, 1.0, 0.5, -1.0, 255.0, 0.6, 0.62].map(|n: f64| match n.fract() == 0.0 {
+            true => json!(n as i64),
+            false => json!(n),
+        });
+        assert_eq!(simpler(0.6215), due);
+    }
+
+    #[test]
+    fn lists_are_tried_as_a_whole_and_sizes_never() {
+        let document =
+            json!({ "scene": { "size": [3, 3], "color": [1, 1, 1, 1], "rect": [2, 7] } });
+        let all = numbers(&document, None);
+        assert!(all.contains(&Edit::replacement(of("color"), 1)));
+        assert!(all.contains(&Edit::replacement(of("rect"), json!([0, 0]))));
+        let touches = |edit: &Edit| edit.replace.iter().any(|(p, _)| p.starts_with(&of("size")));
+        assert!(!all.iter().any(touches));
+    }
+}

@@ -1,0 +1,235 @@
+//! Sizes: pictures are cropped, best to the wrong texel, and lose samples.
+
+use crate::document::{draws_of, list};
+use crate::edit::{Edit, Place, at, below, place};
+use serde_json::{Value, json};
+
+/// The size of attachments that give none.
+const DEFAULT: [u64; 2] = [16, 16];
+
+/// The sides that are tried.
+const SIDES: [u64; 6] = [1, 2, 4, 8, 16, 64];
+
+/// The attachments of each size, cropped together.
+pub(crate) fn sizes(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
+    let Some(attachments) = document["scene"]["attachments"].as_object() else {
+        return Vec::new();
+    };
+    let given = |a: &Value| -> Option<[u64; 2]> {
+        let size = a.get("size")?.as_array()?;
+        Some([size.first()?.as_u64()?, size.get(1)?.as_u64()?])
+    };
+    let default = attachments.values().find_map(given).unwrap_or(DEFAULT);
+    let size = |a: &Value| given(a).unwrap_or(default);
+    let mut all_sizes: Vec<[u64; 2]> = attachments.values().map(size).collect();
+    all_sizes.sort_unstable();
+    all_sizes.dedup();
+    let mut all = Vec::new();
+    for from in all_sizes.into_iter().rev() {
+        for side in SIDES {
+            let to = from.map(|s| s.min(side));
+            if to == from {
+                continue;
+            }
+            let at_texel = texel.map(|t| [0, 1].map(|i| u64::from(t[i]).min(from[i] - to[i])));
+            let mut origins: Vec<[u64; 2]> = at_texel.into_iter().collect();
+            if !origins.contains(&[0, 0]) {
+                origins.push([0, 0]);
+            }
+            for origin in origins {
+                let window = Window { origin, size: to };
+                let mut edit = Edit::default();
+                for (name, attachment) in attachments {
+                    if size(attachment) == from {
+                        let own = place!["scene", "attachments", name.as_str()];
+                        edit.replace.push((below(&own, "size"), json!(to)));
+                        window.crop_texels(attachment, &own, &mut edit);
+                    }
+                }
+                window.crop_rectangles(document, &mut edit);
+                all.push(edit);
+            }
+        }
+    }
+    all
+}
+
+/// A part of a picture.
+#[derive(Clone, Copy)]
+struct Window {
+    origin: [u64; 2],
+    size: [u64; 2],
+}
+
+impl Window {
+    fn crop_texels(self, attachment: &Value, own: &[crate::edit::Step], edit: &mut Edit) {
+        let texels = &attachment["texels"];
+        let Some(values) = texels["values"].as_array() else {
+            return;
+        };
+        let cut = |list: &[Value], axis: usize| -> Vec<Value> {
+            let skipped = list.iter().skip(self.origin[axis] as usize);
+            skipped.take(self.size[axis] as usize).cloned().collect()
+        };
+        let values = match texels["kind"].as_str() {
+            Some("columns") => cut(values, 0),
+            Some("rows") => cut(values, 1),
+            Some("grid") => cut(values, 1)
+                .iter()
+                .map(|row| json!(cut(row.as_array().map_or(&[], |r| r), 0)))
+                .collect(),
+            _ => return,
+        };
+        let place = below(&below(own, "texels"), "values");
+        edit.replace.push((place, json!(values)));
+    }
+
+    /// Moves rectangles with the picture, and cuts them off.
+    fn crop_rectangles(self, document: &Value, edit: &mut Edit) {
+        for draw in draws_of(document) {
+            self.crop(document, below(&draw, "scissor"), edit);
+            let whole = at(document, &below(&draw, "viewport")).is_none();
+            let mesh = below(&draw, "mesh");
+            let texels = below(&mesh, "texels");
+            if let Some(corners) = at(document, &texels).and_then(numbers).filter(|_| whole) {
+                let [l, t] = [0, 1].map(|i| self.moved(corners[i], i));
+                let [r, b] = [0, 1].map(|i| self.moved(corners[i + 2], i));
+                edit.replace.push((texels, json!([l, t, r, b])));
+            }
+            // Viewports may reach beyond the picture, but not before its start on every driver: they follow.
+            let rect = below(&below(&draw, "viewport"), "rect");
+            self.crop(document, rect, edit);
+        }
+        let passes = list(&document["scene"], "passes").iter().enumerate();
+        for (p, pass) in passes {
+            for c in 0..list(pass, "clears").len() {
+                let place = place!["scene", "passes", p, "clears", c, "rect"];
+                self.crop(document, place, edit);
+            }
+        }
+        self.crop(document, place!["relation", "within"], edit);
+    }
+
+    /// Crops left, top, width and height.
+    fn crop(self, document: &Value, place: Place, edit: &mut Edit) {
+        let Some([x, y, w, h]) = at(document, &place).and_then(numbers) else {
+            return;
+        };
+        let [l, t] = [self.moved(x, 0), self.moved(y, 1)];
+        let [r, b] = [self.moved(x + w, 0), self.moved(y + h, 1)];
+        edit.replace.push((place, json!([l, t, r - l, b - t])));
+    }
+
+    /// Returns a coordinate in the window.
+    fn moved(self, value: u64, axis: usize) -> u64 {
+        let moved = value.saturating_sub(self.origin[axis]);
+        moved.min(self.size[axis])
+    }
+}
+
+/// Returns four whole numbers.
+fn numbers(value: &Value) -> Option<[u64; 4]> {
+    let list = value.as_array()?.iter();
+    let whole = |v: &Value| v.as_f64().filter(|v| *v >= 0.0 && v.fract() == 0.0);
+    let all: Vec<u64> = list
+        .map(|v| whole(v).map(|v| v as u64))
+        .collect::<Option<_>>()?;
+    all.try_into().ok()
+}
+
+/// Fewer samples, in all attachments of as many; without any, what is resolved is read itself.
+pub(crate) fn samples(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
+    let Some(attachments) = document["scene"]["attachments"].as_object() else {
+        return Vec::new();
+    };
+    let of = |a: &Value| a["samples"].as_u64().unwrap_or(1);
+    let most = attachments.values().map(of).max().unwrap_or(1);
+    let mut all = Vec::new();
+    for to in [1, 2, 4, 8].into_iter().filter(|to| *to < most) {
+        let mut edit = Edit::default();
+        for (name, attachment) in attachments {
+            if of(attachment) == most {
+                let place = place!["scene", "attachments", name.as_str(), "samples"];
+                match to {
+                    1 => edit.remove.push(place),
+                    _ => edit.replace.push((place, json!(to))),
+                }
+            }
+        }
+        if to == 1 {
+            for draw in draws_of(document) {
+                let place = below(&draw, "multisample");
+                if at(document, &place).is_some() {
+                    edit.remove.push(place);
+                }
+            }
+            let mut unresolved = edit.clone();
+            let mut read = list(&document["scene"], "read").to_vec();
+            let passes = list(&document["scene"], "passes").iter().enumerate();
+            for (p, pass) in passes {
+                if pass.get("resolve").is_some() {
+                    let place = place!["scene", "passes", p, "resolve"];
+                    unresolved.remove.push(place);
+                }
+                let pairs = list(pass, "color").iter().zip(list(pass, "resolve"));
+                for (from, resolved) in pairs {
+                    for name in read.iter_mut().filter(|name| *name == resolved) {
+                        *name = from.clone();
+                    }
+                }
+            }
+            unresolved
+                .replace
+                .push((place!["scene", "read"], json!(read)));
+            all.push(edit);
+            all.push(unresolved);
+        } else {
+            all.push(edit);
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_are_cropped_to_the_wrong_texel() {
+        let document = json!({ "scene": {
+            "attachments": {
+                "c": { "size": [4, 4] },
+                "t": { "texels": { "kind": "columns", "values": [0, 1, 2, 3] } }
+            },
+            "passes": [{ "draws": [{ "scissor": [1, 0, 3, 2], "mesh": { "texels": [0, 0, 3, 3] } }] }]
+        } });
+        let first = sizes(&document, Some([2, 1]))[0].apply(&document).unwrap();
+        let due = json!({ "scene": {
+            "attachments": {
+                "c": { "size": [1, 1] },
+                "t": { "size": [1, 1], "texels": { "kind": "columns", "values": [2] } }
+            },
+            "passes": [{ "draws": [{ "scissor": [0, 0, 1, 1], "mesh": { "texels": [0, 0, 1, 1] } }] }]
+        } });
+        assert_eq!(first, due);
+    }
+
+    #[test]
+    fn without_samples_nothing_is_resolved() {
+        let document = json!({ "scene": {
+            "attachments": { "m": { "samples": 4 }, "r": {} },
+            "passes": [{ "color": ["m"], "resolve": ["r"], "draws": [{ "multisample": {} }] }],
+            "read": ["r"]
+        } });
+        let edits = samples(&document, None);
+        let unresolved = edits[1].apply(&document).unwrap();
+        let due = json!({ "scene": {
+            "attachments": { "m": {}, "r": {} },
+            "passes": [{ "color": ["m"], "draws": [{}] }],
+            "read": ["m"]
+        } });
+        assert_eq!(unresolved, due);
+        let two = edits[2].apply(&document).unwrap();
+        assert_eq!(two["scene"]["attachments"]["m"]["samples"], 2);
+    }
+}

@@ -1,0 +1,113 @@
+//! States: keys are removed, which puts every state at its default.
+
+use crate::document::{draws_of, parts};
+use crate::edit::{Edit, Place, at, below, place};
+use serde_json::Value;
+
+/// The keys without which no case can be, or which have a pass of their own.
+const KEPT: [&str; 4] = ["format", "kind", "size", "shader"];
+
+/// The states of each draw: all, halves and so on down to one; first those of all draws together.
+pub(crate) fn of_draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
+    let draws = draws_of(document);
+    let states = |draw: &Place| -> Vec<Place> {
+        let map = at(document, draw).and_then(Value::as_object);
+        let keys = map.into_iter().flat_map(|map| map.keys());
+        let keys = keys.filter(|key| !["mesh", "shader"].contains(&key.as_str()));
+        keys.map(|key| below(draw, key.as_str())).collect()
+    };
+    let mut all = vec![Edit {
+        remove: draws.iter().flat_map(&states).collect(),
+        ..Edit::default()
+    }];
+    // One state of all draws.
+    let mut keys: Vec<Place> = draws.iter().flat_map(states).collect();
+    keys.sort_by(|a, b| a.last().cmp(&b.last()));
+    for same in keys.chunk_by(|a, b| a.last() == b.last()) {
+        all.push(Edit {
+            remove: same.to_vec(),
+            ..Edit::default()
+        });
+    }
+    for draw in &draws {
+        let own = states(draw);
+        for part in parts(own.len()) {
+            all.push(Edit {
+                remove: own[part].to_vec(),
+                ..Edit::default()
+            });
+        }
+    }
+    all
+}
+
+/// Every key of the scene, those of outer values first.
+pub(crate) fn members(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
+    let mut all = Vec::new();
+    let mut next = vec![place!["scene"]];
+    while !next.is_empty() {
+        let mut inner = Vec::new();
+        for place in next {
+            match at(document, &place) {
+                Some(Value::Object(map)) => {
+                    for key in map.keys() {
+                        let member = below(&place, key.as_str());
+                        if !KEPT.contains(&key.as_str()) {
+                            all.push(Edit::removal(member.clone()));
+                        }
+                        inner.push(member);
+                    }
+                }
+                Some(Value::Array(list)) => inner.extend((0..list.len()).map(|i| below(&place, i))),
+                _ => {}
+            }
+        }
+        next = inner;
+    }
+    all.extend(sizes(document));
+    all
+}
+
+/// Sizes that another attachment gives too.
+fn sizes(document: &Value) -> Vec<Edit> {
+    let attachments = document["scene"]["attachments"].as_object();
+    let mut given = attachments
+        .into_iter()
+        .flatten()
+        .filter_map(|(name, a)| Some((name, a.get("size")?)));
+    let Some((_, first)) = given.next() else {
+        return Vec::new();
+    };
+    given
+        .filter(|(_, size)| *size == first)
+        .map(|(name, _)| Edit::removal(place!["scene", "attachments", name.as_str(), "size"]))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn outer_keys_go_before_inner_ones_and_no_only_size() {
+        let document = json!({ "scene": {
+            "attachments": { "a": { "format": "f", "size": [4, 4] }, "b": { "size": [4, 4] } },
+            "passes": [{ "draws": [{ "stencil": { "front": { "compare": "less" } } }] }]
+        } });
+        let all = members(&document, None);
+        let place = |edit: &Edit| {
+            let keys = edit.remove[0].iter().map(|step| match step {
+                crate::edit::Step::Key(key) => key.clone(),
+                crate::edit::Step::Item(i) => i.to_string(),
+            });
+            keys.collect::<Vec<_>>().join("/")
+        };
+        let places: Vec<String> = all.iter().map(place).collect();
+        let of = |name: &str| places.iter().position(|p| p.ends_with(name)).unwrap();
+        assert!(of("/stencil") < of("/front") && of("/front") < of("/compare"));
+        assert!(places.contains(&"scene/attachments/b/size".to_owned()));
+        assert!(!places.contains(&"scene/attachments/a/size".to_owned()));
+        assert!(!places.iter().any(|p| p.ends_with("format")));
+    }
+}

@@ -1,0 +1,178 @@
+//! Shaders and the textures that they read: a shader that reads nothing stands in the place of one that does,
+//! and a clear value in the place of texels.
+
+use crate::document::draws_of;
+use crate::edit::{Edit, at, below, place};
+use serde_json::{Map, Value, json};
+
+/// The shaders that others are replaced by, the simplest first.
+const SIMPLE: [&str; 2] = ["uniform_color", "flat_color"];
+/// The most colours that a shader's own is tried with.
+const COLORS: usize = 6;
+
+/// Each draw's shader.
+pub(crate) fn shaders(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
+    let mut all = Vec::new();
+    for place in draws_of(document) {
+        let Some(draw) = at(document, &place) else {
+            continue;
+        };
+        let shader = draw["shader"].as_str().unwrap_or_default();
+        let rank = SIMPLE.iter().position(|s| *s == shader);
+        let texels = colors_of_textures(document, draw, texel);
+        if rank.is_none_or(|rank| rank > 0) {
+            for color in colors(draw).into_iter().chain(texels.clone()).take(COLORS) {
+                let mut edit = without_inputs(draw, &place);
+                edit.replace = vec![
+                    (below(&place, "shader"), json!(SIMPLE[0])),
+                    (below(&place, "params"), json!({ "color": color })),
+                ];
+                all.push(edit);
+            }
+        }
+        if rank.is_none() {
+            let mut edit = without_inputs(draw, &place);
+            edit.replace = vec![(below(&place, "shader"), json!(SIMPLE[1]))];
+            all.push(edit.clone());
+            for color in texels.into_iter().chain([json!(1)]) {
+                let mut edit = edit.clone();
+                let mesh = json!({ "kind": "cover", "value": color });
+                edit.replace.push((below(&place, "mesh"), mesh));
+                all.push(edit);
+            }
+        }
+    }
+    all
+}
+
+/// An edit that leaves out what only a shader that reads textures has.
+fn without_inputs(draw: &Value, place: &[crate::edit::Step]) -> Edit {
+    let keys = ["textures", "sampler", "early_tests", "clip_distances"];
+    let given = keys.into_iter().filter(|key| draw.get(key).is_some());
+    Edit {
+        remove: given.map(|key| below(place, key)).collect(),
+        ..Edit::default()
+    }
+}
+
+/// Returns the colours that a draw names: its parameters', then its mesh's.
+fn colors(draw: &Value) -> Vec<Value> {
+    let params = &draw["params"];
+    let mesh = &draw["mesh"];
+    let own = [&params["color"], &params["back_color"], &mesh["value"]];
+    let own = own.into_iter().filter(|v| !v.is_null()).cloned();
+    let of_mesh = mesh["values"].as_array().into_iter().flatten().cloned();
+    let mut all: Vec<Value> = Vec::new();
+    for color in own.chain([json!(1)]).chain(of_mesh) {
+        if !all.contains(&color) {
+            all.push(color);
+        }
+    }
+    all
+}
+
+/// Returns the colours under the wrong texel of the textures of a draw.
+fn colors_of_textures(document: &Value, draw: &Value, texel: Option<[u32; 2]>) -> Vec<Value> {
+    let names = draw["textures"].as_array().into_iter().flatten();
+    let attachments = &document["scene"]["attachments"];
+    let colors = names.filter_map(|name| color(attachments.get(name.as_str()?)?, texel));
+    colors.collect()
+}
+
+/// Uploaded texels.
+pub(crate) fn texels(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
+    let mut all = Vec::new();
+    let attachments = document["scene"]["attachments"].as_object();
+    for (name, attachment) in attachments.into_iter().flatten() {
+        if attachment.get("texels").is_none() {
+            continue;
+        }
+        let own = place!["scene", "attachments", name.as_str()];
+        all.push(Edit::removal(below(&own, "texels")));
+        if let Some(color) = color(attachment, texel) {
+            let mut edit = Edit::removal(below(&own, "texels"));
+            edit.replace.push((below(&own, "clear"), color));
+            all.push(edit);
+        }
+        // All texels alike, for shaders that want uploaded ones.
+        let values = attachment["texels"]["values"].as_array();
+        if let (Some(values), Some(one)) = (values, raw(attachment, texel))
+            && attachment["texels"]["kind"] != "grid"
+        {
+            let alike = vec![one; values.len()];
+            let place = below(&below(&own, "texels"), "values");
+            all.push(Edit::replacement(place, alike));
+        }
+    }
+    all
+}
+
+/// Returns the uploaded values at a texel, or at the first one.
+fn raw(attachment: &Value, texel: Option<[u32; 2]>) -> Option<Value> {
+    let texels: &Map<String, Value> = attachment["texels"].as_object()?;
+    let values = texels.get("values")?.as_array()?;
+    let [x, y] = texel.unwrap_or([0, 0]).map(|v| v as usize);
+    let of = |list: &[Value], at: usize| list.get(at).or(list.first()).cloned();
+    match texels.get("kind")?.as_str()? {
+        "columns" => of(values, x),
+        "rows" => of(values, y),
+        "grid" => of(of(values, y)?.as_array()?, x),
+        _ => None,
+    }
+}
+
+/// Returns the colour of the texels of an attachment at a texel, as a clear value: codes of normalized formats
+/// as shares of the greatest.
+fn color(attachment: &Value, texel: Option<[u32; 2]>) -> Option<Value> {
+    if let Some(clear) = attachment.get("clear") {
+        return clear.is_array().then(|| clear.clone());
+    }
+    let format = attachment["format"].as_str()?;
+    let most = match format {
+        "rgb10a2unorm" => [1023.0, 1023.0, 1023.0, 3.0],
+        _ if format.ends_with("float") || format.ends_with("uint") => [1.0; 4],
+        _ if format.ends_with("snorm") => [127.0; 4],
+        _ => [255.0; 4],
+    };
+    let raw = raw(attachment, texel)?;
+    let channels = raw.as_array()?.iter().zip(most);
+    let share = |(value, most): (&Value, f64)| {
+        let share = value.as_f64()? / most;
+        Some(match share.fract() == 0.0 {
+            true => json!(share as i64),
+            false => json!((share * 1e4).round() / 1e4),
+        })
+    };
+    channels.map(share).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_texture_becomes_a_colour() {
+        let document = json!({ "scene": {
+            "attachments": { "t": {
+                "format": "rgba8unorm", "texels": { "kind": "columns", "values": [[0, 0, 0, 0], [255, 51, 0, 255]] }
+            } },
+            "passes": [{ "draws": [{
+                "mesh": { "kind": "full" }, "shader": "texel_color", "textures": ["t"], "cull": "back"
+            }] }]
+        } });
+        let edits = shaders(&document, Some([1, 7]));
+        let draw =
+            |edit: &Edit| edit.apply(&document).unwrap()["scene"]["passes"][0]["draws"][0].clone();
+        let due = json!({
+            "mesh": { "kind": "full" }, "shader": "uniform_color",
+            "params": { "color": [1, 0.2, 0, 1] }, "cull": "back"
+        });
+        assert!(edits.iter().any(|edit| draw(edit) == due));
+        let cleared = texels(&document, Some([1, 7]))[1].apply(&document).unwrap();
+        let due = json!({ "format": "rgba8unorm", "clear": [1, 0.2, 0, 1] });
+        assert_eq!(cleared["scene"]["attachments"]["t"], due);
+        let simplest =
+            json!({ "scene": { "passes": [{ "draws": [{ "shader": "uniform_color" }] }] } });
+        assert_eq!(shaders(&simplest, None), []);
+    }
+}

@@ -1,0 +1,42 @@
+//! Claims about accumulated rounding.
+
+use crate::claim::{Claim, Condition, Quantity, Test, one};
+
+const QUESTION: &str = "accumulation";
+
+pub(crate) const CLAIMS: &[Claim] = &[
+    Claim::new(
+        QUESTION,
+        "The error of blending into 8 bits stays below half a code over alpha.",
+        "Closed form: half a code per layer, of which 1 - alpha is left by every later one; a conversion within 0.6 codes",
+        Test::HalfCodes {
+            of: "ordered-8-bit",
+            holds: Condition::AtMost(1.2),
+        },
+    )
+    .of(&["columns-alpha"]),
+    Claim::new(
+        QUESTION,
+        "The error of blending into 8 bits grows with the layers.",
+        "Closed form: half a code per layer, of which 1 - alpha is left by every later one",
+        Test::Trend {
+            quantity: Quantity::Largest,
+            of: "ordered-8-bit",
+            holds: Condition::Above(1.0),
+        },
+    )
+    .of(&["columns"]),
+    Claim::new(
+        QUESTION,
+        "Two more bits leave a quarter of the rounding error.",
+        "Closed form: half a code is 1/510 of 8 bits and 1/2046 of 10",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("ordered-10-bit"),
+            over: one!("ordered-8-bit"),
+            holds: Condition::Between(0.15, 0.4),
+        },
+    )
+    .of(&["columns"])
+    .between(4.0, f64::INFINITY),
+];

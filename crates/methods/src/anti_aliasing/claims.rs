@@ -1,0 +1,78 @@
+//! Claims about anti-aliasing.
+
+use crate::claim::{Claim, Condition, Quantity, Test, one};
+
+const QUESTION: &str = "anti-aliasing";
+
+pub(crate) const CLAIMS: &[Claim] = &[
+    Claim::new(
+        QUESTION,
+        "More samples leave less error.",
+        "Crow 1977, The Aliasing Problem in Computer-Generated Shaded Images",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("msaa-8"),
+            over: one!("msaa-2"),
+            holds: Condition::Below(1.0),
+        },
+    ),
+    Claim::new(
+        QUESTION,
+        "The area below an edge as alpha beats four samples of it.",
+        "Crow 1977, The Aliasing Problem in Computer-Generated Shaded Images: convolution with a box",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("coverage-to-alpha"),
+            over: one!("msaa-4"),
+            holds: Condition::Below(1.0),
+        },
+    )
+    .of(&["half-planes"]),
+    Claim::new(
+        QUESTION,
+        "Where neighbours share an edge, alpha from both sides lets the background through.",
+        "Porter and Duff 1984, Compositing Digital Images: alphas are taken to be uncorrelated",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("coverage-to-alpha-overlap"),
+            over: one!("coverage-to-alpha"),
+            holds: Condition::Above(1.5),
+        },
+    )
+    .of(&["checker-fan", "half-planes"]),
+    Claim::new(
+        QUESTION,
+        "Supersampling by 2×2 shades four times.",
+        "Akenine-Möller and others, Real-Time Rendering, 4th edition, 5.4: screen-based antialiasing",
+        Test::Ratio {
+            quantity: Quantity::Fragments,
+            of: one!("supersampling-2x2"),
+            over: one!("none"),
+            holds: Condition::Between(3.5, 6.0),
+        },
+    )
+    .of(&["checker-fan", "half-planes", "thin-wedge"])
+    .noting("Among the fragments is one more for each texel of the picture, which takes the mean; in these scenes the ground fills it."),
+    Claim::new(
+        QUESTION,
+        "Multisampling shades fewer fragments than supersampling with as many samples.",
+        "Akeley 1993, RealityEngine Graphics",
+        Test::Ratio {
+            quantity: Quantity::Fragments,
+            of: one!("msaa-4"),
+            over: one!("supersampling-2x2"),
+            holds: Condition::Below(1.0),
+        },
+    ),
+    Claim::new(
+        QUESTION,
+        "Multisampling takes less time than supersampling with as many samples.",
+        "Akenine-Möller and others, Real-Time Rendering, 4th edition, 5.4: screen-based antialiasing",
+        Test::Ratio {
+            quantity: Quantity::Time,
+            of: one!("msaa-4"),
+            over: one!("supersampling-2x2"),
+            holds: Condition::Below(1.0),
+        },
+    ),
+];

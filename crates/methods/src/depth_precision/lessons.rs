@@ -1,0 +1,54 @@
+//! The methods of this question, explained.
+
+use crate::lesson::Lesson;
+
+pub(crate) const LESSONS: &[Lesson] = &[
+    Lesson::new(
+        "depth16",
+        "Window depth is stored in 16 bits.",
+        "One over the distance spends nearly all codes close to the eye: planes farther away share a code and fight.",
+        "Vulkan: Depth Test",
+    ),
+    Lesson::new(
+        "depth24",
+        "Window depth is stored in 24 bits.",
+        "As with 16 bits, 256 times farther away.",
+        "Vulkan: Depth Test",
+    ),
+    Lesson::new(
+        "depth32float",
+        "Window depth is stored as a float of 32 bits, 1 at the far plane.",
+        "Floats are dense around 0, which is where one over the distance is dense already, and sparse where it is not.",
+        "Reed 2015, Depth Precision Visualized",
+    ),
+    Lesson::new(
+        "reversed-depth",
+        "Window depth is a float that is 0 at the far plane.",
+        "The two hyperbolas cancel, so that steps are about a constant part of the distance; what is left is the rounding of vertex transforms.",
+        "Reed 2015, Depth Precision Visualized",
+    ),
+    Lesson::new(
+        "linear-depth",
+        "The shader writes depth in proportion to the distance.",
+        "Steps are the same everywhere, so that gaps in proportion to the distance are lost close to the eye first; early tests are given up.",
+        "Upchurch and Desbrun 2012, Tightening the Precision of Perspective Rendering",
+    ),
+    Lesson::new(
+        "logarithmic-depth",
+        "The shader writes the logarithm of the distance.",
+        "Steps are a constant part of the distance, but the shader writes depth, which gives up early tests.",
+        "Kemen 2009, Logarithmic Depth Buffer",
+    ),
+    Lesson::new(
+        "larger-near",
+        "Window depth in 24 bits with a near plane farther away.",
+        "Steps shrink by the same factor, and what is nearer than the plane is cut off.",
+        "Upchurch and Desbrun 2012, Tightening the Precision of Perspective Rendering",
+    ),
+    Lesson::new(
+        "polygon-offset",
+        "A bias pulls a decal towards the eye, by its slope and by some steps.",
+        "A bias that wins the fight also pulls the decal through what is only a little in front of it.",
+        "Vulkan: Depth Bias",
+    ),
+];

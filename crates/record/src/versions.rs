@@ -1,0 +1,283 @@
+//! `versions.jsonl`: the verdicts of cases over the releases of one driver.
+//!
+//! Not every case is drawn with every release: what lies between two releases of one standing is taken to have it, which
+//! is checked in the middle of each such span.
+
+use crate::error::RecordError;
+use crate::json::json_line;
+use crate::json_lines::JsonLines;
+use crate::machine::Machine;
+use crate::verdict::Verdict;
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+/// The name of the file.
+pub const VERSIONS_FILE: &str = "versions.jsonl";
+/// The format that this crate writes.
+pub const VERSIONS_FORMAT: u32 = 1;
+/// The longest line that is read, in bytes.
+const MAX_LINE: u64 = 1 << 20;
+
+/// The first line: the releases.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct VersionsHeader {
+    /// The format: [`VERSIONS_FORMAT`].
+    pub format: u32,
+    /// The suite's version.
+    pub etalon: String,
+    /// The commit that the suite was built from, where it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub commit: Option<String>,
+    /// The machine.
+    pub machine: Machine,
+    /// When the first case was drawn, RFC 3339 in UTC.
+    pub started: String,
+    /// The command line, program first.
+    pub command: Vec<String>,
+    /// The line.
+    pub line: String,
+    /// Its releases, oldest first.
+    pub releases: Vec<ReleaseRecord>,
+}
+
+/// One release of the line.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReleaseRecord {
+    /// The version within the line.
+    pub version: String,
+    /// The adapter's name.
+    pub adapter: String,
+    /// Driver and version as the driver tells them.
+    pub driver: String,
+}
+
+/// One case over the releases.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CaseVersions {
+    /// The case's id.
+    pub case: String,
+    /// The finding that speaks of it on some release.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub finding: Option<String>,
+    /// The verdict by release; `None` where it was not drawn.
+    pub verdicts: Vec<Option<Verdict>>,
+}
+
+/// What a verdict says of a release.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Standing {
+    /// The case is drawn right.
+    Good,
+    /// It is drawn wrong, or not at all by the driver's fault.
+    Bad,
+    /// It is drawn right at some times.
+    Flaky,
+    /// It is not drawn, or nothing is asserted.
+    Unknown,
+}
+
+impl From<Verdict> for Standing {
+    fn from(verdict: Verdict) -> Self {
+        match verdict {
+            Verdict::Pass | Verdict::Imprecise | Verdict::Measured => Self::Good,
+            Verdict::Fail
+            | Verdict::RequiredByCts
+            | Verdict::Disputed
+            | Verdict::Crash
+            | Verdict::Timeout
+            | Verdict::DeviceLost
+            | Verdict::ResourceError => Self::Bad,
+            Verdict::Flaky => Self::Flaky,
+            Verdict::Open
+            | Verdict::NotSupported
+            | Verdict::Blocked
+            | Verdict::Skipped
+            | Verdict::InternalError => Self::Unknown,
+        }
+    }
+}
+
+impl CaseVersions {
+    /// Returns the standing by release: of one that was not drawn, that of its neighbours if both have the same, else
+    /// `None`.
+    pub fn standings(&self) -> Vec<Option<Standing>> {
+        let drawn: Vec<Option<Standing>> =
+            self.verdicts.iter().map(|v| v.map(Into::into)).collect();
+        let before = |i: usize| drawn[..i].iter().rev().find_map(|s| *s);
+        let behind = |i: usize| drawn[i..].iter().find_map(|s| *s);
+        let each = drawn
+            .iter()
+            .enumerate()
+            .map(|(i, own)| own.or_else(|| before(i).filter(|s| behind(i) == Some(*s))));
+        each.collect()
+    }
+
+    /// Returns the spans of releases, first and last, in which the case is bad.
+    pub fn bad(&self) -> Vec<[usize; 2]> {
+        let mut spans: Vec<[usize; 2]> = Vec::new();
+        for (i, standing) in self.standings().into_iter().enumerate() {
+            if standing != Some(Standing::Bad) {
+                continue;
+            }
+            match spans.last_mut() {
+                Some(span) if span[1] + 1 == i => span[1] = i,
+                _ => spans.push([i, i]),
+            }
+        }
+        spans
+    }
+
+    /// Returns, in the words of a finding's `versions`, the releases from the first bad one to before the good one that
+    /// follows the last; `None` if the case is bad in none or in all, or good again between.
+    pub fn range(&self, releases: &[ReleaseRecord]) -> Option<String> {
+        let bad = self.bad();
+        let [[first, last]] = bad[..] else {
+            return None;
+        };
+        let version = |i: usize| &releases[i].version;
+        let from = (first > 0).then(|| format!(">={}", version(first)));
+        let standings = self.standings();
+        let good = (last + 1..releases.len()).find(|i| standings[*i] == Some(Standing::Good));
+        let to = good.map(|i| format!("<{}", version(i)));
+        let both: Vec<String> = from.into_iter().chain(to).collect();
+        (!both.is_empty()).then(|| both.join(", "))
+    }
+}
+
+/// The cases over the releases of one driver.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Versions {
+    /// The header.
+    pub header: VersionsHeader,
+    /// The cases, in the order of their files.
+    pub cases: Vec<CaseVersions>,
+}
+
+impl Versions {
+    /// Replaces the file in a folder, which is made when it does not exist.
+    ///
+    /// # Errors
+    /// When the folder cannot be written to.
+    pub fn write(&self, folder: &Path) -> Result<PathBuf, RecordError> {
+        fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
+        let path = folder.join(VERSIONS_FILE);
+        let mut bytes = json_line("the releases", &self.header)?;
+        for case in &self.cases {
+            bytes.append(&mut json_line("a case", case)?);
+        }
+        let new = folder.join(format!("{VERSIONS_FILE}.{}", std::process::id()));
+        fs::write(&new, bytes).map_err(RecordError::io("write", &new))?;
+        fs::rename(&new, &path).map_err(RecordError::io("write", &path))?;
+        Ok(path)
+    }
+
+    /// Reads the file in a folder.
+    ///
+    /// # Errors
+    /// When there is none, or it is damaged.
+    pub fn read(folder: &Path) -> Result<Self, RecordError> {
+        let path = folder.join(VERSIONS_FILE);
+        let lines = JsonLines {
+            path: &path,
+            format: VERSIONS_FORMAT,
+            max_header: MAX_LINE,
+            max_line: MAX_LINE,
+            remedy: "bisect again",
+        };
+        let file = File::open(&path).map_err(RecordError::io("open", &path))?;
+        let begin = |header| Self {
+            header,
+            cases: Vec::new(),
+        };
+        let (versions, _) =
+            lines.read(file, begin, |versions: &mut Self, case: CaseVersions| {
+                if case.verdicts.len() != versions.header.releases.len() {
+                    return Err("the case has not one verdict per release".to_owned());
+                }
+                versions.cases.push(case);
+                Ok(())
+            })?;
+        Ok(versions)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn case(verdicts: &str) -> CaseVersions {
+        CaseVersions {
+            case: "a/b".to_owned(),
+            finding: None,
+            verdicts: verdicts
+                .chars()
+                .map(|c| match c {
+                    'p' => Some(Verdict::Pass),
+                    'f' => Some(Verdict::Fail),
+                    'n' => Some(Verdict::NotSupported),
+                    'y' => Some(Verdict::Flaky),
+                    _ => None,
+                })
+                .collect(),
+        }
+    }
+
+    fn releases() -> Vec<ReleaseRecord> {
+        let each = ["103", "106", "110", "118", "131"];
+        let release = |version: &str| ReleaseRecord {
+            version: version.to_owned(),
+            adapter: format!("vulkan:swiftshader-{version}"),
+            driver: "SwiftShader".to_owned(),
+        };
+        each.map(release).to_vec()
+    }
+
+    #[test]
+    fn what_was_not_drawn_is_as_both_its_neighbours_are() {
+        for (verdicts, bad, range) in [
+            ("p.p.p", vec![], None),
+            ("f.f.f", vec![[0, 4]], None),
+            ("f.fpp", vec![[0, 2]], Some("<118")),
+            ("pf..f", vec![[1, 4]], Some(">=106")),
+            ("pffpp", vec![[1, 2]], Some(">=106, <118")),
+            ("fpffp", vec![[0, 0], [2, 3]], None),
+            ("nffff", vec![[1, 4]], Some(">=106")),
+            ("f...p", vec![[0, 0]], Some("<131")),
+            ("fy.pp", vec![[0, 0]], Some("<118")),
+        ] {
+            let case = case(verdicts);
+            assert_eq!(case.bad(), bad, "{verdicts}");
+            assert_eq!(case.range(&releases()).as_deref(), range, "{verdicts}");
+        }
+    }
+
+    #[test]
+    fn a_file_comes_back_and_a_damaged_one_says_where() {
+        let versions = Versions {
+            header: VersionsHeader {
+                format: VERSIONS_FORMAT,
+                etalon: "0".to_owned(),
+                commit: None,
+                machine: Machine::default(),
+                started: "2027-01-31T12:00:00Z".to_owned(),
+                command: vec!["etalon".to_owned()],
+                line: "swiftshader".to_owned(),
+                releases: releases(),
+            },
+            cases: vec![case("pffpp"), case("f...p")],
+        };
+        let folder = tempfile::tempdir().unwrap();
+        versions.write(folder.path()).unwrap();
+        assert_eq!(Versions::read(folder.path()).unwrap(), versions);
+        let path = folder.path().join(VERSIONS_FILE);
+        let text = fs::read_to_string(&path).unwrap();
+        fs::write(&path, text.replace("[\"pass\",", "[")).unwrap();
+        let error = Versions::read(folder.path()).unwrap_err().to_string();
+        assert!(error.contains("one verdict per release"), "{error}");
+        assert!(Versions::read(&folder.path().join("none")).is_err());
+    }
+}

@@ -1,0 +1,386 @@
+//! Checks a claim against the records of a run, knowing only its data.
+
+use super::outcome::{Figure, Holds, Unit};
+use crate::methods::breaks::{self, Break, LIMIT};
+use crate::methods::data::{Methods, Point, SceneSeries, Series, Setting, usable};
+use crate::numbers::{digits, share};
+use etalon_methods::{Claim, Condition, Quantity, Test, Values};
+
+/// Half a step between two codes of 8 bits.
+const HALF_CODE: f64 = 0.5 / 255.0;
+
+/// The factor by which an error may be larger and still count as the same.
+const ALIKE: f64 = 1.5;
+
+/// A claim and what the records say of it.
+pub(super) struct Checked<'a> {
+    pub(super) claim: &'static Claim,
+    pub(super) figures: Vec<Figure>,
+    /// Adapters that count fragments before the depth test, where that matters.
+    pub(super) blind: Vec<&'a str>,
+}
+
+/// The figures for and against a claim; none where the records have none.
+pub(super) fn check<'a>(claim: &'static Claim, methods: &Methods<'a>) -> Checked<'a> {
+    let mut checked = Checked {
+        claim,
+        figures: Vec::new(),
+        blind: Vec::new(),
+    };
+    let own = methods.scenes().filter(|s| {
+        s.question == claim.question
+            && (claim.families.is_empty() || claim.families.contains(&s.name))
+    });
+    for scene in own {
+        for (index, adapter) in methods.adapters.iter().enumerate() {
+            let on = On {
+                claim,
+                scene,
+                adapter: index,
+                name: adapter.name,
+            };
+            let mut figures = on.figures();
+            if figures.is_empty() {
+                continue;
+            }
+            if claim.fewer.is_some() {
+                figures.retain(|(setting, _)| setting.as_ref().is_some_and(|s| on.counts(s)));
+                if figures.is_empty() {
+                    if !checked.blind.contains(&adapter.name) {
+                        checked.blind.push(adapter.name);
+                    }
+                    continue;
+                }
+            }
+            checked.figures.extend(figures.into_iter().map(|(_, f)| f));
+        }
+    }
+    checked
+}
+
+/// One claim on one family of cases and one adapter.
+struct On<'s, 'a> {
+    claim: &'static Claim,
+    scene: &'s SceneSeries<'a>,
+    adapter: usize,
+    name: &'a str,
+}
+
+/// A figure and the setting that it is of; none for those of whole curves.
+type Found<'a> = (Option<Setting<'a>>, Figure);
+
+impl<'a> On<'_, 'a> {
+    fn figures(&self) -> Vec<Found<'a>> {
+        match self.claim.test {
+            Test::Value {
+                quantity,
+                of,
+                holds,
+            } => self.at_settings(|s| {
+                let (value, interval) = self.quantity(s, of, quantity)?;
+                let unit = match quantity {
+                    Quantity::Rmse | Quantity::Largest => Unit::Share,
+                    other => Unit::Count(other.name()),
+                };
+                Some((unit, value, interval, holds))
+            }),
+            Test::Ratio {
+                quantity,
+                of,
+                over,
+                holds,
+            } => self.at_settings(|s| {
+                let (top, [top_low, top_high]) = self.sum(s, of, quantity)?;
+                let (bottom, [bottom_low, bottom_high]) = self.sum(s, over, quantity)?;
+                let interval = [top_low / bottom_high, top_high / bottom_low];
+                let known = bottom_low > 0.0 && top_low >= 0.0;
+                known.then_some((Unit::Factor, top / bottom, interval, holds))
+            }),
+            Test::Same { methods: [a, b] } => self.same(a, b),
+            Test::HalfCodes { of, holds } => self.at_settings(|s| {
+                let (_, parameter) = s.parameter.filter(|(_, v)| *v > 0.0)?;
+                let (largest, _) = self.quantity(s, of, Quantity::Largest)?;
+                let value = largest * parameter / HALF_CODE;
+                let unit = Unit::Count("halves of a code over alpha");
+                Some((unit, value, [value; 2], holds))
+            }),
+            Test::Trend {
+                quantity,
+                of,
+                holds,
+            } => self.per_series(of, |series| {
+                let points = self.points(series);
+                let (first, last) = (points.first()?, points.last()?);
+                let (start, [start_low, start_high]) = measured(first, quantity)?;
+                let (end, [low, high]) = measured(last, quantity)?;
+                (points.len() > 1 && start_low > 0.0).then(|| {
+                    let interval = [low / start_high, high / start_low];
+                    self.figure("", Unit::Factor, end / start, interval, holds)
+                })
+            }),
+            Test::Unlike { right, wrong } => self.unlike(right, wrong),
+            Test::Halves { of, over } => self.halves(of, over),
+            Test::Narrowest { of, over, holds } => self.narrowest(of, over, holds),
+            Test::Levels { of, samples } => self.per_series(of, |s| self.levels(s, samples)),
+        }
+    }
+
+    /// True if the adapter's count is lowered by the depth test at a setting.
+    fn counts(&self, setting: &Setting<'a>) -> bool {
+        let Some([less, more]) = self.claim.fewer else {
+            return true;
+        };
+        let of = |method| self.quantity(setting, method, Quantity::Fragments);
+        matches!((of(less), of(more)), (Some((less, _)), Some((more, _))) if less < more)
+    }
+
+    fn counted(&self, value: Option<f64>) -> bool {
+        match (self.claim.values, value) {
+            (Values::All, _) => true,
+            (Values::Between(low, high), Some(v)) => (low..=high).contains(&v),
+            (Values::Between(..), None) => false,
+        }
+    }
+
+    /// A figure at each setting that counts and where there is one.
+    fn at_settings(
+        &self,
+        of: impl Fn(&Setting<'a>) -> Option<(Unit, f64, [f64; 2], Condition)>,
+    ) -> Vec<Found<'a>> {
+        let settings = self.scene.settings().into_iter();
+        let counted = settings.filter(|s| self.counted(s.parameter.map(|(_, value)| value)));
+        let found = counted.filter_map(|s| {
+            let (unit, value, interval, holds) = of(&s)?;
+            let finite = value.is_finite() && interval.iter().all(|v| v.is_finite());
+            finite.then(|| {
+                let figure = self.figure(&s.text(), unit, value, interval, holds);
+                (Some(s), figure)
+            })
+        });
+        found.collect()
+    }
+
+    /// A figure of each curve of a method.
+    fn per_series(
+        &self,
+        method: &str,
+        of: impl Fn(&Series<'a>) -> Option<Figure>,
+    ) -> Vec<Found<'a>> {
+        let own = self.scene.series.iter().filter(|s| s.method == method);
+        own.filter_map(|s| Some((None, of(s)?))).collect()
+    }
+
+    fn figure(
+        &self,
+        setting: &str,
+        unit: Unit,
+        value: f64,
+        interval: [f64; 2],
+        holds: Condition,
+    ) -> Figure {
+        Figure {
+            scene: self.scene.name.to_owned(),
+            setting: setting.to_owned(),
+            adapter: self.name.to_owned(),
+            unit,
+            value,
+            interval,
+            holds: Holds::of(|v| holds.met(v), value, interval),
+        }
+    }
+
+    fn told(&self, setting: &str, text: String, holds: bool) -> Figure {
+        Figure {
+            scene: self.scene.name.to_owned(),
+            setting: setting.to_owned(),
+            adapter: self.name.to_owned(),
+            unit: Unit::Text(text),
+            value: 0.0,
+            interval: [0.0; 2],
+            holds: holds.into(),
+        }
+    }
+
+    fn point(&self, setting: &Setting<'a>, method: &str) -> Option<&Point<'a>> {
+        let own = self.scene.series.iter().filter(|s| s.method == method);
+        let mut points = own.flat_map(|s| s.on(self.adapter).map(move |p| (s, p)));
+        points.find_map(|(s, p)| (s.setting(p) == *setting).then_some(p))
+    }
+
+    fn quantity(
+        &self,
+        setting: &Setting<'a>,
+        method: &str,
+        quantity: Quantity,
+    ) -> Option<(f64, [f64; 2])> {
+        measured(self.point(setting, method)?, quantity)
+    }
+
+    /// A sum over methods; none unless all of them were measured.
+    fn sum(
+        &self,
+        setting: &Setting<'a>,
+        terms: &[(&str, f64)],
+        quantity: Quantity,
+    ) -> Option<(f64, [f64; 2])> {
+        let mut sum = (0.0, [0.0; 2]);
+        for (method, sign) in terms {
+            let (value, [low, high]) = self.quantity(setting, method, quantity)?;
+            sum.0 += sign * value;
+            let ends = if *sign < 0.0 {
+                [high, low]
+            } else {
+                [low, high]
+            };
+            sum.1[0] += sign * ends[0];
+            sum.1[1] += sign * ends[1];
+        }
+        Some(sum)
+    }
+
+    /// The points of a curve that count, in order.
+    fn points<'p>(&self, series: &'p Series<'a>) -> Vec<&'p Point<'a>> {
+        let own = series.on(self.adapter);
+        own.filter(|p| p.value.is_some() && self.counted(p.value))
+            .collect()
+    }
+
+    fn same(&self, a: &str, b: &str) -> Vec<Found<'a>> {
+        let settings = self.scene.settings().into_iter();
+        let found = settings.filter_map(|s| {
+            let [one, other] = [a, b].map(|method| {
+                let distance = self.point(&s, method)?.measured.distance;
+                Some((distance.rmse, distance.max))
+            });
+            let (one, other) = (one?, other?);
+            let text = match one == other {
+                true => "the same".to_owned(),
+                false => format!("RMSE {} and {}", share(one.0), share(other.0)),
+            };
+            let figure = self.told(&s.text(), text, one == other);
+            Some((Some(s), figure))
+        });
+        found.collect()
+    }
+
+    /// Both methods at every value that has both.
+    fn unlike(&self, right: &str, wrong: &str) -> Vec<Found<'a>> {
+        let settings = self.scene.settings().into_iter();
+        let pairs: Vec<(f64, f64)> = settings
+            .filter_map(|s| {
+                let [a, b] = [right, wrong].map(|m| self.quantity(&s, m, Quantity::Rmse));
+                Some((a?.0, b?.0))
+            })
+            .collect();
+        if pairs.is_empty() {
+            return Vec::new();
+        }
+        let [first, second] = [
+            pairs.iter().filter(|p| p.0 <= LIMIT).count(),
+            pairs.iter().filter(|p| p.1 <= LIMIT).count(),
+        ];
+        let all = pairs.len();
+        let text = format!("{right} right at {first} of {all}, {wrong} at {second}");
+        vec![(None, self.told("", text, first == all && second < all))]
+    }
+
+    /// Each value of one method against twice the value of the other.
+    fn halves(&self, of: &str, over: &str) -> Vec<Found<'a>> {
+        let curve = |method: &str| -> Vec<(f64, f64, u32)> {
+            let own = self.scene.series.iter().filter(|s| s.method == method);
+            own.flat_map(|s| s.on(self.adapter))
+                .filter_map(|p| Some((p.value?, p.error()?, p.measured.passes)))
+                .collect()
+        };
+        let double = curve(over);
+        let figures = curve(of).into_iter().filter_map(|(value, error, passes)| {
+            let (_, due, twice) = double.iter().find(|d| d.0 == 2.0 * value)?;
+            let factor = (*due > 0.0).then(|| error / due)?;
+            let half = passes < *twice && passes <= twice.div_ceil(2) + 2;
+            let text = format!("{twice} → {passes} passes, RMSE ×{}", digits(factor, 2));
+            let at = format!("{} against {}", digits(value, 3), digits(2.0 * value, 3));
+            Some((None, self.told(&at, text, half && factor <= ALIKE)))
+        });
+        figures.collect()
+    }
+
+    /// The value from which on a curve stays within the limit; none where it never does, and nothing at all
+    /// where it has too few points to tell.
+    fn resolved(&self, series: &Series<'a>) -> Option<Option<f64>> {
+        let curve = series.curve(self.adapter);
+        let ratio = curve.last()?.0 / curve.first()?.0;
+        match breaks::find(&curve, ratio >= 20.0)? {
+            Break::Never => Some(Some(curve.first()?.0)),
+            Break::Always => Some(None),
+            Break::Crossings(all) => Some(all.last().filter(|c| !c.leaves).map(|c| c.value)),
+        }
+    }
+
+    fn narrowest(&self, of: &'static str, over: &'static str, holds: Condition) -> Vec<Found<'a>> {
+        let curves = |method: &'static str| {
+            let all = self.scene.series.iter();
+            all.filter(move |s| s.method == method)
+        };
+        let mut found = Vec::new();
+        for base in curves(over) {
+            for other in curves(of).filter(|s| s.variant == base.variant) {
+                // The same values of both, else nothing is compared.
+                let same = base.values() == other.values();
+                let (Some(a), Some(b)) = (self.resolved(other), self.resolved(base)) else {
+                    continue;
+                };
+                let figure = match (a, b) {
+                    _ if !same => continue,
+                    // Nothing that was drawn resolves either.
+                    (None, None) => continue,
+                    (Some(a), Some(b)) => self.figure("", Unit::Factor, a / b, [a / b; 2], holds),
+                    (Some(a), None) => {
+                        self.told("", format!("{} against none", digits(a, 2)), holds.met(0.0))
+                    }
+                    (None, Some(b)) => self.told(
+                        "",
+                        format!("none against {}", digits(b, 2)),
+                        holds.met(f64::INFINITY),
+                    ),
+                };
+                found.push((None, figure));
+            }
+        }
+        found
+    }
+
+    fn levels(&self, series: &Series<'a>, samples: u32) -> Option<Figure> {
+        let curve = series.curve(self.adapter);
+        let at = |halves: bool| {
+            let among = move |v: f64| {
+                let steps = v * f64::from(2 * samples);
+                (steps - steps.round()).abs() < 1e-6 && (steps.round() % 2.0 == 1.0) == halves
+            };
+            let own = curve.iter().filter(move |(v, _)| among(*v));
+            own.map(|(_, e)| *e)
+        };
+        let on = at(false).reduce(f64::max)?;
+        let between = at(true).reduce(f64::min)?;
+        let text = format!(
+            "at most {} on levels, at least {} between",
+            share(on),
+            share(between)
+        );
+        Some(self.told("", text, on <= 0.005 && between >= 4.0 * on))
+    }
+}
+
+/// A quantity of one record with its interval.
+fn measured(point: &Point<'_>, quantity: Quantity) -> Option<(f64, [f64; 2])> {
+    let exact = |v: f64| (v, [v; 2]);
+    let m = point.measured;
+    match quantity {
+        Quantity::Rmse => point.error().map(exact),
+        Quantity::Largest => Some(m.distance.max).filter(|v| usable(*v)).map(exact),
+        Quantity::Passes => Some(exact(f64::from(m.passes))),
+        Quantity::Draws => Some(exact(f64::from(m.draws))),
+        Quantity::Fragments => m.fragments.map(|n| exact(n as f64)),
+        // A time without an interval says nothing of how far it may be off.
+        Quantity::Time => Some((point.wall()?, point.interval()?)),
+    }
+}

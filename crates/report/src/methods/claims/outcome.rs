@@ -1,0 +1,159 @@
+//! The figures for and against a claim, and what they come to together.
+
+use crate::numbers::{digits, share};
+
+/// One case's figure.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Figure {
+    /// The family of cases.
+    pub(super) scene: String,
+    /// The setting; empty where the figure is of a whole curve.
+    pub(super) setting: String,
+    /// The adapter.
+    pub(super) adapter: String,
+    /// The kind of its number.
+    pub(super) unit: Unit,
+    /// The number and the ends of its interval, which are the number itself where it is exact.
+    pub(super) value: f64,
+    pub(super) interval: [f64; 2],
+    pub(super) holds: Holds,
+}
+
+/// The kind of a figure.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Unit {
+    /// A ratio of two measurements: `×0.52`.
+    Factor,
+    /// A share of full brightness.
+    Share,
+    /// A number of these.
+    Count(&'static str),
+    /// A text that says it all.
+    Text(String),
+}
+
+/// True, false, or neither because the figure's interval reaches over the limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Holds {
+    Yes,
+    No,
+    Unclear,
+}
+
+impl Holds {
+    /// The outcome of a figure whose interval lies inside, outside or across a condition.
+    pub(super) fn of(met: impl Fn(f64) -> bool, value: f64, [low, high]: [f64; 2]) -> Self {
+        let all = [low, value, high];
+        match all.iter().filter(|v| met(**v)).count() {
+            3 => Self::Yes,
+            0 => Self::No,
+            _ => Self::Unclear,
+        }
+    }
+
+    pub(super) fn sign(self) -> Option<&'static str> {
+        match self {
+            Self::Yes => None,
+            Self::No => Some("✗"),
+            Self::Unclear => Some("?"),
+        }
+    }
+}
+
+impl From<bool> for Holds {
+    fn from(holds: bool) -> Self {
+        if holds { Self::Yes } else { Self::No }
+    }
+}
+
+impl Figure {
+    /// True if figures can be told as one range.
+    pub(super) fn texts_alike(&self, other: &Self) -> bool {
+        match (&self.unit, &other.unit) {
+            (Unit::Text(a), Unit::Text(b)) => a == b,
+            (Unit::Text(_), _) | (_, Unit::Text(_)) => false,
+            _ => true,
+        }
+    }
+
+    /// Some figures as a range, with the interval around all of them where it is wider.
+    pub(super) fn range(all: &[&Self]) -> String {
+        let Some(first) = all.first() else {
+            return String::new();
+        };
+        let text = |v: f64| match &first.unit {
+            Unit::Factor => format!("×{}", digits(v, 3)),
+            Unit::Share => share(v),
+            Unit::Count(_) => digits(v, 4),
+            Unit::Text(text) => text.clone(),
+        };
+        let least =
+            |of: &dyn Fn(&Self) -> f64| all.iter().map(|f| of(f)).fold(f64::INFINITY, f64::min);
+        let most =
+            |of: &dyn Fn(&Self) -> f64| all.iter().map(|f| of(f)).fold(f64::NEG_INFINITY, f64::max);
+        let ends = [text(least(&|f| f.value)), text(most(&|f| f.value))];
+        let outer = [
+            text(least(&|f| f.interval[0])),
+            text(most(&|f| f.interval[1])),
+        ];
+        let mut range = match &ends {
+            [a, b] if a == b => a.clone(),
+            [a, b] => format!("{a} to {b}"),
+        };
+        if outer != ends {
+            range.push_str(&format!(" (interval {} to {})", outer[0], outer[1]));
+        }
+        if let Unit::Count(what) = first.unit {
+            range.push(' ');
+            range.push_str(what);
+        }
+        range
+    }
+}
+
+/// The degree to which a claim was reproduced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Reproduction {
+    /// In every case.
+    Reproduced,
+    /// In so many of so many cases.
+    Partly(usize, usize),
+    /// In none, and refuted in some.
+    NotReproduced,
+    /// No case decides it.
+    Undecided,
+    /// There is no case.
+    NotMeasured,
+}
+
+impl Reproduction {
+    pub(super) fn of(figures: &[Figure]) -> Self {
+        let count = |holds| figures.iter().filter(|f| f.holds == holds).count();
+        match (count(Holds::Yes), count(Holds::No), figures.len()) {
+            (_, _, 0) => Self::NotMeasured,
+            (held, _, all) if held == all => Self::Reproduced,
+            (0, 0, _) => Self::Undecided,
+            (0, _, _) => Self::NotReproduced,
+            (held, _, all) => Self::Partly(held, all),
+        }
+    }
+
+    pub(super) fn text(self) -> String {
+        match self {
+            Self::Reproduced => "✓ reproduced".to_owned(),
+            Self::Partly(held, all) => format!("≈ reproduced in {held} of {all} cases"),
+            Self::NotReproduced => "✗ not reproduced".to_owned(),
+            Self::Undecided => "? too close to tell".to_owned(),
+            Self::NotMeasured => "– not measured".to_owned(),
+        }
+    }
+
+    pub(super) fn class(self) -> &'static str {
+        match self {
+            Self::Reproduced => "p",
+            Self::Partly(..) | Self::Undecided => "i",
+            Self::NotReproduced => "o",
+            Self::NotMeasured => "u",
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! What a claim compares, in words made from its data.
+
+use crate::numbers::digits;
+use etalon_methods::{Claim, Condition, Test, Values};
+
+/// The comparison, its cases and its condition.
+pub(super) fn compared(claim: &Claim) -> String {
+    let mut text = match claim.test {
+        Test::Value {
+            quantity,
+            of,
+            holds,
+        } => {
+            let name = upper(quantity.name());
+            format!(
+                "{name} of {of}. Holds {}",
+                condition(holds, share_of(quantity))
+            )
+        }
+        Test::Ratio {
+            quantity,
+            of,
+            over,
+            holds,
+        } => format!(
+            "{} of {} over that of {}. Holds {}",
+            upper(quantity.name()),
+            sum(of),
+            sum(over),
+            condition(holds, false)
+        ),
+        Test::Same { methods: [a, b] } => {
+            format!("RMSE and largest error of {a} and {b}. Holds where both are the same")
+        }
+        Test::Trend {
+            quantity,
+            of,
+            holds,
+        } => format!(
+            "{} of {of} at the largest value of the parameter over that at the smallest. Holds {}",
+            upper(quantity.name()),
+            condition(holds, false)
+        ),
+        Test::Unlike { right, wrong } => format!(
+            "RMSE of {right} and of {wrong} at every value of the parameter. Holds if the first is within 1 % at all of them, and the second is not"
+        ),
+        Test::Halves { of, over } => format!(
+            "Passes and RMSE of {of} at each value of the parameter, over those of {over} at twice the value. \
+             Holds if the error is at most 1.5 times as large in at most half the passes and two more"
+        ),
+        Test::Narrowest { of, over, holds } => format!(
+            "The smallest value of the parameter from which on {of} stays within 1 % RMSE, over that of {over}. Holds {}",
+            condition(holds, false)
+        ),
+        Test::Levels { of, samples } => format!(
+            "RMSE of {of} along the parameter. Holds if each {samples}th of 1 is within 0.5 %, and everything halfway between two of them at \
+             least four times as far off"
+        ),
+        Test::HalfCodes { of, holds } => format!(
+            "Largest error of {of} times the parameter, in halves of a code. Holds {}",
+            condition(holds, false)
+        ),
+    };
+    let families = match claim.families {
+        [] => claim.question.to_owned(),
+        some => {
+            let all: Vec<String> = some
+                .iter()
+                .map(|f| format!("{}/{f}", claim.question))
+                .collect();
+            all.join(", ")
+        }
+    };
+    text.push_str(&format!(". Cases: {families}"));
+    match claim.values {
+        Values::All => {}
+        Values::Between(low, high) if high.is_infinite() => {
+            text.push_str(&format!(" from {} on", digits(low, 3)));
+        }
+        Values::Between(low, high) => {
+            text.push_str(&format!(" from {} to {}", digits(low, 3), digits(high, 3)));
+        }
+    }
+    if let Some([less, more]) = claim.fewer {
+        text.push_str(&format!(
+            ", on adapters where {less} counts fewer fragments than {more}"
+        ));
+    }
+    text.push('.');
+    if !claim.note.is_empty() {
+        text.push(' ');
+        text.push_str(claim.note);
+    }
+    text
+}
+
+fn share_of(quantity: etalon_methods::Quantity) -> bool {
+    use etalon_methods::Quantity;
+    matches!(quantity, Quantity::Rmse | Quantity::Largest)
+}
+
+fn condition(condition: Condition, share: bool) -> String {
+    let text = |v: f64| match share {
+        true => crate::numbers::share(v),
+        false => digits(v, 3),
+    };
+    match condition {
+        Condition::Below(limit) => format!("below {}", text(limit)),
+        Condition::Above(limit) => format!("above {}", text(limit)),
+        Condition::AtMost(limit) => format!("up to {}", text(limit)),
+        Condition::Between(low, high) if low == high => format!("at {}", text(low)),
+        Condition::Between(low, high) => format!("from {} to {}", text(low), text(high)),
+    }
+}
+
+/// `depth-prepass less unsorted`.
+fn sum(terms: &[(&str, f64)]) -> String {
+    let mut text = String::new();
+    for (i, (method, sign)) in terms.iter().enumerate() {
+        if i > 0 {
+            text.push_str(if *sign < 0.0 {
+                " less that of "
+            } else {
+                " and that of "
+            });
+        }
+        text.push_str(method);
+    }
+    text
+}
+
+fn upper(name: &str) -> String {
+    super::super::page::title(name)
+}

@@ -1,0 +1,115 @@
+//! The pictures of a scene: the truth, and what each method drew at each setting.
+
+use super::data::{Methods, Point, Question, SceneSeries, Setting};
+use crate::chart::color;
+use crate::numbers::{digits, share};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use etalon_record::Run;
+use maud::{Markup, html};
+use std::path::Path;
+
+/// The most bytes of one picture, and of all pictures together, that the page holds.
+const PICTURE: u64 = 256 << 10;
+const PICTURES: usize = 12 << 20;
+
+/// Pictures below the run folder, as far as there is room for them in the page.
+pub(super) struct Pictures<'a> {
+    folder: &'a Path,
+    room: usize,
+}
+
+/// A picture that could be read.
+struct Shot<'s, 'a> {
+    method: &'a str,
+    point: &'s Point<'a>,
+    data: String,
+}
+
+impl<'f> Pictures<'f> {
+    /// The pictures of a run folder.
+    pub(super) fn new(folder: &'f Path) -> Self {
+        Self {
+            folder,
+            room: PICTURES,
+        }
+    }
+
+    /// The truth and what each method drew, at each setting; the first adapter's that has a picture. The
+    /// differences of the two are computed in the page.
+    pub(super) fn of(
+        &mut self,
+        methods: &Methods<'_>,
+        question: &Question<'_>,
+        scene: &SceneSeries<'_>,
+        settings: &[Setting<'_>],
+        main: usize,
+    ) -> Markup {
+        let mut groups = Vec::new();
+        for (index, setting) in settings.iter().enumerate() {
+            let mut truth = None;
+            let mut shots: Vec<Shot<'_, '_>> = Vec::new();
+            for (series, point) in scene.at(setting) {
+                let m = point.measured;
+                if shots.iter().any(|s| s.method == series.method) {
+                    continue;
+                }
+                let Some(path) = m.picture.as_deref() else {
+                    continue;
+                };
+                if truth.is_none() {
+                    truth = m.truth.as_deref().and_then(|t| self.read(t));
+                }
+                if let Some(data) = self.read(path) {
+                    shots.push(Shot {
+                        method: series.method,
+                        point,
+                        data,
+                    });
+                }
+            }
+            if truth.is_some() || !shots.is_empty() {
+                groups.push((index, setting, truth, shots));
+            }
+        }
+        html! {
+            @for (index, setting, truth, shots) in &groups {
+                @let class = if *index == main { "pictures at" } else { "pictures at off" };
+                div class=(class) data-at=(index) data-setting=(setting.text()) {
+                    @if let Some(truth) = truth {
+                        figure.truth { img src=(truth) alt={ "Picture: truth" (setting.at()) } width="128"; figcaption { "truth" } }
+                    }
+                    @for shot in shots { (figure(methods, question, setting, shot)) }
+                }
+            }
+        }
+    }
+
+    /// A picture as a link that holds it. One that cannot be read has no place in a page of numbers.
+    fn read(&mut self, path: &str) -> Option<String> {
+        let bytes = Run::read_picture(self.folder, path, PICTURE).ok()??;
+        self.room = self.room.checked_sub(bytes.len())?;
+        Some(format!("data:image/png;base64,{}", STANDARD.encode(bytes)))
+    }
+}
+
+fn figure(
+    methods: &Methods<'_>,
+    question: &Question<'_>,
+    setting: &Setting<'_>,
+    shot: &Shot<'_, '_>,
+) -> Markup {
+    let distance = &shot.point.measured.distance;
+    let adapter = methods.adapters[shot.point.adapter].name;
+    let name = format!("{}{}", shot.method, setting.at());
+    html! {
+        figure class={ "shot " (color(question.style(shot.method))) } data-method=(shot.method) data-adapter=(adapter)
+            data-case=(shot.point.record.case) data-flip=(distance.flip) {
+            img src=(shot.data) alt={ "Picture: " (name) } width="128";
+            figcaption {
+                (shot.method)
+                small { " RMSE " (share(distance.rmse)) ", FLIP " (digits(distance.flip, 2)) }
+            }
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Cases grouped by what is known of them: their finding and the releases in which they are bad.
+
+use crate::words::plain;
+use etalon_record::{CaseVersions, Standing, Versions};
+use std::collections::BTreeMap;
+
+/// The course of a case over the releases.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Course {
+    /// Bad in some releases.
+    Bad,
+    /// Not the same each time in some release.
+    Flaky,
+    /// Bad and flaky in none.
+    Good,
+    /// Good in none either: nothing was drawn or asserted.
+    Unknown,
+}
+
+/// Cases with one finding and one course.
+pub(super) struct Group<'a> {
+    pub(super) course: Course,
+    /// The finding; `None` where none speaks of them.
+    pub(super) finding: Option<&'a str>,
+    /// The releases in which they are bad, in words.
+    pub(super) bad: String,
+    /// These releases as the `versions` of a finding.
+    pub(super) range: Option<String>,
+    pub(super) cases: Vec<&'a CaseVersions>,
+}
+
+/// Returns the groups: bad ones first, the largest of each kind first.
+pub(super) fn groups(versions: &Versions) -> Vec<Group<'_>> {
+    let mut by_key: BTreeMap<_, Vec<&CaseVersions>> = BTreeMap::new();
+    for case in &versions.cases {
+        let key = (course(case), case.finding.as_deref(), spans(versions, case));
+        by_key.entry(key).or_default().push(case);
+    }
+    let mut all: Vec<Group<'_>> = by_key
+        .into_iter()
+        .map(|((course, finding, bad), cases)| Group {
+            course,
+            finding,
+            bad,
+            range: cases[0].range(&versions.header.releases),
+            cases,
+        })
+        .collect();
+    all.sort_by_key(|group| (group.course.clone(), std::cmp::Reverse(group.cases.len())));
+    all
+}
+
+fn course(case: &CaseVersions) -> Course {
+    let standings = case.standings();
+    let any = |wanted| standings.contains(&Some(wanted));
+    if any(Standing::Bad) {
+        Course::Bad
+    } else if any(Standing::Flaky) {
+        Course::Flaky
+    } else if any(Standing::Good) {
+        Course::Good
+    } else {
+        Course::Unknown
+    }
+}
+
+/// Returns the releases in which a case is bad: `103 to 110, 143`, `all`, or nothing.
+fn spans(versions: &Versions, case: &CaseVersions) -> String {
+    let releases = &versions.header.releases;
+    let bad = case.bad();
+    if bad == [[0, releases.len() - 1]] {
+        return "all".to_owned();
+    }
+    let version = |i: usize| plain(&releases[i].version, 40);
+    let each = bad.iter().map(|[first, last]| match first == last {
+        true => version(*first),
+        false => format!("{} to {}", version(*first), version(*last)),
+    });
+    each.collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,357 @@
+//! The page of methods in a browser: legend, slider, enlarged pictures, break points.
+
+use super::driver::{Chromium, Page};
+use crate::synthetic;
+use etalon_record::{Run, RunWriter};
+use image::RgbImage;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+type Check = fn(&Chromium, &Path);
+
+/// Every check, with its name.
+pub(super) const CHECKS: [(&str, Check); 7] = [
+    (
+        "a legend highlights its method",
+        a_legend_highlights_its_method,
+    ),
+    (
+        "a slider swaps the pictures and moves the mark",
+        a_slider_swaps_pictures_and_moves_the_mark,
+    ),
+    (
+        "pictures are enlarged by click and by keys",
+        pictures_are_enlarged_by_click_and_by_keys,
+    ),
+    (
+        "the page's FLIP is that of its authors' code",
+        the_pages_flip_is_that_of_its_authors_code,
+    ),
+    (
+        "break points lead to the pictures beside them",
+        break_points_lead_to_the_pictures_beside_them,
+    ),
+    ("breaks at other limits", breaks_at_other_limits),
+    (
+        "a narrow window and no scripts",
+        a_narrow_window_and_no_scripts,
+    ),
+];
+
+const SIZE: [u32; 2] = [16, 8];
+
+/// The scene of transparency whose pictures there are, of `cpu`.
+const WINDOWS: &str = "[data-name='transparency/windows']";
+
+/// As in `crates/truth/tests/truth/distances.rs`.
+fn truth(x: u32, y: u32) -> [u8; 3] {
+    [(x * 16) as u8, (y * 32) as u8, (x * y * 2) as u8]
+}
+
+fn drawn(x: u32, y: u32) -> [u8; 3] {
+    let [r, g, b] = truth(x, y);
+    if x >= 8 {
+        [255 - r, g, b]
+    } else {
+        [r, g / 2, b]
+    }
+}
+
+/// Writes a run with pictures and its page.
+pub(super) fn write(folder: &Path) -> PathBuf {
+    let plain = folder.join("plain-methods");
+    synthetic::methods::write(&plain);
+    let run = Run::read(&plain).unwrap();
+    let out = folder.join("methods");
+    let mut writer = RunWriter::create(&out, &run.header).unwrap();
+    fs::create_dir_all(out.join("pictures")).unwrap();
+    let save = |name: &str, of: &dyn Fn(u32, u32) -> [u8; 3]| {
+        let picture = RgbImage::from_fn(SIZE[0], SIZE[1], |x, y| image::Rgb(of(x, y)));
+        picture.save(out.join("pictures").join(name)).unwrap();
+    };
+    save("truth.png", &truth);
+    save("drawn.png", &drawn);
+    for record in run.records {
+        let mut record = record;
+        if record.adapter == "cpu" && record.case.contains("/windows/") {
+            let measured = record.measured.as_mut().unwrap();
+            let right = measured.method == "sorted";
+            let picture = if right { "truth.png" } else { "drawn.png" };
+            measured.picture = Some(format!("pictures/{picture}"));
+            measured.truth = Some("pictures/truth.png".to_owned());
+        }
+        writer.append(&record).unwrap();
+    }
+    drop(writer);
+    etalon_report::write(&out).unwrap().methods.unwrap()
+}
+
+fn opacity(page: &Page<'_>, class: &str) -> String {
+    page.eval(&format!(
+        "getComputedStyle(document.querySelector(\"{WINDOWS} .chart g:not(.off) > .of{class}\")).opacity"
+    ))
+}
+
+fn a_legend_highlights_its_method(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
+    let [sorted, other] = ["sorted", "unsorted"].map(|method| {
+        page.eval::<String>(&format!(
+            "'.' + [...[...document.querySelectorAll(\"{WINDOWS} .legend .key\")]\
+             .find(k => k.textContent.trim() === {method:?}).classList].find(c => /^m[0-9]+$/.test(c))"
+        ))
+    });
+    let key = format!("{WINDOWS} .legend .key{sorted}");
+    assert_eq!(opacity(&page, &other), "1");
+    page.hover(&key);
+    page.wait(&format!(
+        "document.querySelector(\"{key}\").matches(':hover')"
+    ));
+    assert_eq!(
+        (opacity(&page, &sorted), opacity(&page, &other)),
+        ("1".into(), "0.1".into())
+    );
+    page.hover("h1");
+    assert_eq!(opacity(&page, &other), "1");
+    // By keys alone, and pinned.
+    page.run(&format!(
+        "document.querySelector(\"{key}\").previousElementSibling.focus()"
+    ));
+    page.press("Tab");
+    assert_eq!(page.focused(), "sorted");
+    assert_eq!(opacity(&page, &other), "0.1");
+    page.press("Enter");
+    page.press("Tab");
+    page.press("Tab");
+    assert_eq!(
+        page.eval::<u64>("document.querySelectorAll('.key[aria-pressed=true]').length"),
+        1
+    );
+    page.run("document.activeElement.blur()");
+    assert_eq!(opacity(&page, &other), "0.1", "pinned");
+    page.click(&key);
+    page.hover("h1");
+    page.run("document.activeElement.blur()");
+    assert_eq!(opacity(&page, &other), "1");
+    // Every method of every scene has its key.
+    let unnamed: u64 = page.eval(
+        "[...document.querySelectorAll('.scene')].filter(s => [...s.querySelectorAll('.chart .of')]\
+         .some(o => ![...s.querySelectorAll('.key')].some(k => [...k.classList].some(c => /^m[0-9]/.test(c) && o.classList.contains(c))))).length",
+    );
+    assert_eq!(unnamed, 0);
+}
+
+fn shown(page: &Page<'_>, what: &str) -> Vec<String> {
+    page.eval(&format!(
+        "[...document.querySelectorAll(\"{WINDOWS} {what}\")].filter(e => !e.closest('.off')).map(e => e.dataset.at)"
+    ))
+}
+
+fn a_slider_swaps_pictures_and_moves_the_mark(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
+    let text = || page.text(&format!("{WINDOWS} .setting output"));
+    assert_eq!(text(), "alpha 0.5");
+    assert_eq!(shown(&page, ".pictures"), ["2"]);
+    let place = "(e => e.getBoundingClientRect().x)(document.querySelector(\"[data-name='transparency/windows'] .cursor:not(.off)\"))";
+    let before: f64 = page.eval(place);
+    page.run(&format!(
+        "document.querySelector(\"{WINDOWS} .setting input\").focus()"
+    ));
+    page.press("ArrowRight");
+    assert_eq!(text(), "alpha 0.7");
+    assert_eq!(shown(&page, ".pictures"), ["3"]);
+    assert!(
+        page.eval::<f64>(place) > before,
+        "the mark on the curve moves"
+    );
+    // One group of marks per adapter, all at the same setting.
+    let marks = shown(&page, "g.at");
+    assert!(
+        marks.len() == 4 && marks.iter().all(|m| m == "3"),
+        "{marks:?}"
+    );
+    let name = format!("document.querySelector(\"{WINDOWS} .setting input\").ariaValueText");
+    assert_eq!(page.eval::<String>(&name), "alpha 0.7");
+    for _ in 0..9 {
+        page.press("ArrowLeft");
+    }
+    assert_eq!(text(), "alpha 0.1");
+    // The other scenes stay.
+    assert_eq!(
+        page.text("[data-name='transparency/intersecting-panes'] .setting output"),
+        "alpha 0.5"
+    );
+}
+
+const UNSORTED: &str =
+    "[data-name='transparency/windows'] .pictures:not(.off) [data-method=unsorted]";
+
+/// Opens the page where its pictures are compared.
+fn with_pictures<'c>(chromium: &'c Chromium, path: &Path) -> Page<'c> {
+    let page = chromium.open(path, "");
+    page.run(&format!(
+        "document.querySelector(\"{UNSORTED}\").scrollIntoView({{block: 'center'}})"
+    ));
+    page.wait(&format!(
+        "document.querySelectorAll(\"{UNSORTED} button\").length === 3"
+    ));
+    page
+}
+
+fn pictures_are_enlarged_by_click_and_by_keys(chromium: &Chromium, path: &Path) {
+    let page = with_pictures(chromium, path);
+    page.click(&format!("{UNSORTED} button[data-mode=picture]"));
+    page.wait("document.querySelector('dialog').open");
+    assert_eq!(
+        page.text("#viewer-title"),
+        "transparency/windows: unsorted at alpha 0.5 on cpu"
+    );
+    let values = || page.text("dialog .values");
+    let at = |x: u32, y: u32| {
+        let codes = |of: [u8; 3]| of.map(|c| format!("{c:4}")).concat();
+        format!(
+            "texel {x},{y}\npicture    {}\ntruth      {}\n",
+            codes(drawn(x, y)),
+            codes(truth(x, y))
+        )
+    };
+    assert!(values().starts_with(&at(8, 4)), "{}", values());
+    page.press("ArrowRight");
+    page.press("ArrowUp");
+    assert!(values().starts_with(&at(9, 3)), "{}", values());
+    assert!(values().contains("difference  -33"), "{}", values());
+    assert!(values().contains("etalon explain methods/transparency/windows/method=unsorted/alpha=0.5 --texel 9,3 --adapter cpu"));
+    // Below the pointer.
+    page.run("{ const c = document.querySelector('dialog canvas'), r = c.getBoundingClientRect(); \
+              c.dispatchEvent(new PointerEvent('pointermove', { clientX: r.x + r.width * 2.5 / 16, clientY: r.y + r.height * 6.5 / 8 })); }");
+    assert!(values().starts_with(&at(2, 6)), "{}", values());
+    page.press("3");
+    assert_eq!(page.texts("dialog [aria-pressed=true]"), ["difference"]);
+    assert!(page.text("dialog .scale").contains("codes per channel"));
+    page.press("4");
+    assert!(page.text("dialog .scale").contains("67 pixels per degree"));
+    // Texels are seen: a grid between them, at eight times their size at least.
+    assert!(page.eval::<u64>("document.querySelector('dialog canvas').width") >= 16 * 8);
+    page.press("Escape");
+    page.wait("!document.querySelector('dialog').open");
+    let focused: String = page.eval("document.activeElement.ariaLabel");
+    assert_eq!(focused, "Enlarge: picture of unsorted");
+    page.press("Tab");
+    page.press("Enter");
+    page.wait("document.querySelector('dialog').open");
+    assert_eq!(page.texts("dialog [aria-pressed=true]"), ["difference"]);
+}
+
+fn the_pages_flip_is_that_of_its_authors_code(chromium: &Chromium, path: &Path) {
+    let page = with_pictures(chromium, path);
+    let mean: f64 = page.eval(&format!(
+        "Number(document.querySelector(\"{UNSORTED}\").dataset.mapMean)"
+    ));
+    assert!((mean - 0.7392).abs() < 2e-3, "{mean}");
+    let same = "[data-name='transparency/windows'] .pictures:not(.off) [data-method=sorted]";
+    page.wait(&format!(
+        "document.querySelectorAll(\"{same} button\").length === 3"
+    ));
+    assert_eq!(
+        page.eval::<f64>(&format!(
+            "Number(document.querySelector(\"{same}\").dataset.mapMean)"
+        )),
+        0.0
+    );
+    assert_eq!(
+        page.text(&format!("{same} button[data-mode=difference]")),
+        "no difference"
+    );
+}
+
+fn break_points_lead_to_the_pictures_beside_them(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
+    page.run("[...document.querySelectorAll('#break-rows tr')].find(r => \
+              r.textContent.startsWith('transparency/windows') && r.textContent.includes('weighted-blended'))\
+              .querySelectorAll('a[data-go]').forEach((a, i) => { a.id = 'side' + i; })");
+    assert_eq!(
+        (page.text("#side0"), page.text("#side1")),
+        ("0.5".to_owned(), "0.7".to_owned())
+    );
+    page.click("#side1");
+    assert_eq!(shown(&page, ".pictures"), ["3"]);
+    assert_eq!(
+        page.text(&format!("{WINDOWS} .setting output")),
+        "alpha 0.7"
+    );
+    let seen = format!(
+        "(r => r.top >= 0 && r.top < innerHeight)(document.querySelector(\"{WINDOWS} .pictures:not(.off)\").getBoundingClientRect())"
+    );
+    page.wait(&seen);
+    page.click("#side0");
+    assert_eq!(shown(&page, ".pictures"), ["2"]);
+}
+
+fn breaks_at_other_limits(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
+    let rows = || page.texts("#break-rows td:nth-child(3)");
+    let written = rows();
+    assert!(
+        written
+            .iter()
+            .any(|r| r == "weighted-blended leaves 1\u{a0}% RMSE at alpha 0.53"),
+        "{written:?}"
+    );
+    // The script finds what the page was written with.
+    page.run("showBreaks(1)");
+    assert_eq!(rows(), written);
+    page.run("document.querySelector('#limit').select()");
+    page.type_in("5");
+    page.wait("document.querySelector('#limit-text').textContent.startsWith('5')");
+    let other = rows();
+    assert_ne!(other, written);
+    assert!(
+        other.iter().all(|r| r.contains("5\u{a0}% RMSE")),
+        "{other:?}"
+    );
+    // Between 0.7, where it is 0.035, and 0.9, where it is 0.106.
+    assert!(
+        other
+            .iter()
+            .any(|r| r.starts_with("weighted-blended leaves 5\u{a0}% RMSE at alpha 0.7")),
+        "{other:?}"
+    );
+    assert!(
+        page.eval::<bool>("getComputedStyle(document.querySelector('.rings')).display === 'none'"),
+        "the rings are those of 1 %"
+    );
+}
+
+fn a_narrow_window_and_no_scripts(chromium: &Chromium, path: &Path) {
+    let page = with_pictures(chromium, path);
+    page.resize(390, 800);
+    page.wait("innerWidth === 390");
+    let wide: Vec<String> = page.eval(
+        "[...document.querySelectorAll('main *')].filter(e => e.getBoundingClientRect().right > innerWidth + 1 && !e.closest('.wide') && !e.closest('.off'))\
+         .map(e => e.outerHTML.slice(0, 120))",
+    );
+    assert_eq!(wide, [] as [&str; 0]);
+    // No text of a chart overlaps another one, and none reaches out of it.
+    page.resize(1400, 900);
+    page.wait("innerWidth === 1400");
+    let clashes: Vec<String> = page.eval(
+        "[...document.querySelectorAll('svg.chart')].flatMap(svg => { \
+         const box = svg.getBoundingClientRect(); \
+         const texts = [...svg.querySelectorAll('text')].filter(t => !t.closest('.off')); \
+         const rects = texts.map(t => [t.textContent, t.getBoundingClientRect()]); \
+         return rects.flatMap(([a, r], i) => [ \
+           ...(r.left < box.left - 1 || r.right > box.right + 1 || r.bottom > box.bottom + 1 ? [a + ' is cut'] : []), \
+           ...rects.slice(i + 1).filter(([, s]) => r.left + 1 < s.right && s.left + 1 < r.right && r.top + 3 < s.bottom && s.top + 3 < r.bottom).map(([b]) => a + ' over ' + b)]); })",
+    );
+    assert_eq!(clashes, [] as [&str; 0]);
+
+    let page = chromium.open_without_scripts(path);
+    assert!(page.eval::<bool>(&format!(
+        "document.querySelector(\"{WINDOWS} .setting input\").disabled"
+    )));
+    assert!(!page.eval::<bool>("document.querySelector('#limit-field').checkVisibility()"));
+    assert!(
+        page.eval::<String>("document.body.innerText")
+            .contains("Scripts are off")
+    );
+    assert_eq!(shown(&page, ".pictures"), ["2"]);
+}

@@ -1,0 +1,85 @@
+//! The greeting: one line of text before the first message, so that a parent tells a worker of its own
+//! version from one of another, and both from a shell or a launcher that prints.
+
+use crate::loss::Loss;
+use std::io::{self, BufRead, Read, Write};
+
+/// The first words of each greeting.
+const WORDS: &str = "etalon worker ";
+/// The version of the messages behind it; a change of any of them needs another one.
+const PROTOCOL: u32 = 1;
+/// The longest line in bytes that is read or quoted.
+const MOST: u64 = 200;
+
+/// Returns the greeting of a worker of this version.
+fn own() -> String {
+    format!("{WORDS}{}, protocol {PROTOCOL}", env!("CARGO_PKG_VERSION"))
+}
+
+/// Sends the greeting, which leaves with the message behind it.
+pub(crate) fn send(to: &mut impl Write) -> io::Result<()> {
+    to.write_all(format!("{}\n", own()).as_bytes())
+}
+
+/// Reads the greeting of a worker; false at the end of a stream without any.
+///
+/// # Errors
+/// When it is that of another version, or something else that was printed.
+pub(crate) fn check(from: &mut impl BufRead, launched: bool) -> Result<bool, Loss> {
+    let mut line = Vec::new();
+    let read = from.take(MOST).read_until(b'\n', &mut line);
+    read.map_err(|e| Loss::Garbage(e.to_string()))?;
+    if line.is_empty() {
+        return Ok(false);
+    }
+    let text = String::from_utf8_lossy(&line);
+    let text = text.trim_end();
+    if text == own() {
+        return Ok(true);
+    }
+    if text.starts_with(WORDS) {
+        return Err(Loss::NotStarted(format!(
+            "the program that answers is `{}`, and this one `{}`: start the same program there",
+            text.escape_debug(),
+            own()
+        )));
+    }
+    let shown: String = text.chars().take(80).collect();
+    let whose = match launched {
+        true => "; a launcher must not print anything itself: its standard output is the worker's",
+        false => "",
+    };
+    Err(Loss::Garbage(format!(
+        "`{}` in place of a greeting{whose}",
+        shown.escape_debug()
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn checked(text: &str) -> Result<bool, Loss> {
+        check(&mut text.as_bytes(), true)
+    }
+
+    #[test]
+    fn a_greeting_is_known_and_what_else_comes_is_quoted() {
+        let mut pipe = Vec::new();
+        send(&mut pipe).expect("sent");
+        assert_eq!(check(&mut pipe.as_slice(), false), Ok(true));
+        assert_eq!(checked(""), Ok(false));
+        let Err(Loss::NotStarted(other)) = checked("etalon worker 9.9.9, protocol 1\n") else {
+            panic!("another version is refused");
+        };
+        assert!(other.contains("9.9.9"), "{other}");
+        assert!(other.contains("the same program"), "{other}");
+        let Err(Loss::Garbage(shell)) = checked("Last login: today \u{1b}[31m\n") else {
+            panic!("words are no greeting");
+        };
+        assert!(shell.contains("`Last login: today \\u{1b}[31m`"), "{shell}");
+        assert!(shell.contains("must not print"), "{shell}");
+        // Without an end of line, no more is read than may be quoted.
+        assert!(checked(&"x".repeat(1 << 20)).is_err());
+    }
+}

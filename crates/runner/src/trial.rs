@@ -1,0 +1,88 @@
+//! Trials: cases that are drawn one after the other on a warm worker, until one of them is what is looked for.
+//!
+//! Requests run ahead of the answers, so that the driver draws while frames are judged. As every case behind
+//! the one that is found was drawn in vain, few run ahead at first, and more with each case that is not it.
+
+use crate::drawing::Due;
+use crate::launch::{Launch, StartError};
+use crate::loss::Failure;
+use crate::process::Wait;
+use crate::worker::Worker;
+use etalon_case::Case;
+use etalon_frame::Frame;
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+/// The time that a case may take.
+const TIMEOUT: Duration = Duration::from_secs(20);
+/// The most requests in flight.
+const MOST_AHEAD: usize = 4;
+
+/// A worker, started again behind each case that ends it.
+pub struct Trials {
+    launch: Launch,
+    worker: Worker,
+    ahead: usize,
+    slot: u32,
+    /// The number of workers that were lost.
+    pub lost: usize,
+}
+
+impl Trials {
+    /// Trials on a running worker.
+    pub fn new(launch: Launch, worker: Worker) -> Self {
+        Self {
+            launch,
+            worker,
+            ahead: 1,
+            slot: 0,
+            lost: 0,
+        }
+    }
+
+    /// Draws the cases that `next` gives until `found` says yes to one, and returns that one. `found` gets its
+    /// frames; a case that the driver refuses, or that ends its worker, is none.
+    ///
+    /// # Errors
+    /// When a worker that was lost cannot be started again.
+    pub fn first<C>(
+        &mut self,
+        next: &mut dyn FnMut() -> Option<C>,
+        case: impl Fn(&C) -> &Case,
+        found: &mut dyn FnMut(&C, &[Frame]) -> bool,
+    ) -> Result<Option<C>, StartError> {
+        let mut asked: VecDeque<(u32, C, Instant)> = VecDeque::new();
+        let mut result = None;
+        loop {
+            while result.is_none() && asked.len() < self.ahead {
+                let Some(candidate) = next() else { break };
+                self.slot = self.slot.wrapping_add(1);
+                let slot = self.slot;
+                self.worker.process.request_case(slot, case(&candidate));
+                asked.push_back((slot, candidate, Instant::now()));
+            }
+            let Some((slot, candidate, since)) = asked.pop_front() else {
+                return Ok(result);
+            };
+            let due = Due::of(case(&candidate));
+            let wait = Wait::of(TIMEOUT);
+            let drawing = self.worker.process.receive_frames(slot, due, since, wait);
+            match drawing.frames {
+                Ok(frames) if result.is_none() && found(&candidate, &frames) => {
+                    result = Some(candidate);
+                    self.ahead = 1;
+                }
+                Err(Failure::Lost(_)) => {
+                    self.lost += 1;
+                    self.worker = Worker::start(&self.launch)?;
+                    // What was asked behind it was lost with it.
+                    for (slot, candidate, since) in &mut asked {
+                        self.worker.process.request_case(*slot, case(candidate));
+                        *since = Instant::now();
+                    }
+                }
+                _ => self.ahead = (self.ahead + 1).min(MOST_AHEAD),
+            }
+        }
+    }
+}
