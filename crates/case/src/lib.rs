@@ -11,6 +11,7 @@ mod codes;
 mod document;
 mod draw;
 mod error;
+mod expanded;
 mod fetch;
 mod file;
 mod library;

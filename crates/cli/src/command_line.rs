@@ -2,7 +2,7 @@
 
 use crate::commands::{
     adapters, bench, bisect, check, completions, diff, expectations, explain, list, man, merge,
-    mutants, reduce, report, run,
+    mutants, reduce, report, run, show,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -29,6 +29,8 @@ pub(crate) enum Command {
     List(list::Arguments),
     /// Check case files without a driver: errors, what nothing uses, what is not asserted, and how sharply
     Check(check::Arguments),
+    /// Show a case: its purpose, scene, JSON, shaders and picture
+    Show(show::Arguments),
     /// Print the JSON schema of case files
     Schema,
     /// Draw cases on adapters, judge every texel, write records and reports

@@ -14,6 +14,7 @@
 mod adapters;
 mod blessing;
 mod cases;
+mod catalogue;
 mod check;
 mod command_line;
 mod commands;
@@ -27,6 +28,7 @@ mod output;
 mod progress;
 mod provenance;
 mod report_files;
+mod scene_text;
 mod shard;
 mod worker;
 
@@ -48,6 +50,7 @@ fn main() -> ExitCode {
         Command::Adapters(arguments) => commands::adapters::run(&arguments),
         Command::List(arguments) => commands::list::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
+        Command::Show(arguments) => commands::show::run(&arguments),
         Command::Schema => commands::schema::run(),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),

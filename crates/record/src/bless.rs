@@ -4,12 +4,14 @@
 //! breaks.
 
 use crate::adapter::AdapterRecord;
+use crate::condition::Condition;
 use crate::driver_version::version_of;
 use crate::expectations::{Entry, Expectation, Expectations, Known, Source};
 use crate::findings::{Evidence, Finding};
 use crate::grade::Grade;
 use crate::record::Record;
 use crate::run::Run;
+use crate::symptom::Symptom;
 use crate::verdict::Verdict;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -97,7 +99,7 @@ impl Expectations {
             }
         }
         blessing.added = new.len();
-        blessing.findings = findings(&new, today);
+        blessing.findings = findings(&new, run, today);
         blessing
             .entries
             .extend(new.into_iter().map(|(_, entry)| entry));
@@ -130,9 +132,10 @@ fn entry(record: &Record, adapter: &AdapterRecord, run: &Run, today: &str) -> En
     }
 }
 
-/// New entries as findings: one per driver, case file and verdict. Adapters share one where they show it in the
+/// New entries as findings: one per driver, kind of violation and case file. Globs name the cases where a condition on
+/// axes tells them from all others that were drawn; else each is named. Adapters share one where they show it in the
 /// same cases, so that none is excused that was not seen.
-fn findings(new: &[(&Record, Entry)], today: &str) -> Vec<(String, Finding)> {
+fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Finding)> {
     let mut groups: BTreeMap<_, Vec<&(&Record, Entry)>> = BTreeMap::new();
     for one in new {
         let (record, entry) = one;
@@ -143,12 +146,34 @@ fn findings(new: &[(&Record, Entry)], today: &str) -> Vec<(String, Finding)> {
             entry.verdict,
             file,
             &entry.adapter,
+            Symptom::of(record),
         );
         groups.entry(key).or_default().push(one);
     }
     let mut found: Vec<(String, Finding)> = Vec::new();
-    for ((driver, version, verdict, file, adapter), group) in groups {
-        let cases: Vec<String> = group.iter().map(|(_, e)| e.case.clone()).collect();
+    for ((driver, version, verdict, file, adapter, kind), group) in groups {
+        let failing: Vec<&str> = group
+            .iter()
+            .map(|(record, _)| record.case.as_str())
+            .collect();
+        let name = group
+            .first()
+            .map_or("", |(record, _)| record.adapter.as_str());
+        let on_adapter = run
+            .records
+            .iter()
+            .filter(|r| r.adapter == name && r.case_file() == file);
+        let drawn =
+            on_adapter.filter(|r| !matches!(r.verdict, Verdict::NotSupported | Verdict::Skipped));
+        let drawn: Vec<&str> = drawn.map(|r| r.case.as_str()).collect();
+        // One case says nothing about its axes.
+        let globs = (failing.len() > 1)
+            .then(|| Condition::of(&failing, &drawn).globs(file))
+            .flatten();
+        let each = || group.iter().map(|(_, e)| e.case.clone()).collect();
+        let cases: Vec<String> = globs
+            .filter(|globs| globs.len() < failing.len())
+            .unwrap_or_else(each);
         let same = found.iter_mut().find(|(_, f)| {
             f.driver == *driver
                 && f.versions == *version
@@ -164,9 +189,12 @@ fn findings(new: &[(&Record, Entry)], today: &str) -> Vec<(String, Finding)> {
         };
         let name = record.adapter.rsplit(':').next().unwrap_or_default();
         found.push((
-            slug(&format!("{name} {file} {verdict}")),
+            slug(&format!("{name} {file} {verdict} {}", kind.text())),
             Finding {
-                title: format!("{name}: {file}: {verdict}, not explained yet; blessed on {today}"),
+                title: format!(
+                    "{name}: {file}: {}, not explained yet; blessed on {today}",
+                    format!("{verdict} {}", kind.text()).trim_end()
+                ),
                 adapters: vec![adapter.clone()],
                 driver: driver.clone(),
                 versions: version.clone(),

@@ -15,6 +15,7 @@ mod adapter;
 mod bench;
 mod bless;
 mod clear;
+mod condition;
 mod conflict;
 mod dead;
 mod driver_version;
@@ -42,9 +43,9 @@ mod run;
 mod selection;
 mod shader_cache;
 mod shorten;
+mod symptom;
 mod verdict;
 mod versions;
-mod violation;
 mod writer;
 
 pub use adapter::{AbsentAdapter, AdapterRecord, Release};
@@ -54,6 +55,7 @@ pub use bench::{
 };
 pub use bless::Blessing;
 pub use clear::clear;
+pub use condition::Condition;
 pub use dead::{Dead, DeadKind};
 pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations, Known, Source};
@@ -77,9 +79,9 @@ pub use report_files::ReportFiles;
 pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
 pub use shader_cache::ShaderCache;
+pub use symptom::Symptom;
 pub use verdict::Verdict;
 pub use versions::{
     CaseVersions, ReleaseRecord, Standing, VERSIONS_FILE, VERSIONS_FORMAT, Versions, VersionsHeader,
 };
-pub use violation::Violation;
 pub use writer::RunWriter;

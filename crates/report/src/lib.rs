@@ -11,6 +11,7 @@
 )]
 
 mod bench;
+mod catalogue;
 mod chart;
 mod command;
 mod diff;
@@ -28,6 +29,9 @@ mod versions;
 mod words;
 
 pub use bench::{BENCH_FILES, WrittenBench, bench_table, write_bench};
+pub use catalogue::{
+    CATALOGUE, Catalogue, CatalogueCase, reference_picture, reference_png, write_catalogue,
+};
 pub use command::quoted;
 pub use diff::benches::{BenchDiff, BenchFacts, TimeChange, Untimed, diff, diff_table, write_diff};
 pub use diff::runs;

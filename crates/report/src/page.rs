@@ -20,6 +20,8 @@ pub(crate) struct Page<'a> {
     pub(crate) styles: &'a [&'static str],
     /// The script, which the content holds as [`script`].
     pub(crate) script: Option<&'static str>,
+    /// True if the page's own script loads others from the page's folder.
+    pub(crate) beside: bool,
     /// The content.
     pub(crate) main: Markup,
     /// The files that the page was made from.
@@ -34,7 +36,11 @@ impl Page<'_> {
             html lang="en" {
                 head {
                     meta charset="utf-8";
-                    meta http-equiv="Content-Security-Policy" content=(policy(self.script));
+                    meta http-equiv="Content-Security-Policy" content=(policy(self.script, self.beside));
+                    @if let (Some(script), true) = (self.script, self.beside) {
+                        // Both policies hold: what the page's own script adds, and only from the page's place.
+                        meta http-equiv="Content-Security-Policy" content={ "script-src " (digest(script)) " 'self'" };
+                    }
                     meta name="viewport" content="width=device-width, initial-scale=1";
                     meta name="color-scheme" content="light dark";
                     title { (self.title) }
@@ -56,10 +62,14 @@ pub(crate) fn script(text: &'static str) -> Markup {
     html! { script { (PreEscaped(text)) } }
 }
 
-fn policy(script: Option<&str>) -> String {
+fn digest(script: &str) -> String {
+    format!("'sha256-{}'", STANDARD.encode(Sha256::digest(script)))
+}
+
+fn policy(script: Option<&str>, beside: bool) -> String {
     let script = script.map_or(String::new(), |text| {
-        let digest = STANDARD.encode(Sha256::digest(text));
-        format!("script-src 'sha256-{digest}'; ")
+        let others = if beside { " 'strict-dynamic'" } else { "" };
+        format!("script-src {}{others}; ", digest(text))
     });
     format!(
         "default-src 'none'; img-src data:; style-src 'unsafe-inline'; {script}base-uri 'none'; form-action 'none'"

@@ -2,7 +2,7 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use etalon_frame::{Aspect, ChannelEncoding};
+use etalon_frame::{Aspect, ChannelEncoding, Image};
 use etalon_record::FrameImage;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
@@ -347,8 +347,69 @@ impl View<'_> {
     }
 }
 
+/// A small picture of an image as it is, a `data:` address: colour as it is stored without a transfer function, depth
+/// and stencil as grey; of several samples their mean.
+pub(crate) fn thumbnail(image: &Image) -> Option<String> {
+    let (pixels, [width, height]) = pixels(image)?;
+    uri(&pixels, width, height)
+}
+
+/// The same as a PNG file, each texel as a block of pixels.
+pub(crate) fn enlarged(image: &Image) -> Option<Vec<u8>> {
+    let (pixels, [width, height]) = pixels(image)?;
+    let block = (512 / width.max(height).max(1)).clamp(1, 16);
+    let (wide, high) = (width * block, height * block);
+    let all = (0..high).flat_map(|y| (0..wide).map(move |x| (x / block, y / block)));
+    let pixels: Vec<[u8; 4]> = all.map(|(x, y)| pixels[(y * width + x) as usize]).collect();
+    png(&pixels, wide, high)
+}
+
+fn pixels(image: &Image) -> Option<(Vec<[u8; 4]>, [u32; 2])> {
+    let channels = image.channels.len();
+    if channels == 0 || image.samples == 0 || image.codes.len() != image.expected_len() {
+        return None;
+    }
+    // Stencil values are small numbers in a large range.
+    let most = match image.channels[0] {
+        ChannelEncoding::Uint(_) => {
+            f64::from(image.codes.iter().copied().max().unwrap_or(0)).max(1.0)
+        }
+        _ => 1.0,
+    };
+    let value = |texel: usize, channel: usize| {
+        let encoding = image.channels[channel];
+        let one = |sample: usize| {
+            let code = image.codes[(texel * image.samples as usize + sample) * channels + channel];
+            match encoding.is_nan(code) {
+                true => 0.0,
+                false => encoding.value_of_order(encoding.order_of_code(code)) / most,
+            }
+        };
+        let sum: f64 = (0..image.samples as usize)
+            .map(one)
+            .map(|v| v.clamp(0.0, 1.0))
+            .sum();
+        (sum / f64::from(image.samples) * 255.0).round() as u8
+    };
+    let texels = image.size[0] as usize * image.size[1] as usize;
+    let pixel = |texel: usize| match (image.aspect, channels) {
+        (Aspect::Color, 3..) => [value(texel, 0), value(texel, 1), value(texel, 2), 255],
+        (Aspect::Color, 2) => [value(texel, 0), value(texel, 1), 0, 255],
+        _ => {
+            let grey = value(texel, 0);
+            [grey, grey, grey, 255]
+        }
+    };
+    Some(((0..texels).map(pixel).collect(), image.size))
+}
+
 /// The smallest of the PNG forms that hold the pixels.
 fn uri(pixels: &[[u8; 4]], width: u32, height: u32) -> Option<String> {
+    let png = png(pixels, width, height)?;
+    Some(format!("data:image/png;base64,{}", STANDARD.encode(&png)))
+}
+
+fn png(pixels: &[[u8; 4]], width: u32, height: u32) -> Option<Vec<u8>> {
     let opaque = pixels.iter().all(|p| p[3] == 255);
     let grey = pixels.iter().all(|p| p[0] == p[1] && p[1] == p[2]);
     let (bytes, color): (Vec<u8>, _) = match (opaque, grey) {
@@ -363,7 +424,7 @@ fn uri(pixels: &[[u8; 4]], width: u32, height: u32) -> Option<String> {
     PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive)
         .write_image(&bytes, width, height, color)
         .ok()?;
-    Some(format!("data:image/png;base64,{}", STANDARD.encode(&png)))
+    Some(png)
 }
 
 #[cfg(test)]

@@ -4,7 +4,10 @@ use crate::adapters::{
     Adapters, Query, cache, described_names, discover, refuse_absent, take_unstarted,
 };
 use crate::blessing::{bless, to_bless};
-use crate::cases::{all_ids, chosen, is_measuring, is_measuring_area, left_out, round_trips};
+use crate::cases::{
+    all_ids, chosen, is_measuring, is_measuring_area, left_out, library, round_trips,
+};
+use crate::catalogue::catalogue;
 use crate::expectations::{self, today};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
@@ -238,6 +241,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         _ => dead_expectations(arguments, &expectations, &run)?,
     };
     Dead::write(&arguments.out, &dead).map_err(Failure::incomplete)?;
+    let library = library(arguments.selection.cases.as_ref())?;
+    etalon_report::write_catalogue(&arguments.out, &catalogue(&library, &cases))
+        .map_err(Failure::incomplete)?;
     let written = etalon_report::write(&arguments.out).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         summarize_json(&json!({

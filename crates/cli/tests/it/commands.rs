@@ -568,3 +568,70 @@ fn what_is_misspelt_is_proposed() {
     );
     refused(&["run", "--adapter", "cppu"], &["did you mean `cpu`?"]);
 }
+
+#[test]
+fn show_tells_a_case_and_draws_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let png = folder.path().join("case.png");
+    let id = "stencil/masks-zero/compare=less/format=depth24plus-stencil8";
+    let output = etalon(&["show", id, "--png"]).arg(&png).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    for word in [
+        id,
+        "pass 0 on",
+        "draw 0: ",
+        "read_mask 0",
+        "reads back",
+        "\"compare\": \"less\"",
+        "@fragment",
+    ] {
+        assert!(text.contains(word), "`{word}` in {text}");
+    }
+    assert!(!text.contains("\"$"), "{text}");
+    assert!(fs::read(&png).unwrap().starts_with(b"\x89PNG"));
+    refused(&["show", "depth/none"], &["there is no case"]);
+}
+
+#[test]
+fn a_run_has_its_cases_beside_its_page() {
+    let out = tempfile::tempdir().unwrap();
+    etalon(&[
+        "run",
+        "depth/clear",
+        "cull/lines",
+        "--adapter",
+        "cpu",
+        "--out",
+    ])
+    .arg(out.path())
+    .assert()
+    .success();
+    for area in ["depth", "cull"] {
+        let text = fs::read_to_string(out.path().join(format!("cases/{area}.js"))).unwrap();
+        let json = text
+            .strip_prefix(&format!("etalonArea(\"{area}\", "))
+            .unwrap()
+            .trim_end()
+            .strip_suffix(");")
+            .unwrap();
+        let held: Value = serde_json::from_str(json).unwrap();
+        assert!(!held["pictures"].as_array().unwrap().is_empty());
+        assert!(!held["lines"].as_array().unwrap().is_empty());
+        for (file, cases) in held["cases"].as_object().unwrap() {
+            assert!(held["files"][file]["about"].is_string(), "{file}");
+            assert!(
+                cases
+                    .as_object()
+                    .unwrap()
+                    .values()
+                    .all(|case| case[1].as_i64().unwrap() >= 0),
+                "{cases}"
+            );
+        }
+    }
+    let page = fs::read_to_string(out.path().join("index.html")).unwrap();
+    assert!(
+        page.contains("#gallery=depth"),
+        "the page links its galleries"
+    );
+}

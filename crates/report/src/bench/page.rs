@@ -43,6 +43,7 @@ pub(super) fn page(bench: &Bench, figures: &Figures<'_>) -> String {
         title: &format!("etalon bench {}", bench.header.started),
         styles: &[OWN_STYLE],
         script: None,
+        beside: false,
         main,
         source: "bench.jsonl in this folder",
     }
@@ -189,7 +190,7 @@ fn table(rows: &[Timed<'_>], title: &str) -> Markup {
         .filter(|t| rows.iter().any(|r| r.others.contains_key(t)))
         .collect();
     html! {
-        div.wide { table.times {
+        div.wide { table.times.stacked {
             thead { tr {
                 th { "Rank" } th { (title) " adapter" } th { "Picture" } th { "Median" } th { "Interval" }
                 th { "p50" } th { "p95" } th { "Rounds × frames" } th { "Discarded" } th { "Visible" }
@@ -198,17 +199,17 @@ fn table(rows: &[Timed<'_>], title: &str) -> Markup {
             } }
             tbody { @for row in rows {
                 tr {
-                    td.num { (row.rank) }
+                    td.num data-head="Rank" { (row.rank) }
                     th scope="row" { (breakable(row.adapter())) }
-                    td { (words::name(row.record.picture.verdict)) small { " " (share(row.record)) } (ended(row.record)) }
+                    td data-head="Picture" { (words::name(row.record.picture.verdict)) small { " " (share(row.record)) } (ended(row.record)) }
                     (figures_of(&row.wall))
-                    td.num { (row.wall.rounds) " × " (row.wall.samples / row.wall.rounds.max(1)) }
-                    td.num { (row.record.discarded()) }
-                    td.num { @match row.wall.visible { Some(v) => (change(v)), None => "–" } }
+                    td.num data-head="Rounds × frames" { (row.wall.rounds) " × " (row.wall.samples / row.wall.rounds.max(1)) }
+                    td.num data-head="Discarded" { (row.record.discarded()) }
+                    td.num data-head="Visible" { @match row.wall.visible { Some(v) => (change(v)), None => "–" } }
                     @for time in &shown {
-                        td.num { @match row.others.get(time) { Some(s) => (duration(s.median)), None => "–" } }
+                        td.num data-head=(time.name()) { @match row.others.get(time) { Some(s) => (duration(s.median)), None => "–" } }
                     }
-                    td { (strip(row, scale)) }
+                    td data-head="Spread" { (strip(row, scale)) }
                 }
             } }
         } }
@@ -217,15 +218,15 @@ fn table(rows: &[Timed<'_>], title: &str) -> Markup {
 
 fn figures_of(s: &Summary) -> Markup {
     html! {
-        td.num { b { (duration(s.median)) } }
-        td.num {
+        td.num data-head="Median" { b { (duration(s.median)) } }
+        td.num data-head="Interval" {
             @match s.interval {
                 Some([low, high]) => { (duration(low)) " to " (duration(high)) }
                 None => "–",
             }
         }
-        td.num { (duration(s.p50)) }
-        td.num { (duration(s.p95)) }
+        td.num data-head="p50" { (duration(s.p50)) }
+        td.num data-head="p95" { (duration(s.p95)) }
     }
 }
 

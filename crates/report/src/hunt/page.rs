@@ -19,6 +19,7 @@ pub(super) fn page(hunt: &Hunt) -> String {
         title: &format!("etalon mutants {}", hunt.started),
         styles: &[],
         script: None,
+        beside: false,
         main,
         source: "mutants.json in this folder",
     }

@@ -56,6 +56,7 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
         title: &format!("etalon methods {}", run.header.started),
         styles: &[chart::STYLE, STYLE],
         script: Some(SCRIPT),
+        beside: false,
         main,
         source: "run.jsonl and pictures/ in this folder",
     }

@@ -7,6 +7,7 @@
 mod adapters;
 mod assertions;
 mod cases;
+mod causes;
 mod consensus;
 mod data;
 mod detail;
@@ -17,6 +18,7 @@ mod mark;
 mod matrix;
 mod undrawn;
 
+use crate::catalogue::scripts;
 use crate::chart;
 use crate::methods::{self, Methods};
 use crate::numbers::count;
@@ -38,6 +40,7 @@ const SCRIPT: &str = concat!(
     include_str!("index/script/state.js"),
     include_str!("index/script/table.js"),
     include_str!("index/script/case.js"),
+    include_str!("index/script/scene.js"),
     include_str!("index/script/keys.js"),
     include_str!("index/script/route.js"),
     "})();\n"
@@ -51,6 +54,7 @@ pub(crate) fn page(
 ) -> String {
     let grid = Grid::new(run);
     let plan = findings::Plan::new(&grid);
+    let scripts = scripts(folder);
     let drivers = methods::driver_section(&grid);
     let mut styles = vec![CASES_STYLE];
     if drivers.is_some() {
@@ -63,16 +67,17 @@ pub(crate) fn page(
             @if run.records.is_empty() {
                 p { "No case was run." }
             } @else {
+                (causes::section(&grid))
                 (totals(run))
                 (matrix::section(&grid))
                 (undrawn::section(run))
                 (undrawn::dead(dead))
                 @if let Some(methods) = methods { (methods::section(methods)) }
                 @if let Some(drivers) = drivers { (drivers) }
-                (cases::section(&grid))
+                (cases::section(&grid, &scripts))
             }
             // Before the long sections, so that the table works while the rest is still read.
-            (data::block(&grid, &plan))
+            (data::block(&grid, &plan, &scripts))
             (page::script(SCRIPT))
             @if !run.records.is_empty() {
                 (findings::section(folder, &grid, &plan))
@@ -85,6 +90,7 @@ pub(crate) fn page(
         title: &title(run),
         styles: &styles,
         script: Some(SCRIPT),
+        beside: !scripts.is_empty(),
         main,
         source: "run.jsonl and frames/ in this folder",
     }
@@ -156,7 +162,7 @@ fn state(run: &Run, dead: &[Dead]) -> Markup {
         @if tally.unexpected > 0 {
             p.state.bad {
                 b { (words::symbol(Verdict::Fail)) " " (count(tally.unexpected, "unexpected record")) }
-                ", listed under " a href="#findings" { "Findings" } "."
+                ", by " a href="#causes" { "cause" } " and under " a href="#findings" { "Findings" } "."
             }
         } @else if !run.records.is_empty() {
             p.state.good { b { (words::symbol(Verdict::Pass)) " Nothing unexpected." } }

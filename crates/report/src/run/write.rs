@@ -2,6 +2,7 @@
 
 use super::grid::Grid;
 use super::index;
+use crate::catalogue::CATALOGUE;
 use crate::error::ReportError;
 use crate::export::{ctrf, deqp, junit, markdown};
 use crate::files::replace;
@@ -15,7 +16,7 @@ use std::thread;
 /// The files that [`write()`] may write into a run folder.
 pub const RUN_FILES: [&str; 5] = [HTML, methods::PAGE, JUNIT, CTRF, SUMMARY];
 /// The folders that [`write()`] writes into a run folder.
-pub const RUN_FOLDERS: [&str; 1] = [deqp::FOLDER];
+pub const RUN_FOLDERS: [&str; 2] = [deqp::FOLDER, CATALOGUE];
 const HTML: &str = "index.html";
 const JUNIT: &str = "junit.xml";
 const CTRF: &str = "ctrf.json";

@@ -21,6 +21,7 @@ pub(super) fn page(versions: &Versions) -> String {
         title: &format!("etalon: {} over its releases", versions.header.line),
         styles: &[],
         script: None,
+        beside: false,
         main,
         source: "versions.jsonl in this folder",
     }

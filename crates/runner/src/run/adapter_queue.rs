@@ -6,7 +6,7 @@ use crate::launch::Launch;
 use crate::supervisor::FailedStarts;
 use crate::sync::lock;
 use crate::worker::Worker;
-use etalon_record::{AdapterRecord, Violation};
+use etalon_record::{AdapterRecord, Symptom};
 use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
@@ -59,7 +59,7 @@ pub(super) struct State {
     /// Frame files of imprecise cases, by case file.
     pub(super) imprecise_frames: HashMap<String, u32>,
     /// Rechecks that gave the same verdict again, by kind.
-    confirmed: HashMap<Violation, u32>,
+    confirmed: HashMap<Symptom, u32>,
     /// The counts of bad verdicts that were checked again, and that were not.
     rechecks: Rechecks,
     searches: u32,
@@ -196,7 +196,7 @@ impl AdapterQueue {
 
     /// True if a bad verdict is to be checked again: so many of each kind, so that a broken driver does not double
     /// a run. The limits are counts, never times.
-    pub(super) fn may_recheck(&self, kind: &Violation, most: u32) -> bool {
+    pub(super) fn may_recheck(&self, kind: &Symptom, most: u32) -> bool {
         let mut state = self.state();
         let confirmed = state.confirmed.get(kind).copied().unwrap_or(0);
         let fits = confirmed < most && state.rechecks.done < u64::from(MAX_RECHECKS);
@@ -211,7 +211,7 @@ impl AdapterQueue {
     }
 
     /// Notes that a recheck gave another verdict: its kind stays to be checked.
-    pub(super) fn refuted(&self, kind: &Violation) {
+    pub(super) fn refuted(&self, kind: &Symptom) {
         let mut state = self.state();
         if let Some(confirmed) = state.confirmed.get_mut(kind) {
             *confirmed = confirmed.saturating_sub(1);

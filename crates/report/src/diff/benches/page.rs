@@ -69,6 +69,7 @@ fn page(diff: &BenchDiff) -> String {
         title: "etalon diff",
         styles: &[BENCH_STYLE],
         script: None,
+        beside: false,
         main,
         source: "two recorded benches",
     }

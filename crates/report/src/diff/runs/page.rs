@@ -53,6 +53,7 @@ fn page(diff: &RunDiff, folders: &[&Path; 2]) -> String {
         title: &format!("etalon diff: {}", headline(diff)),
         styles: &[OWN_STYLE],
         script: None,
+        beside: false,
         main,
         source: "the records and frames of two runs",
     }

@@ -8,7 +8,7 @@ use crate::words;
 use etalon_record::Verdict;
 use maud::{Markup, html};
 
-pub(crate) fn section(grid: &Grid<'_>) -> Markup {
+pub(crate) fn section(grid: &Grid<'_>, scripts: &[(String, String)]) -> Markup {
     html! {
         section id="cases" aria-labelledby="cases-title" {
             h2 id="cases-title" { "All cases" }
@@ -23,6 +23,15 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
                     span.key { i { (words::symbol(verdict)) } " " (words::name(verdict)) } " "
                 }
                 "A verdict in parentheses was expected or due."
+            }
+            @if !scripts.is_empty() {
+                p id="galleries" {
+                    "Galleries of reference pictures: "
+                    @for (i, (area, ..)) in scripts.iter().enumerate() {
+                        @if i > 0 { ", " }
+                        a href={ "#gallery=" (area) } { (area) }
+                    }
+                }
             }
             noscript {
                 p.note {

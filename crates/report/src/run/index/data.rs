@@ -37,6 +37,8 @@ struct Data<'a> {
     files: Vec<File<'a>>,
     /// Case, adapter and record of what stands under Findings with everything known about it.
     bodies: Vec<[usize; 3]>,
+    /// Area and path of the scripts that hold the cases as they are meant.
+    scripts: &'a [(String, String)],
 }
 
 #[derive(Serialize)]
@@ -65,8 +67,10 @@ struct File<'a> {
 struct Case<'a>(&'a str, String, usize, Vec<u64>, Vec<usize>);
 
 /// The block, ready to be put into a page.
-pub(crate) fn block(grid: &Grid<'_>, plan: &Plan) -> Markup {
-    let json = serde_json::to_string(&data(grid, plan));
+pub(crate) fn block(grid: &Grid<'_>, plan: &Plan, scripts: &[(String, String)]) -> Markup {
+    let mut data = data(grid, plan);
+    data.scripts = scripts;
+    let json = serde_json::to_string(&data);
     // All data has a JSON form; the script reports an empty block.
     let json = json.unwrap_or_else(|_| "null".to_owned());
     let json = json.replace('<', "\\u003c");
@@ -129,6 +133,7 @@ fn data<'a>(grid: &'a Grid<'_>, plan: &Plan) -> Data<'a> {
         facts,
         files,
         bodies,
+        scripts: &[],
     }
 }
 
@@ -256,7 +261,7 @@ mod tests {
     fn block_of(records: Vec<Record>) -> String {
         let run = run(records);
         let grid = Grid::new(&run);
-        block(&grid, &Plan::new(&grid)).into_string()
+        block(&grid, &Plan::new(&grid), &[]).into_string()
     }
 
     #[test]

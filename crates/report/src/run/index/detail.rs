@@ -183,7 +183,7 @@ fn texels(record: &Record) -> Markup {
         _ => "Allowed (≈: yardstick)",
     };
     html! {
-        div.wide { table.text.codes {
+        div.wide { table.text.codes.stacked {
             caption { "Wrong texels" }
             thead { tr {
                 th scope="col" { "Place" } th scope="col" { "Band" } th scope="col" { "Channel" }
@@ -207,7 +207,7 @@ fn texel_row(place: &str, texel: &WrongTexel, i: usize, m: &ChannelMismatch) -> 
         tr {
             @if i == 0 {
                 th rowspan=(texel.channels.len()) { (place) }
-                td rowspan=(texel.channels.len()) {
+                td data-head="Band" rowspan=(texel.channels.len()) {
                     (match texel.band {
                         Band::Fail => "✗ fail",
                         Band::RequiredByCts => "⊠ required by CTS",
@@ -216,12 +216,12 @@ fn texel_row(place: &str, texel: &WrongTexel, i: usize, m: &ChannelMismatch) -> 
                     })
                 }
             }
-            td { (channel_of(m)) }
-            td { (m.encoding.to_string()) }
-            td { (allowed(m, code_text)) }
-            td { (allowed(m, value_text)) }
-            td { b { (code_and_value(m.encoding, m.actual)) } }
-            td {
+            td data-head="Channel" { (channel_of(m)) }
+            td data-head="Encoding" { (m.encoding.to_string()) }
+            td data-head="Allowed code" { (allowed(m, code_text)) }
+            td data-head="Allowed value" { (allowed(m, value_text)) }
+            td data-head="Actual" { b { (code_and_value(m.encoding, m.actual)) } }
+            td data-head="Off by" {
                 @if m.encoding.is_nan(m.actual) { "not a number" }
                 @else { (count(off.max(0).unsigned_abs(), "code")) }
             }

@@ -8,7 +8,12 @@ use std::path::Path;
 type Check = fn(&Chromium, &Path);
 
 /// Every check, with its name.
-pub(super) const CHECKS: [(&str, Check); 6] = [
+pub(super) const CHECKS: [(&str, Check); 8] = [
+    (
+        "a case shows what it is meant to draw",
+        a_case_shows_what_it_is_meant_to_draw,
+    ),
+    ("a gallery shows an area", a_gallery_shows_an_area),
     (
         "search and filters narrow the cases",
         search_and_filters_narrow_the_cases,
@@ -28,6 +33,50 @@ pub(super) const CHECKS: [(&str, Check); 6] = [
         without_scripts_the_page_says_what_is_missing,
     ),
 ];
+
+fn a_case_shows_what_it_is_meant_to_draw(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "#case=depth/compare/compare=less/write=true");
+    page.wait("document.querySelector('#meant img')?.naturalWidth === 4");
+    assert_eq!(page.text("#meant .about"), "What <b>compares</b>.");
+    assert_eq!(
+        page.text("#meant .scene"),
+        "color: rgba8unorm, 4 by 4\n</script><i>pass 0"
+    );
+    page.run("for (const d of document.querySelectorAll('#meant details')) d.open = true");
+    let folded = page.texts("#meant details");
+    for word in [
+        "\"compare\": \"less\"",
+        "\"write\": true",
+        "\"next\": \"equal\"",
+    ] {
+        assert!(folded[0].contains(word), "{folded:?}");
+    }
+    assert!(folded[1].contains("@fragment fn fs() {}"), "{folded:?}");
+    // Another case of the area needs no further file.
+    page.run("location.hash = '#case=depth/compare/compare=equal/write=false'");
+    page.wait(
+        "document.querySelector('#meant details')?.textContent.includes('\"next\": \"greater\"')",
+    );
+    // An area without a script says nothing, and fails nothing.
+    page.run("location.hash = '#case=stencil/masks/read=2'");
+    page.wait("document.querySelector('#meant')?.hidden === true");
+}
+
+fn a_gallery_shows_an_area(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
+    page.wait_count("13 of 13 cases");
+    page.click("#galleries a");
+    page.wait("document.querySelectorAll('.gallery a').length === 6");
+    page.wait("document.querySelector('.gallery img').naturalWidth === 4");
+    page.run("document.querySelectorAll('.gallery a')[5].click()");
+    page.wait_hash("#case=depth/compare/compare=less/write=true");
+    page.run("history.back()");
+    page.wait("document.querySelectorAll('.gallery a').length === 6");
+    page.press("Escape");
+    page.wait("document.querySelector('#case').hidden");
+    page.run("location.hash = '#gallery=nothing'");
+    page.wait("document.querySelector('#case [role=status]')?.textContent.includes('no pictures')");
+}
 
 const MASKS: &str = "stencil/masks/read=2";
 

@@ -1,8 +1,9 @@
 //! A small made-up run in which it is known what stands out.
 
 use crate::synthetic::{adapter, header};
-use etalon_frame::Api;
+use etalon_frame::{Api, Aspect, ChannelEncoding, Frame, Image, ReadPath};
 use etalon_record::{Expected, LossKind, ProcessEnd, Record, RunWriter, Seconds, Verdict};
+use etalon_report::{Catalogue, CatalogueCase};
 use std::path::{Path, PathBuf};
 
 pub(crate) const ADAPTERS: [&str; 4] = ["cpu", "gl:llvmpipe", "gl:softpipe", "vulkan:lavapipe"];
@@ -23,7 +24,52 @@ pub(crate) fn write(folder: &Path) -> PathBuf {
         }
     }
     drop(writer);
+    etalon_report::write_catalogue(folder, &catalogue()).unwrap();
     etalon_report::write(folder).unwrap().html
+}
+
+/// The cases of depth as they are meant, one with a hostile text.
+fn catalogue() -> Catalogue {
+    let frame = Frame {
+        images: vec![Image {
+            attachment: "color".to_owned(),
+            aspect: Aspect::Color,
+            size: [4, 4],
+            samples: 1,
+            channels: vec![ChannelEncoding::Unorm(8); 4],
+            read: ReadPath::Copy,
+            codes: (0..64).map(|n| n * 4).collect(),
+        }],
+        counters: Vec::new(),
+    };
+    let file = serde_json::json!({
+        "about": "What <b>compares</b>.", "spec": ["Vulkan: Depth Comparison"], "key": "scene",
+        "scene": { "passes": [{ "compare": "$compare", "write": "$write", "next": "$next" }] },
+        "axes": { "compare": [["equal", "equal"], ["greater", "greater"], ["less", "less"]],
+            "write": [["false", false], ["true", true]] },
+        "derived": { "next": ["compare", 1, null] },
+    });
+    let mut catalogue = Catalogue::default();
+    catalogue.files.insert("depth/compare".to_owned(), file);
+    catalogue
+        .shaders
+        .insert("uniform_color", "@fragment fn fs() {}");
+    for id in ids()
+        .into_iter()
+        .filter(|id| id.starts_with("depth/compare"))
+    {
+        catalogue.cases.push(CatalogueCase {
+            id,
+            file: "depth/compare".to_owned(),
+            lines: vec![
+                "color: rgba8unorm, 4 by 4".to_owned(),
+                "</script><i>pass 0".to_owned(),
+            ],
+            shaders: vec!["uniform_color"],
+            picture: etalon_report::reference_picture(&frame),
+        });
+    }
+    catalogue
 }
 
 fn ids() -> Vec<String> {

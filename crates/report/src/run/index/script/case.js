@@ -22,11 +22,13 @@ function showCase(id) {
   current = id;
   const number = numberOf.get(id);
   const one = number === undefined ? null : cases[number];
+  view.className = "";
   view.replaceChildren(neighbours(one), make("h1", { id: "case-title", tabindex: "-1" }, make("code", {}, id)));
   if (one) {
     view.append(
       make("p", {}, make("b", {}, "Consensus: "), one.consensus.text + "."),
       overview(one),
+      meant(id),
       ...byWeight(one).map(i => onAdapter(one, i)).filter(Boolean));
   } else {
     view.append(

@@ -9,6 +9,8 @@ function route() {
   if (found.has("case")) {
     fromReport = routed && $("case").hidden;
     showCase(found.get("case"));
+  } else if (found.has("gallery")) {
+    showGallery(found.get("gallery"));
   } else {
     const left = current;
     showReport();
@@ -73,7 +75,7 @@ route();
 // Elements behind the script exist later; then views and links use them.
 addEventListener("DOMContentLoaded", () => {
   if (current === null) reveal(location.hash.slice(1));
-  else if (data && data.bodies.some(([number]) => number === numberOf.get(current))) showCase(current);
+  else if (data && cases[numberOf.get(current)] && data.bodies.some(([number]) => number === numberOf.get(current))) showCase(current);
 });
 // When the table can be used, for those who measure.
 performance.mark("etalon-ready");

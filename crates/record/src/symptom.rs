@@ -20,7 +20,7 @@ const COMMON: [&str; 7] = [
 
 /// The kind of a bad record.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Violation {
+pub struct Symptom {
     /// The verdict.
     pub verdict: Verdict,
     /// What is wrong: `color`, `depth`, `stencil`, `counter`, or the end of a process.
@@ -31,7 +31,7 @@ pub struct Violation {
     pub direction: String,
 }
 
-impl Violation {
+impl Symptom {
     /// Returns the kind of a record.
     pub fn of(record: &Record) -> Self {
         let story = record.story.as_ref();
@@ -143,13 +143,13 @@ mod tests {
 
     #[test]
     fn records_of_one_bug_are_of_one_kind() {
-        let high = Violation::of(&record(30, &["shade", "blend", "store color", "read back"]));
+        let high = Symptom::of(&record(30, &["shade", "blend", "store color", "read back"]));
         assert_eq!(high.text(), "color too high after blend");
-        assert_eq!(high, Violation::of(&record(200, &["blend", "coverage"])));
-        assert_ne!(high, Violation::of(&record(3, &["blend"])));
-        assert_ne!(high, Violation::of(&record(30, &["depth test"])));
-        assert_eq!(Violation::of(&record(3, &[])).text(), "color too low");
+        assert_eq!(high, Symptom::of(&record(200, &["blend", "coverage"])));
+        assert_ne!(high, Symptom::of(&record(3, &["blend"])));
+        assert_ne!(high, Symptom::of(&record(30, &["depth test"])));
+        assert_eq!(Symptom::of(&record(3, &[])).text(), "color too low");
         let crash = Record::new("a/b", "cpu", Verdict::Crash);
-        assert_eq!(Violation::of(&crash).text(), "");
+        assert_eq!(Symptom::of(&crash).text(), "");
     }
 }

@@ -1,0 +1,80 @@
+//! A case's scene as JSON, with all values in their places; and a file's scene before, with the values that go there.
+
+use crate::error::CaseError;
+use crate::file::{CaseFile, CaseRef};
+use crate::values::substitute;
+use serde_json::{Map, Value, json};
+
+impl CaseRef<'_> {
+    /// The file.
+    pub fn file(&self) -> &CaseFile {
+        self.file
+    }
+
+    /// Returns the scene of the case, or what it is made from, as JSON under its key.
+    ///
+    /// # Errors
+    /// When a name stands for nothing.
+    pub fn expanded(&self) -> Result<Value, CaseError> {
+        let key = self.file.scene_key();
+        let value = substitute(self.file.scene_value(), &self.values());
+        let value = value.map_err(|at| at.key(key).locate(self.file.name(), &self.file.text))?;
+        Ok(json!({ key: value }))
+    }
+}
+
+impl CaseFile {
+    /// Returns what the cases have in common: `about`, `spec`, the key of the scene, the scene with `"$name"` for
+    /// values, each axis as pairs of name and value, and what follows from axes.
+    pub fn template(&self) -> Value {
+        let wire = &self.wire;
+        let axes: Map<String, Value> = wire
+            .axes
+            .iter()
+            .map(|(axis, values)| {
+                let pairs: Vec<Value> = values.iter().map(|v| json!([v.name, v.value])).collect();
+                (axis.clone(), Value::Array(pairs))
+            })
+            .collect();
+        let derived: Map<String, Value> = wire
+            .derived
+            .iter()
+            .map(|(name, d)| (name.clone(), json!([d.axis, d.shift, d.values])))
+            .collect();
+        json!({
+            "about": wire.about,
+            "spec": wire.spec,
+            "key": self.scene_key(),
+            "scene": self.scene_value(),
+            "axes": axes,
+            "derived": derived,
+        })
+    }
+
+    fn scene_value(&self) -> &Value {
+        let wire = &self.wire;
+        match self.scene_key() {
+            "random" => &wire.random,
+            "states" => &wire.states,
+            "sequence" => &wire.sequence,
+            "method" => &wire.method,
+            _ => &wire.scene,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Library, Profile};
+
+    #[test]
+    fn an_expanded_scene_names_no_axis() {
+        let library = Library::built_in().expect("built-in files parse");
+        for file in library.files() {
+            for case in file.cases(Profile::Full).take(3) {
+                let text = case.expanded().expect("expands").to_string();
+                assert!(!text.contains("\"$"), "{}: {text}", case.id());
+            }
+        }
+    }
+}

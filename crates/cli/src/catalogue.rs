@@ -1,0 +1,90 @@
+//! The catalogue of a run's cases, for its page: scenes as they are meant, with the rasterizer's picture.
+
+use crate::scene_text;
+use etalon_backend::Backend;
+use etalon_case::{Case, CaseRef, Library, Profile};
+use etalon_cpu::CpuBackend;
+use etalon_frame::Frame;
+use etalon_report::{Catalogue, CatalogueCase, reference_picture};
+use std::collections::{BTreeSet, HashMap};
+use std::num::NonZero;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::thread;
+
+/// The most texels of the pictures that are drawn: larger ones exist to be measured.
+const TEXELS: u64 = 128 * 128;
+
+/// Returns the catalogue of cases. Those that the library does not hold have no template.
+pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
+    let mut catalogue = Catalogue::default();
+    let ids: BTreeSet<&str> = cases.iter().map(|case| case.id.as_str()).collect();
+    let mut files: HashMap<String, String> = HashMap::new();
+    for case in library.cases(Profile::Full) {
+        let id = case.id();
+        if ids.contains(id.as_str()) {
+            let stem = stem(&case);
+            if !catalogue.files.contains_key(&stem) {
+                catalogue.files.insert(stem.clone(), case.file().template());
+            }
+            files.insert(id, stem);
+        }
+    }
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let share = cases.len().div_ceil(threads).max(1);
+    catalogue.cases = thread::scope(|scope| {
+        let files = &files;
+        let parts: Vec<_> = cases
+            .chunks(share)
+            .map(|part| {
+                scope.spawn(move || {
+                    part.iter()
+                        .map(|case| entry(case, files))
+                        .collect::<Vec<_>>()
+                })
+            })
+            .collect();
+        let done = parts.into_iter();
+        done.flat_map(|part| part.join().unwrap_or_else(|panic| resume_unwind(panic)))
+            .collect()
+    });
+    for case in cases {
+        for draw in case.scene.passes.iter().flat_map(|p| &p.draws) {
+            catalogue
+                .shaders
+                .insert(draw.shader.name(), draw.shader.wgsl());
+        }
+    }
+    catalogue
+}
+
+fn stem(case: &CaseRef<'_>) -> String {
+    case.file().name().trim_end_matches(".json").to_owned()
+}
+
+fn entry(case: &Case, files: &HashMap<String, String>) -> CatalogueCase {
+    let draws = case.scene.passes.iter().flat_map(|p| &p.draws);
+    let shaders: BTreeSet<&'static str> = draws.map(|draw| draw.shader.name()).collect();
+    CatalogueCase {
+        id: case.id.clone(),
+        file: files.get(&case.id).cloned().unwrap_or_default(),
+        lines: scene_text::lines(&case.scene),
+        shaders: shaders.into_iter().collect(),
+        picture: reference(case).map_or_else(String::new, |frame| reference_picture(&frame)),
+    }
+}
+
+/// Returns what the rasterizer draws; `None` where the picture is large or cannot be drawn.
+pub(crate) fn reference(case: &Case) -> Option<Frame> {
+    let texels = |a: &etalon_scene::Attachment| u64::from(a.size[0]) * u64::from(a.size[1]);
+    if case.scene.attachments.iter().any(|a| texels(a) > TEXELS) {
+        return None;
+    }
+    let draw = || {
+        let backend = CpuBackend::new("cpu");
+        let mut prepared = backend.prepare(&case.scene).ok()?;
+        prepared.submit().ok()?;
+        prepared.read_back().ok()
+    };
+    // A picture is no reason to lose a run.
+    catch_unwind(AssertUnwindSafe(draw)).ok().flatten()
+}

@@ -1,0 +1,80 @@
+//! `etalon show`.
+
+use crate::cases::{library, nearest_cases};
+use crate::catalogue::reference;
+use crate::failure::Failure;
+use crate::output::{print, say};
+use crate::scene_text;
+use clap::Args;
+use etalon_case::Profile;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Id of the case
+    #[arg(value_name = "CASE")]
+    pub(crate) case: String,
+    /// Write the reference picture of what is read back first to this file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) png: Option<PathBuf>,
+    /// Read case files from this folder instead of the built-in ones
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
+}
+
+/// Prints a case as it is meant: purpose, scene, JSON, shaders.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let library = library(arguments.cases.as_ref())?;
+    let Some(found) = library
+        .cases(Profile::Full)
+        .find(|c| c.id() == arguments.case)
+    else {
+        return Err(Failure::usage(format!(
+            "there is no case `{}`{}; `etalon list --profile full` lists all cases",
+            arguments.case,
+            nearest_cases(&library, &arguments.case)
+        )));
+    };
+    let case = found.build().map_err(Failure::usage)?;
+    let mut text = format!("{}\n{}\n", case.id, case.about);
+    for clause in &case.spec {
+        text.push_str(&format!("  {clause}\n"));
+    }
+    let needs: Vec<String> = case
+        .requirements()
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    if !needs.is_empty() {
+        text.push_str(&format!("needs {}\n", needs.join(", ")));
+    }
+    text.push('\n');
+    for line in scene_text::lines(&case.scene) {
+        text.push_str(&format!("{line}\n"));
+    }
+    for variant in &case.variants {
+        text.push_str(&format!("\nvariant {}\n", variant.name));
+    }
+    let json = found.expanded().map_err(Failure::usage)?;
+    let json = serde_json::to_string_pretty(&json).unwrap_or_default();
+    text.push_str(&format!("\n{json}\n"));
+    let draws = case.scene.passes.iter().flat_map(|p| &p.draws);
+    let shaders: BTreeMap<&str, &str> = draws.map(|d| (d.shader.name(), d.shader.wgsl())).collect();
+    for (name, wgsl) in shaders {
+        text.push_str(&format!("\nshaders/{name}.wgsl\n{wgsl}"));
+    }
+    print(&text)?;
+    if let Some(path) = &arguments.png {
+        let frame = reference(&case);
+        let png = frame.as_ref().and_then(etalon_report::reference_png);
+        let png = png.ok_or_else(|| {
+            Failure::usage(format!("{} has no picture of a size to show", case.id))
+        })?;
+        fs::write(path, png)
+            .map_err(|e| Failure::usage(format!("cannot write {}: {e}", path.display())))?;
+        say!("{}: the rasterizer's picture", path.display());
+    }
+    Ok(0)
+}

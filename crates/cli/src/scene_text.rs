@@ -1,0 +1,242 @@
+//! A scene as a list that people read: attachments, passes, draws, and of their state what is not the default.
+//!
+//! The state is compared with a plain draw's field by field in its serialized form, so that a state which is added to
+//! draws shows here without being named.
+
+use etalon_scene::{Attachment, Contents, Draw, Scene, Viewport};
+use serde_json::Value;
+
+/// The most draws of a pass that are listed.
+const DRAWS: usize = 24;
+/// The most characters of a value.
+const LONGEST: usize = 160;
+/// Fields that are told apart from the others, in words.
+const TOLD: [&str; 5] = ["mesh", "shader", "viewport", "params", "targets"];
+
+/// Returns the lines, indented by two spaces a level.
+pub(crate) fn lines(scene: &Scene) -> Vec<String> {
+    let mut lines = Vec::new();
+    let name = |index: usize| scene.attachments[index].name.clone();
+    for attachment in &scene.attachments {
+        lines.push(about(attachment));
+    }
+    for (i, pass) in scene.passes.iter().enumerate() {
+        let mut targets: Vec<String> = pass.color.iter().map(|c| name(*c)).collect();
+        targets.extend(pass.depth_stencil.map(name));
+        let mut line = format!("pass {i} on {}", targets.join(", "));
+        for (from, to) in pass.color.iter().zip(&pass.resolve) {
+            if let Some(to) = to {
+                line.push_str(&format!(", resolves {} to {}", name(*from), name(*to)));
+            }
+        }
+        if let Some(resolve) = pass.depth_stencil_resolve {
+            line.push_str(&format!(
+                ", resolves depth by {} and stencil by {} to {}",
+                resolve.depth,
+                resolve.stencil,
+                name(resolve.to)
+            ));
+        }
+        if pass.depth_stencil_read_only {
+            line.push_str(", depth and stencil read only");
+        }
+        lines.push(line);
+        let other = serde_json::to_value(&pass.operations).unwrap_or_default();
+        let plain =
+            serde_json::to_value(etalon_scene::PassOperations::default()).unwrap_or_default();
+        lines.extend(
+            differences(&other, &plain)
+                .into_iter()
+                .map(|line| format!("  operations {line}")),
+        );
+        for clear in &pass.clears {
+            let target = serde_json::to_value(clear).map_or_else(|_| String::new(), |v| short(&v));
+            lines.push(format!("  clear command {target}"));
+        }
+        for (d, draw) in pass.draws.iter().enumerate().take(DRAWS) {
+            lines.extend(of_draw(scene, d, draw, scene.pass_size(pass)));
+        }
+        if pass.draws.len() > DRAWS {
+            lines.push(format!("  and {} more draws", pass.draws.len() - DRAWS));
+        }
+    }
+    let path = serde_json::to_value(scene.path).unwrap_or_default();
+    let plain = serde_json::to_value(etalon_scene::Path::default()).unwrap_or_default();
+    lines.extend(
+        differences(&path, &plain)
+            .into_iter()
+            .map(|line| format!("path {line}")),
+    );
+    let read: Vec<String> = scene.read.iter().map(|r| name(*r)).collect();
+    lines.push(format!("reads back {}", read.join(", ")));
+    for counter in &scene.counters {
+        lines.push(format!(
+            "counts {} as {}",
+            counter.kind.name(),
+            counter.name
+        ));
+    }
+    lines
+}
+
+fn about(a: &Attachment) -> String {
+    let [width, height] = a.size;
+    let samples = match a.samples {
+        1 => String::new(),
+        n => format!(", {n} samples"),
+    };
+    let contents = match &a.contents {
+        Contents::Color(color) => format!("cleared to {color:?}"),
+        Contents::DepthStencil { depth, stencil } => {
+            match (a.format.has_depth(), a.format.has_stencil()) {
+                (true, true) => format!("cleared to depth {depth}, stencil {stencil}"),
+                (true, false) => format!("cleared to {depth}"),
+                _ => format!("cleared to {stencil}"),
+            }
+        }
+        Contents::Texels(codes) => format!("{} uploaded codes", codes.len()),
+    };
+    format!(
+        "{}: {}, {width} by {height}{samples}, {contents}",
+        a.name, a.format
+    )
+}
+
+fn of_draw(scene: &Scene, number: usize, draw: &Draw, [width, height]: [u32; 2]) -> Vec<String> {
+    let vertices = draw.mesh.vertices.len();
+    let indices = draw
+        .mesh
+        .indices
+        .as_ref()
+        .map_or_else(String::new, |i| format!(", {} indices", i.len()));
+    let mut lines = vec![format!(
+        "  draw {number}: {}, {vertices} vertices{indices}",
+        draw.shader.name()
+    )];
+    let mut add = |line: String| lines.push(format!("    {line}"));
+    if draw.shader.uses_params() {
+        add(format!("params color {:?}", draw.params.color));
+        if draw.shader.wgsl().contains("params.back_color") {
+            add(format!("params back_color {:?}", draw.params.back_color));
+        }
+    }
+    let whole = Viewport {
+        rect: [0.0, 0.0, width as f32, height as f32],
+        depth: [0.0, 1.0],
+    };
+    if draw.viewport != whole {
+        add(format!(
+            "viewport rect {:?}, depth {:?}",
+            draw.viewport.rect, draw.viewport.depth
+        ));
+    }
+    let mut plain = Draw::new(draw.shader, draw.mesh.clone(), draw.viewport);
+    plain.mesh.vertices.clear();
+    let mut own = draw.clone();
+    own.mesh.vertices.clear();
+    let plain_target = plain.targets[0];
+    for (i, target) in draw.targets.iter().enumerate() {
+        let [own, plain] =
+            [target, &plain_target].map(|t| serde_json::to_value(t).unwrap_or_default());
+        for line in differences(&own, &plain) {
+            add(match draw.targets.len() {
+                1 => line,
+                _ => format!("target {i} {line}"),
+            });
+        }
+    }
+    let names = |indices: &[usize]| -> String {
+        let all = indices.iter().map(|i| scene.attachments[*i].name.clone());
+        all.collect::<Vec<_>>().join(", ")
+    };
+    if !draw.textures.is_empty() {
+        add(format!("textures {}", names(&draw.textures)));
+    }
+    own.textures.clear();
+    let [own, plain] = [own, plain].map(|d| serde_json::to_value(d).unwrap_or_default());
+    for line in differences(&own, &plain) {
+        if !TOLD
+            .iter()
+            .any(|told| line.starts_with(&format!("{told} ")))
+        {
+            add(line);
+        }
+    }
+    lines
+}
+
+/// The fields of one value that differ from another's.
+fn differences(own: &Value, plain: &Value) -> Vec<String> {
+    let Value::Object(own) = own else {
+        return Vec::new();
+    };
+    let changed = own
+        .iter()
+        .filter(|(key, value)| plain.get(key.as_str()) != Some(*value));
+    changed
+        .map(|(key, value)| {
+            let text: String = format!("{key} {}", short(value));
+            match text.chars().count() > LONGEST {
+                true => text.chars().take(LONGEST).chain(['…']).collect(),
+                false => text,
+            }
+        })
+        .collect()
+}
+
+/// A value without quotes and braces.
+fn short(value: &Value) -> String {
+    match value {
+        Value::Null => "off".to_owned(),
+        Value::String(text) => text.clone(),
+        Value::Array(list) => format!(
+            "[{}]",
+            list.iter().map(short).collect::<Vec<_>>().join(", ")
+        ),
+        Value::Object(map) => {
+            let parts: Vec<String> = map
+                .iter()
+                .map(|(key, value)| format!("{key} {}", short(value)))
+                .collect();
+            format!("{{ {} }}", parts.join(", "))
+        }
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_case::{Library, Profile};
+
+    #[test]
+    fn what_is_not_the_default_is_listed() {
+        let library = Library::built_in().unwrap();
+        let all = |id: &str| {
+            let mut cases = library.cases(Profile::Full);
+            let case = cases.find(|c| c.id() == id).unwrap().build().unwrap();
+            lines(&case.scene).join("\n")
+        };
+        let text = all("depth/compare/compare=less/format=depth32float-stencil8/write=true");
+        assert!(text.contains("depth32float"), "{text}");
+        assert!(text.contains("compare less"), "{text}");
+        for absent in ["cull", "scissor", "blend", "topology"] {
+            assert!(!text.contains(absent), "{absent}: {text}");
+        }
+    }
+
+    #[test]
+    fn every_scene_has_a_short_list() {
+        let library = Library::built_in().unwrap();
+        for file in library.files() {
+            let case = file.cases(Profile::Full).next().unwrap().build().unwrap();
+            let all = lines(&case.scene);
+            assert!(all.len() >= 2, "{}", case.id);
+            assert!(
+                all.iter().all(|line| line.chars().count() < 400),
+                "{}: {all:#?}",
+                case.id
+            );
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! The shortest condition on axes that tells the failing cases of a file from the others that were drawn.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The most globs that a condition is written as.
+const GLOBS: usize = 12;
+
+/// A condition on axes: for each axis that counts, the values in question.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Condition {
+    /// Axes in alphabetical order, each with its values; none where every drawn case failed.
+    pub axes: Vec<(String, Vec<String>)>,
+    /// Failing cases.
+    pub failing: usize,
+    /// Drawn cases that meet the condition, the failing ones among them.
+    pub matching: usize,
+}
+
+impl Condition {
+    /// Returns the condition for some failing cases of one case file, out of those that were drawn.
+    pub fn of(failing: &[&str], drawn: &[&str]) -> Self {
+        let bad: BTreeSet<&str> = failing.iter().copied().collect();
+        let drawn: Vec<(bool, BTreeMap<&str, &str>)> = drawn
+            .iter()
+            .map(|id| (bad.contains(id), axes(id)))
+            .collect();
+        // The values of each axis among failing cases, and among all.
+        let mut values: BTreeMap<&str, [BTreeSet<&str>; 2]> = BTreeMap::new();
+        for (fails, axes) in &drawn {
+            for (axis, value) in axes {
+                let [of_bad, of_all] = values.entry(axis).or_default();
+                of_all.insert(value);
+                if *fails {
+                    of_bad.insert(value);
+                }
+            }
+        }
+        let mut chosen: Vec<(&str, BTreeSet<&str>)> = values
+            .into_iter()
+            .filter(|(_, [of_bad, of_all])| of_bad.len() < of_all.len())
+            .map(|(axis, [of_bad, _])| (axis, of_bad))
+            .collect();
+        let meets = |chosen: &[(&str, BTreeSet<&str>)], axes: &BTreeMap<&str, &str>| {
+            chosen
+                .iter()
+                .all(|(axis, set)| axes.get(axis).is_none_or(|value| set.contains(value)))
+        };
+        let count = |chosen: &[(&str, BTreeSet<&str>)]| {
+            drawn.iter().filter(|(_, axes)| meets(chosen, axes)).count()
+        };
+        let matching = count(&chosen);
+        // The axes that tell least go first: those with most values.
+        let mut order: Vec<&str> = chosen.iter().map(|(axis, _)| *axis).collect();
+        order.sort_by_key(|axis| {
+            std::cmp::Reverse(
+                chosen
+                    .iter()
+                    .find(|(a, _)| a == axis)
+                    .map_or(0, |(_, s)| s.len()),
+            )
+        });
+        for axis in order {
+            let without: Vec<_> = chosen.iter().filter(|(a, _)| *a != axis).cloned().collect();
+            if count(&without) == matching {
+                chosen = without;
+            }
+        }
+        Self {
+            axes: chosen
+                .into_iter()
+                .map(|(axis, set)| {
+                    (
+                        axis.to_owned(),
+                        set.into_iter().map(str::to_owned).collect(),
+                    )
+                })
+                .collect(),
+            failing: bad.len(),
+            matching,
+        }
+    }
+
+    /// True if every drawn case that meets the condition fails.
+    pub fn is_exact(&self) -> bool {
+        self.failing == self.matching
+    }
+
+    /// Returns the condition in words: `all of format=rgba8snorm: 41 of 41, none else`.
+    pub fn text(&self) -> String {
+        let axes: Vec<String> = self
+            .axes
+            .iter()
+            .map(|(axis, values)| format!("{axis}={}", values.join("|")))
+            .collect();
+        let which = match axes.is_empty() {
+            true => "of all drawn".to_owned(),
+            false => format!("of {}", axes.join(", ")),
+        };
+        match self.is_exact() {
+            true => format!(
+                "all {which}: {} of {}, none else",
+                self.failing, self.matching
+            ),
+            false => format!(
+                "some {which}: {} of {}, none else",
+                self.failing, self.matching
+            ),
+        }
+    }
+
+    /// Returns globs that name the failing cases of a file and no other drawn case; `None` if it takes too many.
+    pub fn globs(&self, file: &str) -> Option<Vec<String>> {
+        if !self.is_exact() {
+            return None;
+        }
+        if self.axes.is_empty() {
+            return Some(vec![format!("{file}/*")]);
+        }
+        let mut globs = vec![globset::escape(file)];
+        for (axis, values) in &self.axes {
+            globs = globs
+                .iter()
+                .flat_map(|glob| {
+                    values.iter().map(move |value| {
+                        format!(
+                            "{glob}/*{}={}",
+                            globset::escape(axis),
+                            globset::escape(value)
+                        )
+                    })
+                })
+                .collect();
+            if globs.len() > GLOBS {
+                return None;
+            }
+        }
+        Some(
+            globs
+                .into_iter()
+                .flat_map(|glob| [format!("{glob}/*"), glob])
+                .collect(),
+        )
+    }
+}
+
+fn axes(id: &str) -> BTreeMap<&str, &str> {
+    id.split('/')
+        .filter_map(|part| part.split_once('='))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ids() -> Vec<String> {
+        let mut all = Vec::new();
+        for dst in ["one", "one-minus-dst", "one-minus-src", "zero"] {
+            for format in ["rgba8snorm", "rgba8unorm"] {
+                for src in ["one", "zero"] {
+                    all.push(format!("blend/f/dst={dst}/format={format}/src={src}"));
+                }
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn the_shortest_condition_is_found() {
+        let ids = ids();
+        let drawn: Vec<&str> = ids.iter().map(String::as_str).collect();
+        let failing = |keep: &dyn Fn(&str) -> bool| -> Vec<&str> {
+            drawn.iter().copied().filter(|id| keep(id)).collect()
+        };
+        let found = Condition::of(
+            &failing(&|id| id.contains("snorm") && id.contains("one-minus")),
+            &drawn,
+        );
+        assert_eq!(
+            found.text(),
+            "all of dst=one-minus-dst|one-minus-src, format=rgba8snorm: 4 of 4, none else"
+        );
+        let globs = found.globs("blend/f").unwrap();
+        let mut builder = globset::GlobSetBuilder::new();
+        for glob in &globs {
+            builder.add(
+                globset::GlobBuilder::new(glob)
+                    .literal_separator(false)
+                    .build()
+                    .unwrap(),
+            );
+        }
+        let set = builder.build().unwrap();
+        for id in &drawn {
+            assert_eq!(
+                set.is_match(id),
+                id.contains("snorm") && id.contains("one-minus"),
+                "{id}: {globs:?}"
+            );
+        }
+        let all = Condition::of(&drawn, &drawn);
+        assert_eq!(
+            (all.text(), all.globs("blend/f")),
+            (
+                "all of all drawn: 16 of 16, none else".to_owned(),
+                Some(vec!["blend/f/*".to_owned()])
+            )
+        );
+        let some = Condition::of(&[drawn[0], drawn[7]], &drawn);
+        assert!(!some.is_exact());
+        assert_eq!(some.globs("blend/f"), None);
+    }
+}

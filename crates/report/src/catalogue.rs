@@ -1,0 +1,173 @@
+//! The cases of a run as they are meant: scene, shader and reference picture, in one script per area beside the page.
+//!
+//! A browser lets no page from the file system read its neighbours but by running them as scripts, so each file is a
+//! call of one function with one value. The page's policy lets its own script load them, and nothing else load anything.
+
+use crate::error::ReportError;
+use crate::files::replace;
+use crate::picture::{enlarged, thumbnail};
+use etalon_frame::Frame;
+use serde::Serialize;
+use serde_json::Value;
+use std::collections::{BTreeMap, HashMap};
+use std::fs;
+use std::path::Path;
+
+/// The folder of the scripts in a run folder.
+pub const CATALOGUE: &str = "cases";
+/// The most bytes of one area's pictures: those behind are left out.
+const PICTURE_BYTES: usize = 1_000_000;
+
+/// One case, as it is meant.
+#[derive(Clone, Debug)]
+pub struct CatalogueCase {
+    /// The id.
+    pub id: String,
+    /// The path of its file below the folder of cases, without `.json`.
+    pub file: String,
+    /// The scene as a list.
+    pub lines: Vec<String>,
+    /// The names of its shaders.
+    pub shaders: Vec<&'static str>,
+    /// The reference picture, a `data:` address; empty where there is none.
+    pub picture: String,
+}
+
+/// Cases, before they are written.
+#[derive(Debug, Default)]
+pub struct Catalogue {
+    /// What the cases of a file have in common, by its path without `.json`.
+    pub files: BTreeMap<String, Value>,
+    /// WGSL by the shader's name.
+    pub shaders: BTreeMap<&'static str, &'static str>,
+    /// The cases.
+    pub cases: Vec<CatalogueCase>,
+}
+
+/// The file of one area: texts, pictures and lists once each, by place.
+#[derive(Serialize, Default)]
+struct Area<'a> {
+    files: BTreeMap<&'a str, &'a Value>,
+    shaders: BTreeMap<&'a str, &'a str>,
+    lines: Vec<&'a str>,
+    pictures: Vec<&'a str>,
+    /// Lists of lines.
+    scenes: Vec<Vec<usize>>,
+    /// Lists of shaders.
+    used: Vec<&'a [&'static str]>,
+    /// By file and the rest of the id: scene, picture (-1 for none), list of shaders.
+    cases: BTreeMap<&'a str, BTreeMap<&'a str, (usize, i64, usize)>>,
+}
+
+/// Returns a small picture of a frame's first image, a `data:` address; empty where it cannot be shown.
+pub fn reference_picture(frame: &Frame) -> String {
+    frame.images.first().and_then(thumbnail).unwrap_or_default()
+}
+
+/// Returns the same picture as a PNG file, enlarged.
+pub fn reference_png(frame: &Frame) -> Option<Vec<u8>> {
+    frame.images.first().and_then(enlarged)
+}
+
+/// Writes `cases/<area>.js` for each area into a run folder.
+///
+/// # Errors
+/// Returns an error if the folder cannot be written to.
+pub fn write_catalogue(folder: &Path, catalogue: &Catalogue) -> Result<(), ReportError> {
+    let below = folder.join(CATALOGUE);
+    fs::create_dir_all(&below).map_err(|source| ReportError::Io {
+        path: below.clone(),
+        source,
+    })?;
+    let mut areas: BTreeMap<&str, Vec<&CatalogueCase>> = BTreeMap::new();
+    for case in &catalogue.cases {
+        areas
+            .entry(case.id.split('/').next().unwrap_or_default())
+            .or_default()
+            .push(case);
+    }
+    for (name, cases) in areas {
+        let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+        if name.is_empty() || !name.chars().all(plain) {
+            continue;
+        }
+        let json =
+            serde_json::to_string(&area(catalogue, &cases)).unwrap_or_else(|_| "null".to_owned());
+        let text = format!("etalonArea({name:?}, {json});\n");
+        replace(&below, &format!("{name}.js"), text.as_bytes())?;
+    }
+    Ok(())
+}
+
+fn area<'a>(catalogue: &'a Catalogue, cases: &[&'a CatalogueCase]) -> Area<'a> {
+    let mut area = Area::default();
+    let mut lines: HashMap<&str, usize> = HashMap::new();
+    let mut scenes: HashMap<Vec<usize>, usize> = HashMap::new();
+    let mut pictures: HashMap<&str, i64> = HashMap::new();
+    let mut bytes = 0;
+    for case in cases {
+        let list: Vec<usize> = case
+            .lines
+            .iter()
+            .map(|line| {
+                *lines.entry(line).or_insert_with(|| {
+                    area.lines.push(line);
+                    area.lines.len() - 1
+                })
+            })
+            .collect();
+        let scene = *scenes.entry(list.clone()).or_insert_with(|| {
+            area.scenes.push(list);
+            area.scenes.len() - 1
+        });
+        let known = pictures.get(&*case.picture).copied();
+        let picture = match known {
+            Some(place) => place,
+            None if case.picture.is_empty() || bytes + case.picture.len() > PICTURE_BYTES => -1,
+            None => {
+                bytes += case.picture.len();
+                area.pictures.push(&case.picture);
+                let place = area.pictures.len() as i64 - 1;
+                pictures.insert(&case.picture, place);
+                place
+            }
+        };
+        for shader in &case.shaders {
+            area.shaders.insert(
+                shader,
+                catalogue.shaders.get(shader).copied().unwrap_or_default(),
+            );
+        }
+        if let Some((name, template)) = catalogue.files.get_key_value(&case.file) {
+            area.files.insert(name, template);
+        }
+        let shaders = &case.shaders[..];
+        let used = area
+            .used
+            .iter()
+            .position(|list| *list == shaders)
+            .unwrap_or_else(|| {
+                area.used.push(shaders);
+                area.used.len() - 1
+            });
+        let rest = case.id.strip_prefix(&case.file).unwrap_or(&case.id);
+        let of_file = area.cases.entry(&case.file).or_default();
+        of_file.insert(rest, (scene, picture, used));
+    }
+    area
+}
+
+/// The scripts of a run folder: area and path below the folder; none where the folder has none.
+pub(crate) fn scripts(folder: &Path) -> Vec<(String, String)> {
+    let Ok(entries) = fs::read_dir(folder.join(CATALOGUE)) else {
+        return Vec::new();
+    };
+    let one = |entry: fs::DirEntry| {
+        let name = entry.file_name().into_string().ok()?;
+        let area = name.strip_suffix(".js")?.to_owned();
+        Some((area, format!("{CATALOGUE}/{name}")))
+    };
+    let mut all: Vec<_> = entries.flatten().filter_map(one).collect();
+    all.sort();
+    all
+}

@@ -1,0 +1,127 @@
+//! The causes of a run's unexpected verdicts: records of one adapter that violate the same way, with the condition on
+//! axes that tells them from the others.
+//!
+//! A hundred red rows are a dozen bugs. Nothing here knows a bug: the groups come from records alone.
+
+use super::link;
+use super::mark::{class, mark};
+use crate::numbers::count;
+use crate::run::grid::Grid;
+use crate::words::{self, Tone};
+use etalon_record::{Condition, Record, Symptom, Verdict};
+use maud::{Markup, html};
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+/// The most causes that are listed.
+const LISTED: usize = 60;
+/// The most case files of one.
+const FILES: usize = 12;
+
+/// Records of one adapter and kind.
+struct Cause<'a> {
+    adapter: &'a str,
+    kind: Symptom,
+    records: usize,
+    /// By case file: what its failing cases have in common, and the first of them.
+    files: Vec<(&'a str, Condition, &'a Record)>,
+}
+
+/// The section; nothing where nothing is unexpected.
+pub(crate) fn section(grid: &Grid<'_>) -> Markup {
+    let causes = causes(grid);
+    let verdicts: usize = causes.iter().map(|c| c.records).sum();
+    html! {
+        @if !causes.is_empty() {
+            section id="causes" {
+                h2 { "Causes" }
+                p {
+                    (count(verdicts as u64, "unexpected verdict")) " in " (count(causes.len() as u64, "group"))
+                    ": one adapter, one kind of violation, and what the cases of a file have in common that the others "
+                    "drawn have not. Worst first."
+                }
+                @for cause in causes.iter().take(LISTED) { (entry(cause)) }
+                @if causes.len() > LISTED {
+                    p.note { "and " (causes.len() - LISTED) " more, under " a href="#findings" { "Findings" } "." }
+                }
+            }
+        }
+    }
+}
+
+fn entry(cause: &Cause<'_>) -> Markup {
+    let tone = Tone::Plain;
+    let kind = match cause.kind.text() {
+        text if text.is_empty() => words::name(cause.kind.verdict).to_owned(),
+        text => text,
+    };
+    html! {
+        details.d {
+            summary {
+                span class={ "chip " (class(cause.kind.verdict, tone)) } { (cause.records) " " (mark(cause.kind.verdict, tone)) }
+                " " code { (cause.adapter) } " " b { (kind) }
+                @if let Some((file, condition, _)) = cause.files.first() {
+                    span.h { code { (file) } " " (condition.text()) @if cause.files.len() > 1 { ", and " (count(cause.files.len() as u64 - 1, "more file")) } }
+                }
+            }
+            div.body {
+                ul {
+                    @for (file, condition, first) in cause.files.iter().take(FILES) {
+                        li {
+                            a href=(link::filter(file, cause.adapter)) { code { (file) } } " " (condition.text()) ": "
+                            a href=(link::case(&first.case)) { "the first" } ", " (words::headline(first))
+                        }
+                    }
+                    @if cause.files.len() > FILES { li { "and " (count((cause.files.len() - FILES) as u64, "more file")) } }
+                }
+            }
+        }
+    }
+}
+
+fn causes<'a>(grid: &Grid<'a>) -> Vec<Cause<'a>> {
+    let mut found: BTreeMap<(usize, Symptom), BTreeMap<&'a str, Vec<&'a Record>>> = BTreeMap::new();
+    let mut drawn: BTreeMap<(usize, &str), Vec<&str>> = BTreeMap::new();
+    for file in grid.areas.iter().flat_map(|a| &a.files) {
+        for column in 0..grid.adapters.len() {
+            for index in file.on(column) {
+                let record = grid.record(index);
+                if !matches!(record.verdict, Verdict::NotSupported | Verdict::Skipped) {
+                    drawn
+                        .entry((column, file.name))
+                        .or_default()
+                        .push(&record.case);
+                }
+                if record.unexpected() {
+                    let of_kind = found.entry((column, Symptom::of(record))).or_default();
+                    of_kind.entry(file.name).or_default().push(record);
+                }
+            }
+        }
+    }
+    let mut causes: Vec<Cause<'a>> = found
+        .into_iter()
+        .map(|((column, kind), files)| {
+            let mut files: Vec<_> = files
+                .into_iter()
+                .filter_map(|(name, records)| {
+                    let failing: Vec<&str> = records.iter().map(|r| r.case.as_str()).collect();
+                    let all = drawn.get(&(column, name)).map_or(&[][..], Vec::as_slice);
+                    Some((name, Condition::of(&failing, all), *records.first()?))
+                })
+                .collect();
+            files.sort_by_key(|(_, condition, _)| Reverse(condition.failing));
+            Cause {
+                adapter: grid.adapters[column],
+                kind,
+                records: files
+                    .iter()
+                    .map(|(_, condition, _)| condition.failing)
+                    .sum(),
+                files,
+            }
+        })
+        .collect();
+    causes.sort_by_key(|c| (Reverse(c.kind.verdict.severity()), Reverse(c.records)));
+    causes
+}

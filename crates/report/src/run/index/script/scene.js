@@ -1,0 +1,130 @@
+// Cases as they are meant: texts, scene, JSON, shaders and picture, from one script per area beside the page.
+const areas = new Map();
+const waiting = new Map();
+
+// The scripts beside the page call this with what they hold.
+Object.defineProperty(window, "etalonArea", { value: (name, held) => { areas.set(name, held); } });
+
+// Calls back with what is known of an area's cases; null where nothing is.
+function withArea(name, done) {
+  const script = data.scripts.find(([area]) => area === name);
+  if (areas.has(name) || !script) return done(areas.get(name) || null);
+  if (waiting.has(name)) return waiting.get(name).push(done);
+  waiting.set(name, [done]);
+  const element = document.createElement("script");
+  const tell = () => {
+    const all = waiting.get(name);
+    waiting.delete(name);
+    for (const one of all) one(areas.get(name) || null);
+  };
+  element.addEventListener("load", tell);
+  element.addEventListener("error", tell);
+  element.src = script[1];
+  document.head.append(element);
+}
+
+const areaOf = id => id.split("/")[0];
+
+// A case of the run in what an area's script holds.
+function heldCase(held, one) {
+  return held && one && held.cases[one.file.name]?.[one.id.slice(one.file.name.length)];
+}
+
+// The values of a case's axes, and those that follow from them, by name.
+function valuesOf(template, id) {
+  const names = new Map(id.split("/").filter(part => part.includes("=")).map(part => {
+    const at = part.indexOf("=");
+    return [part.slice(0, at), part.slice(at + 1)];
+  }));
+  const values = new Map();
+  const place = axis => template.axes[axis].findIndex(([name]) => name === names.get(axis));
+  for (const axis of Object.keys(template.axes)) values.set(axis, (template.axes[axis][place(axis)] || [])[1]);
+  for (const [name, [axis, shift, list]] of Object.entries(template.derived)) {
+    const at = (place(axis) + shift) % template.axes[axis].length;
+    values.set(name, list ? list[at] : template.axes[axis][at][1]);
+  }
+  return values;
+}
+
+function expanded(value, values) {
+  if (typeof value === "string") return value.startsWith("$") && values.has(value.slice(1)) ? values.get(value.slice(1)) : value;
+  if (Array.isArray(value)) return value.map(one => expanded(one, values));
+  if (value === null || typeof value !== "object") return value;
+  return Object.fromEntries(Object.entries(value).map(([key, one]) => [key, expanded(one, values)]));
+}
+
+// Lists of numbers on one line, all else indented.
+function readable(value) {
+  return JSON.stringify(value, null, 2).replace(/\[[^\[\]{}"]*\]/g, list => list.replace(/\s+/g, " "));
+}
+
+function picture(held, place, id, width) {
+  return make("img", { src: held.pictures[place], alt: "Reference picture of " + id, width, loading: "lazy", class: "texels" });
+}
+
+function folded(title, text) {
+  return make("details", {}, make("summary", {}, title), make("pre", {}, text));
+}
+
+// What a case is meant to draw; filled when its area's script has come.
+function meant(id) {
+  const section = make("section", { id: "meant", hidden: true });
+  withArea(areaOf(id), held => {
+    const one = cases[numberOf.get(id)];
+    const found = heldCase(held, one);
+    if (!found) return;
+    const [scene, place, used] = found;
+    const template = held.files[one.file.name];
+    section.append(make("h2", {}, "The case"));
+    if (template) section.append(make("p", { class: "about" }, template.about), make("p", { class: "soft" }, template.spec.join("; ")));
+    if (place >= 0) {
+      section.append(make("figure", { class: "reference" }, picture(held, place, id, 160),
+        make("figcaption", {}, "Reference: the rasterizer's picture of what is read back first")));
+    }
+    section.append(make("pre", { class: "scene" }, held.scenes[scene].map(line => held.lines[line]).join("\n")));
+    if (template) {
+      const json = { [template.key]: expanded(template.scene, valuesOf(template, id)) };
+      section.append(folded("JSON of " + template.key, readable(json)));
+    }
+    for (const name of held.used[used]) section.append(folded("shaders/" + name + ".wgsl", held.shaders[name]));
+    section.hidden = false;
+  });
+  return section;
+}
+
+// The most pictures of a gallery that are shown at a time.
+const THUMBNAILS = 400;
+
+function showGallery(area) {
+  current = "";
+  const view = $("case");
+  const grid = make("div", { class: "gallery" });
+  const title = make("h1", { id: "case-title", tabindex: "-1" }, "Gallery: " + area);
+  const note = make("p", { class: "soft", role: "status" }, "Loading …");
+  view.replaceChildren(neighbours(null), title, note, grid);
+  withArea(area, held => {
+    const all = held ? cases.filter(one => heldCase(held, one)) : [];
+    note.textContent = held ? whole(all.length) + (all.length === 1 ? " case" : " cases") : "This folder has no pictures of this area.";
+    const more = from => {
+      for (const one of all.slice(from, from + THUMBNAILS)) {
+        const place = heldCase(held, one)[1];
+        const link = make("a", { href: addressOf(one.id) });
+        link.append(place >= 0 ? picture(held, place, one.id, 64) : make("span", { class: "none" }, "no picture"),
+          make("code", {}, one.id.slice(area.length + 1)));
+        grid.append(link);
+      }
+      if (from + THUMBNAILS < all.length) {
+        const button = make("button", { type: "button" }, "Show more");
+        button.addEventListener("click", () => { button.remove(); more(from + THUMBNAILS); });
+        grid.append(button);
+      }
+    };
+    more(0);
+  });
+  document.title = "Gallery: " + area + " – etalon";
+  $("report").hidden = true;
+  view.hidden = false;
+  scrollTo(0, 0);
+  title.focus({ preventScroll: true });
+}
+
