@@ -14,7 +14,7 @@ use etalon_scene::{CullMode, FrontFace, PassOperations};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-/// Returns the scene as a case file writes it, so that [`crate::build`] gives the same scene again, with its
+/// Returns the scene as a case file writes it, so that [`build()`](crate::build()) gives the same scene again, with its
 /// attachments in ascending order of their names.
 ///
 /// # Errors
