@@ -1,8 +1,8 @@
 //! The way in which a case fails: what a smaller case must share with it, or it shows something else.
 //!
 //! A picture's violation is named by the attachment and the aspect of its first wrong sample, and by the
-//! operations that decide what the sample must hold: the last one that stores there, and those that keep later
-//! draws away; where the driver left what was there before, a store is missing, whatever it had to compute. A
+//! operations that decide what the sample must hold: the last one that stores there or clears, and those that
+//! keep later draws away; where the driver left what was there before, it is the store, whatever it had to compute. A
 //! smaller case has fewer draws, so that its operations are some of the larger one's; one that is
 //! new is another violation. Counters and relations have a name of their own.
 
@@ -31,8 +31,8 @@ const REJECTIONS: [&str; 14] = [
     "early tests",
 ];
 
-/// The operation of a draw that does not arrive, however its value is computed.
-const MISSING: &str = "store missing";
+/// Operations that compute what is stored.
+const COMPUTED: [&str; 3] = ["logic operation", "advanced blend", "blend"];
 
 /// One way to fail.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -167,7 +167,11 @@ fn operations(scene: &Scene, story: &Story, attachment: &str, aspect: Aspect) ->
     let lines = story.operations();
     for group in lines.chunk_by(|a, b| a.at == b.at) {
         let Some(draw) = draw_at(scene, &group[0].at) else {
-            // Clears, resolves and uploads.
+            // Clears, resolves and uploads, of which stories tell those of all attachments.
+            let other = group[0].at.strip_prefix("attachment ");
+            if other.is_some_and(|name| name != attachment) {
+                continue;
+            }
             for line in group.iter().filter(|l| l.operation != "read back") {
                 deciding = BTreeSet::from([line.operation.clone()]);
             }
@@ -176,11 +180,10 @@ fn operations(scene: &Scene, story: &Story, attachment: &str, aspect: Aspect) ->
         let named = |operation: &str| group.iter().any(|l| l.operation == operation);
         drawn = true;
         if named(&stores) {
-            let operation = match aspect {
-                Aspect::Color => color_operation(scene, draw, attachment),
-                _ => stores.clone(),
-            };
-            deciding = BTreeSet::from([operation]);
+            deciding = BTreeSet::from([stores.clone()]);
+            if aspect == Aspect::Color {
+                deciding.extend(color_operation(scene, draw, attachment).map(str::to_owned));
+            }
         } else if named(&keeps) {
             deciding.insert(keeps.clone());
         } else if let Some(line) = rejection(group) {
@@ -191,24 +194,11 @@ fn operations(scene: &Scene, story: &Story, attachment: &str, aspect: Aspect) ->
     // Where the driver left what was there, nothing was computed that could be wrong.
     let kept = story.verdict();
     if kept.is_some_and(|v| v.detail.contains("the driver kept ")) {
-        let all = std::mem::take(&mut deciding).into_iter();
-        let not_stored = |o: &String| REJECTIONS.contains(&o.as_str()) || *o == keeps;
-        deciding = all
-            .map(|o| {
-                if not_stored(&o) || is_initial(&o) {
-                    o
-                } else {
-                    MISSING.to_owned()
-                }
-            })
-            .collect();
+        deciding.retain(|o| !COMPUTED.contains(&o.as_str()));
     }
-    // What was there before is the outcome of whatever keeps draws away.
+    // Every draw has primitives elsewhere: coverage decides where nothing else does.
     if drawn && deciding.iter().all(is_initial) {
         deciding.insert("coverage".to_owned());
-    }
-    if !deciding.iter().all(is_initial) {
-        deciding.retain(|o| !is_initial(o));
     }
     deciding
 }
@@ -236,23 +226,24 @@ fn draw_at(scene: &Scene, at: &str) -> Option<(usize, usize)> {
     Some((pass, draw))
 }
 
-/// Returns the operation by which a draw's colour comes into an attachment.
-fn color_operation(scene: &Scene, (pass, draw): (usize, usize), attachment: &str) -> String {
+/// Returns the operation that computes the colour which a draw stores in an attachment.
+fn color_operation(
+    scene: &Scene,
+    (pass, draw): (usize, usize),
+    attachment: &str,
+) -> Option<&'static str> {
     let pass = &scene.passes[pass];
     let draw = &pass.draws[draw];
     let mut places = pass.color.iter();
     let location = places.position(|i| scene.attachments[*i].name == attachment);
-    let target = location.and_then(|l| draw.targets.get(l));
-    let operation = if draw.logic.is_some() {
-        "logic operation"
-    } else if target.is_some_and(|t| t.advanced.is_some()) {
-        "advanced blend"
-    } else if target.is_some_and(|t| t.blend.is_some()) {
-        "blend"
+    let target = draw.targets.get(location?)?;
+    if draw.logic.is_some() {
+        Some(COMPUTED[0])
+    } else if target.advanced.is_some() {
+        Some(COMPUTED[1])
     } else {
-        "store color"
-    };
-    operation.to_owned()
+        target.blend.map(|_| COMPUTED[2])
+    }
 }
 
 #[cfg(test)]
@@ -291,23 +282,27 @@ mod tests {
     fn the_last_store_and_later_rejections_decide() {
         let clear = ("attachment c", "clear");
         let logic = ("pass 0, draw 0, primitive 0", "store color");
+        let upload = ("attachment d", "upload");
         let scissor = ("pass 0, draw 1", "scissor");
         let coverage = ("pass 0, draw 2", "coverage");
         assert_eq!(found(&[clear]), ["clear"]);
-        assert_eq!(found(&[clear, logic]), ["logic operation"]);
-        assert_eq!(found(&[clear, scissor, logic]), ["logic operation"]);
+        assert_eq!(found(&[clear, logic]), ["logic operation", "store color"]);
+        assert_eq!(
+            found(&[clear, scissor, logic]),
+            ["logic operation", "store color"]
+        );
         assert_eq!(
             found(&[clear, logic, scissor, coverage]),
-            ["logic operation", "scissor"]
+            ["logic operation", "scissor", "store color"]
         );
-        assert_eq!(found(&[clear, scissor]), ["scissor"]);
-        assert_eq!(found(&[clear, coverage]), ["coverage"]);
+        assert_eq!(found(&[clear, upload, scissor]), ["clear", "scissor"]);
+        assert_eq!(found(&[clear, coverage]), ["clear", "coverage"]);
         let plain = ("pass 0, draw 2, primitive 1", "store color");
         assert_eq!(found(&[clear, logic, plain]), ["store color"]);
     }
 
     #[test]
-    fn a_draw_that_does_not_arrive_is_missing_however_it_blends() {
+    fn a_draw_that_does_not_arrive_is_the_same_however_it_blends() {
         let verdict = |detail: &str| {
             let [at, by] = ["texel 0,0", "judged"].map(str::to_owned);
             StoryLine::verdict(at, detail.to_owned(), by)
@@ -322,11 +317,11 @@ mod tests {
             all.into_iter().collect::<Vec<_>>()
         };
         let kept = "must be 1; the driver kept the clear colour 0";
-        assert_eq!(of(kept, "store color"), ["store missing"]);
-        assert_eq!(of(kept, "scissor"), ["scissor"]);
+        assert_eq!(of(kept, "store color"), ["store color"]);
+        assert_eq!(of(kept, "scissor"), ["clear", "scissor"]);
         assert_eq!(
             of("must be 1; the driver wrote 0", "store color"),
-            ["logic operation"]
+            ["logic operation", "store color"]
         );
     }
 

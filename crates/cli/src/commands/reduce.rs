@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     let steady = repeat(&launch, worker, &case, &limits)?;
     let (worker, record, violation) = match steady {
-        Outcome::Steady(found) => *found,
+        Outcome::Steady(steady) => *steady,
         Outcome::Passes(verdict) => {
             return Err(Failure::nothing(format!(
                 "{} does not fail on {name}, drawn alone: {verdict}; there is nothing to reduce",

@@ -312,7 +312,7 @@ fn panel(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
     };
     let title = format!(
         "{}: distance from the ideal",
-        super::page::title(aspect.name())
+        super::name::title(aspect.name())
     );
     let about = "A row per area, a mark per adapter at its mean distance as a share of the range.";
     chart(bottom + 42.0, &title, about, &body)

@@ -15,3 +15,16 @@ pub(super) fn value_text(value: f64) -> String {
 pub(super) fn anchor(question: usize, scene: usize) -> String {
     format!("s{question}-{scene}")
 }
+
+/// A name of the records as a heading: `cut-outs` is Cut outs.
+pub(super) fn title(name: &str) -> String {
+    let mut letters = name.chars();
+    match letters.next() {
+        Some(first) => first
+            .to_uppercase()
+            .chain(letters)
+            .collect::<String>()
+            .replace('-', " "),
+        None => "(no name)".to_owned(),
+    }
+}

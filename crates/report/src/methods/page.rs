@@ -1,7 +1,7 @@
 //! `methods.html`.
 
 use super::data::{Methods, Point, Question, SceneSeries, Series, Setting};
-use super::name::{anchor, value_text};
+use super::name::{anchor, title, value_text};
 use super::pictures::Pictures;
 use super::{claims, scatter, stability};
 use crate::chart::{self, color, key, line_key};
@@ -116,19 +116,6 @@ fn profile(run: &Run) -> Markup {
                 code { "--profile full" } " draws them"
             }
         }
-    }
-}
-
-/// A name of the records as a heading: `cut-outs` is Cut outs.
-pub(super) fn title(name: &str) -> String {
-    let mut letters = name.chars();
-    match letters.next() {
-        Some(first) => first
-            .to_uppercase()
-            .chain(letters)
-            .collect::<String>()
-            .replace('-', " "),
-        None => "(no name)".to_owned(),
     }
 }
 
@@ -268,10 +255,11 @@ fn in_scene(
     let speed = scatter::charts(methods, question, scene, &settings, main);
     let curves = stability::charts(methods, question, scene, &settings, main);
     let together = speed.len() == 1;
-    // Two charts leave room beside them on a wide page, for a few pictures.
+    // One chart leaves room beside it on a wide page, two of them for a few pictures.
     let shots = pictures.of(methods, question, scene, &settings, main);
     let panels = speed.iter().map(|k| k.panels.len()).sum::<usize>() + curves.len();
-    let beside = together && panels <= 2 && scene.methods().len() <= 4;
+    let few = scene.methods().len() <= 4;
+    let beside = together && (panels == 1 || (panels == 2 && few));
     html! {
         article.scene id=(anchor) data-name={ (scene.question) "/" (scene.name) } {
             h3 { (title(scene.name)) }

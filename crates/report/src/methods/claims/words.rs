@@ -1,5 +1,6 @@
 //! What a claim compares, in words made from its data.
 
+use crate::methods::name::title;
 use crate::numbers::digits;
 use etalon_methods::{Claim, Condition, Test, Values};
 
@@ -130,5 +131,5 @@ fn sum(terms: &[(&str, f64)]) -> String {
 }
 
 fn upper(name: &str) -> String {
-    super::super::page::title(name)
+    title(name)
 }
