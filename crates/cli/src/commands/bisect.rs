@@ -337,6 +337,7 @@ impl Search<'_> {
             dead: Vec::new(),
             options: Options {
                 jobs: self.jobs,
+                recheck: u32::MAX,
                 ..Options::default()
             },
             // Without expectations, every bad verdict is looked at again.

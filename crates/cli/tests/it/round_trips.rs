@@ -65,7 +65,8 @@ fn what_came_through_a_wrong_read_back_is_blocked_and_the_rest_is_drawn() {
     for record in alone.records.iter().chain(&whole.records) {
         if record.case == TRIP {
             assert_eq!(record.verdict, Verdict::Fail, "{record:?}");
-            assert_eq!(record.repeats, [Verdict::Fail], "a second look confirms it");
+            // A second look that confirms it leaves nothing in the record.
+            assert!(record.repeats.is_empty(), "{record:?}");
         } else if leans(record) {
             assert_eq!(record.verdict, Verdict::Blocked, "{record:?}");
             assert_eq!(record.blocked_by, [TRIP]);
