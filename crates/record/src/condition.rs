@@ -92,20 +92,19 @@ impl Condition {
             .iter()
             .map(|(axis, values)| format!("{axis}={}", values.join("|")))
             .collect();
-        let which = match axes.is_empty() {
-            true => "of all drawn".to_owned(),
-            false => format!("of {}", axes.join(", ")),
-        };
-        match self.is_exact() {
-            true => format!(
-                "all {which}: {} of {}, none else",
-                self.failing, self.matching
-            ),
-            false => format!(
-                "some {which}: {} of {}, none else",
-                self.failing, self.matching
-            ),
+        let (failing, matching) = (self.failing, self.matching);
+        if axes.is_empty() {
+            return match self.is_exact() {
+                true => format!("all that were drawn: {failing}"),
+                false => format!("{failing} of the {matching} that were drawn"),
+            };
         }
+        let which = match self.is_exact() {
+            true => "all",
+            false => "some",
+        };
+        let axes = axes.join(", ");
+        format!("{which} of {axes}: {failing} of {matching}, none else")
     }
 
     /// Returns globs that name the failing cases of a file and no other drawn case; `None` if it takes too many.
@@ -202,7 +201,7 @@ mod tests {
         assert_eq!(
             (all.text(), all.globs("blend/f")),
             (
-                "all of all drawn: 16 of 16, none else".to_owned(),
+                "all that were drawn: 16".to_owned(),
                 Some(vec!["blend/f/*".to_owned()])
             )
         );
