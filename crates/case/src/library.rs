@@ -4,26 +4,31 @@ use crate::error::CaseError;
 use crate::file::{CaseFile, CaseRef, Profile};
 use std::fs;
 use std::path::Path;
+use std::sync::{Arc, OnceLock};
 
 const BUILT_IN: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/case_files.rs"));
 
-/// Case files, in ascending order of their paths.
+/// Case files, in ascending order of their paths. A clone is cheap.
 #[derive(Clone, Debug)]
 pub struct Library {
-    files: Vec<CaseFile>,
+    files: Arc<[CaseFile]>,
 }
 
 impl Library {
-    /// The case files that were compiled in.
+    /// The case files that were compiled in. They are parsed once per process.
     ///
     /// # Errors
     /// If one of them is broken; a test holds that none is.
     pub fn built_in() -> Result<Self, CaseError> {
+        static PARSED: OnceLock<Library> = OnceLock::new();
+        if let Some(library) = PARSED.get() {
+            return Ok(library.clone());
+        }
         let files = BUILT_IN
             .iter()
             .map(|(name, text)| CaseFile::parse(name, text))
             .collect::<Result<_, _>>()?;
-        Ok(Self { files })
+        Ok(PARSED.get_or_init(|| Self { files }).clone())
     }
 
     /// All files ending in `.json` below a folder.

@@ -3,8 +3,12 @@
 //! The state is compared with a plain draw's field by field in its serialized form, so that a state which is added to
 //! draws shows here without being named.
 
-use etalon_scene::{Attachment, Contents, Draw, Scene, Viewport};
+use etalon_scene::{
+    Attachment, ColorTarget, Contents, Draw, Mesh, PassOperations, Path, Scene, Shader, Viewport,
+};
+use serde::Serialize;
 use serde_json::Value;
+use std::sync::LazyLock;
 
 /// The most draws of a pass that are listed.
 const DRAWS: usize = 24;
@@ -41,14 +45,8 @@ pub(crate) fn lines(scene: &Scene) -> Vec<String> {
             line.push_str(", depth and stencil read only");
         }
         lines.push(line);
-        let other = serde_json::to_value(&pass.operations).unwrap_or_default();
-        let plain =
-            serde_json::to_value(etalon_scene::PassOperations::default()).unwrap_or_default();
-        lines.extend(
-            differences(&other, &plain)
-                .into_iter()
-                .map(|line| format!("  operations {line}")),
-        );
+        let operations = changes(&pass.operations, &PassOperations::default());
+        lines.extend(operations.map(|line| format!("  operations {line}")));
         for clear in &pass.clears {
             let target = serde_json::to_value(clear).map_or_else(|_| String::new(), |v| short(&v));
             lines.push(format!("  clear command {target}"));
@@ -60,13 +58,8 @@ pub(crate) fn lines(scene: &Scene) -> Vec<String> {
             lines.push(format!("  and {} more draws", pass.draws.len() - DRAWS));
         }
     }
-    let path = serde_json::to_value(scene.path).unwrap_or_default();
-    let plain = serde_json::to_value(etalon_scene::Path::default()).unwrap_or_default();
-    lines.extend(
-        differences(&path, &plain)
-            .into_iter()
-            .map(|line| format!("path {line}")),
-    );
+    let path = changes(&scene.path, &Path::default());
+    lines.extend(path.map(|line| format!("path {line}")));
     let read: Vec<String> = scene.read.iter().map(|r| name(*r)).collect();
     lines.push(format!("reads back {}", read.join(", ")));
     for counter in &scene.counters {
@@ -130,15 +123,8 @@ fn of_draw(scene: &Scene, number: usize, draw: &Draw, [width, height]: [u32; 2])
             draw.viewport.rect, draw.viewport.depth
         ));
     }
-    let mut plain = Draw::new(draw.shader, draw.mesh.clone(), draw.viewport);
-    plain.mesh.vertices.clear();
-    let mut own = draw.clone();
-    own.mesh.vertices.clear();
-    let plain_target = plain.targets[0];
     for (i, target) in draw.targets.iter().enumerate() {
-        let [own, plain] =
-            [target, &plain_target].map(|t| serde_json::to_value(t).unwrap_or_default());
-        for line in differences(&own, &plain) {
+        for line in changes(target, &ColorTarget::default()) {
             add(match draw.targets.len() {
                 1 => line,
                 _ => format!("target {i} {line}"),
@@ -152,17 +138,45 @@ fn of_draw(scene: &Scene, number: usize, draw: &Draw, [width, height]: [u32; 2])
     if !draw.textures.is_empty() {
         add(format!("textures {}", names(&draw.textures)));
     }
+    let mut own = draw.clone();
+    own.mesh = NO_MESH;
+    own.targets.clear();
     own.textures.clear();
-    let [own, plain] = [own, plain].map(|d| serde_json::to_value(d).unwrap_or_default());
-    for line in differences(&own, &plain) {
-        if !TOLD
-            .iter()
-            .any(|told| line.starts_with(&format!("{told} ")))
-        {
+    let own = serde_json::to_value(own).unwrap_or_default();
+    for line in differences(&own, &PLAIN) {
+        let told = |word: &&str| line.starts_with(&format!("{word} "));
+        if !TOLD.iter().any(told) {
             add(line);
         }
     }
     lines
+}
+
+const NO_MESH: Mesh = Mesh {
+    vertices: Vec::new(),
+    indices: None,
+};
+
+/// A draw of the default state, serialized.
+static PLAIN: LazyLock<Value> = LazyLock::new(|| {
+    let rect = Viewport {
+        rect: [0.0; 4],
+        depth: [0.0, 1.0],
+    };
+    let draw = Draw::new(Shader::UniformColor, NO_MESH, rect);
+    serde_json::to_value(draw).unwrap_or_default()
+});
+
+/// The fields of a state that differ from the default's.
+fn changes<T: Serialize + PartialEq>(own: &T, plain: &T) -> impl Iterator<Item = String> + use<T> {
+    let differing = match own == plain {
+        true => Vec::new(),
+        false => {
+            let [own, plain] = [own, plain].map(|t| serde_json::to_value(t).unwrap_or_default());
+            differences(&own, &plain)
+        }
+    };
+    differing.into_iter()
 }
 
 /// The fields of one value that differ from another's.

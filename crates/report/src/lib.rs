@@ -37,6 +37,6 @@ pub use diff::benches::{BenchDiff, BenchFacts, TimeChange, Untimed, diff, diff_t
 pub use diff::runs;
 pub use error::ReportError;
 pub use hunt::{WrittenHunt, hunt_table, write_hunt};
-pub use run::{RUN_FILES, RUN_FOLDERS, Written, dead_lines, table, write};
+pub use run::{RUN_FILES, RUN_FOLDERS, Written, dead_lines, table, write, write_run};
 pub use terminal::TableOptions;
 pub use versions::{versions_table, write_versions};

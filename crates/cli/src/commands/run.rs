@@ -244,7 +244,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let library = library(arguments.selection.cases.as_ref())?;
     etalon_report::write_catalogue(&arguments.out, &catalogue(&library, &cases))
         .map_err(Failure::incomplete)?;
-    let written = etalon_report::write(&arguments.out).map_err(Failure::incomplete)?;
+    let written = etalon_report::write_run(&arguments.out, &run).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         summarize_json(&json!({
             "records": outcome.records,

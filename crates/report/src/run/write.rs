@@ -54,24 +54,31 @@ impl Written {
     }
 }
 
+/// Reads the run in a folder and writes its reports as [`write_run`] does.
+///
+/// # Errors
+/// Returns an error if the folder holds no readable run, or cannot be written to.
+pub fn write(folder: &Path) -> Result<Written, ReportError> {
+    write_run(folder, &Run::read(folder)?)
+}
+
 /// Writes the reports of a run into its folder: `index.html`, `junit.xml`, `ctrf.json`, `summary.md`,
 /// `results/<adapter>.csv`, and `methods.html` where it has records of methods. Each is written beside
 /// its place and then renamed, so that a reader never sees half a report.
 ///
 /// # Errors
-/// Returns an error if the folder holds no readable run, or cannot be written to. A frame file that is missing or
-/// damaged is no error: the page names it.
-pub fn write(folder: &Path) -> Result<Written, ReportError> {
-    let run = Run::read(folder)?;
-    let found = Methods::of(&run);
+/// Returns an error if the folder cannot be written to or its list of dead expectations cannot be read. A frame file
+/// that is missing or damaged is no error: the page names it.
+pub fn write_run(folder: &Path, run: &Run) -> Result<Written, ReportError> {
+    let found = Methods::of(run);
     let dead = Dead::read(folder)?;
     // The page reads frames and takes as long as all others together.
     let (html, others) = thread::scope(|scope| {
         let html = scope.spawn(|| {
-            let page = index::page(folder, &run, &dead, found.as_ref());
+            let page = index::page(folder, run, &dead, found.as_ref());
             replace(folder, HTML, page.as_bytes())
         });
-        let others = others(folder, &run, found.as_ref());
+        let others = others(folder, run, found.as_ref());
         let html = html.join().unwrap_or_else(|panic| resume_unwind(panic));
         (html, others)
     });
