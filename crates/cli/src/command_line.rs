@@ -2,7 +2,7 @@
 
 use crate::commands::{
     adapters, bench, bisect, check, completions, diff, expectations, explain, list, man, merge,
-    mutants, reduce, report, run, show,
+    mutants, reduce, report, run, show, site,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -37,6 +37,8 @@ pub(crate) enum Command {
     Run(run::Arguments),
     /// Rebuild the reports of run and bench folders
     Report(report::Arguments),
+    /// Put the pages of recorded folders, and the documents, into one static folder
+    Site(site::Arguments),
     /// Combine shards, or runs on several adapters, into one run and name what is missing
     Merge(merge::Arguments),
     /// Import and export expectations in the formats of deqp-runner

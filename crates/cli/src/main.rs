@@ -58,6 +58,7 @@ fn main() -> ExitCode {
         Command::Expectations(command) => commands::expectations::run(&command),
         Command::Bench(arguments) => commands::bench::run(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),
+        Command::Site(arguments) => commands::site::run(&arguments),
         Command::Bisect(arguments) => commands::bisect::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Reduce(arguments) => commands::reduce::run(&arguments),

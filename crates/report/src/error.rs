@@ -19,6 +19,46 @@ pub enum ReportError {
         /// The error of the system.
         source: io::Error,
     },
+    /// A file that a report is made from could not be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Unread {
+        /// The file.
+        path: PathBuf,
+        /// The error of the system.
+        source: io::Error,
+    },
+    /// A folder for a site holds no page.
+    #[error("{0} holds no page; `etalon report {0}` writes those of a run or bench", path.display())]
+    NoPage {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder for a site holds one.
+    #[error("{} holds a site; --force replaces it", path.display())]
+    HasSite {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder for a site holds something else.
+    #[error("{} is not empty and holds no site; name another folder", path.display())]
+    NoSite {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A file in a site that is not of it.
+    #[error("{} is not of the site and would be lost; move it", path.display())]
+    NotOfTheSite {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A recorded folder lies in the site, or the site in it.
+    #[error("{} and {} must not lie one in the other; name another folder for the site", site.display(), folder.display())]
+    Within {
+        /// The site.
+        site: PathBuf,
+        /// The recorded folder.
+        folder: PathBuf,
+    },
     /// The JUnit report has no XML form.
     #[error("cannot write the JUnit report: {0}")]
     Junit(#[from] quick_junit::SerializeError),

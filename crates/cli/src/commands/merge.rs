@@ -1,12 +1,16 @@
 //! `etalon merge`.
 
+use crate::cases::{build, library};
+use crate::catalogue::catalogue;
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::Format;
 use crate::output::{say, summarize, summarize_json, table_options};
 use crate::{provenance, report_files};
 use clap::Args;
+use etalon_case::Profile;
 use etalon_record::{FolderKind, FolderLock, MISSING_FILE, Merge, Merged, RecordError, Run, clear};
 use serde_json::json;
+use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -41,6 +45,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
     }
     let mut merge = Merge::read(&arguments.folders).map_err(Failure::usage)?;
+    // What a folder of case files held is not at hand.
+    let of_folder = |word: &String| word == "--cases" || word.starts_with("--cases=");
+    let built_in = !merge.header_mut().command.iter().any(of_folder);
     merge.header_mut().command = provenance::command();
     let _lock = FolderLock::acquire(out).map_err(Failure::usage)?;
     match FolderKind::of(out) {
@@ -59,6 +66,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let merged = merge
         .write(out, report_files::RUN)
         .map_err(Failure::incomplete)?;
+    if built_in {
+        write_catalogue(out)?;
+    }
     let written = etalon_report::write(out).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
@@ -91,6 +101,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         } => IMPROVED,
         _ => 0,
     })
+}
+
+/// Writes the catalogue of the merged cases.
+fn write_catalogue(out: &Path) -> Result<(), Failure> {
+    let run = Run::read(out).map_err(Failure::incomplete)?;
+    let library = library(None)?;
+    let drawn: HashSet<&str> = run.records.iter().map(|r| r.case.as_str()).collect();
+    let mut cases = build(&library, Profile::Full, &[])?;
+    cases.retain(|case| drawn.contains(case.id.as_str()));
+    etalon_report::write_catalogue(out, &catalogue(&library, &cases)).map_err(Failure::incomplete)
 }
 
 /// True if both paths name one folder.

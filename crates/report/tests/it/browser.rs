@@ -6,8 +6,9 @@ mod driver;
 mod hostile;
 mod index;
 mod large;
-mod made;
+pub(crate) mod made;
 mod methods;
+mod site;
 mod unscripted;
 
 use driver::Chromium;
@@ -32,6 +33,9 @@ fn pages_work_in_a_browser() {
     }
     check("hostile names", &|| {
         hostile::hostile_names_stay_text(&chromium)
+    });
+    check("site", &|| {
+        site::a_site_leads_to_reports_cases_and_documents(&chromium, &path);
     });
     check("large run", &|| {
         large::eighty_thousand_records_open_and_are_searched(&chromium);

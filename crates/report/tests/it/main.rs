@@ -13,5 +13,6 @@ mod printed;
 mod report;
 mod runs_diff;
 mod runs_made;
+mod site;
 mod synthetic;
 mod verdicts;

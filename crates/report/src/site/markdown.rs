@@ -1,0 +1,216 @@
+//! Markdown as HTML, with the anchors that forges give to headings.
+
+use pulldown_cmark::{CowStr, Event, LinkType, Options, Parser, Tag, TagEnd, html};
+use std::collections::HashMap;
+
+/// What becomes of a link.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Target {
+    /// It leads to this address.
+    To(String),
+    /// Its text stays, without a link.
+    Text,
+}
+
+/// A document as HTML.
+pub(crate) struct Rendered {
+    /// The text of the first heading.
+    pub(crate) title: String,
+    /// The content of the page.
+    pub(crate) html: String,
+}
+
+/// Returns a text as HTML. `target` is asked for each link, and for each picture by its second argument.
+pub(crate) fn render(text: &str, mut target: impl FnMut(&str, bool) -> Target) -> Rendered {
+    let parser = Parser::new_ext(text, Options::ENABLE_TABLES | Options::ENABLE_STRIKETHROUGH);
+    let mut events: Vec<Event<'_>> = Vec::new();
+    let mut anchors = Anchors::default();
+    let mut title = None;
+    // The heading at hand: its place among the events, and its text.
+    let mut heading: Option<(usize, String)> = None;
+    // True for each open link that stays a link.
+    let mut links = Vec::new();
+    for event in parser {
+        match event {
+            // Comments, and what a page with a strict policy would not show.
+            Event::Html(_) | Event::InlineHtml(_) => {}
+            Event::Start(Tag::HtmlBlock) | Event::End(TagEnd::HtmlBlock) => {}
+            Event::Start(Tag::Heading { .. }) => {
+                heading = Some((events.len(), String::new()));
+                events.push(event);
+            }
+            Event::End(TagEnd::Heading(_)) => {
+                if let Some((start, text)) = heading.take() {
+                    let anchor = anchors.of(&text);
+                    title.get_or_insert(text);
+                    if let Event::Start(Tag::Heading { id, .. }) = &mut events[start] {
+                        *id = Some(CowStr::from(anchor));
+                    }
+                }
+                events.push(event);
+            }
+            Event::Start(Tag::Link {
+                link_type,
+                dest_url,
+                title,
+                id,
+            }) => {
+                let to = match link_type {
+                    LinkType::Email => Target::Text,
+                    _ => target(&dest_url, false),
+                };
+                links.push(to != Target::Text);
+                if let Target::To(to) = to {
+                    events.push(Event::Start(Tag::Link {
+                        link_type,
+                        dest_url: CowStr::from(to),
+                        title,
+                        id,
+                    }));
+                }
+            }
+            Event::End(TagEnd::Link) => {
+                if links.pop() == Some(true) {
+                    events.push(event);
+                }
+            }
+            Event::Start(Tag::Image {
+                link_type,
+                dest_url,
+                title,
+                id,
+            }) => {
+                let to = target(&dest_url, true);
+                links.push(to != Target::Text);
+                if let Target::To(to) = to {
+                    events.push(Event::Start(Tag::Image {
+                        link_type,
+                        dest_url: CowStr::from(to),
+                        title,
+                        id,
+                    }));
+                }
+            }
+            Event::End(TagEnd::Image) => {
+                if links.pop() == Some(true) {
+                    events.push(event);
+                }
+            }
+            Event::Start(Tag::Table(_)) => {
+                events.push(Event::Html(CowStr::from("<div class=\"wide\">")));
+                events.push(event);
+            }
+            Event::End(TagEnd::Table) => {
+                events.push(event);
+                events.push(Event::Html(CowStr::from("</div>")));
+            }
+            Event::Text(ref words) | Event::Code(ref words) => {
+                if let Some((_, text)) = &mut heading {
+                    text.push_str(words);
+                }
+                events.push(event);
+            }
+            other => events.push(other),
+        }
+    }
+    let mut html = String::new();
+    html::push_html(&mut html, events.into_iter());
+    Rendered {
+        title: title.unwrap_or_default(),
+        html,
+    }
+}
+
+/// Returns the anchors of a document's headings.
+pub(crate) fn anchors(text: &str) -> Vec<String> {
+    let mut anchors = Anchors::default();
+    let mut all = Vec::new();
+    let mut heading: Option<String> = None;
+    for event in Parser::new_ext(text, Options::ENABLE_TABLES) {
+        match event {
+            Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
+            Event::End(TagEnd::Heading(_)) => {
+                all.extend(heading.take().map(|text| anchors.of(&text)));
+            }
+            Event::Text(words) | Event::Code(words) => {
+                if let Some(text) = &mut heading {
+                    text.push_str(&words);
+                }
+            }
+            _ => {}
+        }
+    }
+    all
+}
+
+/// Anchors as GitHub makes them: lower case, without punctuation, spaces as hyphens, numbered where they repeat.
+#[derive(Default)]
+struct Anchors {
+    taken: HashMap<String, u32>,
+}
+
+impl Anchors {
+    fn of(&mut self, heading: &str) -> String {
+        let kept = heading.trim().to_lowercase();
+        let anchor: String = kept
+            .chars()
+            .filter(|c| c.is_alphanumeric() || matches!(c, '-' | '_' | ' '))
+            .map(|c| if c == ' ' { '-' } else { c })
+            .collect();
+        let count = self.taken.entry(anchor.clone()).or_default();
+        *count += 1;
+        match *count {
+            1 => anchor,
+            n => format!("{anchor}-{}", n - 1),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plain(text: &str) -> Rendered {
+        render(text, |to, _| Target::To(to.to_owned()))
+    }
+
+    #[test]
+    fn headings_have_the_anchors_of_forges() {
+        let text = "# The `cpu` adapter, and: more\n## Twice\n## Twice\n### Where do I …?\n";
+        let all = [
+            "the-cpu-adapter-and-more",
+            "twice",
+            "twice-1",
+            "where-do-i-",
+        ];
+        assert_eq!(anchors(text), all);
+        let rendered = plain(text);
+        assert_eq!(rendered.title, "The cpu adapter, and: more");
+        for anchor in all {
+            let id = format!("id=\"{anchor}\"");
+            assert!(rendered.html.contains(&id), "{id}: {}", rendered.html);
+        }
+    }
+
+    #[test]
+    fn links_and_pictures_go_where_they_are_sent_or_stay_text() {
+        let text = "[one](a.md) [two](b.md#c) ![three](p.png) [![four](q.png)](d.md)";
+        let rendered = render(text, |to, picture| match (to, picture) {
+            ("a.md", false) => Target::Text,
+            ("p.png", true) => Target::Text,
+            (to, _) => Target::To(format!("x/{to}")),
+        });
+        let due = "<p>one <a href=\"x/b.md#c\">two</a> three <a href=\"x/d.md\"><img src=\"x/q.png\" alt=\"four\" /></a></p>\n";
+        assert_eq!(rendered.html, due);
+    }
+
+    #[test]
+    fn raw_html_is_dropped_and_text_is_escaped() {
+        let text = "<!-- list -->\n\na < b <script>alert(1)</script>\n\n`<i>`\n";
+        let rendered = plain(text);
+        assert_eq!(
+            rendered.html,
+            "<p>a &lt; b alert(1)</p>\n<p><code>&lt;i&gt;</code></p>\n"
+        );
+    }
+}

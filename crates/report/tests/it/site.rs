@@ -1,0 +1,159 @@
+//! Sites: what they take, what they refuse, and that no link of one leads nowhere.
+
+use crate::browser::made;
+use etalon_report::{SITE_FILE, write_site};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+/// The files below a folder, by path below it.
+fn files(folder: &Path) -> BTreeSet<PathBuf> {
+    let mut all = BTreeSet::new();
+    let mut coming = vec![folder.to_owned()];
+    while let Some(next) = coming.pop() {
+        for entry in fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            match path.is_dir() {
+                true => coming.push(path),
+                false => {
+                    all.insert(path.strip_prefix(folder).unwrap().to_owned());
+                }
+            }
+        }
+    }
+    all
+}
+
+/// The values of an attribute.
+fn attributes<'h>(html: &'h str, name: &str) -> Vec<&'h str> {
+    let start = format!(" {name}=\"");
+    let parts = html.split(&start).skip(1);
+    parts.map(|part| part.split('"').next().unwrap()).collect()
+}
+
+fn joined(folder: &Path, link: &str) -> PathBuf {
+    let mut path = folder.to_owned();
+    for part in Path::new(link).components() {
+        match part {
+            Component::ParentDir => assert!(path.pop(), "{link} leads out of the site"),
+            Component::Normal(name) => path.push(name),
+            Component::CurDir => {}
+            _ => panic!("{link} is absolute"),
+        }
+    }
+    path
+}
+
+/// The pages that the links of a site lead to; every other link has been followed too.
+fn linked(site: &Path) -> usize {
+    let files = files(site);
+    let pages: BTreeMap<&PathBuf, String> = files
+        .iter()
+        .filter(|path| path.extension().is_some_and(|e| e == "html"))
+        .map(|path| (path, fs::read_to_string(site.join(path)).unwrap()))
+        .collect();
+    let mut followed = 0;
+    for (path, html) in &pages {
+        let folder = path.parent().unwrap();
+        let links = attributes(html, "href")
+            .into_iter()
+            .chain(attributes(html, "src"));
+        for link in links {
+            if link.contains("://") || link.starts_with("data:") {
+                continue;
+            }
+            let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
+            let target = match file {
+                "" => (*path).clone(),
+                file => joined(folder, file),
+            };
+            assert!(files.contains(&target), "{}: {link}", path.display());
+            // The fragments of a run's page are views of its script.
+            if target.starts_with("docs") && !anchor.is_empty() {
+                let ids = attributes(&pages[&target], "id");
+                assert!(ids.contains(&anchor), "{}: {link}", path.display());
+            }
+            followed += 1;
+        }
+    }
+    followed
+}
+
+#[test]
+fn a_site_of_a_run_and_the_documents_has_whole_links() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = folder.path().join("nightly");
+    fs::create_dir(&run).unwrap();
+    made::write(&run);
+    let to = folder.path().join("site");
+    let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let written = write_site(&to, std::slice::from_ref(&run), Some(&checkout), false).unwrap();
+    assert_eq!(written.html, to.join("index.html"));
+    assert_eq!(written.files, files(&to).len() as u64);
+    assert_eq!(written.unlinked, [], "links of documents that lead nowhere");
+    assert!(linked(&to) > 100);
+    for file in [
+        "runs/nightly/index.html",
+        "runs/nightly/cases/depth.js",
+        "runs/nightly/junit.xml",
+        "docs/README.html",
+        "docs/crates/README.html",
+        SITE_FILE,
+    ] {
+        assert!(to.join(file).is_file(), "{file}");
+    }
+    // Records and frames are for programs, and large.
+    assert!(!to.join("runs/nightly/run.jsonl").exists());
+    let start = fs::read_to_string(written.html).unwrap();
+    for text in [
+        "runs/nightly/index.html#gallery=depth",
+        "13 cases on 4 adapters",
+        "unexpected",
+    ] {
+        assert!(start.contains(text), "{text}");
+    }
+}
+
+#[test]
+fn a_site_replaces_nothing_but_a_site() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = folder.path().join("run");
+    fs::create_dir(&run).unwrap();
+    made::write(&run);
+    let to = folder.path().join("site");
+    let write = |to: &Path, from: &Path, force| {
+        write_site(to, &[from.to_owned()], None, force).map_err(|error| error.to_string())
+    };
+    fs::create_dir(&to).unwrap();
+    write(&to, &run, false).expect("an empty folder may be filled");
+    let before = files(&to);
+    assert!(
+        write(&to, &run, false)
+            .unwrap_err()
+            .contains("--force replaces it")
+    );
+    write(&to, &run, true).expect("a site may be replaced");
+    fs::write(to.join("CNAME"), "example.org").unwrap();
+    let error = write(&to, &run, true).unwrap_err();
+    assert!(
+        error.contains("CNAME") && error.contains("would be lost"),
+        "{error}"
+    );
+    fs::remove_file(to.join("CNAME")).unwrap();
+    for (from, words) in [
+        (to.join("runs/run"), "must not lie one in the other"),
+        (folder.path().join("none"), "No such file"),
+    ] {
+        let error = write(&to, &from, true).unwrap_err();
+        assert!(error.contains(words), "{error}");
+    }
+    let error = write(&run, &to, true).unwrap_err();
+    assert!(error.contains("holds no site"), "{error}");
+    let empty = folder.path().join("empty");
+    fs::create_dir(&empty).unwrap();
+    let error = write(&to, &empty, true).unwrap_err();
+    assert!(error.contains("holds no page; `etalon report"), "{error}");
+    assert_eq!(files(&to), before, "a refusal changes nothing");
+    let beside = fs::read_dir(folder.path()).unwrap().count();
+    assert_eq!(beside, 3, "nothing is left beside the site");
+}
