@@ -102,7 +102,7 @@ fn listed() -> String {
 fn releases(finding: &Finding) -> String {
     let single = finding.driver.trim_matches('*').rsplit(' ').next().unwrap();
     match &finding.versions {
-        None if single.starts_with(|c: char| c.is_ascii_digit()) => format!("{single}"),
+        None if single.starts_with(|c: char| c.is_ascii_digit()) => single.to_owned(),
         None => "all that were drawn".to_owned(),
         Some(range) => {
             let ends = range.split(", ").map(|end| match end.split_at(1) {
