@@ -6,6 +6,7 @@ mod claims;
 mod data;
 mod driver;
 mod front;
+mod layers;
 #[cfg(test)]
 mod made;
 mod name;

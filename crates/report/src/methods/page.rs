@@ -20,6 +20,7 @@ const STYLE: &str = include_str!("page/methods.css");
 /// The sliders, the legend's pins, other limits of breaks, and the enlarged pictures. All else needs no script.
 const SCRIPT: &str = concat!(
     include_str!("page/flip.js"),
+    include_str!("page/story.js"),
     include_str!("page/pictures.js"),
     include_str!("page/breaks.js"),
     include_str!("page/settings.js"),

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 type Check = fn(&Chromium, &Path);
 
 /// Every check, with its name.
-pub(super) const CHECKS: [(&str, Check); 7] = [
+pub(super) const CHECKS: [(&str, Check); 8] = [
     (
         "a legend highlights its method",
         a_legend_highlights_its_method,
@@ -22,6 +22,10 @@ pub(super) const CHECKS: [(&str, Check); 7] = [
     (
         "pictures are enlarged by click and by keys",
         pictures_are_enlarged_by_click_and_by_keys,
+    ),
+    (
+        "a texel is told of in its method's terms",
+        a_texel_is_told_of_in_its_methods_terms,
     ),
     (
         "the page's FLIP is that of its authors' code",
@@ -57,6 +61,15 @@ fn drawn(x: u32, y: u32) -> [u8; 3] {
     }
 }
 
+/// Behind the intersecting panes.
+const BACKGROUND: [u8; 3] = [230, 230, 217];
+
+/// Their truth in the middle at alpha 0.5: a half of red, a quarter of yellow, an eighth of blue and of what is behind.
+const PANES: [u8; 3] = [201, 112, 83];
+
+/// Two samples of the red pane and two of what is behind all panes.
+const HALF_COVERED: [u8; 3] = [223, 140, 128];
+
 /// Writes a run with pictures and its page.
 pub(super) fn write(folder: &Path) -> PathBuf {
     let plain = folder.join("plain-methods");
@@ -71,8 +84,23 @@ pub(super) fn write(folder: &Path) -> PathBuf {
     };
     save("truth.png", &truth);
     save("drawn.png", &drawn);
+    for (name, middle) in [("panes-truth.png", PANES), ("panes.png", HALF_COVERED)] {
+        let picture = RgbImage::from_fn(128, 128, |x, y| {
+            image::Rgb(if [x, y] == [64, 64] {
+                middle
+            } else {
+                BACKGROUND
+            })
+        });
+        picture.save(out.join("pictures").join(name)).unwrap();
+    }
     for record in run.records {
         let mut record = record;
+        if record.adapter == "cpu" && record.case.contains("/intersecting-panes/") {
+            let measured = record.measured.as_mut().unwrap();
+            measured.picture = Some("pictures/panes.png".to_owned());
+            measured.truth = Some("pictures/panes-truth.png".to_owned());
+        }
         if record.adapter == "cpu" && record.case.contains("/windows/") {
             let measured = record.measured.as_mut().unwrap();
             let right = measured.method == "sorted";
@@ -239,6 +267,114 @@ fn pictures_are_enlarged_by_click_and_by_keys(chromium: &Chromium, path: &Path) 
     page.press("Enter");
     page.wait("document.querySelector('dialog').open");
     assert_eq!(page.texts("dialog [aria-pressed=true]"), ["difference"]);
+}
+
+fn a_texel_is_told_of_in_its_methods_terms(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
+    let panes = "[data-name='transparency/intersecting-panes']";
+    let told = |method: &str| -> String {
+        let shot = format!("{panes} .pictures:not(.off) [data-method={method}]");
+        page.run(&format!(
+            "document.querySelector(\"{shot}\").scrollIntoView({{block: 'center'}})"
+        ));
+        let button = format!("{shot} button[data-mode=picture]");
+        page.wait(&format!("document.querySelector(\"{button}\")"));
+        page.click(&button);
+        page.wait("document.querySelector('dialog').open");
+        let text = page.text("dialog .story");
+        page.press("Escape");
+        page.wait("!document.querySelector('dialog').open");
+        text
+    };
+    let layers = |notes: [&str; 3], last: &str| {
+        let known = [
+            "layer 1: depth 0.402, alpha 0.50, 50.0 % of the truth",
+            "layer 2: depth 0.500, alpha 0.50, 25.0 % of the truth",
+            "layer 3: depth 0.598, alpha 0.50, 12.5 % of the truth",
+        ];
+        let lines = known.iter().zip(notes);
+        let mut text: Vec<String> = lines.map(|(l, n)| format!("{l}{n}")).collect();
+        text.extend((!last.is_empty()).then(|| last.to_owned()));
+        text.join("\n")
+    };
+    assert_eq!(told("sorted"), layers(["", "", ""], ""));
+    assert_eq!(
+        told("weighted-blended"),
+        layers(
+            [
+                "; weight 321: 46.4 % of the colour",
+                "; weight 188: 27.1 % of the colour",
+                "; weight 97.1: 14.0 % of the colour",
+            ],
+            "revealage: 12.5 % of the background",
+        )
+    );
+    assert_eq!(
+        told("depth-peeling"),
+        layers(
+            ["; peel 1 of 4", "; peel 2 of 4", "; peel 3 of 4"],
+            "every layer taken",
+        )
+    );
+    assert_eq!(
+        told("dual-depth-peeling"),
+        layers(
+            [
+                "; peel 1 of 2, front",
+                "; peel 2 of 2, both",
+                "; peel 1 of 2, back",
+            ],
+            "every layer taken",
+        )
+    );
+    assert_eq!(
+        told("unsorted"),
+        layers(
+            [
+                "; drawn 2 of 3",
+                "; drawn 1 of 3",
+                "; drawn 3 of 3, rejected behind layer 1",
+            ],
+            "",
+        )
+    );
+    let asked = "; alpha asks for 2.0 of 4 samples, seen in";
+    assert_eq!(
+        told("alpha-to-coverage"),
+        layers(
+            [2, 0, 0]
+                .map(|n| format!("{asked} {n}"))
+                .each_ref()
+                .map(String::as_str),
+            "the background: seen in 2 of 4 samples",
+        )
+    );
+    // Fewer peels than layers lose the farthest, from both sides those in the middle.
+    let few = |method: &str, passes: u32| -> String {
+        page.eval(&format!(
+            "(f => {{ f.dataset.passes = {passes}; return story(f, compared(f), 64, 64).join('|'); }})\
+             (document.querySelector(\"{panes} .pictures:not(.off) [data-method={method}]\"))"
+        ))
+    };
+    let lost = few("depth-peeling", 4);
+    assert!(
+        lost.contains("truth; not reached|1 layer lost after 2 peels"),
+        "{lost}"
+    );
+    let lost = few("dual-depth-peeling", 3);
+    let middle = "layer 2: depth 0.500, alpha 0.50, 25.0 % of the truth; not reached|";
+    assert!(
+        lost.contains(middle) && lost.ends_with("1 layer lost after 1 peel"),
+        "{lost}"
+    );
+    // Where the truth is another one than the layers', nothing is told.
+    let at = |x: u32, y: u32| -> String {
+        page.eval(&format!(
+            "(f => story(f, compared(f), {x}, {y}).join('|'))(document.querySelector(\"{panes} .pictures:not(.off) [data-method=sorted]\"))"
+        ))
+    };
+    assert_eq!(at(60, 64), "");
+    assert_eq!(at(2, 2), "no layer in front of the background");
 }
 
 fn the_pages_flip_is_that_of_its_authors_code(chromium: &Chromium, path: &Path) {

@@ -1,0 +1,134 @@
+// The way of a transparency method to one texel, from the surfaces that lie over the texel's centre.
+
+// The depth of a convex polygon at a point; null outside it.
+function depthAt(corners, x, y) {
+  let sign = 0;
+  for (let i = 0; i < corners.length; i++) {
+    const [ax, ay] = corners[i], [bx, by] = corners[(i + 1) % corners.length];
+    const side = Math.sign((bx - ax) * (y - ay) - (by - ay) * (x - ax));
+    if (side && sign && side !== sign) return null;
+    sign ||= side;
+  }
+  const [a, b, c] = corners;
+  const area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  const u = ((x - a[0]) * (c[1] - a[1]) - (y - a[1]) * (c[0] - a[0])) / area;
+  const v = ((b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])) / area;
+  return a[2] + u * (b[2] - a[2]) + v * (c[2] - a[2]);
+}
+
+// The layers at a texel, nearest first, and what is behind them; null where they are not what the truth shows.
+function layersAt(figure, all, x, y) {
+  const group = figure.parentElement;
+  if (!group.dataset.layers || !all.truth) return null;
+  const { size, background, surfaces } = group.layers ??= JSON.parse(group.dataset.layers);
+  if (size[0] !== all.picture.width || size[1] !== all.picture.height) return null;
+  const found = [];
+  surfaces.forEach((numbers, order) => {
+    const corners = [];
+    for (let i = 4; i < numbers.length; i += 3) corners.push(numbers.slice(i, i + 3));
+    const depth = depthAt(corners, x + .5, y + .5);
+    if (depth !== null) found.push({ order, depth, color: numbers.slice(0, 3), alpha: numbers[3] });
+  });
+  // Of two at the same depth the later one is in front.
+  found.sort((a, b) => a.depth - b.depth || b.order - a.order);
+  const end = found.findIndex(l => l.alpha === 1), opaque = found[end];
+  const glass = end < 0 ? found : found.slice(0, end);
+  let left = 1;
+  const sum = [0, 0, 0];
+  for (const layer of [...glass, { color: opaque?.color ?? background, alpha: 1 }]) {
+    layer.share = layer.alpha * left;
+    layer.color.forEach((c, i) => { sum[i] += c * layer.share; });
+    left *= 1 - layer.alpha;
+  }
+  const at = 4 * (y * all.truth.width + x);
+  if (sum.some((v, i) => Math.abs(v * 255 - all.truth.data[at + i]) > 2)) return null;
+  const base = { color: opaque?.color ?? background, depth: opaque?.depth ?? 1, name: opaque ? "the opaque surface" : "the background" };
+  return { glass, base, drawn: [0, 1, 2].map(i => all.picture.data[at + i]) };
+}
+
+// The one way to share four samples among layers and what is behind them that gives the drawn colour.
+function samples(glass, base, drawn) {
+  const all = [...glass, base], matches = [];
+  if (all.length > 12) return null;
+  const next = (i, left, counts) => {
+    if (i === all.length - 1) {
+      const full = [...counts, left];
+      const near = drawn.every((d, c) => Math.abs(full.reduce((s, n, j) => s + n * all[j].color[c], 0) / 4 * 255 - d) <= 1.5);
+      if (near) matches.push(full);
+      return;
+    }
+    for (let n = 0; n <= left; n++) next(i + 1, left - n, [...counts, n]);
+  };
+  next(0, 4, []);
+  return matches.length === 1 ? matches[0] : null;
+}
+
+// Notes for each layer, and a last line, in the terms of a method.
+const TELL = {
+  "weighted-blended": ({ glass, base }) => {
+    const weights = glass.map(l => l.alpha * Math.max(.01, 3000 * (1 - l.depth) ** 3));
+    const total = glass.reduce((s, l, i) => s + l.alpha * weights[i], 0), revealage = glass.reduce((s, l) => s * (1 - l.alpha), 1);
+    const part = i => glass[i].alpha * weights[i] / total * (1 - revealage);
+    return [glass.map((_, i) => `weight ${weights[i].toPrecision(3)}: ${percent(part(i))} of the colour`), `revealage: ${percent(revealage)} of ${base.name}`];
+  },
+  "depth-peeling": ({ glass }, passes) => {
+    const k = passes >> 1;
+    return [glass.map((_, i) => i < k ? `peel ${i + 1} of ${k}` : "not reached"), lost(glass.length - k, k)];
+  },
+  "dual-depth-peeling": ({ glass }, passes) => {
+    const k = (passes - 1) >> 1, n = glass.length;
+    const peel = i => Math.min(i, n - 1 - i);
+    const side = i => i === n - 1 - i ? "both" : i < n - 1 - i ? "front" : "back";
+    return [glass.map((_, i) => peel(i) < k ? `peel ${peel(i) + 1} of ${k}, ${side(i)}` : "not reached"), lost(n - 2 * k, k)];
+  },
+  "unsorted": ({ glass, base }) => {
+    const drawn = [...glass].sort((a, b) => a.order - b.order), notes = new Map();
+    let stored = base.depth, by = null;
+    drawn.forEach((l, i) => {
+      const kept = l.depth < stored;
+      notes.set(l, `drawn ${i + 1} of ${glass.length}` + (kept ? "" : `, rejected behind layer ${glass.indexOf(by) + 1}`));
+      if (kept) [stored, by] = [l.depth, l];
+    });
+    return [glass.map(l => notes.get(l)), ""];
+  },
+  "depth-write-off": ({ glass }) => {
+    const drawn = [...glass].sort((a, b) => a.order - b.order);
+    return [glass.map((l, i) => `blended ${drawn.indexOf(l) + 1} of ${glass.length}, in order ${glass.length - i}`), ""];
+  },
+  "alpha-test": ({ glass }) => [glass.map(l => l.alpha >= .5 ? "opaque" : "discarded"), ""],
+  "alpha-to-coverage": sampled,
+  "stochastic": sampled,
+};
+
+function sampled({ glass, base, drawn }) {
+  const counts = samples(glass, base, drawn);
+  const asked = l => `alpha asks for ${(4 * l.alpha).toFixed(1)} of 4 samples`;
+  if (!counts) return [glass.map(asked), "The drawn colour doesn't tell which samples each layer kept."];
+  return [glass.map((l, i) => `${asked(l)}, seen in ${counts[i]}`), `${base.name}: seen in ${counts.at(-1)} of 4 samples`];
+}
+
+function percent(share) {
+  return `${(100 * share).toFixed(1)} %`;
+}
+
+function lost(count, peels) {
+  return count > 0 ? `${count} ${count === 1 ? "layer" : "layers"} lost after ${peels} ${peels === 1 ? "peel" : "peels"}` : "every layer taken";
+}
+
+// The story of a texel in lines; none where there are no layers to tell of.
+function story(figure, all, x, y) {
+  const found = layersAt(figure, all, x, y);
+  if (!found) return [];
+  const { glass, base } = found, { method, passes } = figure.dataset;
+  if (!glass.length) return [`no layer in front of ${base.name}`];
+  // Which of two at one depth a peel takes is not the scene's to say.
+  const tied = glass.some((l, i) => i && l.depth - glass[i - 1].depth < 1e-5);
+  const tell = tied && method.endsWith("peeling") ? null : TELL[method];
+  const [notes, last] = tell ? tell(found, Number(passes)) : [[], ""];
+  const most = 12;
+  const lines = glass.slice(0, most).map((l, i) =>
+    `layer ${i + 1}: depth ${l.depth.toFixed(3)}, alpha ${l.alpha.toFixed(2)}, ${percent(l.share)} of the truth${notes[i] ? "; " + notes[i] : ""}`);
+  if (glass.length > most) lines.push(`and ${glass.length - most} more`);
+  if (last) lines.push(last);
+  return lines;
+}
