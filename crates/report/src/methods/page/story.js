@@ -103,7 +103,7 @@ const TELL = {
 function sampled({ glass, base, drawn }) {
   const counts = samples(glass, base, drawn);
   const asked = l => `alpha asks for ${(4 * l.alpha).toFixed(1)} of 4 samples`;
-  if (!counts) return [glass.map(asked), "The drawn colour doesn't tell which samples each layer kept."];
+  if (!counts) return [glass.map(asked), "The drawn colour doesn't tell in how many samples each layer is seen."];
   return [glass.map((l, i) => `${asked(l)}, seen in ${counts[i]}`), `${base.name}: seen in ${counts.at(-1)} of 4 samples`];
 }
 

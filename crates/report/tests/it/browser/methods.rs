@@ -466,6 +466,10 @@ fn a_narrow_window_and_no_scripts(chromium: &Chromium, path: &Path) {
          .map(e => e.outerHTML.slice(0, 120))",
     );
     assert_eq!(wide, [] as [&str; 0]);
+    // The claims are read without scrolling sideways.
+    let reach: [u64; 2] =
+        page.eval("(e => [e.scrollWidth, e.clientWidth])(document.querySelector('#claims .wide'))");
+    assert!(reach[0] <= reach[1], "{reach:?}");
     // No text of a chart overlaps another one, and none reaches out of it.
     page.resize(1400, 900);
     page.wait("innerWidth === 1400");
