@@ -12,7 +12,7 @@ use etalon_explore::{
 };
 use etalon_frame::Limits;
 use etalon_record::{Record, Verdict};
-use etalon_runner::{DrawError, Launch, Outcome, Trials, Violation, Worker};
+use etalon_runner::{DrawError, Launch, Outcome, Trials, Violation, ViolationKind, Worker};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
@@ -146,7 +146,7 @@ impl Groups {
         let keys = keys(&document["scene"]);
         let index = scene.index;
         let unsteady = |scene: Candidate, record: Record, violation: Violation, why: &str| Seen {
-            key: (format!("{violation}, {why}"), None),
+            key: (format!("{}, {why}", way(&violation)), None),
             verdict: record.verdict,
             scene,
             record: Some(record),
@@ -185,7 +185,7 @@ impl Groups {
             let reduction = reduce(candidate, MOST_DRAWS, &can_draw, &mut oracle);
             let signature = Signature::of(&reduction.smallest.document);
             Seen {
-                key: (oracle.violation.to_string(), Some(signature)),
+                key: (way(&oracle.violation), Some(signature)),
                 verdict: oracle.record.verdict,
                 scene: reduction.smallest,
                 record: Some(oracle.record.clone()),
@@ -313,6 +313,21 @@ impl Groups {
             violation: seen.violation,
         });
         Ok(())
+    }
+}
+
+/// Returns a violation without the names of attachments and what was there before.
+fn way(violation: &Violation) -> String {
+    match &violation.kind {
+        ViolationKind::Picture {
+            aspect, operations, ..
+        } => {
+            let before = ["clear", "upload"];
+            let told = operations.iter().map(String::as_str);
+            let told: Vec<&str> = told.filter(|o| !before.contains(o)).collect();
+            format!("{} ({})", aspect.name(), told.join(", "))
+        }
+        _ => violation.to_string(),
     }
 }
 
