@@ -11,6 +11,7 @@ use crate::scenes::{self, Made};
 use crate::space::Space;
 use etalon_case::{Case, build};
 use serde_json::{Value, json};
+use std::cmp::Reverse;
 
 /// The scenes of which one is drawn.
 const MADE: usize = 3;
@@ -55,28 +56,33 @@ impl Fuzzer {
     pub fn scene(&mut self, can_draw: &dyn Fn(&Case) -> bool) -> Option<RandomScene> {
         let index = self.next;
         self.next += 1;
-        let mut usable: Vec<(usize, Made, Candidate)> = Vec::new();
-        for attempt in 0..MOST_MADE {
-            let choices = Choices::by_seed(mixed([self.seed, index, attempt]));
-            let made = scenes::scene(choices, &self.space);
-            let Some(candidate) = self.candidate(index, &made) else {
-                continue;
-            };
-            if can_draw(&candidate.case) {
-                usable.push((self.pairs.new_in(&made.scopes), made, candidate));
+        let mut attempts = 0..MOST_MADE;
+        loop {
+            let some = attempts.by_ref().take(self.made);
+            let mut some: Vec<(usize, Made)> = some
+                .map(|attempt| {
+                    let choices = Choices::by_seed(mixed([self.seed, index, attempt]));
+                    let made = scenes::scene(choices, &self.space);
+                    (self.pairs.new_in(&made.scopes), made)
+                })
+                .collect();
+            if some.is_empty() {
+                return None;
             }
-            if usable.len() == self.made {
-                break;
+            // Checks take longer than what they check: the best is checked first.
+            some.sort_by_key(|(pairs, _)| Reverse(*pairs));
+            for (_, made) in some {
+                let candidate = self.candidate(index, &made);
+                if let Some(candidate) = candidate.filter(|c| can_draw(&c.case)) {
+                    self.pairs.add(&made.scopes);
+                    return Some(RandomScene {
+                        index,
+                        choices: made.choices,
+                        candidate,
+                    });
+                }
             }
         }
-        let most = usable.iter().map(|(pairs, ..)| *pairs).max()?;
-        let (_, made, candidate) = usable.into_iter().find(|(pairs, ..)| *pairs == most)?;
-        self.pairs.add(&made.scopes);
-        Some(RandomScene {
-            index,
-            choices: made.choices,
-            candidate,
-        })
     }
 
     /// Returns the scene of changed choices; `None` if it is no valid one.

@@ -1,7 +1,7 @@
 //! Attachments of random scenes.
 
 use super::Maker;
-use super::values::Palette;
+use super::palette::Palette;
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use serde_json::{Value, json};
 

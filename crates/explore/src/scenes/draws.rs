@@ -7,7 +7,7 @@ use etalon_scene::Shader;
 use serde_json::{Value, json};
 
 /// States that a draw may change of the one before it, whatever both draw.
-const ALONE: [&str; 12] = [
+const ALONE: [&str; 13] = [
     "cull",
     "front_face",
     "depth",
@@ -20,6 +20,7 @@ const ALONE: [&str; 12] = [
     "params",
     "output",
     "multisample",
+    "sampler",
 ];
 
 impl Maker<'_> {
@@ -134,7 +135,16 @@ impl Maker<'_> {
             "depth_bounds"
                 if pass.has_depth() && self.extra_with("depth bounds", Feature::DepthBounds) =>
             {
-                let bounds = [[0.0, 0.6], [0.3, 1.0], [0.1, 0.9], [0.0, 0.0], [1.0, 1.0]];
+                let bounds = [
+                    [0.0, 0.6],
+                    [0.3, 1.0],
+                    [0.1, 0.9],
+                    [0.0, 0.0],
+                    [1.0, 1.0],
+                    [0.21, 0.62],
+                    [0.39, 0.41],
+                    [0.6, 0.84],
+                ];
                 self.choices.note("depth bounds", true);
                 draw["depth_bounds"] = json!(self.choices.of(&bounds));
             }
@@ -151,6 +161,7 @@ impl Maker<'_> {
             "output" if !shader.has_fragment() => draw["write_mask"] = json!(""),
             "output" => self.output(pass, shader.has_second_source(), draw),
             "multisample" => self.multisample(pass, shader, draw),
+            "sampler" if shader.samples_texture() => draw["sampler"] = self.sampler(),
             _ => {}
         }
     }
@@ -302,6 +313,9 @@ impl Maker<'_> {
                 return self.choices.of(&shaders);
             }
         }
+        if pass.samples == 1 && self.extra("sampled") {
+            return self.choices.of(&[Is::SampledColor, Is::SampledDiscard]);
+        }
         if self.extra("rare shaders") {
             let mut all = vec![
                 Is::FragCoordColor,
@@ -310,12 +324,12 @@ impl Maker<'_> {
                 Is::DepthRange,
                 Is::ExpensiveColor,
             ];
-            if pass.samples == 1 {
-                all.extend([Is::SampledColor, Is::SampledDiscard]);
-            }
             let centroid = self.space.has(Feature::CentroidInterpolation);
             all.extend(centroid.then_some(Is::Centroid));
             return self.choices.of(&all);
+        }
+        if pass.provoking.is_some() && self.choices.once_in(2) {
+            return Is::FlatColor;
         }
         self.choices.of(&[
             Is::UniformColor,
@@ -330,11 +344,13 @@ impl Maker<'_> {
     /// Names the textures of a shader.
     fn textures_of(&mut self, pass: &Pass, shader: Shader, draw: &mut Value) {
         if shader.samples_texture() {
-            let all = ["clamp-to-edge", "repeat", "mirror-repeat"];
-            let filter = self.choices.word("filter", &["nearest", "linear"]);
-            let address = ["across", "down"].map(|state| self.choices.word(state, &all));
-            draw["textures"] = json!([self.sampled_texture()]);
-            draw["sampler"] = json!({ "filter": filter, "address": address });
+            let drawn = pass.drawn.first().filter(|_| self.choices.once_in(2));
+            let texture = match drawn {
+                Some(drawn) => drawn.clone(),
+                None => self.sampled_texture().to_owned(),
+            };
+            draw["textures"] = json!([texture]);
+            draw["sampler"] = self.sampler();
             return;
         }
         let names = if shader.writes_mask() {
@@ -353,6 +369,13 @@ impl Maker<'_> {
         }
     }
 
+    fn sampler(&mut self) -> Value {
+        let all = ["clamp-to-edge", "repeat", "mirror-repeat"];
+        let filter = self.choices.word("filter", &["nearest", "linear"]);
+        let address = ["across", "down"].map(|state| self.choices.word(state, &all));
+        json!({ "filter": filter, "address": address })
+    }
+
     /// A texture that every driver filters.
     fn sampled_texture(&mut self) -> &'static str {
         let texture =
@@ -368,9 +391,12 @@ impl Maker<'_> {
         }
         if self.extra("counters") {
             let precise = self.space.has(Feature::PreciseOcclusion) && self.choices.once_in(2);
-            names.push(match precise {
-                true => ("passed", "samples-passed"),
-                false => ("any", "any-samples-passed"),
+            let second = self.choices.once_in(2);
+            names.push(match (precise, second) {
+                (true, false) => ("passed", "samples-passed"),
+                (true, true) => ("passed2", "samples-passed"),
+                (false, false) => ("any", "any-samples-passed"),
+                (false, true) => ("any2", "any-samples-passed"),
             });
         }
         if self.extra_with("statistics", Feature::FragmentInvocations) {

@@ -5,6 +5,18 @@ use etalon_frame::Feature;
 use etalon_scene::Shader;
 use serde_json::{Value, json};
 
+/// The form of a mesh of single vertices.
+#[derive(Clone, Copy, Debug)]
+struct Form {
+    /// True for triangles, three vertices each.
+    list: bool,
+    /// True if an index may end a strip.
+    restarts: bool,
+    indexed: bool,
+    /// True if each vertex has a colour of its own.
+    apart: bool,
+}
+
 /// The depth that the vertex colours of a mesh hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Written {
@@ -28,7 +40,7 @@ impl Maker<'_> {
     ) {
         let several = pass.samples > 1;
         if shader.clip_distances() > 0 || shader.uses_uv() {
-            draw["mesh"] = self.with_coordinates(shader, [w, h]);
+            draw["mesh"] = self.with_coordinates(pass, shader, [w, h], draw);
             return;
         }
         let plain = !several || self.choices.once_in(5);
@@ -36,6 +48,12 @@ impl Maker<'_> {
         if plain {
             kinds.splice(0..0, ["columns", "rows", "full", "rect", "columns", "rows"]);
             kinds.extend(["grid", "field", "vertices"]);
+        }
+        if pass.provoking.is_some() && shader == Shader::FlatColor {
+            kinds.extend(["vertices", "fan", "polyline"].repeat(3));
+        }
+        if written == Written::Nothing && self.extra("slopes") {
+            kinds = vec!["slope"];
         }
         if !several {
             kinds.extend(["points", "fan", "strip"]);
@@ -96,16 +114,28 @@ impl Maker<'_> {
                 json!({ "kind": "strip", "of": "triangles", "count": count, "z": z,
                         "value": self.value(written), "indexed": indexed })
             }
-            "vertices" | "fan" => {
+            "slope" => self.slope([w, h]),
+            "vertices" | "fan" | "polyline" => {
                 let list = kind == "vertices";
                 let fans = self.space.has(Feature::TriangleFans);
                 let topologies = ["triangle-strip", "triangle-fan"];
-                if !list {
+                if kind == "polyline" {
+                    let lines = ["line-list", "line-strip"];
+                    draw["topology"] = json!(self.choices.word("topology", &lines));
+                } else if !list {
                     let usable = &topologies[..1 + usize::from(fans)];
                     draw["topology"] = json!(self.choices.word("topology", usable));
                 }
                 indexed = self.choices.once_in(2);
-                self.vertices([w, h], list, indexed, written)
+                let apart = pass.provoking.is_some() && shader == Shader::FlatColor;
+                let restarts = draw.get("topology").is_some_and(|t| t != "line-list");
+                let form = Form {
+                    list,
+                    restarts,
+                    indexed,
+                    apart,
+                };
+                self.vertices([w, h], form, written)
             }
             _ => json!({ "kind": "cover", "z": z, "value": self.value(written) }),
         };
@@ -150,14 +180,46 @@ impl Maker<'_> {
         json!({ "kind": kind, "values": values, "z": z, "windings": windings })
     }
 
+    /// Everything, as two triangles of one plane that is not parallel to the picture.
+    fn slope(&mut self, [w, h]: [u32; 2]) -> Value {
+        let ends = self.choices.of(&[[0.2, 0.7], [0.9, 0.1], [0.45, 0.55]]);
+        let down = self.choices.once_in(2);
+        let [right, bottom] = [w, h].map(|n| f64::from(n) + 1.0);
+        let corner = |(x, y, across, below): (f64, f64, usize, usize)| {
+            json!([x, y, ends[if down { below } else { across }]])
+        };
+        let corners = [
+            (-1.0, -1.0, 0, 0),
+            (-1.0, bottom, 0, 1),
+            (right, -1.0, 1, 0),
+            (right, -1.0, 1, 0),
+            (-1.0, bottom, 0, 1),
+            (right, bottom, 1, 1),
+        ];
+        let mut positions = corners.map(corner);
+        if self.choices.once_in(2) {
+            positions.reverse();
+        }
+        json!({
+            "kind": "vertices", "units": "texels", "positions": positions, "values": [self.color()]
+        })
+    }
+
     /// Triangles anywhere, with edges through samples among them. Most are of one depth.
-    fn vertices(&mut self, [w, h]: [u32; 2], list: bool, indexed: bool, written: Written) -> Value {
+    fn vertices(&mut self, [w, h]: [u32; 2], form: Form, written: Written) -> Value {
+        let Form {
+            list,
+            restarts,
+            indexed,
+            apart,
+        } = form;
         let count = match list {
             true => 3 * self.choices.range(1, 3),
-            false => self.choices.range(3, 6),
+            false => self.choices.of(&[4, 6]),
         };
-        let value = self.value(written);
-        let sloped = self.extra("slopes") && written == Written::Nothing;
+        let colors = if apart { count } else { 1 };
+        let values: Vec<Value> = (0..colors).map(|_| self.value(written)).collect();
+        let sloped = written == Written::Nothing && self.choices.once_in(6);
         let mut z = 0.0;
         let positions: Vec<Value> = (0..count)
             .map(|i| {
@@ -171,13 +233,13 @@ impl Maker<'_> {
             })
             .collect();
         let mut mesh = json!({
-            "kind": "vertices", "units": "texels", "positions": positions, "values": [value]
+            "kind": "vertices", "units": "texels", "positions": positions, "values": values
         });
         if indexed {
             let mut indices: Vec<Option<u32>> = (0..count).map(Some).collect();
             if list {
                 indices.reverse();
-            } else if self.choices.once_in(2) {
+            } else if restarts && self.choices.once_in(2) {
                 indices.push(None);
                 indices.extend((0..count).rev().map(Some));
             }
@@ -188,7 +250,13 @@ impl Maker<'_> {
 
     /// A mesh with texture coordinates: the texture a few times, or texels from some line on, so that planes
     /// lie between samples.
-    fn with_coordinates(&mut self, shader: Shader, [w, h]: [u32; 2]) -> Value {
+    fn with_coordinates(
+        &mut self,
+        pass: &Pass,
+        shader: Shader,
+        [w, h]: [u32; 2],
+        draw: &mut Value,
+    ) -> Value {
         let z = self.vertex_depth();
         if shader.samples_texture() {
             let some = [0.0, 1.0, 2.0, -1.0];
@@ -207,6 +275,8 @@ impl Maker<'_> {
             move |place: f64| (place - at) * sign
         };
         let (u, v) = (line(w), line(h));
+        // A distance that is 0 everywhere clips nothing.
+        let flat = self.choices.once_in(8);
         let corners = [
             (left, -1.0),
             (left, bottom),
@@ -215,9 +285,26 @@ impl Maker<'_> {
             (left, bottom),
             (right, bottom),
         ];
+        if pass.samples == 1 && !centroid && self.choices.once_in(4) {
+            let topology = self.choices.word("topology", &["point-list", "line-list"]);
+            draw["topology"] = json!(topology);
+            let points = [
+                (0.5, 0.5),
+                (f64::from(w) - 0.5, 0.5),
+                (0.5, 1.5),
+                (1.5, 1.5),
+            ];
+            let uv = points.map(|(x, y)| [u(x), v(y)]);
+            let positions = points.map(|(x, y)| [x, y, z]);
+            return json!({
+                "kind": "vertices", "units": "texels", "positions": positions, "uv": uv,
+                "values": [self.color()]
+            });
+        }
         let positions = corners.map(|(x, y)| [x, y, z]);
         let uv = corners.map(|(x, y)| match centroid {
             true => [x - left, 0.0],
+            false if flat => [0.0, v(y)],
             false => [u(x), v(y)],
         });
         json!({

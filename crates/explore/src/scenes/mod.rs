@@ -9,6 +9,7 @@
 mod attachments;
 mod draws;
 mod meshes;
+mod palette;
 mod passes;
 mod states;
 mod textures;
@@ -17,9 +18,9 @@ mod values;
 use crate::choices::{Choices, State};
 use crate::space::Space;
 use etalon_frame::{Feature, PathValue, TextureFormat};
+use palette::Palette;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
-use values::Palette;
 
 /// A random scene.
 pub(crate) struct Made {
@@ -110,7 +111,7 @@ impl<'s> Maker<'s> {
     }
 
     fn scene(&mut self) -> Value {
-        const SIZES: [[u32; 2]; 10] = [
+        const SIZES: [[u32; 2]; 14] = [
             [8, 8],
             [4, 4],
             [1, 1],
@@ -121,6 +122,10 @@ impl<'s> Maker<'s> {
             [2, 9],
             [12, 13],
             [33, 3],
+            [8, 8],
+            [16, 9],
+            [67, 11],
+            [7, 130],
         ];
         self.size = self.choices.of(&SIZES);
         self.reference = self.choices.range(0, 254);

@@ -40,7 +40,7 @@ impl Maker<'_> {
         }
         let number = self.choices.of(&[1, 1, 2, 3]);
         let framebuffers =
-            number > 1 && samples == 1 && !color.is_empty() && self.extra("framebuffers");
+            number > 1 && samples == 1 && !color.is_empty() && self.choices.once_in(2);
         if framebuffers {
             let (_, format) = color[0];
             self.add_color("other", format, 1);
@@ -117,7 +117,7 @@ impl Maker<'_> {
         if pass.depth_stencil.is_some() {
             value["depth_stencil"] = json!("depth");
         }
-        let count = self.choices.range(1, 4);
+        let count = self.choices.of(&[1, 2, 3, 4, 2, 0, 3]);
         let mut draws: Vec<Value> = Vec::new();
         for _ in 0..count {
             let previous = draws.last().cloned();
@@ -230,9 +230,13 @@ impl Maker<'_> {
         if !pass.color.is_empty() && self.extra("resolve") {
             let mut all = Vec::new();
             for (i, (_, format)) in pass.color.iter().enumerate() {
-                let name = format!("resolved{index}-{i}");
-                self.add_color(&name, *format, 1);
-                read.push(name.clone());
+                // Into what an earlier pass was resolved to, or into another.
+                let number = if self.choices.once_in(2) { 0 } else { index };
+                let name = format!("resolved{number}-{i}");
+                if !self.attachments.contains_key(&name) {
+                    self.add_color(&name, *format, 1);
+                    read.push(name.clone());
+                }
                 all.push(name);
             }
             value["resolve"] = json!(all);

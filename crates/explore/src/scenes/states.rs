@@ -213,7 +213,7 @@ impl Maker<'_> {
             value["min_sample_shading"] = json!(self.choices.of(&[1.0, 0.5, 0.0, 0.3]));
         }
         if self.extra_with("sample coverage", Feature::SampleCoverage) {
-            let share = self.choices.of(&[0.5, 0.0, 1.0, 0.25, 0.75]);
+            let share = self.choices.of(&[0.5, 0.0, 1.0, 0.25, 0.75, -0.5, 1.5]);
             let invert = self.choices.once_in(2);
             value["sample_coverage"] = json!({ "value": share, "invert": invert });
         }

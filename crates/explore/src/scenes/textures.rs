@@ -1,7 +1,7 @@
 //! Textures that the shaders of random scenes fetch from.
 
 use super::Maker;
-use super::values::Palette;
+use super::palette::Palette;
 use serde_json::{Value, json};
 
 impl Maker<'_> {

@@ -1,34 +1,8 @@
 //! Colours and depths of random scenes.
 
 use super::Maker;
+use super::palette::Palette;
 use serde_json::{Value, json};
-
-/// The colours of a scene, of which few codes are legal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Palette {
-    /// Sums of powers of two, of which no multiple by `2^b - 1` is nearly an integer.
-    Normalized,
-    /// The same with negative values.
-    Signed,
-    /// Values between two codes that differ in the last bit alone, at 8 and at 10 bits.
-    Bits,
-    /// Exact in floats, as are their products; few differences are nearly 0.
-    Float,
-    /// Whole numbers.
-    Integer,
-}
-
-impl Palette {
-    fn values(self) -> &'static [f64] {
-        match self {
-            Self::Normalized => &[0.0, 1.0, 0.25, 0.375, 0.625, 0.75],
-            Self::Signed => &[0.0, 1.0, -1.0, 0.25, -0.375, 0.625, -0.75],
-            Self::Bits => &[0.0, 1.0, 0.11, 0.3, 0.62, 0.81],
-            Self::Float => &[0.0, 1.0, 0.4375, 0.8125, 1.375, 2.125],
-            Self::Integer => &[0.0, 1.0, 2.0, 37.0, 85.0, 170.0, 254.0, 255.0],
-        }
-    }
-}
 
 impl Maker<'_> {
     /// Channels of 0, 1 and values between.
@@ -39,14 +13,22 @@ impl Maker<'_> {
         if self.palette == Palette::Normalized && self.choices.once_in(12) {
             color[self.choices.below(4) as usize] = self.choices.of(&[1.5, -0.5]);
         }
-        if self.whole_alpha {
+        // Only what has a sign keeps it.
+        if self.palette == Palette::Float && self.choices.once_in(6) {
+            color[self.choices.below(4) as usize] = self.choices.of(&[-0.4375, -1.375]);
+        }
+        if self.whole_alpha && !self.choices.once_in(16) {
             color[3] = f64::from(u8::from(color[3] > 0.5));
         }
         json!(color)
     }
 
-    /// A written depth: two of them are the same or far apart.
+    /// A written depth: mostly two of them are the same or far apart.
     pub(super) fn depth(&mut self) -> f64 {
+        if self.extra("near depths") {
+            // Neighbours of 32 bits.
+            return self.choices.of(&[0.5, 0.500_000_06, 0.499_999_97]);
+        }
         self.choices
             .of(&[0.0, 1.0, 0.0, 0.21, 0.4, 0.62, 0.83, 1.0])
     }
