@@ -168,7 +168,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
         let drawn: Vec<&str> = drawn.map(|r| r.case.as_str()).collect();
         // One case says nothing about its axes.
         let globs = (failing.len() > 1)
-            .then(|| Condition::of(&failing, &drawn).globs(file))
+            .then(|| Condition::of(&failing, &drawn).globs(file, &failing))
             .flatten();
         let each = || group.iter().map(|(_, e)| e.case.clone()).collect();
         let cases: Vec<String> = globs

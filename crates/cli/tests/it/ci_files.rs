@@ -333,6 +333,11 @@ impl Place {
             .collect();
         assert_eq!(parts.len(), count, "{parts:?}");
         assert!(parts.iter().all(|n| *n > 0), "{parts:?}");
+        let catalogue = self.path("runs/merged/cases");
+        assert!(
+            fs::read_dir(&catalogue).unwrap().count() > 0,
+            "{catalogue:?}"
+        );
         assert_eq!(parts.iter().sum::<usize>(), wanted.len(), "{parts:?}");
     }
 }
@@ -553,6 +558,27 @@ fn scripts() -> Vec<PathBuf> {
         }
     }
     scripts
+}
+
+#[test]
+fn a_userland_is_made_only_where_nothing_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("own"), "kept").unwrap();
+    let container = |arguments: &[&Path]| {
+        let script = root().join("ci/container");
+        let output = Command::new(script).args(arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(64), "{}", printed(&output));
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert!(container(&[]).starts_with("usage: "));
+    assert!(container(&[Path::new("--help")]).starts_with("usage: "));
+    let refused = container(&[folder.path()]);
+    // Without root it gets no further.
+    assert!(
+        refused.contains("not what this script made") || refused.contains("needs root"),
+        "{refused}"
+    );
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
 #[test]

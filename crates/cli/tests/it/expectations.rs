@@ -450,3 +450,28 @@ fn a_folder_of_findings_is_read_and_blessed() {
         .code(64)
         .stderr(contains("z.json:2: ").and(contains("titel")));
 }
+
+/// softpipe does not clamp the second source, among much else, so that whole values of axes fail.
+#[test]
+fn what_fails_on_a_driver_is_blessed_by_globs_that_all_name_something() {
+    let work = Work::new();
+    let folder = work.path("findings");
+    fs::create_dir(&folder).unwrap();
+    let run = ["run", "blend/*", "--adapter", "gl:softpipe"];
+    work.run(&[&run[..], &["--bless"]].concat(), &folder)
+        .code(0);
+    let failing = work.records().iter().filter(|r| r.verdict.is_bad()).count();
+    assert!(failing > 20, "{failing}");
+    let read = Expectations::read(&folder).unwrap();
+    let findings = fs::read_dir(&folder).unwrap().count();
+    assert!(findings * 2 < failing, "{findings} of {failing}");
+    assert!(read.all().len() < failing);
+    let text = |known: &etalon_record::Known| fs::read_to_string(&known.path).unwrap();
+    assert!(read.all().iter().any(|known| text(known).contains("/*")));
+    // The same run again: nothing is unexpected, and no glob is idle.
+    work.run(&[&run[..], &["--strict-expectations"]].concat(), &folder)
+        .code(0)
+        .stderr(contains("dead").not());
+    let better = work.records().into_iter().filter(|r| r.improvement());
+    assert_eq!(better.count(), 0);
+}

@@ -1,4 +1,4 @@
-//! The findings of `ci/findings`: each is read, each is alive, and README lists them.
+//! The findings of `ci/findings`: each is read, each is alive, and a page lists them.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -9,12 +9,10 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Set to anything, the list in README is written anew instead of compared.
-const WRITE: &str = "ETALON_WRITE_README";
-const BEGIN: &str = "<!-- findings: ETALON_WRITE_README=1 cargo nextest run -p etalon readme_lists_the_findings -->\n";
+/// Set to anything, the list is written anew instead of compared.
+const WRITE: &str = "ETALON_WRITE_FINDINGS";
+const BEGIN: &str = "<!-- findings: ETALON_WRITE_FINDINGS=1 cargo nextest run -p etalon the_page_lists_the_findings -->\n";
 const END: &str = "<!-- end of findings -->\n";
-/// The most characters of a line in README.
-const WIDTH: usize = 138;
 
 fn root() -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -78,46 +76,52 @@ fn no_finding_is_dead() {
     .stderr(contains("dead").not());
 }
 
-/// The list in README: a line per driver, by the first word of the files' names.
+/// The list: a table per driver, by the first word of the files' names.
 fn listed() -> String {
     let mut drivers: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for (name, finding) in findings().iter().filter(|(name, _)| !is_numbered(name)) {
         let driver = name.split('-').next().unwrap().to_owned();
-        let grade = match finding.grade {
-            Grade::Proven => String::new(),
-            grade => format!(" ({})", grade.name().replace('-', " ")),
-        };
-        let of = drivers.entry(driver).or_default();
-        of.push(format!("{}{grade}", finding.title));
+        let grade = finding.grade.name().replace('-', " ");
+        let row = format!(
+            "| [{}](findings/{name}.json) | {} | {grade} |",
+            finding.title,
+            releases(finding)
+        );
+        drivers.entry(driver).or_default().push(row);
     }
-    let mut text = String::new();
-    for (driver, titles) in drivers {
-        let line = format!("- **{driver}**: {}.", titles.join("; "));
-        let mut column = 0;
-        for word in line.split(' ') {
-            let width = word.chars().count();
-            if column > 0 && column + 1 + width > WIDTH {
-                text.push_str("\n  ");
-                column = 2;
-            } else if column > 0 {
-                text.push(' ');
-                column += 1;
-            }
-            text.push_str(word);
-            column += width;
+    let tables = drivers.into_iter().map(|(driver, rows)| {
+        format!(
+            "## {driver}\n\n| bug | releases | grade |\n|---|---|---|\n{}\n\n",
+            rows.join("\n")
+        )
+    });
+    tables.collect()
+}
+
+/// The releases that a finding is about, in words.
+fn releases(finding: &Finding) -> String {
+    let single = finding.driver.trim_matches('*').rsplit(' ').next().unwrap();
+    match &finding.versions {
+        None if single.starts_with(|c: char| c.is_ascii_digit()) => single.to_owned(),
+        None => "all that were drawn".to_owned(),
+        Some(range) => {
+            let ends = range.split(", ").map(|end| match end.split_at(1) {
+                (">", rest) => format!("from {}", rest.trim_start_matches('=')),
+                ("<", rest) => format!("before {}", rest.trim_start_matches('=')),
+                (_, rest) => format!("{rest} alone"),
+            });
+            ends.collect::<Vec<_>>().join(", ")
         }
-        text.push('\n');
     }
-    text
 }
 
 #[test]
-fn readme_lists_the_findings() {
-    let path = root().join("README.md");
+fn the_page_lists_the_findings() {
+    let path = root().join("ci/findings.md");
     let text = fs::read_to_string(&path).unwrap();
     let (before, rest) = text.split_once(BEGIN).unwrap();
     let (list, after) = rest.split_once(END).unwrap();
-    let due = listed();
+    let due = format!("\n{}", listed());
     if std::env::var_os(WRITE).is_some() {
         fs::write(&path, format!("{before}{BEGIN}{due}{END}{after}")).unwrap();
         return;

@@ -545,3 +545,38 @@ fn a_machine_without_drivers_still_has_the_cpu() {
     .code(64)
     .stderr(contains("gl:softpipe").and(contains("apt-get install")));
 }
+
+#[test]
+fn a_site_is_made_of_a_run_and_replaced_only_when_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let (run, to) = (folder.path().join("run"), folder.path().join("site"));
+    etalon(&["run", "cull/lines", "--adapter", "cpu", "--out"])
+        .arg(&run)
+        .assert()
+        .code(0);
+    let site = || {
+        let mut command = etalon(&["site"]);
+        command.args([&to, &run]);
+        command
+    };
+    site().assert().code(0).stdout(contains("Site: "));
+    let start = std::fs::read_to_string(to.join("index.html")).unwrap();
+    for text in [
+        "runs/run/index.html#gallery=cull",
+        "4 cases on cpu",
+        "nothing unexpected",
+    ] {
+        assert!(start.contains(text), "{text}: {start}");
+    }
+    site()
+        .assert()
+        .code(64)
+        .stderr(contains("--force replaces it"));
+    site().arg("--force").assert().code(0);
+    etalon(&["site"]).arg(&to).assert().code(64);
+    etalon(&["site"])
+        .args([&folder.path().join("other"), &folder.path().join("none")])
+        .assert()
+        .code(64)
+        .stderr(contains("cannot read"));
+}

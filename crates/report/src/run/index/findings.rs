@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 /// The most records that are shown with everything known about them.
-const BODIES: usize = 200;
+const BODIES: usize = 160;
 /// The most imprecise records of a case file and adapter that are.
 const IMPRECISE_BODIES: usize = 3;
 /// The most lines of a case file and adapter.

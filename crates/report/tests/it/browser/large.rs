@@ -5,7 +5,7 @@ use crate::synthetic::large;
 use std::time::Instant;
 
 /// The most bytes of a page that people still send each other.
-const MOST: u64 = 20_000_000;
+const MOST: u64 = 5_000_000;
 
 pub(super) fn eighty_thousand_records_open_and_are_searched(chromium: &Chromium) {
     let folder = tempfile::tempdir().unwrap();
