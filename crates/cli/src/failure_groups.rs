@@ -6,6 +6,7 @@
 
 use crate::failure::Failure;
 use crate::reduction::{DriverOracle, Shown, confirm, file_name};
+use etalon_backend::BackendError;
 use etalon_case::Case;
 use etalon_explore::{
     Candidate, Fuzzer, MOST_DRAWS, Oracle, RandomScene, Signature, keys, reduce, shrink,
@@ -227,23 +228,13 @@ impl Groups {
                 Verdict::Timeout => TRIED_SLOW,
                 _ => TRIED,
             };
-            let mut worker = None;
-            let launch = &self.launch;
-            let mut fails = |scene: &RandomScene| {
-                let own = worker.take().map_or_else(|| Worker::start(launch), Ok);
-                let Ok(mut own) = own else { return false };
-                match own.draw(&scene.candidate.case) {
-                    Ok(_)
-                    | Err(DrawError::Backend(etalon_backend::BackendError::NotSupported(_))) => {
-                        worker = Some(own);
-                        false
-                    }
-                    Err(_) => true,
-                }
+            let mut losses = Losses {
+                launch: &self.launch,
+                worker: None,
             };
-            steady = fails(&scene);
+            steady = losses.happens(&scene);
             if steady {
-                scene = shrink(fuzzer, scene, most, &mut fails);
+                scene = shrink(fuzzer, scene, most, &mut |scene| losses.happens(scene));
             }
         }
         Ok(Some(Seen {
@@ -313,6 +304,30 @@ impl Groups {
             violation: seen.violation,
         });
         Ok(())
+    }
+}
+
+/// Workers that are lost by one scene or another.
+struct Losses<'a> {
+    launch: &'a Launch,
+    worker: Option<Worker>,
+}
+
+impl Losses<'_> {
+    /// True if a scene ends its worker, or the driver gives it up.
+    fn happens(&mut self, scene: &RandomScene) -> bool {
+        let running = self.worker.take();
+        let started = running.map_or_else(|| Worker::start(self.launch), Ok);
+        let Ok(mut worker) = started else {
+            return false;
+        };
+        match worker.draw(&scene.candidate.case) {
+            Ok(_) | Err(DrawError::Backend(BackendError::NotSupported(_))) => {
+                self.worker = Some(worker);
+                false
+            }
+            Err(_) => true,
+        }
     }
 }
 
