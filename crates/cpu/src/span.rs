@@ -5,7 +5,7 @@ use crate::linear::{CENTER, Linear, UNITS};
 use crate::steps::{Exported, Path, Steps, Tests};
 use crate::surface::{Surface, depth_encoding};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
-use etalon_pipeline::shader::{FragmentInput, FragmentOutput, cost, fragment};
+use etalon_pipeline::shader::{FragmentInput, FragmentOutput, Taps, cost, fragment};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, Point, takes_logic};
 use etalon_scene::{Draw, EarlyTests, Pass, Scene, Shader, StencilFace};
 
@@ -291,6 +291,12 @@ impl<'a, S: Steps> SpanState<'a, S> {
             Some(sample) => self.samples[sample],
             None => CENTER,
         };
+        let tap = |[u, v]: [Real; 2]| match (self.draw.textures.first(), self.draw.sampler) {
+            (Some(index), Some(sampler)) => {
+                self.steps.sample(&self.surfaces[*index], sampler, u, v)
+            }
+            _ => [[0.0; LANES]; 4],
+        };
         let input = FragmentInput {
             color: span.color.map(|v| [v; LANES]),
             front: span.front,
@@ -298,6 +304,10 @@ impl<'a, S: Steps> SpanState<'a, S> {
             sample: sample as u32,
             position: window_position(span, point),
             texels: [self.texel(span, 0), self.texel(span, 1)],
+            taps: match self.draw.shader.taps_texture() {
+                true => Taps::of(&tap),
+                false => Taps::NONE,
+            },
             uv: self.uv(span, point),
             params: &self.draw.params,
         };

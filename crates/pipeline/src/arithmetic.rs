@@ -42,6 +42,9 @@ pub trait Arithmetic {
         otherwise: Self::Real,
     ) -> Self::Real;
 
+    /// True if the first is less than the second in every lane, whatever freedom there is.
+    fn always_less(&mut self, a: Self::Real, b: Self::Real) -> bool;
+
     /// A window coordinate computed by the viewport transform, in texels of an axis of `length`.
     fn window_coordinate(&mut self, value: Self::Real, length: f32) -> Self::Real;
     /// A window depth computed by the viewport transform into a range of depths.

@@ -97,6 +97,11 @@ impl<const N: usize> Arithmetic for Plain<N> {
     }
 
     #[inline(always)]
+    fn always_less(&mut self, a: [f32; N], b: [f32; N]) -> bool {
+        a.iter().zip(b).all(|(a, b)| *a < b)
+    }
+
+    #[inline(always)]
     fn window_coordinate(&mut self, value: [f32; N], _length: f32) -> [f32; N] {
         value
     }

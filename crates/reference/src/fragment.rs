@@ -11,7 +11,7 @@ use crate::stencil_face::Face;
 use crate::walk::{Place, Walk};
 use crate::world::{Cell, Event, World, Worlds};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, CounterKind};
-use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
+use etalon_pipeline::shader::{FragmentInput, FragmentOutput, Taps, fragment};
 use etalon_pipeline::{
     Arithmetic, compare, front_facing, is_culled, stencil_passes, stencil_write,
 };
@@ -173,6 +173,11 @@ impl Walk<'_> {
             let held = depth.float.clamp(near.min(far), near.max(far));
             depth = Range::same(depth.float.hull(held));
         }
+        // What a computed coordinate meets is not followed.
+        let tap = |_: [Range; 2]| match draw.textures.first() {
+            Some(index) => self.anything(*index),
+            None => [Range::exact(0.0); 4],
+        };
         let input = FragmentInput {
             color: place.primitive.color.map(Range::same),
             front,
@@ -183,6 +188,10 @@ impl Walk<'_> {
                 false => [Range::exact(0.0); 2],
             },
             texels: [self.texel(place, world, 0), self.texel(place, world, 1)],
+            taps: match draw.shader.taps_texture() {
+                true => Taps::of(&tap),
+                false => Taps::NONE,
+            },
             uv: self.uv(place),
             params: &draw.params,
         };

@@ -357,6 +357,11 @@ impl Arithmetic for Judging<'_> {
         }
     }
 
+    fn always_less(&mut self, a: Range, b: Range) -> bool {
+        let (a, b) = (a.hull(), b.hull());
+        a.high < b.low && !a.may_be_nan() && !b.may_be_nan()
+    }
+
     /// The terms of the transform are as large as the axis, and so is what their error is relative
     /// to.
     fn window_coordinate(&mut self, value: Range, length: f32) -> Range {

@@ -66,7 +66,7 @@ impl Walk<'_> {
     }
 
     /// Returns the result of a sampler on a texture whose texels are not followed.
-    fn anything(&self, index: usize) -> [Range; 4] {
+    pub(crate) fn anything(&self, index: usize) -> [Range; 4] {
         let encodings = self.scene.attachments[index].format.color_channels();
         let slack = self.rules.float_error.value() * 4.0;
         let mut texel = [0.0, 0.0, 0.0, 1.0].map(|v| Range::same(Interval::exact(v).widen(slack)));

@@ -30,6 +30,8 @@ struct Facts {
     textures: usize,
     /// True if it samples its texture instead of fetching single texels.
     sampler: bool,
+    /// True if it samples at coordinates that it computes, too.
+    taps: bool,
     /// The number of colour locations that it writes.
     outputs: usize,
     /// True if it writes integers.
@@ -78,6 +80,7 @@ impl Facts {
         centroid: false,
         textures: 0,
         sampler: false,
+        taps: false,
         outputs: 1,
         integers: false,
         second_source: false,
@@ -145,6 +148,11 @@ impl Shader {
     /// True if the shader samples its texture instead of fetching single texels.
     pub fn samples_texture(self) -> bool {
         self.facts().sampler
+    }
+
+    /// True if the shader samples texture 0 at coordinates that it computes.
+    pub fn taps_texture(self) -> bool {
+        self.facts().taps
     }
 
     /// True if the fragment shader replaces the fragment's depth.
@@ -299,6 +307,10 @@ shaders! {
     FragCoordDepth = "frag_coord_depth" { depth: Depth::Computed, reads_depth: true },
     /// `params.color` on front faces, `params.back_color` on back faces.
     FrontFacing = "front_facing" { params: true, position_only: true },
+    /// Texture 0, blended along edges of luma. `params.color`: width and height of a texel in texture
+    /// coordinates, contrast relative to the brightest neighbour and least contrast of an edge;
+    /// `params.back_color`'s red: the weight of single texels.
+    Fxaa = "fxaa" { params: true, textures: 1, sampler: true, taps: true },
     /// The vertex colour; writes a depth that grows linearly with the distance, 1 over the first
     /// texture coordinate, between the planes in `params.color`'s red and green.
     LinearDepth = "linear_depth" { params: true, uv: true, depth: Depth::Computed },

@@ -256,7 +256,9 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::EdgeAlpha
         | Shader::LinearDepth
         | Shader::LogarithmicDepth => &ALL,
-        Shader::Centroid | Shader::SampledColor | Shader::SampledDiscard => &TEXTURED,
+        Shader::Centroid | Shader::Fxaa | Shader::SampledColor | Shader::SampledDiscard => {
+            &TEXTURED
+        }
         Shader::CountedDepth
         | Shader::DualPeel
         | Shader::ExpensiveColor

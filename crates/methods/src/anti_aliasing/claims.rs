@@ -75,4 +75,28 @@ pub(crate) const CLAIMS: &[Claim] = &[
             holds: Condition::Below(1.0),
         },
     ),
+    Claim::new(
+        QUESTION,
+        "A filter over the finished picture lessens the error of edges.",
+        "Lottes 2009, FXAA",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("fxaa"),
+            over: one!("none"),
+            holds: Condition::Below(1.0),
+        },
+    )
+    .of(&["checker-fan", "half-planes", "thin-wedge"]),
+    Claim::new(
+        QUESTION,
+        "What no sample hit, a filter over the finished picture cannot bring back: four samples err less on what is thin.",
+        "Jimenez and others 2011, Filtering Approaches for Real-Time Anti-Aliasing",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("fxaa"),
+            over: one!("msaa-4"),
+            holds: Condition::Above(1.0),
+        },
+    )
+    .of(&["thin-wedge", "wire-torus"]),
 ];

@@ -46,6 +46,12 @@ pub(crate) const LESSONS: &[Lesson] = &[
         "Crow 1977, The Aliasing Problem in Computer-Generated Shaded Images",
     ),
     Lesson::new(
+        "fxaa",
+        "A pass over the finished picture finds edges by their luma, walks along each to its ends, and blends with the neighbour across it.",
+        "What no sample hit is not in the picture: wires break up, and long nearly level edges end past the walk.",
+        "Lottes 2009, FXAA",
+    ),
+    Lesson::new(
         "coverage-to-alpha",
         "The distance of a texel from the nearest edge becomes alpha, blended over a neighbour that reaches below.",
         "One distance is exact for one long edge; at corners and thin tips two edges share a texel.",

@@ -37,6 +37,7 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
         MethodName::Msaa16 => multisampled(&edges, 16),
         MethodName::Supersampling2x2 => supersampled(&edges, 1),
         MethodName::Supersampling4x4 => supersampled(&edges, 2),
+        MethodName::Fxaa => fxaa(&edges),
         MethodName::CoverageToAlpha => coverage_to_alpha(&edges),
         MethodName::CoverageToAlphaOverlap => coverage_to_alpha_overlap(&edges),
     };
@@ -102,6 +103,31 @@ fn halved(texture: usize) -> etalon_scene::Draw {
         address: [AddressMode::ClampToEdge; 2],
     });
     draw
+}
+
+/// The contrast of an edge: relative to the brightest neighbour, and the least (Lottes 2009).
+const CONTRAST: [f32; 2] = [1.0 / 6.0, 1.0 / 12.0];
+/// The weight of single texels that stand out (version 3.11's default).
+const SINGLE: f32 = 0.75;
+
+/// Draws one sample, and a pass over the picture that blends along its edges.
+fn fxaa(edges: &Edges) -> Scene {
+    let mut stage = Stage::new();
+    let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
+    let jagged = stage.color("jagged", PICTURE, SIZE, clear(edges));
+    let all = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
+    stage.pass(&[jagged], None, vec![all]);
+    let mut over_edges = draw(Shader::Fxaa, cover());
+    over_edges.textures = vec![jagged];
+    over_edges.sampler = Some(Sampler {
+        filter: FilterMode::Linear,
+        address: [AddressMode::ClampToEdge; 2],
+    });
+    let [width, height] = SIZE.map(|s| 1.0 / s as f32);
+    over_edges.params.color = [width, height, CONTRAST[0], CONTRAST[1]];
+    over_edges.params.back_color[0] = SINGLE;
+    stage.pass(&[picture], None, vec![over_edges]);
+    stage.read(&[picture])
 }
 
 fn coverage_to_alpha(edges: &Edges) -> Scene {

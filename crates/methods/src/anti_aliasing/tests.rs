@@ -14,7 +14,7 @@ const SCENES: [SceneName; 4] = [
     SceneName::WireTorus,
 ];
 
-const METHODS: [MethodName; 9] = [
+const METHODS: [MethodName; 10] = [
     MethodName::None,
     MethodName::Msaa2,
     MethodName::Msaa4,
@@ -22,6 +22,7 @@ const METHODS: [MethodName; 9] = [
     MethodName::Msaa16,
     MethodName::Supersampling2x2,
     MethodName::Supersampling4x4,
+    MethodName::Fxaa,
     MethodName::CoverageToAlpha,
     MethodName::CoverageToAlphaOverlap,
 ];

@@ -41,6 +41,8 @@ pub(crate) enum MethodName {
     /// The mean of 4 by 4 texels, in two steps.
     #[serde(rename = "supersampling-4x4")]
     Supersampling4x4,
+    /// One sample, blended along the edges that the picture's luma shows.
+    Fxaa,
     /// Alpha from the distance to the nearest edge, blended over a neighbour that reaches below.
     CoverageToAlpha,
     /// The same where neighbours share edges and each blends its own side, and where lines end.

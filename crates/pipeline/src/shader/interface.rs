@@ -2,6 +2,7 @@
 //! stencil reference.
 
 use etalon_scene::Params;
+use std::fmt;
 
 /// The inputs of a fragment shader.
 #[derive(Clone, Copy, Debug)]
@@ -19,10 +20,37 @@ pub struct FragmentInput<'a, R> {
     /// The values of textures 0 and 1, fetched at the fragment or sampled; zeros where the shader reads
     /// none.
     pub texels: [[R; 4]; 2],
+    /// Texture 0 at coordinates that the shader computes, where [`etalon_scene::Shader::taps_texture`].
+    pub taps: Taps<'a, R>,
     /// The interpolated texture coordinates, where [`etalon_scene::Shader::uses_uv`]; zeros elsewhere.
     pub uv: [R; 2],
     /// The parameter block.
     pub params: &'a Params,
+}
+
+/// A texture that a shader samples at coordinates of its own.
+#[derive(Clone, Copy)]
+pub struct Taps<'a, R>(Option<&'a dyn Fn([R; 2]) -> [R; 4]>);
+
+impl<'a, R> Taps<'a, R> {
+    /// No texture.
+    pub const NONE: Self = Self(None);
+
+    /// The texture that a function samples.
+    pub fn of(sample: &'a dyn Fn([R; 2]) -> [R; 4]) -> Self {
+        Self(Some(sample))
+    }
+
+    /// Returns the value at texture coordinates; `None` without a texture.
+    pub fn at(&self, coordinates: [R; 2]) -> Option<[R; 4]> {
+        self.0.map(|sample| sample(coordinates))
+    }
+}
+
+impl<R> fmt::Debug for Taps<'_, R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Taps").field(&self.0.is_some()).finish()
+    }
 }
 
 /// The outputs of a fragment shader.

@@ -28,6 +28,7 @@ mod fog;
 mod frag_coord_color;
 mod frag_coord_depth;
 mod front_facing;
+mod fxaa;
 mod interface;
 mod linear_depth;
 mod logarithmic_depth;
@@ -52,7 +53,7 @@ mod weighted_accumulate;
 mod weighted_resolve;
 
 pub use expensive_color::cost;
-pub use interface::{FragmentInput, FragmentOutput, Kept, SampleMask, StencilReference};
+pub use interface::{FragmentInput, FragmentOutput, Kept, SampleMask, StencilReference, Taps};
 
 use crate::arithmetic::Arithmetic;
 use etalon_scene::{Shader, Vertex};
@@ -90,6 +91,7 @@ pub fn fragment<A: Arithmetic>(
         Shader::FragCoordColor => frag_coord_color::fragment(a, input),
         Shader::FragCoordDepth => frag_coord_depth::fragment::<A>(input),
         Shader::FrontFacing => front_facing::fragment(a, input),
+        Shader::Fxaa => fxaa::fragment(a, input),
         Shader::LinearDepth => linear_depth::fragment(a, input),
         Shader::LogarithmicDepth => logarithmic_depth::fragment(a, input),
         Shader::MaskedColor => masked_color::fragment(a, input),

@@ -5,7 +5,7 @@ use crate::common::{APIS, all_rules, config, draw, limits, scene};
 use etalon_case::{Library, Profile};
 use etalon_frame::{Comparison, Frame, LegalSet, compare};
 use etalon_pipeline::Plain;
-use etalon_pipeline::shader::{FragmentInput, FragmentOutput, fragment};
+use etalon_pipeline::shader::{FragmentInput, FragmentOutput, Taps, fragment};
 use etalon_reference::{Interval, Judging, Range, Texels, judgements, judgements_of};
 use etalon_scene::{Params, Scene, Shader};
 use proptest::prelude::*;
@@ -87,6 +87,7 @@ fn plain(shader: Shader, inputs: &Inputs) -> FragmentOutput<[f32; 1]> {
         sample: inputs.sample,
         position: inputs.position.map(|(v, _)| [v]),
         texels: inputs.texels.map(|texel| texel.map(|(v, _)| [v])),
+        taps: Taps::NONE,
         uv: inputs.uv.map(|(v, _)| [v]),
         params: &inputs.params,
     };
@@ -146,6 +147,7 @@ proptest! {
                     sample: inputs.sample,
                     position: inputs.position.map(judged),
                     texels: inputs.texels.map(|texel| texel.map(judged)),
+                    taps: Taps::NONE,
                     uv: inputs.uv.map(judged),
                     params: &inputs.params,
                 };
