@@ -20,6 +20,7 @@ mod command_line;
 mod commands;
 mod expectations;
 mod failure;
+mod failure_groups;
 mod flags;
 mod interruption;
 mod near;
@@ -27,6 +28,7 @@ mod out_folder;
 mod output;
 mod progress;
 mod provenance;
+mod reduction;
 mod report_files;
 mod scene_text;
 mod shard;
@@ -62,6 +64,7 @@ fn main() -> ExitCode {
         Command::Bisect(arguments) => commands::bisect::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Reduce(arguments) => commands::reduce::run(&arguments),
+        Command::Fuzz(arguments) => commands::fuzz::run(&arguments),
         Command::Mutants(arguments) => commands::mutants::run(&arguments),
         Command::Completions(arguments) => {
             commands::completions::run(&arguments, &CommandLine::command())

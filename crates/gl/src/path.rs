@@ -103,6 +103,10 @@ pub(crate) fn end(scene: &Scene, index: usize, support: &Support) -> PathEnd {
         && match scene.path.end {
             PathEnd::Store | PathEnd::Copy | PathEnd::Part => true,
             PathEnd::Blit => channels.iter().all(exact),
+            // Stencil alone is a renderbuffer where no shader has to read it.
+            PathEnd::ShaderRead if format.has_stencil() && !format.has_depth() => {
+                by_shader(support.read)
+            }
             PathEnd::ShaderRead => support.fetched_exactly && !channels.iter().any(twofold),
         };
     match can {
@@ -287,6 +291,8 @@ mod tests {
         let snorm = TextureFormat::Rgba8Snorm;
         assert_eq!(of(snorm, 1, PathEnd::ShaderRead), PathEnd::Store);
         assert_eq!(of(snorm, 1, PathEnd::Part), PathEnd::Part);
+        let stencil = TextureFormat::Stencil8;
+        assert_eq!(of(stencil, 1, PathEnd::ShaderRead), PathEnd::Store);
     }
 
     #[test]

@@ -102,6 +102,31 @@ impl MutantRecord {
         })
     }
 
+    /// Adds the outcome of the same bug with further cases.
+    pub fn add(&mut self, other: Self) {
+        for tally in other.areas {
+            match self.areas.iter_mut().find(|a| a.area == tally.area) {
+                Some(own) => {
+                    own.pass += tally.pass;
+                    own.imprecise += tally.imprecise;
+                    own.fail += tally.fail;
+                    own.broken += tally.broken;
+                }
+                None => self.areas.push(tally),
+            }
+        }
+        let weight = |outcome| match outcome {
+            Catch::Survived => 0,
+            Catch::Noticed => 1,
+            Catch::Caught => 2,
+            Catch::Broken => 3,
+        };
+        if weight(other.outcome) > weight(self.outcome) {
+            self.outcome = other.outcome;
+            self.first = other.first;
+        }
+    }
+
     /// The error in the outcome: a bug was not caught and nothing proves it legal, or a legal one failed.
     /// `None` if there is no error.
     pub fn complaint(&self) -> Option<&'static str> {
@@ -171,6 +196,16 @@ impl Hunt {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_worse_outcome_of_further_cases_stays() {
+        let mut sum = record(Catch::Noticed, false);
+        sum.add(record(Catch::Caught, false));
+        sum.add(record(Catch::Survived, false));
+        assert_eq!(sum.outcome, Catch::Caught);
+        let tally = &sum.areas[0];
+        assert_eq!((tally.pass, tally.imprecise, tally.fail), (3, 1, 1));
+    }
 
     fn record(outcome: Catch, legal: bool) -> MutantRecord {
         let tally = AreaTally {

@@ -75,7 +75,11 @@ impl Walk<'_> {
             // The error is relative to the samples, of which the sum may be a small difference.
             let values = [between.low, between.high].map(|o| encoding.value_of_order(o).abs());
             let error = values[0].max(values[1]) * count * self.rules.float_error.value();
-            let exact = sum[c].map_increasing(|v| v / count).widen(error);
+            // The ends of what may be NaN are no numbers to compute with.
+            let exact = match sum[c].may_be_nan() {
+                true => Interval::EVERYTHING,
+                false => sum[c].map_increasing(|v| v / count).widen(error),
+            };
             let average = judging.encode(*encoding, Range::same(exact));
             let rounded = |codes: Interval| CodeInterval {
                 low: ((codes.low - halvings).floor() as i64).clamp(between.low, between.high),
@@ -84,6 +88,7 @@ impl Walk<'_> {
             of_codes[c] = rounded(codes[c].map_increasing(|v| v / count));
             result[c] = match self.rules.resolve.value() {
                 _ if between.is_exact() && !encoding.is_float() => between,
+                _ if exact.may_be_nan() && encoding.is_float() => average,
                 Resolve::Between if encoding.is_float() => between.hull(average),
                 Resolve::Between => between,
                 Resolve::CoarseAverage if encoding.is_float() => {

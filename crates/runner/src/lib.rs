@@ -3,9 +3,10 @@
 //! Workers only draw: [`serve()`] answers requests in a process of its own. The parent judges: [`run()`]
 //! drives workers of every adapter, compares every frame with its legal set and writes one record per
 //! case and adapter; [`bench()`] times frames; both start and replace workers through one supervisor.
-//! [`hunt()`] draws cases with planted bugs in this process, and reports which of them are caught.
+//! [`Batches`] draws and judges cases of which no record is kept. [`hunt()`] draws cases with planted bugs in this process, and reports which of them are caught.
 
 mod adapter_record;
+mod batch;
 mod bench;
 mod drawing;
 mod event;
@@ -37,6 +38,7 @@ mod version_search;
 mod violation;
 mod worker;
 
+pub use batch::{Batches, Outcome};
 pub use bench::{BenchError, BenchEvent, BenchPlan, BenchSummary, bench, ruler};
 pub use drawing::draw_frames;
 pub use event::Event;

@@ -84,7 +84,7 @@ fn the_quick_profile_takes_some_of_every_file() {
         }
         // One seed is as good as another, the other areas draw every format and feature too, and every
         // value of each state, and the largest sizes take too long.
-        let partly = ["combined/", "capabilities/", "sequence/", "size/"];
+        let partly = ["combined/", "capabilities/", "found/", "sequence/", "size/"];
         if partly.iter().any(|area| file.name().starts_with(area)) {
             all += quick.len();
             continue;

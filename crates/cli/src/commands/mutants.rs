@@ -9,9 +9,13 @@ use crate::provenance;
 use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::Case;
+use etalon_cpu::CpuBackend;
+use etalon_explore::{Fuzzer, Space};
+use etalon_frame::Limits;
 use etalon_mutants::{MutantBackend, mutants};
-use etalon_record::{HUNT_FORMAT, Hunt, MutantInfo};
-use etalon_runner::{Globs, HuntPlan};
+use etalon_record::{Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord};
+use etalon_runner::{Globs, HuntPlan, Judge};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -35,7 +39,13 @@ pub(crate) struct Arguments {
     /// Draw every case with every bug, instead of leaving an area after the first Fail of a bug
     #[arg(long)]
     pub(crate) full: bool,
-    /// Folder for mutants.json and mutants.html
+    /// Hunt with this many random scenes instead of cases, until each bug has failed once
+    #[arg(long, value_name = "N", conflicts_with_all = ["case_globs", "profile", "cases", "full"])]
+    pub(crate) fuzz: Option<u64>,
+    /// Seed of the random scenes
+    #[arg(long, value_name = "S", default_value_t = 0, requires = "fuzz")]
+    pub(crate) seed: u64,
+    /// Folder for mutants.json and mutants.html; with --fuzz also recall.txt
     #[arg(long, value_name = "DIR", default_value = "reports/mutants-latest")]
     pub(crate) out: PathBuf,
     /// Output format
@@ -48,6 +58,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let chosen = chosen(&arguments.globs)?;
     if arguments.list {
         return list(&chosen, arguments.format);
+    }
+    if let Some(scenes) = arguments.fuzz {
+        return fuzz(arguments, scenes, &chosen);
     }
     let library = library(arguments.cases.as_ref())?;
     let named = !arguments.case_globs.is_empty();
@@ -115,8 +128,12 @@ fn list(chosen: &[MutantInfo], format: Format) -> Result<u8, Failure> {
     Ok(0)
 }
 
+fn open(name: &str) -> Option<Box<dyn Backend>> {
+    MutantBackend::new(name).map(|backend| Box::new(backend) as Box<dyn Backend>)
+}
+
 fn hunt(arguments: &Arguments, cases: &[Case], chosen: &[MutantInfo]) -> Hunt {
-    let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+    let jobs = jobs();
     let bar = progress(cases.len() as u64 * jobs.min(chosen.len()) as u64);
     let started = provenance::now();
     let start = Instant::now();
@@ -126,10 +143,18 @@ fn hunt(arguments: &Arguments, cases: &[Case], chosen: &[MutantInfo]) -> Hunt {
         full: arguments.full,
         jobs,
     };
-    let open =
-        |name: &str| MutantBackend::new(name).map(|backend| Box::new(backend) as Box<dyn Backend>);
     let found = etalon_runner::hunt(plan, &open, &|| bar.inc(1));
     bar.finish_and_clear();
+    hunted(arguments, cases.len() as u64, started, start, found)
+}
+
+fn hunted(
+    arguments: &Arguments,
+    cases: u64,
+    started: String,
+    start: Instant,
+    mutants: Vec<MutantRecord>,
+) -> Hunt {
     Hunt {
         format: HUNT_FORMAT,
         etalon: provenance::VERSION.to_owned(),
@@ -138,8 +163,161 @@ fn hunt(arguments: &Arguments, cases: &[Case], chosen: &[MutantInfo]) -> Hunt {
         started,
         command: provenance::command(),
         seconds: start.elapsed().as_secs_f64(),
-        cases: cases.len() as u64,
+        cases,
         full: arguments.full,
-        mutants: found,
+        mutants,
     }
+}
+
+/// The scenes that are held in memory at the same time.
+const CHUNK: u64 = 500;
+
+/// Hunts with random scenes. Exits with 1 if a legal bug fails, or the rasterizer without a bug; how many of the
+/// others are caught is what is measured.
+fn fuzz(arguments: &Arguments, scenes: u64, chosen: &[MutantInfo]) -> Result<u8, Failure> {
+    let (started, start) = (provenance::now(), Instant::now());
+    let limits = CpuBackend::new("cpu").limits().clone();
+    let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
+    let mut fuzzer = Fuzzer::new(arguments.seed, Space::of([&limits]));
+    let mut records: Vec<Option<MutantRecord>> = vec![None; chosen.len()];
+    let bar = progress(scenes);
+    let mut failing = Vec::new();
+    let mut drawn = 0;
+    while drawn < scenes {
+        let count = CHUNK.min(scenes - drawn);
+        drawn += count;
+        let made = (0..count).filter_map(|_| fuzzer.scene(&can_draw));
+        let cases: Vec<Case> = made.map(|s| s.candidate.case).collect();
+        let (cases, wrong) = without_own_failures(cases, &limits);
+        failing.extend(wrong);
+        let caught = |at: &usize| {
+            let record = records[*at].as_ref();
+            record.is_some_and(|r| r.outcome == Catch::Caught)
+        };
+        let left: Vec<usize> = (0..chosen.len()).filter(|at| !caught(at)).collect();
+        let mutants: Vec<MutantInfo> = left.iter().map(|at| chosen[*at].clone()).collect();
+        let plan = HuntPlan {
+            cases: &cases,
+            mutants: &mutants,
+            full: false,
+            jobs: jobs(),
+        };
+        let found = etalon_runner::hunt(plan, &open, &|| {});
+        for (at, mut record) in left.into_iter().zip(found) {
+            // A plant that panics in a scene, since it was not made for it, says nothing there.
+            if record.outcome == Catch::Broken && record.areas.iter().any(|a| a.fail > 0) {
+                record.outcome = Catch::Caught;
+            } else if record.outcome == Catch::Broken {
+                record.outcome = Catch::Survived;
+                record.first = None;
+            }
+            match &mut records[at] {
+                Some(before) => before.add(record),
+                none => *none = Some(record),
+            }
+        }
+        bar.inc(count);
+        bar.set_message(format!("{} left", mutants.len()));
+    }
+    bar.finish_and_clear();
+    let found = records.into_iter().flatten().collect();
+    let hunt = hunted(arguments, scenes, started, start, found);
+    let written = etalon_report::write_hunt(&arguments.out, &hunt).map_err(Failure::incomplete)?;
+    let mut table = recall(&hunt);
+    for case in &failing {
+        table.push_str(&format!(
+            "\nWrong: {case} fails without a bug, and was left out\n"
+        ));
+    }
+    let path = arguments.out.join("recall.txt");
+    std::fs::write(&path, &table)
+        .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))?;
+    match arguments.format {
+        Format::Json => summarize_json(&hunt)?,
+        Format::Text => summarize(&format!("{table}\nReport: {}\n", written.html.display())),
+    }
+    let wrong = |m: &MutantRecord| m.outcome == Catch::Caught && m.mutant.legal.is_some();
+    Ok(
+        match hunt.mutants.iter().any(wrong) || !failing.is_empty() {
+            true => UNEXPECTED,
+            false => 0,
+        },
+    )
+}
+
+/// Parts the cases that the rasterizer fails without a bug from the others: they would catch every bug.
+fn without_own_failures(cases: Vec<Case>, limits: &Limits) -> (Vec<Case>, Vec<String>) {
+    let fails = |case: &Case| {
+        let backend = CpuBackend::new("cpu");
+        let frames = etalon_runner::draw_frames(&backend, case);
+        frames.map_or(true, |frames| {
+            let judged = Judge::default().judge(0, case, "cpu", limits, &frames);
+            judged.record.verdict.is_violation()
+        })
+    };
+    let (jobs, fails) = (jobs(), &fails);
+    let wrong: Vec<bool> = std::thread::scope(|scope| {
+        let parts = cases.chunks(cases.len().div_ceil(jobs).max(1));
+        let lanes: Vec<_> = parts
+            .map(|part| scope.spawn(move || part.iter().map(fails).collect::<Vec<bool>>()))
+            .collect();
+        let ended = lanes.into_iter().map(|lane| match lane.join() {
+            Ok(wrong) => wrong,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        ended.flatten().collect()
+    });
+    let (kept, left): (Vec<_>, Vec<_>) = cases.into_iter().zip(wrong).partition(|(_, w)| !w);
+    let kept = kept.into_iter().map(|(case, _)| case).collect();
+    (kept, left.into_iter().map(|(case, _)| case.id).collect())
+}
+
+fn jobs() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// The class of bugs of large pictures, which random scenes leave to cases of their own.
+const LARGE: &str = "size";
+
+/// Returns the table of the bugs that random scenes caught, class by class, and the names of the others.
+fn recall(hunt: &Hunt) -> String {
+    let class = |m: &MutantRecord| {
+        m.mutant
+            .name
+            .split('/')
+            .next()
+            .unwrap_or_default()
+            .to_owned()
+    };
+    let mut classes: BTreeMap<String, [usize; 2]> = BTreeMap::new();
+    let mut missed = String::new();
+    for mutant in hunt.mutants.iter().filter(|m| m.mutant.legal.is_none()) {
+        let [caught, all] = classes.entry(class(mutant)).or_default();
+        *all += 1;
+        match mutant.outcome {
+            Catch::Caught => *caught += 1,
+            _ => missed.push_str(&format!("  {}\n", mutant.mutant.name)),
+        }
+    }
+    let mut text = format!("Bugs that {} random scenes catch\n\n", hunt.cases);
+    let mut sums = [0; 2];
+    for (class, [caught, all]) in &classes {
+        text.push_str(&format!("{class:16} {caught:5} of {all:5}\n"));
+        if class != LARGE {
+            sums = [sums[0] + caught, sums[1] + all];
+        }
+    }
+    let [caught, all] = sums;
+    let share = 100.0 * caught as f64 / (all as f64).max(1.0);
+    text.push_str(&format!(
+        "\nWithout {LARGE}: {caught} of {all}, {share:.1} %, in {:.0} s\n\nNot caught\n{missed}",
+        hunt.seconds
+    ));
+    for mutant in hunt.mutants.iter().filter(|m| m.mutant.legal.is_some()) {
+        if mutant.outcome == Catch::Caught {
+            let name = &mutant.mutant.name;
+            text.push_str(&format!("\nWrong: {name} is held to be legal and failed\n"));
+        }
+    }
+    text
 }

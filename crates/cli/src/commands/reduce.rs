@@ -5,12 +5,13 @@ use crate::cases::library;
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, Format};
 use crate::output::{summarize, summarize_json};
+use crate::reduction::{DriverOracle, Shown, confirm, file_name, judged};
 use clap::Args;
 use etalon_case::{Case, Profile, build};
-use etalon_explore::{Candidate, MOST_DRAWS, Oracle, Reduction, keys, leaves, reduce, states};
-use etalon_frame::{Frame, Limits};
+use etalon_explore::{Candidate, MOST_DRAWS, Reduction, keys, leaves, reduce, states};
+use etalon_frame::Limits;
 use etalon_record::Record;
-use etalon_runner::{Judge, Launch, Trials, Violation, ViolationKind, Worker};
+use etalon_runner::{Launch, Trials, Violation, Worker};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
@@ -133,23 +134,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     Ok(0)
 }
 
-/// Returns the name of the case file, which is also the id of its case: letters and digits, as ids have them.
-fn file_name(case: &str, adapter: &str) -> String {
-    let word = |text: &str| -> String {
-        let letters = text.chars();
-        letters
-            .map(|c| {
-                if c.is_ascii_alphanumeric() || "-_.+".contains(c) {
-                    c
-                } else {
-                    '-'
-                }
-            })
-            .collect()
-    };
-    format!("{}.{}", word(case), word(adapter))
-}
-
 fn start(arguments: &Arguments) -> Result<(Launch, Worker), Failure> {
     let names = std::slice::from_ref(&arguments.adapter);
     let adapters = discover(&Query {
@@ -222,77 +206,6 @@ fn repeat(
     })
 }
 
-/// Draws a reduced case in a fresh process.
-fn confirm(
-    launch: &Launch,
-    case: &Case,
-    limits: &Limits,
-    violation: &Violation,
-) -> Result<(), String> {
-    let mut worker = Worker::start(launch).map_err(|e| e.to_string())?;
-    let frames = worker.draw(case).map_err(|e| e.to_string())?;
-    let record = judged(case, limits, &frames);
-    match Violation::of(case, &record) {
-        Some(way) if violation.covers(&way) => Ok(()),
-        _ => Err(format!(
-            "fails only after others in the same process: drawn alone it is {}",
-            record.verdict
-        )),
-    }
-}
-
-/// Judges frames by themselves: legal sets of candidates are of no use to others.
-fn judged(case: &Case, limits: &Limits, frames: &[Frame]) -> Record {
-    Judge::default().judge(0, case, "", limits, frames).record
-}
-
-/// The judge as oracle, with a driver's frames.
-struct DriverOracle {
-    trials: Trials,
-    limits: Limits,
-    /// The violation of the smallest case so far, and its record.
-    violation: Violation,
-    record: Record,
-    error: Option<String>,
-}
-
-impl Oracle for DriverOracle {
-    fn first(&mut self, candidates: &mut dyn Iterator<Item = Candidate>) -> Option<Candidate> {
-        let Self {
-            trials,
-            limits,
-            violation,
-            record,
-            error,
-        } = self;
-        if error.is_some() {
-            return None;
-        }
-        let mut next = || candidates.next();
-        let mut found = |candidate: &Candidate, frames: &[Frame]| {
-            let judged = judged(&candidate.case, limits, frames);
-            let way = Violation::of(&candidate.case, &judged);
-            let Some(way) = way.filter(|way| violation.covers(way)) else {
-                return false;
-            };
-            *violation = way;
-            *record = judged;
-            true
-        };
-        match trials.first(&mut next, |c| &c.case, &mut found) {
-            Ok(found) => found,
-            Err(failed) => {
-                *error = Some(failed.to_string());
-                None
-            }
-        }
-    }
-
-    fn texel(&self) -> Option<[u32; 2]> {
-        self.record.wrong.first().map(|w| [w.x, w.y])
-    }
-}
-
 /// A reduction, for people and programs.
 struct Told<'a> {
     arguments: &'a Arguments,
@@ -310,52 +223,19 @@ impl Told<'_> {
         &self.reduction.smallest.document["scene"]
     }
 
-    /// Returns the sentence on the wrong sample or counter.
-    fn sentence(&self) -> String {
-        let sentence = self.record.story.as_ref().and_then(|s| s.sentence());
-        sentence.unwrap_or_else(|| self.record.message.clone())
-    }
-
-    /// Returns the clause that is violated: that of the last operation that cites one. Coverage cites one for
-    /// primitives that lie elsewhere, and so is the last to be named.
-    fn clause(&self) -> Option<&str> {
-        let story = self.record.story.as_ref()?;
-        let cited = |coverage: bool| {
-            let mut lines = story.operations().iter().rev();
-            lines.find_map(|line| {
-                let own = (line.operation == "coverage") == coverage;
-                line.citation.as_deref().filter(|_| own)
-            })
-        };
-        let verdict = || story.verdict()?.citation.as_deref();
-        if matches!(self.violation.kind, ViolationKind::Relation { .. }) {
-            return verdict();
-        }
-        cited(false).or_else(|| cited(true)).or_else(verdict)
-    }
-
-    fn states(&self) -> String {
-        match states(self.scene()) {
-            all if all.is_empty() => "none but the defaults".to_owned(),
-            all => all.join(", "),
+    fn shown(&self) -> Shown<'_> {
+        Shown {
+            document: &self.reduction.smallest.document,
+            record: self.record,
+            violation: self.violation,
         }
     }
 
     /// Returns the document with what it shows.
     fn document(&self) -> Value {
         let Arguments { case, adapter, .. } = self.arguments;
-        let mut about = format!(
-            "Reduced from {case} on {adapter}. States: {}. Violated: {}: {}",
-            self.states(),
-            self.violation,
-            self.sentence()
-        );
-        if let Some(clause) = self.clause() {
-            about.push_str(&format!(" [{clause}]"));
-        }
-        let mut document = self.reduction.smallest.document.clone();
-        document["about"] = json!(about);
-        document
+        self.shown()
+            .described(&format!("Reduced from {case} on {adapter}."))
     }
 
     fn text(&self, path: &str) -> String {
@@ -377,11 +257,11 @@ impl Told<'_> {
             } else {
                 ", the most: more may be left to reduce"
             },
-            self.states(),
+            self.shown().states(),
             self.violation,
-            self.sentence(),
+            self.shown().sentence(),
         );
-        if let Some(clause) = self.clause() {
+        if let Some(clause) = self.shown().clause() {
             text.push_str(&format!("  [{clause}]\n"));
         }
         text.push_str(&format!("Case file: {path}\n"));
@@ -402,8 +282,8 @@ impl Told<'_> {
             "states": states(self.scene()),
             "first_violation": self.first.to_string(),
             "violation": self.violation.to_string(),
-            "sentence": self.sentence(),
-            "clause": self.clause(),
+            "sentence": self.shown().sentence(),
+            "clause": self.shown().clause(),
         })
     }
 }

@@ -53,7 +53,7 @@ const TABLE: [(&str, &[&str], &[&str]); 20] = [
         ],
         &[],
     ),
-    ("explore", &["case"], &[]),
+    ("explore", &["case", "frame", "scene"], &[]),
     ("report", &["frame", "methods", "record", "stats"], &[]),
     (
         "cli",

@@ -14,6 +14,7 @@ mod driver_releases;
 mod etalon;
 mod expectations;
 mod findings;
+mod fuzz;
 mod help;
 mod house;
 mod launchers;

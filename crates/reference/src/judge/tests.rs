@@ -364,6 +364,23 @@ fn depth_and_stencil_are_resolved_each_by_its_mode() {
 }
 
 #[test]
+fn a_resolve_of_what_may_be_nan_may_be_anything() {
+    // A color without alpha, which advanced blending divides by.
+    let text = r#"{"about":"t","spec":["t"],"scene":{"attachments":{
+        "many":{"format":"rgba16float","size":[1,1],"samples":2},
+        "one":{"format":"rgba16float"}},
+        "passes":[{"color":["many"],"resolve":["one"],"draws":[{"mesh":{"kind":"full"},
+        "shader":"uniform_color","params":{"color":[0,0,1,0]},"advanced_blend":"multiply"}]}],
+        "read":["one"]}}"#;
+    let limits = limits(Api::Vulkan);
+    let set = judge(&case(text).scene, &limits, &Rules::of(&limits));
+    for world in &set.groups[0].sample(0, 0, 0).worlds {
+        let blue = world.channels[2];
+        assert_eq!((blue.low, blue.high), (-0x7fff, 0x7fff));
+    }
+}
+
+#[test]
 fn an_average_depth_may_be_a_little_off_and_no_more() {
     let set = resolved("depth32float-stencil8", "average", "min");
     let sample = set.groups[0].sample(0, 0, 0);

@@ -30,6 +30,7 @@ areas! {
     cull = "cull",
     depth = "depth",
     early_z = "early-z",
+    found = "found",
     methods = "methods",
     multisample = "multisample",
     order = "order",

@@ -5,6 +5,7 @@ mod outcome;
 mod words;
 
 use super::data::Methods;
+use crate::numbers::count;
 use check::{Checked, check};
 use etalon_methods::claims;
 use maud::{Markup, html};
@@ -12,7 +13,10 @@ use outcome::{Figure, Holds, Reproduction};
 
 /// The table of claims.
 pub(super) fn section(methods: &Methods<'_>) -> Markup {
-    let checked: Vec<Checked<'_>> = claims().map(|c| check(c, methods)).collect();
+    // What nothing was measured for tells nothing, and goes behind the rest.
+    let (drawn, others): (Vec<Checked<'_>>, Vec<_>) = claims()
+        .map(|c| check(c, methods))
+        .partition(|checked| !(checked.figures.is_empty() && checked.blind.is_empty()));
     html! {
         p {
             "Claims of publications, and this run's measurements of them. A claim is checked in every case where all that it "
@@ -20,15 +24,27 @@ pub(super) fn section(methods: &Methods<'_>) -> Markup {
             "intervals of both leave; a case whose interval reaches over the limit decides nothing. A claim is reproduced if it holds in every "
             "case, and not reproduced if it holds in none."
         }
-        div.wide { table.text {
+        @if !drawn.is_empty() { (table(&drawn)) }
+        @if !others.is_empty() {
+            details open[drawn.is_empty()] {
+                summary { (count(others.len() as u64, "claim")) " that this run did not draw" }
+                (table(&others))
+            }
+        }
+    }
+}
+
+fn table(claims: &[Checked<'_>]) -> Markup {
+    html! {
+        div.wide { table.text.stacked {
             thead { tr { th scope="col" { "Claim" } th scope="col" { "Compared" } th scope="col" { "Measured" } th scope="col" { "Outcome" } } }
             tbody {
-                @for checked in &checked {
+                @for checked in claims {
                     @let found = Reproduction::of(&checked.figures);
                     tr {
                         th scope="row" { (checked.claim.title) br; cite { (checked.claim.source) } }
-                        td { (words::compared(checked.claim)) }
-                        td {
+                        td data-head="Compared" { (words::compared(checked.claim)) }
+                        td data-head="Measured" {
                             @if checked.figures.is_empty() { "–" }
                             @for told in together(&checked.figures) {
                                 div {
@@ -40,7 +56,7 @@ pub(super) fn section(methods: &Methods<'_>) -> Markup {
                                 div.u { span.chip.u { "not measured" } " on " (checked.blind.join(", ")) ", where fragments are counted before the depth test" }
                             }
                         }
-                        td class={ "verdict " (found.class()) } { span class={ "chip " (found.class()) } { (found.text()) } }
+                        td data-head="Outcome" class={ "verdict " (found.class()) } { span class={ "chip " (found.class()) } { (found.text()) } }
                     }
                 }
             }

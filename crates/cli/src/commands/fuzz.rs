@@ -1,0 +1,328 @@
+//! `etalon fuzz`.
+//!
+//! Scenes are made, drawn and judged in batches. What fails is looked at between batches and in the order of the
+//! scenes, so that the groups do not depend on the number of workers.
+
+use crate::adapters::{Query, discover, refuse_absent};
+use crate::failure::{Failure, INCOMPLETE, UNEXPECTED};
+use crate::failure_groups::{Group, Groups};
+use crate::flags::{AdapterFileArguments, Format};
+use crate::interruption::listen;
+use crate::output::{say, summarize, summarize_json};
+use crate::progress::progress;
+use crate::provenance;
+use clap::Args;
+use etalon_case::Case;
+use etalon_explore::{Fuzzer, RandomScene, Space};
+use etalon_frame::Limits;
+use etalon_record::{FolderLock, Verdict};
+use etalon_runner::{Batches, Launch, Outcome, Worker};
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// The scenes between two looks at what failed.
+const BATCH: usize = 128;
+/// The scenes of each adapter where neither their number nor a time is given.
+const COUNT: u64 = 1000;
+/// The file of groups.
+const GROUPS: &str = "fuzz.jsonl";
+/// The folder of the scenes that fail.
+const FOUND: &str = "found";
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// Adapter to draw on; may be repeated. Default: all that can be used
+    #[arg(long = "adapter", value_name = "NAME")]
+    pub(crate) adapters: Vec<String>,
+    /// Seed of the scenes; the same seed gives the same scenes
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Number of scenes for each adapter [default: 1000, without --time]
+    #[arg(long, value_name = "N", conflicts_with = "time")]
+    pub(crate) count: Option<u64>,
+    /// Time for each adapter, in seconds or as `10m` or `2h`
+    #[arg(long, value_name = "T", value_parser = parse_time)]
+    pub(crate) time: Option<Duration>,
+    /// Folder for fuzz.jsonl and the scenes that fail, in `found`; `--cases` takes it
+    #[arg(long, value_name = "DIR", default_value = "reports/fuzz")]
+    pub(crate) out: PathBuf,
+    /// Replace the results in the folder
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Number of workers that draw at the same time. Default: one per processor
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) jobs: Option<u16>,
+    /// Form of the summary
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+/// Parses a time: seconds, or a number with `s`, `m` or `h`.
+fn parse_time(text: &str) -> Result<Duration, String> {
+    let (number, unit) = match text.strip_suffix(['s', 'm', 'h']) {
+        Some(number) => (number, &text[number.len()..]),
+        None => (text, "s"),
+    };
+    let seconds = match unit {
+        "m" => 60.0,
+        "h" => 3600.0,
+        _ => 1.0,
+    };
+    let number: f64 = number.parse().unwrap_or(f64::NAN);
+    match (number * seconds).is_finite() && (1.0..=1e7).contains(&(number * seconds)) {
+        true => Ok(Duration::from_secs_f64(number * seconds)),
+        false => Err("expected a time from a second on, such as `90`, `10m` or `2h`".to_owned()),
+    }
+}
+
+/// The scenes of one adapter.
+struct Tally {
+    adapter: String,
+    scenes: u64,
+    failing: u64,
+    not_supported: u64,
+    pairs: usize,
+    states: usize,
+    seconds: f64,
+    groups: Vec<Group>,
+}
+
+/// Draws random scenes and keeps one of each way to fail.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    fs::create_dir_all(&arguments.out)
+        .map_err(|e| Failure::usage(format!("cannot make {}: {e}", arguments.out.display())))?;
+    let _lock = FolderLock::acquire(&arguments.out).map_err(Failure::usage)?;
+    free(arguments)?;
+    let adapters = discover(&Query {
+        names: &arguments.adapters,
+        file: arguments.file.adapter_file.as_deref(),
+        ..Query::default()
+    })?;
+    refuse_absent(&arguments.adapters, &adapters.absent)?;
+    if adapters.ready.is_empty() {
+        return Err(Failure::nothing("no adapter can be used"));
+    }
+    let stop = listen()?;
+    let mut all = Vec::new();
+    for (launch, worker) in adapters.ready {
+        if stop.load(Ordering::Relaxed) {
+            break;
+        }
+        all.push(fuzz(arguments, launch, worker, stop)?);
+        // What was found is kept, whatever happens to the next adapter.
+        write(arguments, &all, stop)?;
+    }
+    let interrupted = stop.load(Ordering::Relaxed);
+    if all.iter().all(|t| t.scenes == 0) && !interrupted {
+        return Err(Failure::nothing("no scene can be drawn on these adapters"));
+    }
+    match arguments.format {
+        Format::Json => summarize_json(&json!({
+            "interrupted": interrupted,
+            "adapters": all.iter().map(Tally::json).collect::<Vec<_>>(),
+            "groups": all.iter().flat_map(|t| t.groups.iter().map(Group::json)).collect::<Vec<_>>(),
+            "report": arguments.out.join(GROUPS),
+        }))?,
+        Format::Text => {
+            for tally in &all {
+                summarize(&tally.text());
+            }
+            let path = arguments.out.join(GROUPS);
+            summarize(&format!("Report: {}\n", path.display()));
+        }
+    }
+    if interrupted {
+        say!("interrupted: what was found is kept");
+        return Ok(INCOMPLETE);
+    }
+    Ok(match all.iter().all(|t| t.groups.is_empty()) {
+        true => 0,
+        false => UNEXPECTED,
+    })
+}
+
+/// Refuses to replace what a folder holds without `--force`, with which it is removed.
+fn free(arguments: &Arguments) -> Result<(), Failure> {
+    let (file, found) = (arguments.out.join(GROUPS), arguments.out.join(FOUND));
+    if !file.exists() && !found.exists() {
+        return Ok(());
+    }
+    if !arguments.force {
+        return Err(Failure::usage(format!(
+            "{} holds the results of an earlier search; replace them with --force, or choose another folder with --out",
+            arguments.out.display()
+        )));
+    }
+    let failed = |path: &Path| {
+        let path = path.display().to_string();
+        move |e| Failure::incomplete(format!("cannot remove {path}: {e}"))
+    };
+    if file.exists() {
+        fs::remove_file(&file).map_err(failed(&file))?;
+    }
+    if found.exists() {
+        fs::remove_dir_all(&found).map_err(failed(&found))?;
+    }
+    Ok(())
+}
+
+/// Draws the scenes of one adapter.
+fn fuzz(
+    arguments: &Arguments,
+    launch: Launch,
+    worker: Worker,
+    stop: &AtomicBool,
+) -> Result<Tally, Failure> {
+    let name = launch.adapter.clone();
+    let limits = worker.hello.limits.clone();
+    let jobs = arguments.jobs.map_or_else(
+        || thread::available_parallelism().map_or(1, usize::from),
+        usize::from,
+    );
+    let count = match arguments.time {
+        Some(_) => u64::MAX,
+        None => arguments.count.unwrap_or(COUNT),
+    };
+    let begun = Instant::now();
+    let mut fuzzer = Fuzzer::new(arguments.seed, Space::of([&limits]));
+    let mut batches = Batches::new(launch.clone(), worker, jobs);
+    let mut groups = Groups::new(launch, limits.clone(), arguments.out.join(FOUND));
+    let bar = progress(if count == u64::MAX { 0 } else { count });
+    bar.set_message(name.clone());
+    let mut tally = Tally {
+        adapter: name,
+        scenes: 0,
+        failing: 0,
+        not_supported: 0,
+        pairs: 0,
+        states: 0,
+        seconds: 0.0,
+        groups: Vec::new(),
+    };
+    let mut left = count;
+    let mut next = make(&mut fuzzer, &limits, &mut left);
+    while !next.is_empty() && !stop.load(Ordering::Relaxed) {
+        let scenes = std::mem::take(&mut next);
+        let cases: Vec<&Case> = scenes.iter().map(|s| &s.candidate.case).collect();
+        let late = arguments.time.is_some_and(|t| begun.elapsed() >= t);
+        (tally.pairs, tally.states) = (fuzzer.pairs(), fuzzer.states());
+        // The next scenes are made while these are drawn.
+        let drawn = thread::scope(|scope| {
+            let made = scope.spawn(|| match late {
+                true => Vec::new(),
+                false => make(&mut fuzzer, &limits, &mut left),
+            });
+            let drawn = batches.draw(&cases, stop);
+            if let Ok(made) = made.join() {
+                next = made;
+            }
+            drawn
+        });
+        let drawn = drawn.map_err(Failure::incomplete)?;
+        for (scene, outcome) in scenes.into_iter().zip(drawn) {
+            let Some(outcome) = outcome else { continue };
+            tally.scenes += 1;
+            bar.inc(1);
+            match &outcome {
+                Outcome::NotDrawn {
+                    verdict: Verdict::NotSupported,
+                    ..
+                } => {
+                    tally.not_supported += 1;
+                    continue;
+                }
+                Outcome::Judged(record) if !record.verdict.is_violation() => continue,
+                _ => {}
+            }
+            tally.failing += 1;
+            groups.add(&fuzzer, scene, outcome, stop)?;
+        }
+        bar.set_message(format!("{}: {} groups", tally.adapter, groups.len()));
+    }
+    bar.finish_and_clear();
+    tally.seconds = begun.elapsed().as_secs_f64();
+    tally.groups = groups.finish();
+    Ok(tally)
+}
+
+/// Makes the scenes of a batch.
+fn make(fuzzer: &mut Fuzzer, limits: &Limits, left: &mut u64) -> Vec<RandomScene> {
+    let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
+    let count = (BATCH as u64).min(*left);
+    *left -= count;
+    let made = (0..count).filter_map(|_| fuzzer.scene(&can_draw));
+    made.collect()
+}
+
+/// Writes the groups, behind a line about the search and one about each adapter.
+fn write(arguments: &Arguments, all: &[Tally], stop: &AtomicBool) -> Result<(), Failure> {
+    let mut lines = vec![json!({
+        "fuzz": 1,
+        "etalon": provenance::VERSION,
+        "commit": provenance::commit(),
+        "machine": provenance::machine(),
+        "command": provenance::command(),
+        "seed": arguments.seed,
+        "interrupted": stop.load(Ordering::Relaxed),
+    })];
+    lines.extend(all.iter().map(Tally::json));
+    lines.extend(all.iter().flat_map(|t| t.groups.iter().map(Group::json)));
+    let text: String = lines.iter().map(|line| format!("{line}\n")).collect();
+    let path = arguments.out.join(GROUPS);
+    fs::write(&path, text)
+        .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))
+}
+
+impl Tally {
+    fn json(&self) -> Value {
+        json!({
+            "adapter": self.adapter,
+            "scenes": self.scenes,
+            "failing": self.failing,
+            "not_supported": self.not_supported,
+            "groups": self.groups.len(),
+            "states": self.states,
+            "pairs": self.pairs,
+            "seconds": self.seconds,
+        })
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!(
+            "{}: {} scenes in {:.1} s ({:.0} a second), {} fail, in {} groups; {} states and {} pairs of them met\n",
+            self.adapter,
+            self.scenes,
+            self.seconds,
+            self.scenes as f64 / self.seconds.max(1e-3),
+            self.failing,
+            self.groups.len(),
+            self.states,
+            self.pairs
+        );
+        for group in &self.groups {
+            text.push_str(&group.text());
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_have_a_unit_or_are_seconds() {
+        for (text, seconds) in [("90", 90), ("90s", 90), ("10m", 600), ("2h", 7200)] {
+            assert_eq!(parse_time(text), Ok(Duration::from_secs(seconds)));
+        }
+        for text in ["", "m", "0", "-1", "1d", "1e9h", "nan"] {
+            assert!(parse_time(text).is_err(), "{text}");
+        }
+    }
+}

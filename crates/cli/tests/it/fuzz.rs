@@ -1,0 +1,210 @@
+//! `etalon fuzz`: what random scenes find, in groups that do not depend on the number of workers, and `etalon mutants
+//! --fuzz`.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use crate::etalon::etalon;
+use etalon_record::{Run, Verdict};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+use tempfile::TempDir;
+
+/// Draws random scenes. Returns the exit code, the summary and the error output.
+fn fuzz(adapter: &str, out: &Path, more: &[&str]) -> (i32, Value, String) {
+    let out = out.to_str().unwrap();
+    let own = [
+        "fuzz",
+        "--adapter",
+        adapter,
+        "--format",
+        "json",
+        "--out",
+        out,
+    ];
+    let arguments: Vec<&str> = own.iter().chain(more).copied().collect();
+    let output = etalon(&arguments).output().unwrap();
+    let summary = serde_json::from_slice(&output.stdout).unwrap_or(Value::Null);
+    let error = String::from_utf8(output.stderr).unwrap();
+    (output.status.code().unwrap(), summary, error)
+}
+
+/// The case files of a search, by name.
+fn found(out: &Path) -> BTreeMap<String, String> {
+    let files = fs::read_dir(out.join("found")).unwrap();
+    let each = files.map(|file| {
+        let path = file.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        (name, fs::read_to_string(path).unwrap())
+    });
+    each.collect()
+}
+
+/// The groups as the file tells them, without the folder.
+fn groups(out: &Path) -> Vec<Value> {
+    let text = fs::read_to_string(out.join("fuzz.jsonl")).unwrap();
+    let lines = text.lines().map(|line| serde_json::from_str(line).unwrap());
+    let mut all: Vec<Value> = lines
+        .filter(|l: &Value| l.get("violation").is_some())
+        .collect();
+    for group in &mut all {
+        let file = group["file"].as_str().unwrap().rsplit('/').next().unwrap();
+        group["file"] = file.into();
+    }
+    all
+}
+
+#[test]
+fn what_fails_is_kept_once_and_fails_again_whatever_the_number_of_workers() {
+    let folder = TempDir::new().unwrap();
+    let [one, other] = ["one", "three"].map(|name| folder.path().join(name));
+    let adapter = "gl:softpipe";
+    let (code, summary, error) = fuzz(adapter, &one, &["--count", "120", "--jobs", "1"]);
+    assert_eq!(code, 1, "{error}");
+    let adapters = summary["adapters"].as_array().unwrap();
+    assert_eq!(adapters[0]["scenes"], 120);
+    assert!(adapters[0]["pairs"].as_u64().unwrap() > 10_000, "{summary}");
+    let (code, _, error) = fuzz(adapter, &other, &["--count", "120", "--jobs", "3"]);
+    assert_eq!(code, 1, "{error}");
+    assert_eq!(groups(&one), groups(&other));
+    assert_eq!(found(&one), found(&other));
+
+    let groups = groups(&one);
+    let count = |key: &str| -> u64 { groups.iter().map(|g| g[key].as_u64().unwrap()).sum() };
+    assert_eq!(Value::from(count("count")), adapters[0]["failing"]);
+    // Each is a case file that fails.
+    let [cases, run] = [one.join("found"), folder.path().join("run")];
+    let arguments = [
+        "run",
+        "--profile",
+        "full",
+        "--cases",
+        cases.to_str().unwrap(),
+        "--adapter",
+        adapter,
+        "--out",
+        run.to_str().unwrap(),
+    ];
+    etalon(&arguments).output().unwrap();
+    let records = Run::read(&run).unwrap().records;
+    let steady = groups.iter().filter(|g| g["steady"] == true);
+    let mut checked = 0;
+    for group in steady {
+        let id = group["file"].as_str().unwrap().trim_end_matches(".json");
+        let record = records.iter().find(|r| r.case == id).unwrap();
+        assert!(
+            record.verdict.is_violation() || record.verdict == Verdict::InternalError,
+            "{id}: {}",
+            record.verdict
+        );
+        checked += 1;
+    }
+    assert!(checked > 2, "{groups:#?}");
+}
+
+#[test]
+fn the_rasterizer_passes_all_scenes() {
+    let folder = TempDir::new().unwrap();
+    let (code, summary, error) = fuzz("cpu", folder.path(), &["--count", "300", "--seed", "7"]);
+    assert_eq!(
+        (code, &summary["groups"]),
+        (0, &serde_json::json!([])),
+        "{error}"
+    );
+    assert!(!folder.path().join("found").exists());
+}
+
+#[test]
+fn a_scene_that_ends_its_worker_is_kept_and_the_search_goes_on() {
+    let folder = TempDir::new().unwrap();
+    let (code, summary, error) = fuzz("cpu:fault=abort", folder.path(), &["--count", "60"]);
+    assert_eq!(code, 1, "{error}");
+    assert_eq!(summary["adapters"][0]["scenes"], 60);
+    let groups = summary["groups"].as_array().unwrap();
+    assert_eq!(groups.len(), 1, "{summary}");
+    assert_eq!(groups[0]["verdict"], "crash");
+    assert!(groups[0]["count"].as_u64().unwrap() > 3, "{summary}");
+    assert_eq!(found(folder.path()).len(), 1);
+}
+
+#[test]
+fn an_interrupted_search_keeps_what_it_found() {
+    let folder = TempDir::new().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let arguments = [
+        "fuzz",
+        "--adapter",
+        "cpu:fault=abort",
+        "--time",
+        "10m",
+        "--out",
+        out,
+    ];
+    let child = std::process::Command::new(env!("CARGO_BIN_EXE_etalon"))
+        .args(arguments)
+        .stderr(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    for _ in 0..600 {
+        if folder.path().join("found").exists() {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    let id = rustix::process::Pid::from_child(&child);
+    rustix::process::kill_process(id, rustix::process::Signal::INT).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(
+        said.contains("interrupted: what was found is kept"),
+        "{said}"
+    );
+    assert!(!groups(folder.path()).is_empty());
+}
+
+#[test]
+fn earlier_results_and_wrong_flags_are_refused() {
+    let folder = TempDir::new().unwrap();
+    let out = folder.path();
+    let (code, _, error) = fuzz("cpu", out, &["--count", "3"]);
+    assert_eq!(code, 0, "{error}");
+    let (code, _, error) = fuzz("cpu", out, &["--count", "3"]);
+    assert_eq!((code, error.contains("--force")), (64, true), "{error}");
+    assert_eq!(fuzz("cpu", out, &["--count", "3", "--force"]).0, 0);
+    let (code, _, error) = fuzz("gl:none", out, &["--force"]);
+    assert_eq!(
+        (code, error.contains("there is no adapter")),
+        (64, true),
+        "{error}"
+    );
+    assert_eq!(fuzz("cpu", out, &["--count", "3", "--time", "9"]).0, 64);
+    assert_eq!(fuzz("cpu", out, &["--time", "soon"]).0, 64);
+}
+
+#[test]
+fn random_scenes_catch_bugs_and_pass_what_is_legal() {
+    let folder = TempDir::new().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let arguments = [
+        "mutants", "--fuzz", "400", "depth/*", "logic/*", "--out", out,
+    ];
+    let output = etalon(&arguments).output().unwrap();
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    let table = fs::read_to_string(folder.path().join("recall.txt")).unwrap();
+    let line = table
+        .lines()
+        .find(|l| l.starts_with("Without size: "))
+        .unwrap();
+    let mut numbers = line
+        .split(' ')
+        .filter_map(|w| w.trim_matches(',').parse::<f64>().ok());
+    let [caught, all] = [(); 2].map(|()| numbers.next().unwrap());
+    assert!(
+        all >= 99.5 && caught > 0.75 * all && caught < all - 0.5,
+        "{line}"
+    );
+}

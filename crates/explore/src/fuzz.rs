@@ -1,0 +1,260 @@
+//! The scenes of a seed, one after the other.
+//!
+//! Of a few scenes that chance makes, the one is drawn that has the most pairs of states which no scene before
+//! it had. So the scenes depend on the seed, on their number and on what the adapters have, and on nothing that
+//! a driver does.
+
+use crate::choices::Choices;
+use crate::pairs::Pairs;
+use crate::reduce::Candidate;
+use crate::scenes::{self, Made};
+use crate::space::Space;
+use etalon_case::{Case, build};
+use serde_json::{Value, json};
+use std::cmp::Reverse;
+
+/// The scenes of which one is drawn.
+const MADE: usize = 3;
+/// The most scenes that are made for one that can be drawn.
+const MOST_MADE: u64 = 24;
+
+/// One random scene.
+#[derive(Clone, Debug)]
+pub struct RandomScene {
+    /// Its number, from 0 on.
+    pub index: u64,
+    /// The choices that it was made from.
+    pub choices: Vec<u32>,
+    /// Its case and the document.
+    pub candidate: Candidate,
+}
+
+/// Makes random scenes.
+#[derive(Clone, Debug)]
+pub struct Fuzzer {
+    seed: u64,
+    next: u64,
+    space: Space,
+    pairs: Pairs,
+    /// The scenes of which one is drawn.
+    made: usize,
+}
+
+impl Fuzzer {
+    /// The scenes of a seed in a space.
+    pub fn new(seed: u64, space: Space) -> Self {
+        Self {
+            seed,
+            next: 0,
+            space,
+            pairs: Pairs::default(),
+            made: MADE,
+        }
+    }
+
+    /// Returns the next scene that can be drawn; `None` if none of many can.
+    pub fn scene(&mut self, can_draw: &dyn Fn(&Case) -> bool) -> Option<RandomScene> {
+        let index = self.next;
+        self.next += 1;
+        let mut attempts = 0..MOST_MADE;
+        loop {
+            let some = attempts.by_ref().take(self.made);
+            let mut some: Vec<(usize, Made)> = some
+                .map(|attempt| {
+                    let choices = Choices::by_seed(mixed([self.seed, index, attempt]));
+                    let made = scenes::scene(choices, &self.space);
+                    (self.pairs.new_in(&made.scopes), made)
+                })
+                .collect();
+            if some.is_empty() {
+                return None;
+            }
+            // Checks take longer than what they check: the best is checked first.
+            some.sort_by_key(|(pairs, _)| Reverse(*pairs));
+            for (_, made) in some {
+                let candidate = self.candidate(index, &made);
+                if let Some(candidate) = candidate.filter(|c| can_draw(&c.case)) {
+                    self.pairs.add(&made.scopes);
+                    return Some(RandomScene {
+                        index,
+                        choices: made.choices,
+                        candidate,
+                    });
+                }
+            }
+        }
+    }
+
+    /// Returns the scene of changed choices; `None` if it is no valid one.
+    pub fn replay(&self, index: u64, choices: &[u32]) -> Option<RandomScene> {
+        let made = scenes::scene(Choices::given(choices), &self.space);
+        let candidate = self.candidate(index, &made)?;
+        Some(RandomScene {
+            index,
+            choices: made.choices,
+            candidate,
+        })
+    }
+
+    /// Returns the number of pairs of states that the scenes have met.
+    pub fn pairs(&self) -> usize {
+        self.pairs.met()
+    }
+
+    /// Returns the number of states that the scenes have met.
+    pub fn states(&self) -> usize {
+        self.pairs.states()
+    }
+
+    fn candidate(&self, index: u64, made: &Made) -> Option<Candidate> {
+        let mut document = document(self.seed, index, made);
+        let id = format!("found/seed-{}.{index}", self.seed);
+        let mut case = build(&id, &document);
+        // A path that nothing in the scene can take.
+        let scene = document["scene"].as_object_mut();
+        if case.is_err() && scene.is_some_and(|scene| scene.remove("path").is_some()) {
+            case = build(&id, &document);
+        }
+        let case = case.ok()?;
+        Some(Candidate { document, case })
+    }
+}
+
+fn document(seed: u64, index: u64, made: &Made) -> Value {
+    let mut document = json!({
+        "about": format!("Random scene {index} of seed {seed}."),
+        "spec": [],
+        "scene": made.scene
+    });
+    if !made.submissions.is_empty() {
+        document["submissions"] = json!(made.submissions);
+    }
+    document
+}
+
+/// Returns a number from several, of which neighbouring ones share nothing.
+fn mixed(parts: [u64; 3]) -> u64 {
+    parts.into_iter().fold(0, |seed, part| {
+        let mut z = seed ^ part.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_frame::{
+        Api, ApiVersion, ChannelEncoding, Feature, FormatSupport, Limits, PathValue, Property,
+        ReadPath, TextureFormat,
+    };
+    use std::collections::{BTreeMap, BTreeSet};
+
+    /// The limits of an adapter that has everything.
+    fn everything() -> Limits {
+        let support = |format: &TextureFormat| FormatSupport {
+            samples: vec![1, 2, 4, 8],
+            blendable: format.is_color() && !format.is_integer(),
+            depth: vec![ChannelEncoding::Float32],
+            read: ReadPath::Copy,
+        };
+        Limits {
+            api: Api::Vulkan,
+            version: ApiVersion::new(1, 4),
+            properties: Property::ALL.into_iter().collect(),
+            sub_pixel_bits: 8,
+            max_size: 4096,
+            max_color_attachments: 8,
+            formats: TextureFormat::ALL
+                .iter()
+                .map(|f| (*f, support(f)))
+                .collect(),
+            features: Feature::ALL.into_iter().collect(),
+            paths: PathValue::all().into_iter().collect(),
+            exempt: BTreeSet::new(),
+            sample_positions: BTreeMap::new(),
+        }
+    }
+
+    #[test]
+    fn nearly_all_choices_make_a_valid_scene() {
+        let space = Space::of([&everything()]);
+        let mut wrong: BTreeMap<String, usize> = BTreeMap::new();
+        for seed in 0..2000 {
+            let made = scenes::scene(Choices::by_seed(seed), &space);
+            let mut document = document(0, seed, &made);
+            document["scene"]["path"] = json!({});
+            if let Err(error) = build("t", &document) {
+                *wrong.entry(error.message).or_default() += 1;
+            }
+        }
+        let count: usize = wrong.values().sum();
+        assert!(count < 20, "{wrong:#?}");
+    }
+
+    #[test]
+    fn the_scenes_of_a_seed_are_the_same_every_time() {
+        let scenes = |seed| -> Vec<Value> {
+            let mut fuzzer = Fuzzer::new(seed, Space::of([&everything()]));
+            let next = std::iter::from_fn(|| fuzzer.scene(&|_| true));
+            next.take(20).map(|s| s.candidate.document).collect()
+        };
+        assert_eq!(scenes(1), scenes(1));
+        assert_ne!(scenes(1)[1]["scene"], scenes(2)[1]["scene"]);
+    }
+
+    #[test]
+    fn choices_make_the_same_scene_again_and_fewer_ones_a_smaller_one() {
+        let mut fuzzer = Fuzzer::new(3, Space::of([&everything()]));
+        let mut smaller = 0;
+        for _ in 0..50 {
+            let scene = fuzzer.scene(&|_| true).unwrap();
+            let again = fuzzer.replay(scene.index, &scene.choices).unwrap();
+            assert_eq!(again.candidate.document, scene.candidate.document);
+            let half = &scene.choices[..scene.choices.len() / 2];
+            if let Some(half) = fuzzer.replay(scene.index, half) {
+                let length = |s: &RandomScene| s.candidate.document.to_string().len();
+                smaller += usize::from(length(&half) < length(&scene));
+            }
+        }
+        assert!(smaller > 35, "{smaller} of 50");
+    }
+
+    #[test]
+    fn weighed_scenes_meet_more_pairs_than_blind_ones() {
+        let met = |made: usize| {
+            let space = Space::of([&everything()]);
+            let mut fuzzer = Fuzzer {
+                made,
+                ..Fuzzer::new(0, space)
+            };
+            (0..100).for_each(|_| drop(fuzzer.scene(&|_| true)));
+            fuzzer.pairs()
+        };
+        let (weighed, blind) = (met(MADE), met(1));
+        assert!(weighed > blind + blind / 20, "{weighed} and {blind}");
+    }
+
+    #[test]
+    fn what_no_adapter_has_is_not_asked_for() {
+        let mut few = everything();
+        few.features.clear();
+        few.paths.clear();
+        let kept = [
+            TextureFormat::Rgba8Unorm,
+            TextureFormat::Rgba32Float,
+            TextureFormat::Depth32Float,
+        ];
+        few.formats.retain(|f, _| kept.contains(f));
+        let mut fuzzer = Fuzzer::new(0, Space::of([&few]));
+        let fits = |case: &Case| few.missing(&case.requirements()).is_none();
+        let mut refused = 0;
+        for _ in 0..200 {
+            let scene = fuzzer.scene(&|_| true).unwrap();
+            refused += usize::from(!fits(&scene.candidate.case));
+            assert!(fuzzer.scene(&fits).is_some_and(|s| fits(&s.candidate.case)));
+        }
+        assert!(refused < 30, "{refused} of 200");
+    }
+}

@@ -1,0 +1,111 @@
+//! The pairs of states that scenes have met.
+//!
+//! Most bugs need two states to meet, and chance meets common pairs a hundred times before a rare one. So of
+//! several scenes the one with most pairs that are new is drawn. States are told apart by hashes: their names
+//! and values stand in the generator alone.
+
+use crate::choices::State;
+use std::collections::HashMap;
+
+/// Pairs of states, within a draw or of a draw and its scene.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Pairs {
+    numbers: HashMap<State, usize>,
+    /// A row of bits for each state, of the states with lower numbers.
+    rows: Vec<Vec<u64>>,
+    met: usize,
+}
+
+impl Pairs {
+    /// Returns the number of pairs that a scene would add.
+    pub(crate) fn new_in(&self, scopes: &[Vec<State>]) -> usize {
+        let mut count = 0;
+        each_pair(scopes, |a, b| {
+            let known = match (self.numbers.get(&a), self.numbers.get(&b)) {
+                (Some(a), Some(b)) => self.has(*a, *b),
+                _ => false,
+            };
+            count += usize::from(!known);
+        });
+        count
+    }
+
+    /// Adds the pairs of a scene.
+    pub(crate) fn add(&mut self, scopes: &[Vec<State>]) {
+        each_pair(scopes, |a, b| {
+            let [a, b] = [a, b].map(|state| self.number(state));
+            let (row, bit) = (a.max(b), a.min(b));
+            if a != b && !self.has(a, b) {
+                let words = &mut self.rows[row];
+                if words.len() <= bit / 64 {
+                    words.resize(bit / 64 + 1, 0);
+                }
+                words[bit / 64] |= 1 << (bit % 64);
+                self.met += 1;
+            }
+        });
+    }
+
+    /// Returns the number of pairs that were met.
+    pub(crate) fn met(&self) -> usize {
+        self.met
+    }
+
+    /// Returns the number of states that were met.
+    pub(crate) fn states(&self) -> usize {
+        self.rows.len()
+    }
+
+    fn number(&mut self, state: State) -> usize {
+        let next = self.rows.len();
+        let number = *self.numbers.entry(state).or_insert(next);
+        if number == next {
+            self.rows.push(Vec::new());
+        }
+        number
+    }
+
+    fn has(&self, a: usize, b: usize) -> bool {
+        let (row, bit) = (a.max(b), a.min(b));
+        let word = self.rows[row].get(bit / 64);
+        a == b || word.is_some_and(|word| word >> (bit % 64) & 1 == 1)
+    }
+}
+
+/// Calls a function with each pair of states of a draw, those of its scene among them.
+fn each_pair(scopes: &[Vec<State>], mut pair: impl FnMut(State, State)) {
+    let Some((scene, draws)) = scopes.split_first() else {
+        return;
+    };
+    let mut among = |own: &[State]| {
+        for (i, a) in own.iter().enumerate() {
+            own[..i].iter().for_each(|b| pair(*a, *b));
+        }
+    };
+    among(scene);
+    draws.iter().for_each(|draw| among(draw));
+    for draw in draws {
+        for a in scene {
+            draw.iter().for_each(|b| pair(*a, *b));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_are_counted_once_and_not_across_draws() {
+        let mut pairs = Pairs::default();
+        let scene = vec![vec![1, 2], vec![3, 4], vec![5]];
+        // 1-2, 3-4, and each state of a draw with both of the scene.
+        assert_eq!(pairs.new_in(&scene), 8);
+        pairs.add(&scene);
+        assert_eq!((pairs.met(), pairs.states()), (8, 5));
+        assert_eq!(pairs.new_in(&scene), 0);
+        pairs.add(&scene);
+        assert_eq!(pairs.met(), 8);
+        assert_eq!(pairs.new_in(&[vec![1], vec![3, 5]]), 1);
+    }
+}

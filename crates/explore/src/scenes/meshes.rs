@@ -1,0 +1,334 @@
+//! Meshes of random draws, with topology, indices and instances.
+
+use super::{Maker, Pass};
+use etalon_frame::Feature;
+use etalon_scene::Shader;
+use serde_json::{Value, json};
+
+/// The form of a mesh of single vertices.
+#[derive(Clone, Copy, Debug)]
+struct Form {
+    /// True for triangles, three vertices each.
+    list: bool,
+    /// True if an index may end a strip.
+    restarts: bool,
+    indexed: bool,
+    /// True if each vertex has a colour of its own.
+    apart: bool,
+}
+
+/// The depth that the vertex colours of a mesh hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Written {
+    /// None: they are colours.
+    Nothing,
+    /// Any.
+    Red,
+    /// Always this one.
+    Always(f64),
+}
+
+impl Maker<'_> {
+    /// Adds the mesh of a draw whose viewport is so many texels large.
+    pub(super) fn mesh(
+        &mut self,
+        pass: &Pass,
+        shader: Shader,
+        written: Written,
+        [w, h]: [u32; 2],
+        draw: &mut Value,
+    ) {
+        let several = pass.samples > 1;
+        if shader.clip_distances() > 0 || shader.uses_uv() {
+            draw["mesh"] = self.with_coordinates(pass, shader, [w, h], draw);
+            return;
+        }
+        let plain = !several || self.choices.once_in(5);
+        let mut kinds = vec!["cover", "stack"];
+        if plain {
+            kinds.splice(0..0, ["columns", "rows", "full", "rect", "columns", "rows"]);
+            kinds.extend(["grid", "field", "vertices"]);
+        }
+        if pass.provoking.is_some() && shader == Shader::FlatColor {
+            kinds.extend(["vertices", "fan", "polyline"].repeat(3));
+        }
+        if written == Written::Nothing && self.extra("slopes") {
+            kinds = vec!["slope"];
+        }
+        if !several {
+            kinds.extend(["points", "fan", "strip"]);
+            kinds.extend((w >= 8).then_some("lines"));
+            let outlines = w >= 8 && h >= 8 && self.space.has(Feature::PolygonModeLine);
+            kinds.extend(outlines.then_some("outlines"));
+        }
+        let kind = self.choices.word("mesh", &kinds);
+        let z = self.vertex_depth();
+        let mut indexed = false;
+        draw["mesh"] = match kind {
+            "columns" | "rows" => {
+                let most = if kind == "columns" { w } else { h };
+                self.bands(kind, most.min(6), written)
+            }
+            "rect" => {
+                let (l, t) = (self.choices.below(w), self.choices.below(h));
+                let (r, b) = (self.choices.range(l + 1, w), self.choices.range(t + 1, h));
+                let winding = self.choices.word("winding", &["ccw", "cw"]);
+                json!({ "kind": "rect", "texels": [l, t, r, b], "z": z,
+                        "value": self.value(written), "winding": winding })
+            }
+            "full" => {
+                let winding = self.choices.word("winding", &["ccw", "cw"]);
+                json!({ "kind": "full", "z": z, "value": self.value(written), "winding": winding })
+            }
+            "stack" => {
+                let count = self.choices.range(2, 4);
+                let z: Vec<f64> = (0..count).map(|_| self.vertex_depth()).collect();
+                let values: Vec<Value> = (0..count).map(|_| self.value(written)).collect();
+                json!({ "kind": "stack", "z": z, "values": values })
+            }
+            "grid" => {
+                indexed = true;
+                let cells = [w, h].map(|n| self.choices.range(1, n.min(4)));
+                json!({ "kind": "grid", "cells": cells, "z": z, "value": self.value(written) })
+            }
+            "field" | "points" | "lines" | "outlines" => {
+                let of = if kind == "field" { "triangles" } else { kind };
+                let (topology, mode, room) = match kind {
+                    "points" => ("point-list", "fill", w * h),
+                    "lines" => ("line-list", "fill", w / 8 * h),
+                    "outlines" => ("triangle-list", "line", (w / 8) * (h / 8)),
+                    _ => ("triangle-list", "fill", w * h),
+                };
+                draw["topology"] = json!(topology);
+                draw["polygon_mode"] = json!(mode);
+                let count = self.choices.range(1, room.min(40));
+                indexed = self.choices.once_in(2);
+                let values: Vec<Value> = (0..3).map(|_| self.value(written)).collect();
+                json!({ "kind": "field", "of": of, "count": count, "z": z,
+                        "values": values, "indexed": indexed })
+            }
+            "strip" if h >= 2 => {
+                draw["topology"] = json!("triangle-strip");
+                let count = self.choices.range(1, (w * (h / 2 * 2)).min(20));
+                indexed = self.choices.once_in(2);
+                json!({ "kind": "strip", "of": "triangles", "count": count, "z": z,
+                        "value": self.value(written), "indexed": indexed })
+            }
+            "slope" => self.slope([w, h]),
+            "vertices" | "fan" | "polyline" => {
+                let list = kind == "vertices";
+                let fans = self.space.has(Feature::TriangleFans);
+                let topologies = ["triangle-strip", "triangle-fan"];
+                if kind == "polyline" {
+                    let lines = ["line-list", "line-strip"];
+                    draw["topology"] = json!(self.choices.word("topology", &lines));
+                } else if !list {
+                    let usable = &topologies[..1 + usize::from(fans)];
+                    draw["topology"] = json!(self.choices.word("topology", usable));
+                }
+                indexed = self.choices.once_in(2);
+                let apart = pass.provoking.is_some() && shader == Shader::FlatColor;
+                let restarts = draw.get("topology").is_some_and(|t| t != "line-list");
+                let form = Form {
+                    list,
+                    restarts,
+                    indexed,
+                    apart,
+                };
+                self.vertices([w, h], form, written)
+            }
+            _ => json!({ "kind": "cover", "z": z, "value": self.value(written) }),
+        };
+        self.fetch(indexed, draw);
+        // What is no list needs indices for the end of an instance.
+        let list = draw.get("topology").is_none_or(|t| t == "triangle-list");
+        if written == Written::Nothing && (list || indexed) && self.extra("instances") {
+            let count = self.choices.range(1, 3);
+            let colors: Vec<Value> = (0..count).map(|_| self.color()).collect();
+            let first = match self.space.has(Feature::FirstInstance) {
+                true => self.choices.of(&[0, 1, 5]),
+                false => 0,
+            };
+            draw["instances"] = json!({ "colors": colors, "first": first });
+        }
+        let patches = list && draw.get("instances").is_none() && shader.passes_position_alone();
+        if patches && self.extra_with("tessellation", Feature::Tessellation) {
+            let order = self.choices.word("patches", &["ccw", "cw"]);
+            let upper = self.space.has(Feature::UpperLeftDomain) && self.choices.once_in(2);
+            let origin = if upper { "upper-left" } else { "lower-left" };
+            draw["tessellation"] = json!({ "order": order, "origin": origin });
+        }
+    }
+
+    /// The value of a vertex: a colour or a depth.
+    fn value(&mut self, written: Written) -> Value {
+        match written {
+            Written::Nothing => self.color(),
+            Written::Red => json!(self.depth()),
+            Written::Always(depth) => json!(depth),
+        }
+    }
+
+    /// Bands across or down, with depths and windings of their own.
+    fn bands(&mut self, kind: &str, most: u32, written: Written) -> Value {
+        let count = self.choices.range(1, most);
+        let values: Vec<Value> = (0..count).map(|_| self.value(written)).collect();
+        let z: Vec<f64> = (0..count).map(|_| self.vertex_depth()).collect();
+        let windings: Vec<&str> = (0..count)
+            .map(|_| self.choices.of(&["ccw", "cw"]))
+            .collect();
+        json!({ "kind": kind, "values": values, "z": z, "windings": windings })
+    }
+
+    /// Everything, as two triangles of one plane that is not parallel to the picture.
+    fn slope(&mut self, [w, h]: [u32; 2]) -> Value {
+        let ends = self.choices.of(&[[0.2, 0.7], [0.9, 0.1], [0.45, 0.55]]);
+        let down = self.choices.once_in(2);
+        let [right, bottom] = [w, h].map(|n| f64::from(n) + 1.0);
+        let corner = |(x, y, across, below): (f64, f64, usize, usize)| {
+            json!([x, y, ends[if down { below } else { across }]])
+        };
+        let corners = [
+            (-1.0, -1.0, 0, 0),
+            (-1.0, bottom, 0, 1),
+            (right, -1.0, 1, 0),
+            (right, -1.0, 1, 0),
+            (-1.0, bottom, 0, 1),
+            (right, bottom, 1, 1),
+        ];
+        let mut positions = corners.map(corner);
+        if self.choices.once_in(2) {
+            positions.reverse();
+        }
+        json!({
+            "kind": "vertices", "units": "texels", "positions": positions, "values": [self.color()]
+        })
+    }
+
+    /// Triangles anywhere, with edges through samples among them. Most are of one depth.
+    fn vertices(&mut self, [w, h]: [u32; 2], form: Form, written: Written) -> Value {
+        let Form {
+            list,
+            restarts,
+            indexed,
+            apart,
+        } = form;
+        let count = match list {
+            true => 3 * self.choices.range(1, 3),
+            false => self.choices.of(&[4, 6]),
+        };
+        let colors = if apart { count } else { 1 };
+        let values: Vec<Value> = (0..colors).map(|_| self.value(written)).collect();
+        let sloped = written == Written::Nothing && self.choices.once_in(6);
+        let mut z = 0.0;
+        let positions: Vec<Value> = (0..count)
+            .map(|i| {
+                let mut place =
+                    |length: u32| f64::from(self.choices.below(length * 4 + 17)) / 4.0 - 2.0;
+                let (x, y) = (place(w), place(h));
+                if sloped || if list { i % 3 == 0 } else { i == 0 } {
+                    z = self.vertex_depth();
+                }
+                json!([x, y, z])
+            })
+            .collect();
+        let mut mesh = json!({
+            "kind": "vertices", "units": "texels", "positions": positions, "values": values
+        });
+        if indexed {
+            let mut indices: Vec<Option<u32>> = (0..count).map(Some).collect();
+            if list {
+                indices.reverse();
+            } else if restarts && self.choices.once_in(2) {
+                indices.push(None);
+                indices.extend((0..count).rev().map(Some));
+            }
+            mesh["indices"] = json!(indices);
+        }
+        mesh
+    }
+
+    /// A mesh with texture coordinates: the texture a few times, or texels from some line on, so that planes
+    /// lie between samples.
+    fn with_coordinates(
+        &mut self,
+        pass: &Pass,
+        shader: Shader,
+        [w, h]: [u32; 2],
+        draw: &mut Value,
+    ) -> Value {
+        let z = self.vertex_depth();
+        if shader.samples_texture() {
+            let some = [0.0, 1.0, 2.0, -1.0];
+            let mut place = || self.choices.of(&some);
+            let [l, t, r, b] = [place(), place(), 1.0 + place(), 1.0 + place()];
+            return json!({ "kind": "cover", "z": z, "uv": [l, t, r, b] });
+        }
+        let centroid = shader.interpolates_at_centroid();
+        // The left side of what is interpolated at the centroid lies between the samples of a texel.
+        let cut = f64::from(self.choices.below(w)) + 0.25;
+        let left = if centroid { cut } else { -1.0 };
+        let [right, bottom] = [w, h].map(|n| f64::from(n) + 1.0);
+        let mut line = |length: u32| {
+            let at = f64::from(self.choices.range(0, length));
+            let sign = self.choices.of(&[1.0, -1.0]);
+            move |place: f64| (place - at) * sign
+        };
+        let (u, v) = (line(w), line(h));
+        // A distance that is 0 everywhere clips nothing.
+        let flat = self.choices.once_in(8);
+        let corners = [
+            (left, -1.0),
+            (left, bottom),
+            (right, -1.0),
+            (right, -1.0),
+            (left, bottom),
+            (right, bottom),
+        ];
+        if pass.samples == 1 && !centroid && self.choices.once_in(4) {
+            let topology = self.choices.word("topology", &["point-list", "line-list"]);
+            draw["topology"] = json!(topology);
+            let points = [
+                (0.5, 0.5),
+                (f64::from(w) - 0.5, 0.5),
+                (0.5, 1.5),
+                (1.5, 1.5),
+            ];
+            let uv = points.map(|(x, y)| [u(x), v(y)]);
+            let positions = points.map(|(x, y)| [x, y, z]);
+            return json!({
+                "kind": "vertices", "units": "texels", "positions": positions, "uv": uv,
+                "values": [self.color()]
+            });
+        }
+        let positions = corners.map(|(x, y)| [x, y, z]);
+        let uv = corners.map(|(x, y)| match centroid {
+            true => [x - left, 0.0],
+            false if flat => [0.0, v(y)],
+            false => [u(x), v(y)],
+        });
+        json!({
+            "kind": "vertices", "units": "texels", "positions": positions, "uv": uv,
+            "values": [self.color()]
+        })
+    }
+
+    /// Adds numbers of the draw call.
+    fn fetch(&mut self, indexed: bool, draw: &mut Value) {
+        if !self.extra("fetch") {
+            return;
+        }
+        draw["fetch"] = match indexed {
+            true => {
+                let base = match self.space.has(Feature::BaseVertex) {
+                    true => self.choices.of(&[0, 3, -2]),
+                    false => 0,
+                };
+                let index = self.choices.of(&["uint32", "uint16"]);
+                let first = self.choices.of(&[0, 3, 6]);
+                json!({ "index": index, "base_vertex": base, "first_index": first })
+            }
+            false => json!({ "first_vertex": self.choices.of(&[0, 1, 3]) }),
+        };
+    }
+}

@@ -1,0 +1,186 @@
+//! Random scenes over the whole model, made from choices.
+//!
+//! A scene is made as the JSON of a case file, as `reduce` takes it. Inputs keep to what can be proven, as in
+//! the built-in random scenes: written depths are the same or far apart, most edges lie clear of samples, and
+//! colours clear of where rounding is open. Nearly every sequence of choices is a valid scene; the checks of
+//! case files have the last word. Of what is not common to all draws, a scene has a few things only (swarm
+//! testing: Groce and others 2012): where everything is on at once, one state hides the next.
+
+mod attachments;
+mod draws;
+mod meshes;
+mod palette;
+mod passes;
+mod states;
+mod textures;
+mod values;
+
+use crate::choices::{Choices, State};
+use crate::space::Space;
+use etalon_frame::{Feature, PathValue, TextureFormat};
+use palette::Palette;
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+
+/// A random scene.
+pub(crate) struct Made {
+    /// The scene, as in a case file.
+    pub(crate) scene: Value,
+    /// Further submissions that are read back; empty for one.
+    pub(crate) submissions: Vec<u32>,
+    /// The answers that it was made from.
+    pub(crate) choices: Vec<u32>,
+    /// Its states, and those of each draw.
+    pub(crate) scopes: Vec<Vec<State>>,
+}
+
+/// Makes the scene of some choices.
+pub(crate) fn scene(choices: Choices, space: &Space) -> Made {
+    let mut maker = Maker::new(choices, space);
+    let scene = maker.scene();
+    let submissions = match maker.choices.once_in(16) {
+        true => vec![maker.choices.range(1, 3)],
+        false => Vec::new(),
+    };
+    let (choices, scopes) = maker.choices.finish();
+    Made {
+        scene,
+        submissions,
+        choices,
+        scopes,
+    }
+}
+
+/// A pass while its draws are made.
+#[derive(Clone, Debug)]
+struct Pass {
+    /// The names of its colour attachments, and their formats.
+    color: Vec<(String, TextureFormat)>,
+    depth_stencil: Option<TextureFormat>,
+    samples: u32,
+    read_only: bool,
+    /// The names of attachments of one sample that earlier passes drew, and this one does not.
+    drawn: Vec<String>,
+    /// The provoking vertex of all its draws.
+    provoking: Option<&'static str>,
+}
+
+impl Pass {
+    fn is_integer(&self) -> bool {
+        self.color.iter().any(|(_, f)| f.is_integer())
+    }
+
+    fn has_depth(&self) -> bool {
+        self.depth_stencil.is_some_and(TextureFormat::has_depth)
+    }
+
+    fn has_stencil(&self) -> bool {
+        self.depth_stencil.is_some_and(TextureFormat::has_stencil)
+    }
+}
+
+/// A scene while it is made.
+struct Maker<'s> {
+    choices: Choices,
+    space: &'s Space,
+    size: [u32; 2],
+    palette: Palette,
+    /// True if alpha is 0 or 1.
+    whole_alpha: bool,
+    /// One stencil reference for most draws, or none would ever be equal.
+    reference: u32,
+    /// What the scene has of that which is not common.
+    swarm: BTreeMap<&'static str, bool>,
+    attachments: Map<String, Value>,
+    counters: Map<String, Value>,
+}
+
+impl<'s> Maker<'s> {
+    fn new(choices: Choices, space: &'s Space) -> Self {
+        Self {
+            choices,
+            space,
+            size: [16, 16],
+            palette: Palette::Normalized,
+            whole_alpha: false,
+            reference: 0,
+            swarm: BTreeMap::new(),
+            attachments: Map::new(),
+            counters: Map::new(),
+        }
+    }
+
+    fn scene(&mut self) -> Value {
+        const SIZES: [[u32; 2]; 14] = [
+            [8, 8],
+            [4, 4],
+            [1, 1],
+            [5, 3],
+            [16, 16],
+            [11, 7],
+            [17, 5],
+            [2, 9],
+            [12, 13],
+            [33, 3],
+            [8, 8],
+            [16, 9],
+            [67, 11],
+            [7, 130],
+        ];
+        self.size = self.choices.of(&SIZES);
+        self.reference = self.choices.range(0, 254);
+        let (passes, mut read) = self.passes();
+        if self.choices.once_in(4) && read.len() > 1 {
+            let gone = self.choices.below(read.len() as u32);
+            read.remove(gone as usize);
+        }
+        let mut scene = json!({ "attachments": self.attachments, "passes": passes, "read": read });
+        if !self.counters.is_empty() {
+            scene["counters"] = json!(self.counters);
+        }
+        if let Some(path) = self.path() {
+            scene["path"] = json!({ path.key(): path.name() });
+        }
+        scene
+    }
+
+    /// The way to the driver: mostly the default.
+    fn path(&mut self) -> Option<PathValue> {
+        if self.space.paths.is_empty() || !self.choices.once_in(4) {
+            return None;
+        }
+        let path = self.choices.of(&self.space.paths);
+        self.choices.note("path", path);
+        Some(path)
+    }
+
+    /// True if a state that is not common is to be set: never in two of three scenes, else by turns.
+    fn extra(&mut self, state: &'static str) -> bool {
+        let known = self.swarm.get(state).copied();
+        let on = known.unwrap_or_else(|| self.choices.once_in(3));
+        self.swarm.insert(state, on);
+        on && self.choices.once_in(2)
+    }
+
+    /// The same for a state that needs a feature.
+    fn extra_with(&mut self, state: &'static str, feature: Feature) -> bool {
+        self.space.has(feature) && self.extra(state)
+    }
+
+    /// A number of 8 bits, mostly one of few.
+    fn bits(&mut self) -> u32 {
+        let some = [0xff, 0x0f, 0xf0, 0x55, 0xaa, 0x3c, 0x81, 0, 1, 0x80, 0x7f];
+        self.choices.of(&some)
+    }
+
+    /// A rectangle inside the scene's size.
+    fn rect(&mut self) -> [u32; 4] {
+        let [w, h] = self.size;
+        let mut side = |length: u32| {
+            let start = self.choices.below(length);
+            (start, self.choices.range(1, length - start))
+        };
+        let ((x, w), (y, h)) = (side(w), side(h));
+        [x, y, w, h]
+    }
+}

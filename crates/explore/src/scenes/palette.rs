@@ -1,0 +1,29 @@
+//! The colours of a random scene: few, and such that the rules leave few codes open.
+
+/// The colours of a scene, of which few codes are legal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Palette {
+    /// Sums of powers of two, of which no multiple by `2^b - 1` is nearly an integer.
+    Normalized,
+    /// The same with negative values.
+    Signed,
+    /// Values between two codes that differ in the last bit alone, at 8 and at 10 bits.
+    Bits,
+    /// Exact in floats, as are their products; few differences are nearly 0.
+    Float,
+    /// Whole numbers.
+    Integer,
+}
+
+impl Palette {
+    /// The values of a channel, the simplest first.
+    pub(super) fn values(self) -> &'static [f64] {
+        match self {
+            Self::Normalized => &[0.0, 1.0, 0.25, 0.375, 0.625, 0.75],
+            Self::Signed => &[0.0, 1.0, -1.0, 0.25, -0.375, 0.625, -0.75],
+            Self::Bits => &[0.0, 1.0, 0.11, 0.3, 0.62, 0.81],
+            Self::Float => &[0.0, 1.0, 0.4375, 0.8125, 1.375, 2.125, 0.984375],
+            Self::Integer => &[0.0, 1.0, 2.0, 37.0, 85.0, 170.0, 254.0, 255.0],
+        }
+    }
+}

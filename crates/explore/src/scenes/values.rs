@@ -1,0 +1,43 @@
+//! Colours and depths of random scenes.
+
+use super::Maker;
+use super::palette::Palette;
+use serde_json::{Value, json};
+
+impl Maker<'_> {
+    /// Channels of 0, 1 and values between.
+    pub(super) fn color(&mut self) -> Value {
+        let values = self.palette.values();
+        let mut color = [0; 4].map(|_| self.choices.of(values));
+        // Beyond the range, and clamped where the format is normalized.
+        if self.palette == Palette::Normalized && self.choices.once_in(12) {
+            color[self.choices.below(4) as usize] = self.choices.of(&[1.5, -0.5]);
+        }
+        // Only what has a sign keeps it.
+        if self.palette == Palette::Float && self.choices.once_in(6) {
+            color[self.choices.below(4) as usize] = self.choices.of(&[-0.4375, -1.375]);
+        }
+        if self.whole_alpha && !self.choices.once_in(16) {
+            color[3] = f64::from(u8::from(color[3] > 0.5));
+        }
+        json!(color)
+    }
+
+    /// A written depth: mostly two of them are the same or far apart.
+    pub(super) fn depth(&mut self) -> f64 {
+        if self.extra("near depths") {
+            // Neighbours of 32 bits.
+            return self.choices.of(&[0.5, 0.500_000_06, 0.499_999_97]);
+        }
+        self.choices
+            .of(&[0.0, 1.0, 0.0, 0.21, 0.4, 0.62, 0.83, 1.0])
+    }
+
+    /// A clip-space depth, never near a plane that clips.
+    pub(super) fn vertex_depth(&mut self) -> f64 {
+        match self.extra("beyond the planes") {
+            true => self.choices.of(&[0.3, -0.75, 1.75, 0.7]),
+            false => self.choices.of(&[0.0, 0.17, 0.37, 0.57, 0.77, 0.97]),
+        }
+    }
+}
