@@ -367,7 +367,7 @@ fn methods_get_a_page_of_charts() {
 }
 
 fn claims(page: &str) -> usize {
-    page.matches("<td class=\"verdict").count()
+    page.matches("<td data-head=\"Outcome\" class=\"verdict").count()
 }
 
 #[test]
