@@ -367,7 +367,8 @@ fn methods_get_a_page_of_charts() {
 }
 
 fn claims(page: &str) -> usize {
-    page.matches("<td data-head=\"Outcome\" class=\"verdict").count()
+    page.matches("<td data-head=\"Outcome\" class=\"verdict")
+        .count()
 }
 
 #[test]
