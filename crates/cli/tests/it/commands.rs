@@ -357,7 +357,7 @@ fn wrong_usage_is_64_and_help_is_not() {
         &[][..],
         &["lst"],
         &["list", "--globs"],
-        &["fuzz"],
+        &["frobnicate"],
         &["run", "--frobnicate"],
         &["run", "--format", "xml"],
         &["run", "--adapter"],

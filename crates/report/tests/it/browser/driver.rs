@@ -168,14 +168,23 @@ impl Page<'_> {
         }
     }
 
-    /// Moves the mouse onto an element.
+    /// Moves the mouse onto an element, again where the page moved it away meanwhile.
     pub(crate) fn hover(&self, selector: &str) {
-        let [x, y]: [f64; 2] = self.eval(&format!(
-            "(e => {{ e.scrollIntoViewIfNeeded(); const r = e.getClientRects()[0]; \
-             return [r.x + r.width / 2, r.y + r.height / 2]; }})(document.querySelector({selector:?}))"
-        ));
-        let event = json!({ "type": "mouseMoved", "x": x, "y": y });
-        self.call("Input.dispatchMouseEvent", &event);
+        let start = Instant::now();
+        loop {
+            let [x, y]: [f64; 2] = self.eval(&format!(
+                "(e => {{ e.scrollIntoViewIfNeeded(); const r = e.getClientRects()[0]; \
+                 return [r.x + r.width / 2, r.y + r.height / 2]; }})(document.querySelector({selector:?}))"
+            ));
+            let event = json!({ "type": "mouseMoved", "x": x, "y": y });
+            self.call("Input.dispatchMouseEvent", &event);
+            let under = format!("document.querySelector({selector:?}).matches(':hover')");
+            if self.eval(&under) {
+                return;
+            }
+            assert!(start.elapsed() < PATIENCE, "the mouse misses {selector}");
+            std::thread::sleep(Duration::from_millis(50));
+        }
     }
 
     /// Makes the window so wide and so high.
