@@ -9,10 +9,11 @@ use etalon_report::{Catalogue, CatalogueCase, reference_picture};
 use std::collections::{BTreeSet, HashMap};
 use std::num::NonZero;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-/// The most texels of the pictures that are drawn: larger ones exist to be measured.
-const TEXELS: u64 = 128 * 128;
+/// The most texels of the pictures that are drawn.
+const TEXELS: u64 = 1 << 20;
 
 /// Returns the catalogue of cases. Those that the library does not hold have no template.
 pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
@@ -29,24 +30,26 @@ pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
             files.insert(id, stem);
         }
     }
+    // Large pictures lie together, so each thread takes the next case and not a part of them.
+    let next = AtomicUsize::new(0);
+    let some = || {
+        let taken = std::iter::from_fn(|| {
+            let place = next.fetch_add(1, Ordering::Relaxed);
+            cases.get(place).map(|case| (place, case))
+        });
+        taken
+            .map(|(place, case)| (place, entry(case, &files)))
+            .collect::<Vec<_>>()
+    };
     let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    let share = cases.len().div_ceil(threads).max(1);
-    catalogue.cases = thread::scope(|scope| {
-        let files = &files;
-        let parts: Vec<_> = cases
-            .chunks(share)
-            .map(|part| {
-                scope.spawn(move || {
-                    part.iter()
-                        .map(|case| entry(case, files))
-                        .collect::<Vec<_>>()
-                })
-            })
-            .collect();
+    let mut entries: Vec<(usize, CatalogueCase)> = thread::scope(|scope| {
+        let parts: Vec<_> = (0..threads).map(|_| scope.spawn(some)).collect();
         let done = parts.into_iter();
         done.flat_map(|part| part.join().unwrap_or_else(|panic| resume_unwind(panic)))
             .collect()
     });
+    entries.sort_by_key(|(place, _)| *place);
+    catalogue.cases = entries.into_iter().map(|(_, case)| case).collect();
     for case in cases {
         for draw in case.scene.passes.iter().flat_map(|p| &p.draws) {
             catalogue
@@ -74,11 +77,14 @@ fn entry(case: &Case, files: &HashMap<String, String>) -> CatalogueCase {
 }
 
 /// Returns what the rasterizer draws; `None` where the picture is large or cannot be drawn.
-pub(crate) fn reference(case: &Case) -> Option<Frame> {
+fn reference(case: &Case) -> Option<Frame> {
     let texels = |a: &etalon_scene::Attachment| u64::from(a.size[0]) * u64::from(a.size[1]);
-    if case.scene.attachments.iter().any(|a| texels(a) > TEXELS) {
-        return None;
-    }
+    let large = case.scene.attachments.iter().any(|a| texels(a) > TEXELS);
+    if large { None } else { drawn(case) }
+}
+
+/// Returns what the rasterizer draws; `None` where it cannot.
+pub(crate) fn drawn(case: &Case) -> Option<Frame> {
     let draw = || {
         let backend = CpuBackend::new("cpu");
         let mut prepared = backend.prepare(&case.scene).ok()?;

@@ -1,7 +1,7 @@
 //! `etalon show`.
 
 use crate::cases::{library, nearest_cases};
-use crate::catalogue::reference;
+use crate::catalogue::drawn;
 use crate::failure::Failure;
 use crate::output::{print, say};
 use crate::scene_text;
@@ -67,7 +67,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     print(&text)?;
     if let Some(path) = &arguments.png {
-        let frame = reference(&case);
+        let frame = drawn(&case);
         let png = frame.as_ref().and_then(etalon_report::reference_png);
         let png = png.ok_or_else(|| {
             Failure::usage(format!("{} has no picture of a size to show", case.id))

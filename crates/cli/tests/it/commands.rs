@@ -589,6 +589,10 @@ fn show_tells_a_case_and_draws_it() {
     }
     assert!(!text.contains("\"$"), "{text}");
     assert!(fs::read(&png).unwrap().starts_with(b"\x89PNG"));
+    // Pictures too large for a page are drawn here.
+    let large = "size/spanning/samples=1/size=1023x769";
+    etalon(&["show", large, "--png"]).arg(&png).assert().code(0);
+    assert!(fs::metadata(&png).unwrap().len() > 1000);
     refused(&["show", "depth/none"], &["there is no case"]);
 }
 
