@@ -5,9 +5,9 @@ use crate::failure::Failure;
 use crate::flags::CaseArguments;
 use crate::near::did_you_mean;
 use crate::output::say;
+use crate::processors::processors;
 use etalon_case::{Case, CaseError, CaseFile, CaseRef, Library, Profile};
 use std::collections::{BTreeSet, HashSet};
-use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::path::PathBuf;
 use std::thread;
@@ -136,6 +136,17 @@ fn proposed(globs: &[String]) -> String {
     each.collect()
 }
 
+/// Returns the case with an id.
+pub(crate) fn find<'l>(library: &'l Library, id: &str) -> Result<CaseRef<'l>, Failure> {
+    let found = library.cases(Profile::Full).find(|case| case.id() == id);
+    found.ok_or_else(|| {
+        Failure::usage(format!(
+            "there is no case `{id}`{}; `etalon list --profile full` lists all cases",
+            nearest_cases(library, id)
+        ))
+    })
+}
+
 /// Returns the cases whose ids are nearest to a text.
 pub(crate) fn nearest_cases(library: &Library, word: &str) -> String {
     let ids: Vec<String> = library.cases(Profile::Full).map(|case| case.id()).collect();
@@ -159,8 +170,7 @@ pub(crate) fn build(
     globs: &[String],
 ) -> Result<Vec<Case>, Failure> {
     let selection = etalon_runner::select(library, profile, globs).map_err(Failure::usage)?;
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
-    let share = selection.cases.len().div_ceil(threads).max(1);
+    let share = selection.cases.len().div_ceil(processors()).max(1);
     let parts: Vec<Result<Vec<Case>, CaseError>> = thread::scope(|scope| {
         let parts = selection.cases.chunks(share);
         let started: Vec<_> = parts

@@ -1,5 +1,6 @@
 //! The catalogue of a run's cases, for its page: scenes as they are meant, with the rasterizer's picture.
 
+use crate::processors::processors;
 use crate::scene_text;
 use etalon_backend::Backend;
 use etalon_case::{Case, CaseRef, Library, Profile};
@@ -7,7 +8,6 @@ use etalon_cpu::CpuBackend;
 use etalon_frame::Frame;
 use etalon_report::{Catalogue, CatalogueCase, reference_picture};
 use std::collections::{BTreeSet, HashMap};
-use std::num::NonZero;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
@@ -41,7 +41,7 @@ pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
             .map(|(place, case)| (place, entry(case, &files)))
             .collect::<Vec<_>>()
     };
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let threads = processors();
     let mut entries: Vec<(usize, CatalogueCase)> = thread::scope(|scope| {
         let parts: Vec<_> = (0..threads).map(|_| scope.spawn(some)).collect();
         let done = parts.into_iter();

@@ -6,6 +6,7 @@
 
 pub(crate) mod edges;
 
+use crate::processors::processors;
 use edges::{Near, nearest};
 use etalon_backend::Backend;
 use etalon_case::{Case, CaseError, CaseFile, CaseRef, Profile};
@@ -14,7 +15,6 @@ use etalon_frame::{Api, ApiVersion, Aspect, CodeInterval, LegalSet, Limits};
 use etalon_record::Assertion;
 use etalon_reference::{Judgement, Rules, judgements};
 use std::collections::BTreeMap;
-use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::thread;
 
@@ -106,7 +106,7 @@ fn build_all(file: &CaseFile) -> Vec<CaseError> {
 
 /// Applies a function to all of a list, on all cores; the results stand in the order of the list.
 fn in_parallel<T: Sync, R: Send>(all: &[T], one: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let threads = processors();
     let share = all.len().div_ceil(4 * threads).max(1);
     let parts: Vec<&[T]> = all.chunks(share).collect();
     let next = std::sync::atomic::AtomicUsize::new(0);

@@ -45,7 +45,7 @@ pub(crate) struct Group {
     /// True if it fails by itself, in a new process.
     steady: bool,
     file: PathBuf,
-    /// What tells it from others.
+    /// The traits that tell it from other groups.
     key: (String, Option<Signature>),
     violation: Option<Violation>,
 }

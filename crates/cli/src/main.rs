@@ -26,6 +26,7 @@ mod interruption;
 mod near;
 mod out_folder;
 mod output;
+mod processors;
 mod progress;
 mod provenance;
 mod reduction;

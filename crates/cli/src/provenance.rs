@@ -1,5 +1,6 @@
 //! The origin of records: version, commit, machine, time and command.
 
+use crate::processors::processors;
 use etalon_record::Machine;
 use std::time::SystemTime;
 
@@ -39,6 +40,6 @@ pub(crate) fn machine() -> Machine {
             .unwrap_or_else(|| std::env::consts::OS.to_owned()),
         cpu: field("/proc/cpuinfo", "model name", ':')
             .unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
-        cores: std::thread::available_parallelism().map_or(1, |n| n.get() as u32),
+        cores: processors() as u32,
     }
 }

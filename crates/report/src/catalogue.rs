@@ -36,7 +36,7 @@ pub struct CatalogueCase {
 /// Cases, before they are written.
 #[derive(Debug, Default)]
 pub struct Catalogue {
-    /// What the cases of a file have in common, by its path without `.json`.
+    /// The text that the cases of a file share, by its path without `.json`.
     pub files: BTreeMap<String, Value>,
     /// WGSL by the shader's name.
     pub shaders: BTreeMap<&'static str, &'static str>,

@@ -100,7 +100,7 @@ impl Batches {
     }
 }
 
-/// What the workers of a batch share.
+/// The state that the workers of a batch share.
 struct Share<'a> {
     launch: &'a Launch,
     limits: &'a Limits,

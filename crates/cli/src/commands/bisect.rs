@@ -6,6 +6,7 @@ use crate::failure::{Failure, INCOMPLETE};
 use crate::flags::{CaseArguments, CaseProfile, Format};
 use crate::interruption::listen;
 use crate::output::{say, summarize, summarize_json, table_options};
+use crate::processors::processors;
 use crate::progress::progress;
 use crate::{expectations, provenance, report_files};
 use clap::Args;
@@ -102,10 +103,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         folder: &arguments.out.join(WORK),
         cases: &cases,
         library: arguments.cases.as_ref(),
-        jobs: arguments.jobs.map_or_else(
-            || std::thread::available_parallelism().map_or(1, usize::from),
-            usize::from,
-        ),
+        jobs: arguments.jobs.map_or_else(processors, usize::from),
         stop,
     };
     let findings = expectations::read(None)?.on(&expectations::today());

@@ -1,13 +1,13 @@
 //! `etalon explain`.
 
 use crate::adapters::{Query, discover, refuse_absent};
-use crate::cases::{library, nearest_cases};
+use crate::cases::{find, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::AdapterFileArguments;
 use crate::output::print;
 use clap::Args;
 use etalon_backend::Backend;
-use etalon_case::{Case, Profile};
+use etalon_case::Case;
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Band, ChannelMismatch, Frame, ImageInfo, Limits, Story, WrongTexel};
 use etalon_reference::{Rules, Sample};
@@ -43,16 +43,7 @@ pub(crate) struct Arguments {
 /// Explains one texel by the rules; with an adapter, also judges the value that it returned.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let library = library(arguments.cases.as_ref())?;
-    let Some(found) = library
-        .cases(Profile::Full)
-        .find(|c| c.id() == arguments.case)
-    else {
-        return Err(Failure::usage(format!(
-            "there is no case `{}`{}; `etalon list --profile full` lists all cases",
-            arguments.case,
-            nearest_cases(&library, &arguments.case)
-        )));
-    };
+    let found = find(&library, &arguments.case)?;
     let case = found.build().map_err(Failure::usage)?;
     let scene = case.judged_scene();
     refuse_outside(scene, arguments)?;

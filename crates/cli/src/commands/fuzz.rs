@@ -9,6 +9,7 @@ use crate::failure_groups::{Group, Groups};
 use crate::flags::{AdapterFileArguments, Format};
 use crate::interruption::listen;
 use crate::output::{say, summarize, summarize_json};
+use crate::processors::processors;
 use crate::progress::progress;
 use crate::provenance;
 use clap::Args;
@@ -181,10 +182,7 @@ fn fuzz(
 ) -> Result<Tally, Failure> {
     let name = launch.adapter.clone();
     let limits = worker.hello.limits.clone();
-    let jobs = arguments.jobs.map_or_else(
-        || thread::available_parallelism().map_or(1, usize::from),
-        usize::from,
-    );
+    let jobs = arguments.jobs.map_or_else(processors, usize::from);
     let count = match arguments.time {
         Some(_) => u64::MAX,
         None => arguments.count.unwrap_or(COUNT),

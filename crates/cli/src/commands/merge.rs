@@ -66,10 +66,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let merged = merge
         .write(out, report_files::RUN)
         .map_err(Failure::incomplete)?;
+    let run = Run::read(out).map_err(Failure::incomplete)?;
     if built_in {
-        write_catalogue(out)?;
+        write_catalogue(out, &run)?;
     }
-    let written = etalon_report::write(out).map_err(Failure::incomplete)?;
+    let written = etalon_report::write_run(out, &run).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
         summarize_json(&json!({
@@ -84,7 +85,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "report": written.html,
         }))?;
     } else {
-        let run = Run::read(out).map_err(Failure::incomplete)?;
         summarize(&etalon_report::table(&run, table_options()));
         summarize(&format!("\nReport: {}\n", written.html.display()));
     }
@@ -104,8 +104,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 }
 
 /// Writes the catalogue of the merged cases.
-fn write_catalogue(out: &Path) -> Result<(), Failure> {
-    let run = Run::read(out).map_err(Failure::incomplete)?;
+fn write_catalogue(out: &Path, run: &Run) -> Result<(), Failure> {
     let library = library(None)?;
     let drawn: HashSet<&str> = run.records.iter().map(|r| r.case.as_str()).collect();
     let mut cases = build(&library, Profile::Full, &[])?;

@@ -4,6 +4,7 @@ use crate::cases::{build, is_measuring, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{CaseProfile, Format};
 use crate::output::{print, print_json, summarize, summarize_json, table_options};
+use crate::processors::processors;
 use crate::progress::progress;
 use crate::provenance;
 use clap::Args;
@@ -133,7 +134,7 @@ fn open(name: &str) -> Option<Box<dyn Backend>> {
 }
 
 fn hunt(arguments: &Arguments, cases: &[Case], chosen: &[MutantInfo]) -> Hunt {
-    let jobs = jobs();
+    let jobs = processors();
     let bar = progress(cases.len() as u64 * jobs.min(chosen.len()) as u64);
     let started = provenance::now();
     let start = Instant::now();
@@ -200,7 +201,7 @@ fn fuzz(arguments: &Arguments, scenes: u64, chosen: &[MutantInfo]) -> Result<u8,
             cases: &cases,
             mutants: &mutants,
             full: false,
-            jobs: jobs(),
+            jobs: processors(),
         };
         let found = etalon_runner::hunt(plan, &open, &|| {});
         for (at, mut record) in left.into_iter().zip(found) {
@@ -255,7 +256,7 @@ fn without_own_failures(cases: Vec<Case>, limits: &Limits) -> (Vec<Case>, Vec<St
             judged.record.verdict.is_violation()
         })
     };
-    let (jobs, fails) = (jobs(), &fails);
+    let (jobs, fails) = (processors(), &fails);
     let wrong: Vec<bool> = std::thread::scope(|scope| {
         let parts = cases.chunks(cases.len().div_ceil(jobs).max(1));
         let lanes: Vec<_> = parts
@@ -270,10 +271,6 @@ fn without_own_failures(cases: Vec<Case>, limits: &Limits) -> (Vec<Case>, Vec<St
     let (kept, left): (Vec<_>, Vec<_>) = cases.into_iter().zip(wrong).partition(|(_, w)| !w);
     let kept = kept.into_iter().map(|(case, _)| case).collect();
     (kept, left.into_iter().map(|(case, _)| case.id).collect())
-}
-
-fn jobs() -> usize {
-    std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 /// The class of bugs of large pictures, which random scenes leave to cases of their own.

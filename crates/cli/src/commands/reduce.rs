@@ -1,13 +1,13 @@
 //! `etalon reduce`.
 
 use crate::adapters::{Query, discover, refuse_absent};
-use crate::cases::library;
+use crate::cases::{find, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, Format};
 use crate::output::{summarize, summarize_json};
 use crate::reduction::{DriverOracle, Shown, confirm, file_name, judged};
 use clap::Args;
-use etalon_case::{Case, Profile, build};
+use etalon_case::{Case, build};
 use etalon_explore::{Candidate, MOST_DRAWS, Reduction, keys, leaves, reduce, states};
 use etalon_frame::Limits;
 use etalon_record::Record;
@@ -46,13 +46,7 @@ pub(crate) struct Arguments {
 /// Reduces a case that fails on an adapter, and writes what is left as a case file.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let library = library(arguments.cases.as_ref())?;
-    let mut all = library.cases(Profile::Full);
-    let Some(found) = all.find(|c| c.id() == arguments.case) else {
-        return Err(Failure::usage(format!(
-            "there is no case `{}`; `etalon list --profile full` lists all cases",
-            arguments.case
-        )));
-    };
+    let found = find(&library, &arguments.case)?;
     let document = found.document().map_err(Failure::usage)?;
     let id = file_name(&arguments.case, &arguments.adapter);
     let case = build(&id, &document).map_err(|e| {

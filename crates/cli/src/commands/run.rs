@@ -14,6 +14,7 @@ use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::interruption::{how_to_resume, listen};
 use crate::out_folder::Out;
 use crate::output::{say, summarize, summarize_json, table_options};
+use crate::processors::processors;
 use crate::progress::progress;
 use crate::{provenance, report_files, shard};
 use clap::{Args, ValueEnum};
@@ -361,10 +362,6 @@ fn shuffle(cases: &mut [Case], seed: u64) {
         let other = random.rand_range(0..last as u64 + 1);
         cases.swap(last, other as usize);
     }
-}
-
-fn processors() -> usize {
-    std::thread::available_parallelism().map_or(1, usize::from)
 }
 
 fn header(

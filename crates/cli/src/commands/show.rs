@@ -1,12 +1,11 @@
 //! `etalon show`.
 
-use crate::cases::{library, nearest_cases};
+use crate::cases::{find, library};
 use crate::catalogue::drawn;
 use crate::failure::Failure;
 use crate::output::{print, say};
 use crate::scene_text;
 use clap::Args;
-use etalon_case::Profile;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
@@ -27,16 +26,7 @@ pub(crate) struct Arguments {
 /// Prints a case as it is meant: purpose, scene, JSON, shaders.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let library = library(arguments.cases.as_ref())?;
-    let Some(found) = library
-        .cases(Profile::Full)
-        .find(|c| c.id() == arguments.case)
-    else {
-        return Err(Failure::usage(format!(
-            "there is no case `{}`{}; `etalon list --profile full` lists all cases",
-            arguments.case,
-            nearest_cases(&library, &arguments.case)
-        )));
-    };
+    let found = find(&library, &arguments.case)?;
     let case = found.build().map_err(Failure::usage)?;
     let mut text = format!("{}\n{}\n", case.id, case.about);
     for clause in &case.spec {

@@ -89,7 +89,7 @@ struct Maker<'s> {
     whole_alpha: bool,
     /// One stencil reference for most draws, or none would ever be equal.
     reference: u32,
-    /// What the scene has of that which is not common.
+    /// The uncommon traits that the scene has.
     swarm: BTreeMap<&'static str, bool>,
     attachments: Map<String, Value>,
     counters: Map<String, Value>,

@@ -103,7 +103,7 @@ fn page_of(link: &str, anchor: &str) -> String {
     }
 }
 
-/// What a link leads to.
+/// The destination of a link.
 enum Place {
     /// Another site.
     Away,

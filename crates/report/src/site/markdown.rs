@@ -3,7 +3,7 @@
 use pulldown_cmark::{CowStr, Event, LinkType, Options, Parser, Tag, TagEnd, html};
 use std::collections::HashMap;
 
-/// What becomes of a link.
+/// The fate of a link.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Target {
     /// It leads to this address.
@@ -18,6 +18,8 @@ pub(crate) struct Rendered {
     pub(crate) title: String,
     /// The content of the page.
     pub(crate) html: String,
+    /// The anchors of the headings, in their order.
+    pub(crate) anchors: Vec<String>,
 }
 
 /// Returns a text as HTML. `target` is asked for each link, and for each picture by its second argument.
@@ -26,6 +28,7 @@ pub(crate) fn render(text: &str, mut target: impl FnMut(&str, bool) -> Target) -
     let mut events: Vec<Event<'_>> = Vec::new();
     let mut anchors = Anchors::default();
     let mut title = None;
+    let mut all = Vec::new();
     // The heading at hand: its place among the events, and its text.
     let mut heading: Option<(usize, String)> = None;
     // True for each open link that stays a link.
@@ -43,55 +46,21 @@ pub(crate) fn render(text: &str, mut target: impl FnMut(&str, bool) -> Target) -
                 if let Some((start, text)) = heading.take() {
                     let anchor = anchors.of(&text);
                     title.get_or_insert(text);
+                    all.push(anchor.clone());
                     if let Event::Start(Tag::Heading { id, .. }) = &mut events[start] {
                         *id = Some(CowStr::from(anchor));
                     }
                 }
                 events.push(event);
             }
-            Event::Start(Tag::Link {
-                link_type,
-                dest_url,
-                title,
-                id,
-            }) => {
-                let to = match link_type {
-                    LinkType::Email => Target::Text,
-                    _ => target(&dest_url, false),
-                };
-                links.push(to != Target::Text);
-                if let Target::To(to) = to {
-                    events.push(Event::Start(Tag::Link {
-                        link_type,
-                        dest_url: CowStr::from(to),
-                        title,
-                        id,
-                    }));
+            Event::Start(mut tag @ (Tag::Link { .. } | Tag::Image { .. })) => {
+                let to = redirected(&mut tag, &mut target);
+                links.push(to);
+                if to {
+                    events.push(Event::Start(tag));
                 }
             }
-            Event::End(TagEnd::Link) => {
-                if links.pop() == Some(true) {
-                    events.push(event);
-                }
-            }
-            Event::Start(Tag::Image {
-                link_type,
-                dest_url,
-                title,
-                id,
-            }) => {
-                let to = target(&dest_url, true);
-                links.push(to != Target::Text);
-                if let Target::To(to) = to {
-                    events.push(Event::Start(Tag::Image {
-                        link_type,
-                        dest_url: CowStr::from(to),
-                        title,
-                        id,
-                    }));
-                }
-            }
-            Event::End(TagEnd::Image) => {
+            Event::End(TagEnd::Link | TagEnd::Image) => {
                 if links.pop() == Some(true) {
                     events.push(event);
                 }
@@ -118,29 +87,41 @@ pub(crate) fn render(text: &str, mut target: impl FnMut(&str, bool) -> Target) -
     Rendered {
         title: title.unwrap_or_default(),
         html,
+        anchors: all,
+    }
+}
+
+/// Sends a link or a picture where `target` says. True if it stays one.
+fn redirected(tag: &mut Tag<'_>, target: &mut impl FnMut(&str, bool) -> Target) -> bool {
+    let picture = matches!(tag, Tag::Image { .. });
+    let (Tag::Link {
+        link_type,
+        dest_url,
+        ..
+    }
+    | Tag::Image {
+        link_type,
+        dest_url,
+        ..
+    }) = tag
+    else {
+        return true;
+    };
+    if *link_type == LinkType::Email {
+        return false;
+    }
+    match target(dest_url, picture) {
+        Target::To(to) => {
+            *dest_url = CowStr::from(to);
+            true
+        }
+        Target::Text => false,
     }
 }
 
 /// Returns the anchors of a document's headings.
 pub(crate) fn anchors(text: &str) -> Vec<String> {
-    let mut anchors = Anchors::default();
-    let mut all = Vec::new();
-    let mut heading: Option<String> = None;
-    for event in Parser::new_ext(text, Options::ENABLE_TABLES) {
-        match event {
-            Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
-            Event::End(TagEnd::Heading(_)) => {
-                all.extend(heading.take().map(|text| anchors.of(&text)));
-            }
-            Event::Text(words) | Event::Code(words) => {
-                if let Some(text) = &mut heading {
-                    text.push_str(&words);
-                }
-            }
-            _ => {}
-        }
-    }
-    all
+    render(text, |_, _| Target::Text).anchors
 }
 
 /// Anchors as GitHub makes them: lower case, without punctuation, spaces as hyphens, numbered where they repeat.

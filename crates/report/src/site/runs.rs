@@ -21,11 +21,11 @@ pub(crate) struct Recorded {
     pub(crate) folder: PathBuf,
     /// The files that are copied, by path below the folder.
     pub(crate) files: BTreeSet<PathBuf>,
-    /// What is told of it.
+    /// Its description.
     pub(crate) facts: Facts,
 }
 
-/// What a folder holds.
+/// The kind of a folder's content.
 pub(crate) enum Facts {
     /// A run.
     Run(RunFacts),
