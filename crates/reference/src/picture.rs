@@ -22,6 +22,25 @@ use std::ops::Range;
 struct Known {
     by_words: FxHashMap<SmallVec<[u64; 6]>, State>,
     key: SmallVec<[u64; 6]>,
+    /// For each draw, the outcomes that were asked for and those that were known.
+    asked: FxHashMap<u32, [u32; 2]>,
+}
+
+impl Known {
+    /// True if outcomes of a draw come up again often enough to keep them. Where every sample has a signature of its
+    /// own, as with interpolated depths or a shader that reads its place, keeping them costs more than it saves.
+    fn pays(&mut self, draw: u32) -> bool {
+        const TRIED: u32 = 512;
+        let [asked, found] = *self.asked.entry(draw).or_default();
+        asked < TRIED || found >= asked / 16
+    }
+
+    /// Notes whether an outcome was known.
+    fn note(&mut self, draw: u32, found: bool) {
+        let [asked, known] = self.asked.entry(draw).or_default();
+        *asked += 1;
+        *known += u32::from(found);
+    }
 }
 
 impl Walk<'_> {
@@ -493,14 +512,20 @@ impl Brush<'_, '_> {
             if state == OPEN {
                 break;
             }
+            if !self.known.pays(part.draw) {
+                state = self.draw(at, state, part.draw, members);
+                continue;
+            }
             let known = &mut self.known;
             known.key.clear();
             known
                 .key
                 .push(u64::from(state) | u64::from(part.draw) << 32);
             known.key.extend_from_slice(signature.words_of(i));
-            state = match known.by_words.get(&known.key) {
-                Some(state) => *state,
+            let found = known.by_words.get(&known.key).copied();
+            known.note(part.draw, found.is_some());
+            state = match found {
+                Some(state) => state,
                 None => {
                     let key = known.key.clone();
                     let after = self.draw(at, state, part.draw, members);
