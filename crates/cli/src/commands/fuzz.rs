@@ -217,8 +217,9 @@ fn fuzz(
                 false => make(&mut fuzzer, &limits, &mut left),
             });
             let drawn = batches.draw(&cases, stop);
-            if let Ok(made) = made.join() {
-                next = made;
+            match made.join() {
+                Ok(made) => next = made,
+                Err(panic) => std::panic::resume_unwind(panic),
             }
             drawn
         });
