@@ -12,8 +12,8 @@ use etalon_explore::{
     Candidate, Fuzzer, MOST_DRAWS, Oracle, RandomScene, Signature, keys, reduce, shrink,
 };
 use etalon_frame::Limits;
-use etalon_record::{Record, Verdict};
-use etalon_runner::{DrawError, Launch, Outcome, Trials, Violation, ViolationKind, Worker};
+use etalon_record::{Record, Subject, Symptom, Verdict};
+use etalon_runner::{DrawError, Launch, Outcome, Trials, Worker};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
@@ -35,7 +35,7 @@ pub(crate) struct Group {
     /// The number of its first scene.
     index: u64,
     verdict: Verdict,
-    /// The violation, in words.
+    /// The symptom, in words.
     way: String,
     sentence: String,
     clause: Option<String>,
@@ -47,7 +47,7 @@ pub(crate) struct Group {
     file: PathBuf,
     /// The traits that tell it from other groups.
     key: (String, Option<Signature>),
-    violation: Option<Violation>,
+    symptom: Option<Symptom>,
 }
 
 /// The groups of one adapter.
@@ -64,7 +64,7 @@ struct Seen {
     scene: Candidate,
     verdict: Verdict,
     record: Option<Record>,
-    violation: Option<Violation>,
+    symptom: Option<Symptom>,
     message: String,
     steady: bool,
     key: (String, Option<Signature>),
@@ -106,10 +106,7 @@ impl Groups {
             Outcome::NotDrawn {
                 verdict, message, ..
             } => self.lost(fuzzer, scene, verdict, message, stopped)?,
-            Outcome::Judged(record) => match Violation::of(&scene.candidate.case, &record) {
-                Some(violation) => self.failed(scene, *record, violation, stopped)?,
-                None => None,
-            },
+            Outcome::Judged(record) => self.failed(scene, *record, stopped)?,
         };
         let Some(seen) = seen else { return Ok(()) };
         if let Some(group) = self.all.iter_mut().find(|g| g.key == seen.key) {
@@ -125,16 +122,13 @@ impl Groups {
         &mut self,
         scene: RandomScene,
         record: Record,
-        violation: Violation,
         stopped: bool,
     ) -> Result<Option<Seen>, Failure> {
+        let symptom = Symptom::of(&record);
         let document = &scene.candidate.document;
         let alike = self.all.iter_mut().find(|group| {
             let signature = group.key.1.as_ref().filter(|_| group.steady);
-            let covered = group
-                .violation
-                .as_ref()
-                .is_some_and(|v| violation.covers(v));
+            let covered = group.symptom.as_ref().is_some_and(|s| symptom.covers(s));
             covered && signature.is_some_and(|s| s.is_in(document))
         });
         if let Some(group) = alike {
@@ -146,12 +140,12 @@ impl Groups {
         }
         let keys = keys(&document["scene"]);
         let index = scene.index;
-        let unsteady = |scene: Candidate, record: Record, violation: Violation, why: &str| Seen {
-            key: (format!("{}, {why}", way(&violation)), None),
+        let unsteady = |scene: Candidate, record: Record, symptom: Symptom, why: &str| Seen {
+            key: (format!("{}, {why}", way(&symptom)), None),
             verdict: record.verdict,
             scene,
             record: Some(record),
-            violation: Some(violation),
+            symptom: Some(symptom),
             message: why.to_owned(),
             steady: false,
             keys,
@@ -159,7 +153,7 @@ impl Groups {
         };
         if stopped {
             let why = "not reduced";
-            return Ok(Some(unsteady(scene.candidate, record, violation, why)));
+            return Ok(Some(unsteady(scene.candidate, record, symptom, why)));
         }
         let trials = match self.trials.take() {
             Some(trials) => trials,
@@ -171,7 +165,7 @@ impl Groups {
         let mut oracle = DriverOracle {
             trials,
             limits: self.limits.clone(),
-            violation: violation.clone(),
+            symptom: symptom.clone(),
             record,
             error: None,
         };
@@ -179,18 +173,18 @@ impl Groups {
         let again = oracle.first(&mut std::iter::once(candidate.clone()));
         let seen = if again.is_none() {
             let why = "only behind other scenes";
-            unsteady(candidate, oracle.record.clone(), violation, why)
+            unsteady(candidate, oracle.record.clone(), symptom, why)
         } else {
             let limits = &self.limits;
             let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
             let reduction = reduce(candidate, MOST_DRAWS, &can_draw, &mut oracle);
             let signature = Signature::of(&reduction.smallest.document);
             Seen {
-                key: (way(&oracle.violation), Some(signature)),
+                key: (way(&oracle.symptom), Some(signature)),
                 verdict: oracle.record.verdict,
                 scene: reduction.smallest,
                 record: Some(oracle.record.clone()),
-                violation: Some(oracle.violation.clone()),
+                symptom: Some(oracle.symptom.clone()),
                 message: String::new(),
                 steady: true,
                 keys,
@@ -241,7 +235,7 @@ impl Groups {
             scene: scene.candidate,
             verdict,
             record: None,
-            violation: None,
+            symptom: None,
             message,
             steady,
             key,
@@ -267,13 +261,13 @@ impl Groups {
         let mut steady = seen.steady;
         let mut document = seen.scene.document.clone();
         let (mut sentence, mut clause, mut states) = (seen.message.clone(), None, String::new());
-        if let (Some(record), Some(violation)) = (&seen.record, &seen.violation) {
+        if let (Some(record), Some(symptom)) = (&seen.record, &seen.symptom) {
             let case = &seen.scene.case;
-            steady = steady && confirm(&self.launch, case, &self.limits, violation).is_ok();
+            steady = steady && confirm(&self.launch, case, &self.limits, symptom).is_ok();
             let shown = Shown {
                 document: &seen.scene.document,
                 record,
-                violation,
+                symptom,
             };
             document = shown.described(&origin);
             sentence = shown.sentence();
@@ -301,7 +295,7 @@ impl Groups {
             steady,
             file: path,
             key: seen.key,
-            violation: seen.violation,
+            symptom: seen.symptom,
         });
         Ok(())
     }
@@ -331,18 +325,15 @@ impl Losses<'_> {
     }
 }
 
-/// Returns a violation without the names of attachments and what was there before.
-fn way(violation: &Violation) -> String {
-    match &violation.kind {
-        ViolationKind::Picture {
-            aspect, operations, ..
-        } => {
-            let before = ["clear", "upload"];
-            let told = operations.iter().map(String::as_str);
-            let told: Vec<&str> = told.filter(|o| !before.contains(o)).collect();
-            format!("{} ({})", aspect.name(), told.join(", "))
+/// Returns a symptom without the names of attachments and what was there before.
+fn way(symptom: &Symptom) -> String {
+    match symptom.subject {
+        Subject::Picture(aspect) => {
+            let mut operations = symptom.of_draws();
+            operations.sort_unstable();
+            format!("{} ({})", aspect.name(), operations.join(", "))
         }
-        _ => violation.to_string(),
+        _ => symptom.to_string(),
     }
 }
 

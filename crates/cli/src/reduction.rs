@@ -3,8 +3,8 @@
 use etalon_case::Case;
 use etalon_explore::{Candidate, Oracle, states};
 use etalon_frame::{Frame, Limits};
-use etalon_record::Record;
-use etalon_runner::{Judge, Launch, Trials, Violation, ViolationKind, Worker};
+use etalon_record::{Record, Subject, Symptom};
+use etalon_runner::{Judge, Launch, Trials, Worker};
 use serde_json::{Value, json};
 
 /// Returns the name of the case file, which is also the id of its case: letters and digits, as ids have them.
@@ -29,14 +29,14 @@ pub(crate) fn confirm(
     launch: &Launch,
     case: &Case,
     limits: &Limits,
-    violation: &Violation,
+    symptom: &Symptom,
 ) -> Result<(), String> {
     let mut worker = Worker::start(launch).map_err(|e| e.to_string())?;
     let frames = worker.draw(case).map_err(|e| e.to_string())?;
     let record = judged(case, limits, &frames);
-    match Violation::of(case, &record) {
-        Some(way) if violation.covers(&way) => Ok(()),
-        _ => Err(format!(
+    match symptom.covers(&Symptom::of(&record)) {
+        true => Ok(()),
+        false => Err(format!(
             "fails only after others in the same process: drawn alone it is {}",
             record.verdict
         )),
@@ -52,8 +52,8 @@ pub(crate) fn judged(case: &Case, limits: &Limits, frames: &[Frame]) -> Record {
 pub(crate) struct DriverOracle {
     pub(crate) trials: Trials,
     pub(crate) limits: Limits,
-    /// The violation of the smallest case so far, and its record.
-    pub(crate) violation: Violation,
+    /// The symptom of the smallest case so far, and its record.
+    pub(crate) symptom: Symptom,
     pub(crate) record: Record,
     pub(crate) error: Option<String>,
 }
@@ -63,7 +63,7 @@ impl Oracle for DriverOracle {
         let Self {
             trials,
             limits,
-            violation,
+            symptom,
             record,
             error,
         } = self;
@@ -73,11 +73,11 @@ impl Oracle for DriverOracle {
         let mut next = || candidates.next();
         let mut found = |candidate: &Candidate, frames: &[Frame]| {
             let judged = judged(&candidate.case, limits, frames);
-            let way = Violation::of(&candidate.case, &judged);
-            let Some(way) = way.filter(|way| violation.covers(way)) else {
+            let seen = Symptom::of(&judged);
+            if !symptom.covers(&seen) {
                 return false;
-            };
-            *violation = way;
+            }
+            *symptom = seen;
             *record = judged;
             true
         };
@@ -101,8 +101,8 @@ pub(crate) struct Shown<'a> {
     pub(crate) document: &'a Value,
     /// Its record.
     pub(crate) record: &'a Record,
-    /// Its violation.
-    pub(crate) violation: &'a Violation,
+    /// Its symptom.
+    pub(crate) symptom: &'a Symptom,
 }
 
 impl Shown<'_> {
@@ -124,7 +124,7 @@ impl Shown<'_> {
             })
         };
         let verdict = || story.verdict()?.citation.as_deref();
-        if matches!(self.violation.kind, ViolationKind::Relation { .. }) {
+        if matches!(self.symptom.subject, Subject::Relation(_)) {
             return verdict();
         }
         cited(false).or_else(|| cited(true)).or_else(verdict)
@@ -143,7 +143,7 @@ impl Shown<'_> {
         let mut about = format!(
             "{origin} States: {}. Violated: {}: {}",
             self.states(),
-            self.violation,
+            self.symptom,
             self.sentence()
         );
         if let Some(clause) = self.clause() {

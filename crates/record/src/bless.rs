@@ -146,7 +146,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
             entry.verdict,
             file,
             &entry.adapter,
-            Symptom::of(record),
+            Symptom::of(record).broad(),
         );
         groups.entry(key).or_default().push(one);
     }

@@ -79,7 +79,7 @@ pub use report_files::ReportFiles;
 pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
 pub use shader_cache::ShaderCache;
-pub use symptom::Symptom;
+pub use symptom::{Direction, Subject, Symptom};
 pub use verdict::Verdict;
 pub use versions::{
     CaseVersions, ReleaseRecord, Standing, VERSIONS_FILE, VERSIONS_FORMAT, Versions, VersionsHeader,

@@ -98,7 +98,7 @@ impl Walk<'_> {
         let value = advanced_blend(&mut judging, mode, encodings, src, dst);
         notes.add(
             || place.name(),
-            "blend",
+            "advanced blend",
             || {
                 let text = |color: [Range; 4]| color.map(|v| v.hull().to_string()).join(", ");
                 format!(
@@ -192,6 +192,19 @@ impl Walk<'_> {
                     value
                 }
             };
+            let works = self.logic_on(attachment.format) != SrgbLogic::PassesThrough;
+            if let Some(operation) = place.draw.logic.filter(|_| works) {
+                let before = *cell;
+                notes.add(
+                    || place.name(),
+                    "logic operation",
+                    || {
+                        let stored = self.cell_text(*index, &before);
+                        format!("{} onto {stored}", operation.name())
+                    },
+                    None,
+                );
+            }
             for (c, encoding) in encodings.iter().enumerate() {
                 if target.write_mask & (1 << c) != 0 {
                     let codes = self.store_color(&mut judging, *encoding, value[c]);

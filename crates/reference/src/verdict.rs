@@ -349,9 +349,10 @@ impl Telling<'_> {
         };
         match (aspect, of_fragment("shade")) {
             (Aspect::Color, Some(shade)) => {
-                let verb = match of_fragment("blend") {
-                    Some(_) => "blends it",
-                    None => "stores it",
+                let blends = ["blend", "advanced blend"];
+                let verb = match blends.iter().any(|o| of_fragment(o).is_some()) {
+                    true => "blends it",
+                    false => "stores it",
                 };
                 let gives = &shade.line.detail;
                 format!("{name} passes all its tests and {verb} ({gives})")

@@ -35,7 +35,6 @@ mod sync;
 mod texel;
 mod trial;
 mod version_search;
-mod violation;
 mod worker;
 
 pub use batch::{Batches, Outcome};
@@ -53,5 +52,4 @@ pub use story::{story_of_relation, story_of_sample};
 pub use texel::judge_texel;
 pub use trial::Trials;
 pub use version_search::releases_to_draw;
-pub use violation::{Violation, ViolationKind};
 pub use worker::{DrawError, Worker};

@@ -137,7 +137,13 @@ fn of_differences(
     let judged_by = format!("judged by {}: {}", rules.text, permission.citation);
     let mut verdict = StoryLine::verdict(subject, predicate, judged_by);
     add_grade(&mut verdict, permission.value());
-    let mut lines = vec![verdict];
+    let relation = StoryLine {
+        at: format!("{} and {}", names[0], names[1]),
+        operation: "relation".to_owned(),
+        detail: relation.invariance.name().to_owned(),
+        citation: None,
+    };
+    let mut lines = vec![verdict, relation];
     let mut told = Vec::new();
     for (side, name) in sides.iter().zip(&names) {
         if told.contains(&(side.scene, side.at)) {

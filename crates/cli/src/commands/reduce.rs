@@ -10,8 +10,8 @@ use clap::Args;
 use etalon_case::{Case, build};
 use etalon_explore::{Candidate, MOST_DRAWS, Reduction, keys, leaves, reduce, states};
 use etalon_frame::Limits;
-use etalon_record::Record;
-use etalon_runner::{Launch, Trials, Violation, Worker};
+use etalon_record::{Record, Symptom};
+use etalon_runner::{Launch, Trials, Worker};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
@@ -63,7 +63,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         return Err(Failure::usage(format!("{name} does not support {missing}")));
     }
     let steady = repeat(&launch, worker, &case, &limits)?;
-    let (worker, record, violation) = match steady {
+    let (worker, record, symptom) = match steady {
         Outcome::Steady(steady) => *steady,
         Outcome::Passes(verdict) => {
             return Err(Failure::nothing(format!(
@@ -85,7 +85,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut judge = DriverOracle {
         trials: Trials::new(launch.clone(), worker),
         limits: limits.clone(),
-        violation: violation.clone(),
+        symptom: symptom.clone(),
         record,
         error: None,
     };
@@ -101,7 +101,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "the worker of {name} could not be started again: {error}"
         )));
     }
-    confirm(&launch, &reduction.smallest.case, &limits, &judge.violation).map_err(|message| {
+    confirm(&launch, &reduction.smallest.case, &limits, &judge.symptom).map_err(|message| {
         let code = UNEXPECTED;
         let message = format!("the reduced case of {} {message}", arguments.case);
         Failure { code, message }
@@ -111,8 +111,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         before: &document["scene"],
         reduction: &reduction,
         record: &judge.record,
-        first: &violation,
-        violation: &judge.violation,
+        first: &symptom,
+        symptom: &judge.symptom,
         seconds,
     };
     let path = arguments.out.join(format!("{id}.json"));
@@ -145,7 +145,7 @@ fn start(arguments: &Arguments) -> Result<(Launch, Worker), Failure> {
 /// What repeated drawings of a case show.
 enum Outcome {
     /// It fails in the same way every time.
-    Steady(Box<(Worker, Record, Violation)>),
+    Steady(Box<(Worker, Record, Symptom)>),
     /// It never fails.
     Passes(String),
     /// It fails sometimes, or in several ways.
@@ -160,7 +160,7 @@ fn repeat(
     limits: &Limits,
 ) -> Result<Outcome, Failure> {
     let mut records: Vec<Record> = Vec::new();
-    let mut ways: Vec<Option<Violation>> = Vec::new();
+    let mut ways: Vec<Option<Symptom>> = Vec::new();
     let mut worker = Some(first);
     let mut warm = None;
     for _ in 0..PROCESSES {
@@ -173,7 +173,8 @@ fn repeat(
                 Failure::incomplete(format!("it cannot be drawn on {}: {e}", launch.adapter))
             })?;
             let record = judged(case, limits, &frames);
-            ways.push(Violation::of(case, &record));
+            let failed = record.verdict.is_violation();
+            ways.push(failed.then(|| Symptom::of(&record)));
             records.push(record);
         }
         warm.get_or_insert(own);
@@ -188,7 +189,8 @@ fn repeat(
             message => format!("{}, {message}", record.verdict),
         }),
         Some(way) if failed == PROCESSES * DRAWINGS => {
-            match ways.iter().flatten().find(|other| **other != way) {
+            let same = |other: &&Symptom| way.covers(other) && other.covers(&way);
+            match ways.iter().flatten().find(|other| !same(other)) {
                 None => Outcome::Steady(Box::new((worker, record, way))),
                 Some(other) => Outcome::Flaky(format!("it fails by {way} and by {other}")),
             }
@@ -206,9 +208,9 @@ struct Told<'a> {
     before: &'a Value,
     reduction: &'a Reduction,
     record: &'a Record,
-    /// The violation of the case that was reduced.
-    first: &'a Violation,
-    violation: &'a Violation,
+    /// The symptom of the case that was reduced.
+    first: &'a Symptom,
+    symptom: &'a Symptom,
     seconds: f64,
 }
 
@@ -221,7 +223,7 @@ impl Told<'_> {
         Shown {
             document: &self.reduction.smallest.document,
             record: self.record,
-            violation: self.violation,
+            symptom: self.symptom,
         }
     }
 
@@ -252,7 +254,7 @@ impl Told<'_> {
                 ", the most: more may be left to reduce"
             },
             self.shown().states(),
-            self.violation,
+            self.symptom,
             self.shown().sentence(),
         );
         if let Some(clause) = self.shown().clause() {
@@ -275,7 +277,7 @@ impl Told<'_> {
             "seconds": self.seconds,
             "states": states(self.scene()),
             "first_violation": self.first.to_string(),
-            "violation": self.violation.to_string(),
+            "violation": self.symptom.to_string(),
             "sentence": self.shown().sentence(),
             "clause": self.shown().clause(),
         })

@@ -43,7 +43,7 @@ pub(super) fn confirm(
     let verdict = first.record.verdict;
     let repeats: Vec<Verdict> = others.iter().map(|s| s.record.verdict).collect();
     if repeats.iter().any(|v| *v != verdict) {
-        run.queue.refuted(&Symptom::of(&first.record));
+        run.queue.refuted(&Symptom::of(&first.record).broad());
     }
     if repeats.iter().all(|v| *v == verdict) {
         // Which verdicts of a kind are checked depends on the order of drawing: records tell of it only where it
@@ -104,7 +104,9 @@ fn needs_confirmation(run: &AdapterRun<'_, '_>, observed: &Observation, most: u3
         && record.verdict.is_bad()
         && started
         && !due
-        && run.queue.may_recheck(&Symptom::of(&observed.record), most)
+        && run
+            .queue
+            .may_recheck(&Symptom::of(&observed.record).broad(), most)
 }
 
 /// The result of drawing a case in a fresh process.

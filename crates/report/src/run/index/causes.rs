@@ -93,7 +93,9 @@ fn causes<'a>(grid: &Grid<'a>) -> Vec<Cause<'a>> {
                         .push(&record.case);
                 }
                 if record.unexpected() {
-                    let of_kind = found.entry((column, Symptom::of(record))).or_default();
+                    let of_kind = found
+                        .entry((column, Symptom::of(record).broad()))
+                        .or_default();
                     of_kind.entry(file.name).or_default().push(record);
                 }
             }
