@@ -6,25 +6,18 @@
 
 use crate::failure::Failure;
 use crate::reduction::{DriverOracle, Shown, confirm, file_name};
-use etalon_backend::BackendError;
-use etalon_case::Case;
-use etalon_explore::{
-    Candidate, Fuzzer, MOST_DRAWS, Oracle, RandomScene, Signature, keys, reduce, shrink,
-};
+use etalon_explore::{Candidate, Oracle, RandomScene, Signature, keys};
 use etalon_frame::Limits;
 use etalon_record::{Record, Subject, Symptom, Verdict};
-use etalon_runner::{DrawError, Launch, Outcome, Trials, Worker};
+use etalon_runner::{Launch, Trials, Worker};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// The scenes of a group that are reduced before others are counted by their states.
 const YOUNG: u64 = 3;
-/// The most scenes that are tried to shrink one that ends its worker, and one that takes too long.
-const TRIED: usize = 24;
-const TRIED_SLOW: usize = 4;
-
 /// One way to fail.
 pub(crate) struct Group {
     adapter: String,
@@ -47,7 +40,7 @@ pub(crate) struct Group {
     file: PathBuf,
     /// The traits that tell it from other groups.
     key: (String, Option<Signature>),
-    symptom: Option<Symptom>,
+    symptom: Symptom,
 }
 
 /// The groups of one adapter.
@@ -55,6 +48,8 @@ pub(crate) struct Groups {
     launch: Launch,
     limits: Limits,
     folder: PathBuf,
+    /// The time that a scene may take.
+    timeout: Duration,
     all: Vec<Group>,
     trials: Option<Trials>,
 }
@@ -62,10 +57,8 @@ pub(crate) struct Groups {
 /// A scene that was looked at, before it is known to be new.
 struct Seen {
     scene: Candidate,
-    verdict: Verdict,
-    record: Option<Record>,
-    symptom: Option<Symptom>,
-    message: String,
+    record: Record,
+    symptom: Symptom,
     steady: bool,
     key: (String, Option<Signature>),
     keys: usize,
@@ -73,11 +66,12 @@ struct Seen {
 }
 
 impl Groups {
-    pub(crate) fn new(launch: Launch, limits: Limits, folder: PathBuf) -> Self {
+    pub(crate) fn new(launch: Launch, limits: Limits, folder: PathBuf, timeout: Duration) -> Self {
         Self {
             launch,
             limits,
             folder,
+            timeout,
             all: Vec::new(),
             trials: None,
         }
@@ -96,19 +90,16 @@ impl Groups {
     /// Adds a failing scene. When the search is being stopped, it is kept as it is.
     pub(crate) fn add(
         &mut self,
-        fuzzer: &Fuzzer,
         scene: RandomScene,
-        outcome: Outcome,
+        record: Record,
         stop: &AtomicBool,
     ) -> Result<(), Failure> {
-        let stopped = stop.load(Ordering::Relaxed);
-        let seen = match outcome {
-            Outcome::NotDrawn {
-                verdict, message, ..
-            } => self.lost(fuzzer, scene, verdict, message, stopped)?,
-            Outcome::Judged(record) => self.failed(scene, *record, stopped)?,
-        };
-        let Some(seen) = seen else { return Ok(()) };
+        let symptom = Symptom::of(&record);
+        if let Some(group) = self.alike(&scene, &symptom, stop.load(Ordering::Relaxed)) {
+            group.count += 1;
+            return Ok(());
+        }
+        let seen = self.looked_at(scene, record, symptom, stop)?;
         if let Some(group) = self.all.iter_mut().find(|g| g.key == seen.key) {
             group.count += 1;
             group.reduced += 1;
@@ -117,75 +108,66 @@ impl Groups {
         self.keep(seen)
     }
 
-    /// A scene that was drawn wrong: `None` if it was counted by its states.
-    fn failed(
+    /// Returns the group in which a scene is counted by its states.
+    fn alike(
         &mut self,
-        scene: RandomScene,
-        record: Record,
+        scene: &RandomScene,
+        symptom: &Symptom,
         stopped: bool,
-    ) -> Result<Option<Seen>, Failure> {
-        let symptom = Symptom::of(&record);
+    ) -> Option<&mut Group> {
         let document = &scene.candidate.document;
         let alike = self.all.iter_mut().find(|group| {
             let signature = group.key.1.as_ref().filter(|_| group.steady);
-            let covered = group.symptom.as_ref().is_some_and(|s| symptom.covers(s));
-            covered && signature.is_some_and(|s| s.is_in(document))
-        });
-        if let Some(group) = alike {
-            let next = group.count + 1;
-            if stopped || (group.reduced >= YOUNG && !next.is_power_of_two()) {
-                group.count = next;
-                return Ok(None);
-            }
-        }
-        let keys = keys(&document["scene"]);
-        let index = scene.index;
-        let unsteady = |scene: Candidate, record: Record, symptom: Symptom, why: &str| Seen {
+            // Each reduction of a scene that ends its worker costs processes: its states are not asked for.
+            let ends = !symptom.verdict.is_violation();
+            symptom.covers(&group.symptom) && (ends || signature.is_some_and(|s| s.is_in(document)))
+        })?;
+        let old = alike.reduced >= YOUNG || !symptom.verdict.is_violation();
+        let due = (alike.count + 1).is_power_of_two();
+        (stopped || (old && !due)).then_some(alike)
+    }
+
+    /// Reduces a scene, where it fails by itself.
+    fn looked_at(
+        &mut self,
+        scene: RandomScene,
+        record: Record,
+        symptom: Symptom,
+        stop: &AtomicBool,
+    ) -> Result<Seen, Failure> {
+        let RandomScene { index, candidate } = scene;
+        let keys = keys(&candidate.document["scene"]);
+        let unsteady = |scene: Candidate, record: Record, why: &str| Seen {
             key: (format!("{}, {why}", way(&symptom)), None),
-            verdict: record.verdict,
             scene,
-            record: Some(record),
-            symptom: Some(symptom),
-            message: why.to_owned(),
+            record,
+            symptom: symptom.clone(),
             steady: false,
             keys,
             index,
         };
-        if stopped {
-            let why = "not reduced";
-            return Ok(Some(unsteady(scene.candidate, record, symptom, why)));
+        if stop.load(Ordering::Relaxed) {
+            return Ok(unsteady(candidate, record, "not reduced"));
         }
         let trials = match self.trials.take() {
             Some(trials) => trials,
             None => {
                 let worker = Worker::start(&self.launch).map_err(Failure::incomplete)?;
-                Trials::new(self.launch.clone(), worker)
+                Trials::new(self.launch.clone(), worker, self.timeout)
             }
         };
-        let mut oracle = DriverOracle {
-            trials,
-            limits: self.limits.clone(),
-            symptom: symptom.clone(),
-            record,
-            error: None,
-        };
-        let candidate = scene.candidate;
+        let mut oracle = DriverOracle::new(trials, record, self.timeout, Some(stop));
         let again = oracle.first(&mut std::iter::once(candidate.clone()));
         let seen = if again.is_none() {
-            let why = "only behind other scenes";
-            unsteady(candidate, oracle.record.clone(), symptom, why)
+            unsteady(candidate, oracle.record.clone(), "only behind other scenes")
         } else {
-            let limits = &self.limits;
-            let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
-            let reduction = reduce(candidate, MOST_DRAWS, &can_draw, &mut oracle);
+            let reduction = oracle.reduce(candidate, &self.limits);
             let signature = Signature::of(&reduction.smallest.document);
             Seen {
                 key: (way(&oracle.symptom), Some(signature)),
-                verdict: oracle.record.verdict,
                 scene: reduction.smallest,
-                record: Some(oracle.record.clone()),
-                symptom: Some(oracle.symptom.clone()),
-                message: String::new(),
+                record: oracle.record.clone(),
+                symptom: oracle.symptom.clone(),
                 steady: true,
                 keys,
                 index,
@@ -198,50 +180,7 @@ impl Groups {
             )));
         }
         self.trials = Some(oracle.trials);
-        Ok(Some(seen))
-    }
-
-    /// A scene that ended its worker, or that the driver gave up: shrunk where it is the first of its kind.
-    fn lost(
-        &mut self,
-        fuzzer: &Fuzzer,
-        scene: RandomScene,
-        verdict: Verdict,
-        message: String,
-        stopped: bool,
-    ) -> Result<Option<Seen>, Failure> {
-        // Numbers are addresses, sizes and times.
-        let words: String = message.chars().filter(|c| !c.is_ascii_digit()).collect();
-        let key = (format!("{verdict}: {words}"), None);
-        let (index, count) = (scene.index, keys(&scene.candidate.document["scene"]));
-        let known = self.all.iter().any(|g| g.key == key);
-        let mut steady = true;
-        let mut scene = scene;
-        if !known && !stopped {
-            let most = match verdict {
-                Verdict::Timeout => TRIED_SLOW,
-                _ => TRIED,
-            };
-            let mut losses = Losses {
-                launch: &self.launch,
-                worker: None,
-            };
-            steady = losses.happens(&scene);
-            if steady {
-                scene = shrink(fuzzer, scene, most, &mut |scene| losses.happens(scene));
-            }
-        }
-        Ok(Some(Seen {
-            scene: scene.candidate,
-            verdict,
-            record: None,
-            symptom: None,
-            message,
-            steady,
-            key,
-            keys: count,
-            index,
-        }))
+        Ok(seen)
     }
 
     /// Makes a group of a scene, and writes its case file.
@@ -258,25 +197,14 @@ impl Groups {
             "{} On {adapter}.",
             seen.scene.document["about"].as_str().unwrap_or_default()
         );
-        let mut steady = seen.steady;
-        let mut document = seen.scene.document.clone();
-        let (mut sentence, mut clause, mut states) = (seen.message.clone(), None, String::new());
-        if let (Some(record), Some(symptom)) = (&seen.record, &seen.symptom) {
-            let case = &seen.scene.case;
-            steady = steady && confirm(&self.launch, case, &self.limits, symptom).is_ok();
-            let shown = Shown {
-                document: &seen.scene.document,
-                record,
-                symptom,
-            };
-            document = shown.described(&origin);
-            sentence = shown.sentence();
-            clause = shown.clause().map(str::to_owned);
-            states = shown.states();
-        } else {
-            document["about"] = json!(format!("{origin} {}: {}", seen.verdict, seen.message));
-        }
-        let text = serde_json::to_string_pretty(&document)
+        let (case, symptom) = (&seen.scene.case, &seen.symptom);
+        let steady = seen.steady && confirm(&self.launch, case, symptom, self.timeout).is_ok();
+        let shown = Shown {
+            document: &seen.scene.document,
+            record: &seen.record,
+            symptom,
+        };
+        let text = serde_json::to_string_pretty(&shown.described(&origin))
             .map_err(|e| Failure::incomplete(format!("cannot write JSON: {e}")))?;
         fs::create_dir_all(&self.folder)
             .and_then(|()| fs::write(&path, text + "\n"))
@@ -286,11 +214,11 @@ impl Groups {
             count: 1,
             reduced: 1,
             index: seen.index,
-            verdict: seen.verdict,
+            verdict: seen.record.verdict,
             way: seen.key.0.clone(),
-            sentence,
-            clause,
-            states,
+            sentence: shown.sentence(),
+            clause: shown.clause().map(str::to_owned),
+            states: shown.states(),
             keys: [seen.keys, keys(&seen.scene.document["scene"])],
             steady,
             file: path,
@@ -298,30 +226,6 @@ impl Groups {
             symptom: seen.symptom,
         });
         Ok(())
-    }
-}
-
-/// Workers that are lost by one scene or another.
-struct Losses<'a> {
-    launch: &'a Launch,
-    worker: Option<Worker>,
-}
-
-impl Losses<'_> {
-    /// True if a scene ends its worker, or the driver gives it up.
-    fn happens(&mut self, scene: &RandomScene) -> bool {
-        let running = self.worker.take();
-        let started = running.map_or_else(|| Worker::start(self.launch), Ok);
-        let Ok(mut worker) = started else {
-            return false;
-        };
-        match worker.draw(&scene.candidate.case) {
-            Ok(_) | Err(DrawError::Backend(BackendError::NotSupported(_))) => {
-                self.worker = Some(worker);
-                false
-            }
-            Err(_) => true,
-        }
     }
 }
 

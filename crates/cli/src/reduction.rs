@@ -1,11 +1,16 @@
 //! Reductions on a driver: the judge as oracle, and the sentences on what is left.
+//!
+//! A case that ends its worker is reduced like one that is drawn wrong: a candidate must end its worker in the same
+//! way. Each such candidate costs a process, and each that hangs its time, so that both are bounded.
 
 use etalon_case::Case;
-use etalon_explore::{Candidate, Oracle, states};
-use etalon_frame::{Frame, Limits};
-use etalon_record::{Record, Subject, Symptom};
-use etalon_runner::{Judge, Launch, Trials, Worker};
+use etalon_explore::{Candidate, MOST_DRAWS, Oracle, Reduction, reduce, states};
+use etalon_frame::Limits;
+use etalon_record::{Record, Subject, Symptom, Verdict};
+use etalon_runner::{Launch, Trials, Worker};
 use serde_json::{Value, json};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// Returns the name of the case file, which is also the id of its case: letters and digits, as ids have them.
 pub(crate) fn file_name(case: &str, adapter: &str) -> String {
@@ -24,16 +29,23 @@ pub(crate) fn file_name(case: &str, adapter: &str) -> String {
     format!("{}.{}", word(case), word(adapter))
 }
 
+/// The time that a case may take.
+pub(crate) const TIMEOUT: &str = "20";
+/// Where each candidate may cost a process: the most candidates, the time for all of them, and the time of one where
+/// the case does not end.
+const MOST_LOST: usize = 200;
+const LOST_TIME: Duration = Duration::from_secs(60);
+const HUNG_TIME: Duration = Duration::from_secs(2);
+
 /// Draws a reduced case in a fresh process.
 pub(crate) fn confirm(
     launch: &Launch,
     case: &Case,
-    limits: &Limits,
     symptom: &Symptom,
+    timeout: Duration,
 ) -> Result<(), String> {
     let mut worker = Worker::start(launch).map_err(|e| e.to_string())?;
-    let frames = worker.draw(case).map_err(|e| e.to_string())?;
-    let record = judged(case, limits, &frames);
+    let (record, _) = worker.record(case, timeout);
     match symptom.covers(&Symptom::of(&record)) {
         true => Ok(()),
         false => Err(format!(
@@ -43,36 +55,83 @@ pub(crate) fn confirm(
     }
 }
 
-/// Judges frames by themselves: legal sets of candidates are of no use to others.
-pub(crate) fn judged(case: &Case, limits: &Limits, frames: &[Frame]) -> Record {
-    Judge::default().judge(0, case, "", limits, frames).record
-}
-
-/// The judge as oracle, with a driver's frames.
-pub(crate) struct DriverOracle {
+/// The judge as oracle, with a driver's frames; of a case that ends its worker, the way in which it does.
+pub(crate) struct DriverOracle<'a> {
     pub(crate) trials: Trials,
-    pub(crate) limits: Limits,
     /// The symptom of the smallest case so far, and its record.
     pub(crate) symptom: Symptom,
     pub(crate) record: Record,
     pub(crate) error: Option<String>,
+    /// Set when the search is being stopped.
+    stop: Option<&'a AtomicBool>,
+    /// The time at which no further candidate is tried.
+    until: Option<Instant>,
+    /// True if candidates were left.
+    late: bool,
 }
 
-impl Oracle for DriverOracle {
+impl<'a> DriverOracle<'a> {
+    /// An oracle on a case with this record. A case may take as long as `timeout`.
+    pub(crate) fn new(
+        mut trials: Trials,
+        record: Record,
+        timeout: Duration,
+        stop: Option<&'a AtomicBool>,
+    ) -> Self {
+        let hangs = record.verdict == Verdict::Timeout;
+        trials.timeout = if hangs {
+            timeout.min(HUNG_TIME)
+        } else {
+            timeout
+        };
+        let ends = !record.verdict.is_violation();
+        Self {
+            trials,
+            symptom: Symptom::of(&record),
+            record,
+            error: None,
+            stop,
+            until: ends.then(|| Instant::now() + LOST_TIME),
+            late: false,
+        }
+    }
+
+    /// Reduces the case.
+    pub(crate) fn reduce(&mut self, failing: Candidate, limits: &Limits) -> Reduction {
+        let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
+        let most = if self.until.is_some() {
+            MOST_LOST
+        } else {
+            MOST_DRAWS
+        };
+        let reduction = reduce(failing, most, &can_draw, self);
+        Reduction {
+            finished: reduction.finished && !self.late,
+            ..reduction
+        }
+    }
+}
+
+impl Oracle for DriverOracle<'_> {
     fn first(&mut self, candidates: &mut dyn Iterator<Item = Candidate>) -> Option<Candidate> {
         let Self {
             trials,
-            limits,
             symptom,
             record,
             error,
+            stop,
+            until,
+            late,
         } = self;
         if error.is_some() {
             return None;
         }
-        let mut next = || candidates.next();
-        let mut found = |candidate: &Candidate, frames: &[Frame]| {
-            let judged = judged(&candidate.case, limits, frames);
+        let mut next = || {
+            *late |= until.is_some_and(|until| Instant::now() >= until)
+                || stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
+            if *late { None } else { candidates.next() }
+        };
+        let mut found = |_: &Candidate, judged: Record| {
             let seen = Symptom::of(&judged);
             if !symptom.covers(&seen) {
                 return false;
@@ -140,8 +199,12 @@ impl Shown<'_> {
 
     /// Returns the document with what it shows, behind a sentence on its origin.
     pub(crate) fn described(&self, origin: &str) -> Value {
+        let word = match self.record.verdict.is_violation() {
+            true => "Violated".to_owned(),
+            false => format!("Ends by {}", self.record.verdict),
+        };
         let mut about = format!(
-            "{origin} States: {}. Violated: {}: {}",
+            "{origin} States: {}. {word}: {}: {}",
             self.states(),
             self.symptom,
             self.sentence()

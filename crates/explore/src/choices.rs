@@ -1,71 +1,39 @@
-//! Choices: the whole numbers that a scene is made from.
+//! Choices: the whole numbers that a scene is made from, and the states that follow from them.
 //!
-//! A generator asks for numbers below a bound and makes a scene of every answer, so a changed or shortened
-//! sequence is a scene too: 0 is the simplest answer, and stands for all that are missing. That is the way of
-//! Hypothesis. Its engine is not used, neither `hegeltest`, since what is needed of it are these few lines:
-//! the loop around them runs on other machines' drivers, weighs scenes by what was met, and must give the same
-//! scenes for a seed in every release of a library.
+//! A generator asks for numbers below a bound and makes a scene of every answer. No library draws the numbers: the same
+//! seed must give the same scenes in every release of one. Smaller scenes come from edits of the document and not
+//! from fewer choices, since a document is what is kept.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// A state and its value, as a number that tells it from others.
 pub(crate) type State = u64;
 
-/// A sequence of answers, which comes from a seed or is given.
+/// Answers by chance.
 #[derive(Clone, Debug)]
 pub(crate) struct Choices {
-    source: Source,
-    made: Vec<u32>,
+    /// The state of a SplitMix64 generator (Steele, Lea, Flood 2014).
+    seed: u64,
     /// The states that were chosen: those of the whole scene, then those of each draw.
     scopes: Vec<Vec<State>>,
 }
 
-#[derive(Clone, Debug)]
-enum Source {
-    /// The state of a SplitMix64 generator (Steele, Lea, Flood 2014).
-    Seed(u64),
-    /// Answers, and the number of those given.
-    Given(Vec<u32>, usize),
-}
-
 impl Choices {
-    /// Choices by chance.
+    /// The choices of a seed.
     pub(crate) fn by_seed(seed: u64) -> Self {
-        Self::new(Source::Seed(seed))
-    }
-
-    /// Choices that were made before, as far as they go.
-    pub(crate) fn given(choices: &[u32]) -> Self {
-        Self::new(Source::Given(choices.to_vec(), 0))
-    }
-
-    fn new(source: Source) -> Self {
         Self {
-            source,
-            made: Vec::new(),
+            seed,
             scopes: vec![Vec::new()],
         }
     }
 
-    /// Returns a number below `bound`; the answer 0 is noted even where there is no choice.
+    /// Returns a number below `bound`; the answer 0 even where there is no choice.
     pub(crate) fn below(&mut self, bound: u32) -> u32 {
-        let bound = bound.max(1);
-        let answer = match &mut self.source {
-            Source::Seed(state) => {
-                *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-                let mut z = *state;
-                z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-                z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-                ((z ^ (z >> 31)) % u64::from(bound)) as u32
-            }
-            Source::Given(all, at) => {
-                let answer = all.get(*at).copied().unwrap_or(0) % bound;
-                *at += 1;
-                answer
-            }
-        };
-        self.made.push(answer);
-        answer
+        self.seed = self.seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.seed;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) % u64::from(bound.max(1))) as u32
     }
 
     /// Returns a number from `low` to `high`, both included; `low` is the simplest.
@@ -112,9 +80,9 @@ impl Choices {
         self.scopes.push(Vec::new());
     }
 
-    /// Returns the answers and the states, those of the scene first.
-    pub(crate) fn finish(self) -> (Vec<u32>, Vec<Vec<State>>) {
-        (self.made, self.scopes)
+    /// Returns the states, those of the scene first.
+    pub(crate) fn finish(self) -> Vec<Vec<State>> {
+        self.scopes
     }
 }
 
@@ -123,28 +91,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn given_answers_are_repeated_and_zero_stands_for_what_is_missing() {
-        let mut by_seed = Choices::by_seed(5);
-        let first: Vec<u32> = (1..9).map(|n| by_seed.below(n * 7)).collect();
-        let (made, _) = by_seed.finish();
-        assert_eq!(made, first);
-        let mut given = Choices::given(&made[..4]);
-        let again: Vec<u32> = (1..9).map(|n| given.below(n * 7)).collect();
-        assert_eq!(again[..4], first[..4]);
-        assert_eq!(again[4..], [0; 4]);
-        let mut large = Choices::given(&[9]);
-        assert_eq!(large.below(4), 1);
+    fn a_seed_gives_the_same_answers_each_of_them_below_its_bound() {
+        let answers = |seed| {
+            let mut choices = Choices::by_seed(seed);
+            (0..40).map(move |n| choices.below(n)).collect::<Vec<u32>>()
+        };
+        assert_eq!(answers(5), answers(5));
+        assert_ne!(answers(5), answers(6));
+        let below = |(n, answer): (usize, &u32)| *answer < (n as u32).max(1);
+        assert!(answers(5).iter().enumerate().all(below));
     }
 
     #[test]
     fn states_belong_to_the_scene_or_to_a_draw() {
-        let mut choices = Choices::given(&[0, 1, 1]);
-        choices.word("cull", &["none", "front"]);
+        let mut choices = Choices::by_seed(0);
+        choices.note("cull", "none");
         choices.begin_draw();
-        choices.word("cull", &["none", "front"]);
+        choices.note("cull", "front");
         choices.begin_draw();
-        choices.flag("cull", 2);
-        let (_, scopes) = choices.finish();
+        choices.note("cull", "back");
+        let scopes = choices.finish();
         assert_eq!(scopes.iter().map(Vec::len).collect::<Vec<_>>(), [1, 1, 1]);
         assert_ne!(scopes[0], scopes[1]);
         assert_ne!(scopes[1], scopes[2]);

@@ -23,8 +23,6 @@ const MOST_MADE: u64 = 24;
 pub struct RandomScene {
     /// Its number, from 0 on.
     pub index: u64,
-    /// The choices that it was made from.
-    pub choices: Vec<u32>,
     /// Its case and the document.
     pub candidate: Candidate,
 }
@@ -75,25 +73,10 @@ impl Fuzzer {
                 let candidate = self.candidate(index, &made);
                 if let Some(candidate) = candidate.filter(|c| can_draw(&c.case)) {
                     self.pairs.add(&made.scopes);
-                    return Some(RandomScene {
-                        index,
-                        choices: made.choices,
-                        candidate,
-                    });
+                    return Some(RandomScene { index, candidate });
                 }
             }
         }
-    }
-
-    /// Returns the scene of changed choices; `None` if it is no valid one.
-    pub fn replay(&self, index: u64, choices: &[u32]) -> Option<RandomScene> {
-        let made = scenes::scene(Choices::given(choices), &self.space);
-        let candidate = self.candidate(index, &made)?;
-        Some(RandomScene {
-            index,
-            choices: made.choices,
-            candidate,
-        })
     }
 
     /// Returns the number of pairs of states that the scenes have met.
@@ -202,23 +185,6 @@ mod tests {
         };
         assert_eq!(scenes(1), scenes(1));
         assert_ne!(scenes(1)[1]["scene"], scenes(2)[1]["scene"]);
-    }
-
-    #[test]
-    fn choices_make_the_same_scene_again_and_fewer_ones_a_smaller_one() {
-        let mut fuzzer = Fuzzer::new(3, Space::of([&everything()]));
-        let mut smaller = 0;
-        for _ in 0..50 {
-            let scene = fuzzer.scene(&|_| true).unwrap();
-            let again = fuzzer.replay(scene.index, &scene.choices).unwrap();
-            assert_eq!(again.candidate.document, scene.candidate.document);
-            let half = &scene.choices[..scene.choices.len() / 2];
-            if let Some(half) = fuzzer.replay(scene.index, half) {
-                let length = |s: &RandomScene| s.candidate.document.to_string().len();
-                smaller += usize::from(length(&half) < length(&scene));
-            }
-        }
-        assert!(smaller > 35, "{smaller} of 50");
     }
 
     #[test]

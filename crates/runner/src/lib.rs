@@ -22,6 +22,7 @@ mod launch;
 mod loss;
 mod measure;
 mod memory;
+mod outcome;
 mod process;
 mod protocol;
 mod relation;
@@ -37,7 +38,7 @@ mod trial;
 mod version_search;
 mod worker;
 
-pub use batch::{Batches, Outcome};
+pub use batch::Batches;
 pub use bench::{BenchError, BenchEvent, BenchPlan, BenchSummary, bench, ruler};
 pub use drawing::draw_frames;
 pub use event::Event;

@@ -5,16 +5,14 @@
 
 use crate::drawing::Due;
 use crate::launch::{Launch, StartError};
-use crate::loss::Failure;
+use crate::outcome::outcome;
 use crate::process::Wait;
 use crate::worker::Worker;
 use etalon_case::Case;
-use etalon_frame::Frame;
+use etalon_record::Record;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// The time that a case may take.
-const TIMEOUT: Duration = Duration::from_secs(20);
 /// The most requests in flight.
 const MOST_AHEAD: usize = 4;
 
@@ -24,24 +22,23 @@ pub struct Trials {
     worker: Worker,
     ahead: usize,
     slot: u32,
-    /// The number of workers that were lost.
-    pub lost: usize,
+    /// The time that a case may take.
+    pub timeout: Duration,
 }
 
 impl Trials {
     /// Trials on a running worker.
-    pub fn new(launch: Launch, worker: Worker) -> Self {
+    pub fn new(launch: Launch, worker: Worker, timeout: Duration) -> Self {
         Self {
             launch,
             worker,
             ahead: 1,
             slot: 0,
-            lost: 0,
+            timeout,
         }
     }
 
-    /// Draws the cases that `next` gives until `found` says yes to one, and returns that one. `found` gets its
-    /// frames; a case that the driver refuses, or that ends its worker, is none.
+    /// Draws and judges the cases that `next` gives until `found` says yes to the record of one, and returns that one.
     ///
     /// # Errors
     /// When a worker that was lost cannot be started again.
@@ -49,7 +46,7 @@ impl Trials {
         &mut self,
         next: &mut dyn FnMut() -> Option<C>,
         case: impl Fn(&C) -> &Case,
-        found: &mut dyn FnMut(&C, &[Frame]) -> bool,
+        found: &mut dyn FnMut(&C, Record) -> bool,
     ) -> Result<Option<C>, StartError> {
         let mut asked: VecDeque<(u32, C, Instant)> = VecDeque::new();
         let mut result = None;
@@ -65,23 +62,30 @@ impl Trials {
                 return Ok(result);
             };
             let due = Due::of(case(&candidate));
-            let wait = Wait::of(TIMEOUT);
-            let drawing = self.worker.process.receive_frames(slot, due, since, wait);
-            match drawing.frames {
-                Ok(frames) if result.is_none() && found(&candidate, &frames) => {
-                    result = Some(candidate);
-                    self.ahead = 1;
+            let wait = Wait::of(self.timeout);
+            let process = &mut self.worker.process;
+            let drawing = process.receive_frames(slot, due, since, wait);
+            if result.is_some() && drawing.frames.is_ok() {
+                continue;
+            }
+            let limits = &self.worker.hello.limits;
+            let (record, ends) = outcome(process, case(&candidate), limits, drawing.frames);
+            if result.is_none() && found(&candidate, record) {
+                result = Some(candidate);
+                self.ahead = 1;
+            } else {
+                self.ahead = (self.ahead + 1).min(MOST_AHEAD);
+            }
+            if ends {
+                self.worker = Worker::start(&self.launch)?;
+                // What was asked behind it was lost with it.
+                if result.is_some() {
+                    return Ok(result);
                 }
-                Err(Failure::Lost(_)) => {
-                    self.lost += 1;
-                    self.worker = Worker::start(&self.launch)?;
-                    // What was asked behind it was lost with it.
-                    for (slot, candidate, since) in &mut asked {
-                        self.worker.process.request_case(*slot, case(candidate));
-                        *since = Instant::now();
-                    }
+                for (slot, candidate, since) in &mut asked {
+                    self.worker.process.request_case(*slot, case(candidate));
+                    *since = Instant::now();
                 }
-                _ => self.ahead = (self.ahead + 1).min(MOST_AHEAD),
             }
         }
     }

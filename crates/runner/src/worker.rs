@@ -3,12 +3,13 @@
 use crate::drawing::DRAW_TIMEOUT;
 use crate::launch::{Launch, StartError};
 use crate::loss::Failure;
+use crate::outcome::outcome;
 use crate::process::{Wait, WorkerProcess};
 use crate::protocol::{Hello, Response};
 use etalon_backend::BackendError;
 use etalon_case::Case;
 use etalon_frame::Frame;
-use etalon_record::Release;
+use etalon_record::{Record, Release};
 use std::time::Duration;
 use thiserror::Error;
 
@@ -53,6 +54,13 @@ impl Worker {
                 })
             }
         }
+    }
+
+    /// Draws and judges a case, which may take as long as `timeout`. Returns its record, and whether the worker must
+    /// not be used again.
+    pub fn record(&mut self, case: &Case, timeout: Duration) -> (Record, bool) {
+        let drawing = self.process.draw_case(0, case, Wait::of(timeout));
+        outcome(&mut self.process, case, &self.hello.limits, drawing.frames)
     }
 
     /// Draws the scenes of a case and reads each back.

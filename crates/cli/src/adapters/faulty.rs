@@ -64,6 +64,17 @@ pub(crate) enum Fault {
     Mute,
 }
 
+/// The scenes that fail.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Marked {
+    /// One out of [`ONE_OF`], chosen by a hash.
+    #[default]
+    ByHash,
+    /// Those of which a draw has a scissor rectangle: `cpu:fault=abort@scissor`.
+    Scissor,
+}
+
 impl Fault {
     const ALL: [Self; 18] = [
         Self::Abort,
@@ -86,12 +97,16 @@ impl Fault {
         Self::Mute,
     ];
 
-    /// Returns the fault of the adapter of this name.
-    pub(crate) fn named(name: &str) -> Option<Self> {
+    /// Returns the fault of the adapter of this name, and the scenes that it marks.
+    pub(crate) fn named(name: &str) -> Option<(Self, Marked)> {
         let word = name.strip_prefix(PREFIX)?;
-        Self::ALL
-            .into_iter()
-            .find(|fault| fault.named_word() == word)
+        let (word, marked) = match word.strip_suffix("@scissor") {
+            Some(word) => (word, Marked::Scissor),
+            None => (word, Marked::ByHash),
+        };
+        let mut all = Self::ALL.into_iter();
+        let fault = all.find(|fault| fault.named_word() == word)?;
+        Some((fault, marked))
     }
 
     fn named_word(self) -> String {
@@ -104,6 +119,7 @@ pub(crate) struct Faulty<B> {
     inner: B,
     info: AdapterInfo,
     fault: Fault,
+    marked: Marked,
     pipe: RefCell<File>,
     messages: RefCell<Vec<String>>,
     /// True if flaky pictures are wrong in this process.
@@ -113,7 +129,7 @@ pub(crate) struct Faulty<B> {
 }
 
 impl<B: Backend> Faulty<B> {
-    pub(crate) fn new(inner: B, name: &str, fault: Fault, pipe: File) -> Self {
+    pub(crate) fn new(inner: B, name: &str, (fault, marked): (Fault, Marked), pipe: File) -> Self {
         match fault {
             Fault::Start => {
                 say!("the planted driver does not start");
@@ -130,6 +146,7 @@ impl<B: Backend> Faulty<B> {
             inner,
             info,
             fault,
+            marked,
             pipe: RefCell::new(pipe),
             messages: RefCell::default(),
             unlucky: chance.is_multiple_of(2),
@@ -231,7 +248,21 @@ impl<B: Backend> Backend for Faulty<B> {
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
         let spared = scene.passes.is_empty();
-        let number = if spared { ONE_OF } else { hash(scene) % ONE_OF };
+        let scissored = || {
+            let mut draws = scene.passes.iter().flat_map(|pass| &pass.draws);
+            draws.any(|draw| draw.scissor.is_some())
+        };
+        let number = match self.marked {
+            _ if spared => ONE_OF,
+            Marked::ByHash => hash(scene) % ONE_OF,
+            Marked::Scissor => {
+                if scissored() {
+                    0
+                } else {
+                    ONE_OF
+                }
+            }
+        };
         if number == 0 {
             self.fail()?;
         }
@@ -301,12 +332,19 @@ mod tests {
 
     #[test]
     fn the_name_says_what_goes_wrong() {
-        assert_eq!(Fault::named("cpu:fault=abort"), Some(Fault::Abort));
         for fault in Fault::ALL {
             let name = format!("{PREFIX}{}", fault.named_word());
-            assert_eq!(Fault::named(&name), Some(fault));
+            assert_eq!(Fault::named(&name), Some((fault, Marked::ByHash)));
+            let scissor = format!("{name}@scissor");
+            assert_eq!(Fault::named(&scissor), Some((fault, Marked::Scissor)));
         }
-        for other in ["cpu", "cpu:fault=", "cpu:fault=Abort", "gl:fault=abort"] {
+        for other in [
+            "cpu",
+            "cpu:fault=",
+            "cpu:fault=Abort",
+            "gl:fault=abort",
+            "cpu:fault=abort@",
+        ] {
             assert_eq!(Fault::named(other), None, "{other}");
         }
     }

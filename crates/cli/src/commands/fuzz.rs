@@ -6,18 +6,19 @@
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::failure::{Failure, INCOMPLETE, UNEXPECTED};
 use crate::failure_groups::{Group, Groups};
-use crate::flags::{AdapterFileArguments, Format};
+use crate::flags::{AdapterFileArguments, Format, parse_timeout};
 use crate::interruption::listen;
 use crate::output::{say, summarize, summarize_json};
 use crate::processors::processors;
 use crate::progress::progress;
 use crate::provenance;
+use crate::reduction::TIMEOUT;
 use clap::Args;
 use etalon_case::Case;
 use etalon_explore::{Fuzzer, RandomScene, Space};
 use etalon_frame::Limits;
 use etalon_record::{FolderLock, Verdict};
-use etalon_runner::{Batches, Launch, Outcome, Worker};
+use etalon_runner::{Batches, Launch, Worker};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -59,6 +60,9 @@ pub(crate) struct Arguments {
     /// Number of workers that draw at the same time. Default: one per processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) jobs: Option<u16>,
+    /// Seconds that a scene may take
+    #[arg(long, value_name = "S", default_value = TIMEOUT, value_parser = parse_timeout)]
+    pub(crate) timeout: f64,
     /// Form of the summary
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
@@ -189,8 +193,10 @@ fn fuzz(
     };
     let begun = Instant::now();
     let mut fuzzer = Fuzzer::new(arguments.seed, Space::of([&limits]));
-    let mut batches = Batches::new(launch.clone(), worker, jobs);
-    let mut groups = Groups::new(launch, limits.clone(), arguments.out.join(FOUND));
+    let timeout = Duration::from_secs_f64(arguments.timeout);
+    let mut batches = Batches::new(launch.clone(), worker, jobs, timeout);
+    let folder = arguments.out.join(FOUND);
+    let mut groups = Groups::new(launch, limits.clone(), folder, timeout);
     let bar = progress(if count == u64::MAX { 0 } else { count });
     bar.set_message(name.clone());
     let mut tally = Tally {
@@ -224,23 +230,16 @@ fn fuzz(
             drawn
         });
         let drawn = drawn.map_err(Failure::incomplete)?;
-        for (scene, outcome) in scenes.into_iter().zip(drawn) {
-            let Some(outcome) = outcome else { continue };
+        for (scene, record) in scenes.into_iter().zip(drawn) {
+            let Some(record) = record else { continue };
             tally.scenes += 1;
             bar.inc(1);
-            match &outcome {
-                Outcome::NotDrawn {
-                    verdict: Verdict::NotSupported,
-                    ..
-                } => {
-                    tally.not_supported += 1;
-                    continue;
-                }
-                Outcome::Judged(record) if !record.verdict.is_violation() => continue,
-                _ => {}
+            if record.verdict == Verdict::NotSupported {
+                tally.not_supported += 1;
+            } else if record.verdict.is_bad() && record.verdict != Verdict::Open {
+                tally.failing += 1;
+                groups.add(scene, record, stop)?;
             }
-            tally.failing += 1;
-            groups.add(&fuzzer, scene, outcome, stop)?;
         }
         bar.set_message(format!("{}: {} groups", tally.adapter, groups.len()));
     }

@@ -3,24 +3,26 @@
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::{find, library};
 use crate::failure::{Failure, UNEXPECTED};
-use crate::flags::{AdapterFileArguments, Format};
+use crate::flags::{AdapterFileArguments, Format, parse_timeout};
+use crate::interruption::listen;
 use crate::output::{summarize, summarize_json};
-use crate::reduction::{DriverOracle, Shown, confirm, file_name, judged};
+use crate::reduction::{DriverOracle, Shown, TIMEOUT, confirm, file_name};
 use clap::Args;
 use etalon_case::{Case, build};
-use etalon_explore::{Candidate, MOST_DRAWS, Reduction, keys, leaves, reduce, states};
-use etalon_frame::Limits;
-use etalon_record::{Record, Symptom};
+use etalon_explore::{Candidate, Reduction, keys, leaves, states};
+use etalon_record::{Record, Symptom, Verdict};
 use etalon_runner::{Launch, Trials, Worker};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// The processes in which a case is drawn at the start, and the drawings in each: a failure that depends on
 /// either is no steady one.
 const PROCESSES: usize = 4;
 const DRAWINGS: usize = 3;
+/// The processes of a case that does not end, each of which costs its time.
+const HUNG: usize = 2;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -38,6 +40,9 @@ pub(crate) struct Arguments {
     /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
+    /// Seconds that a case may take
+    #[arg(long, value_name = "S", default_value = TIMEOUT, value_parser = parse_timeout)]
+    pub(crate) timeout: f64,
     /// Form of the summary
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
@@ -62,7 +67,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if let Some(missing) = limits.missing(&case.requirements()) {
         return Err(Failure::usage(format!("{name} does not support {missing}")));
     }
-    let steady = repeat(&launch, worker, &case, &limits)?;
+    let timeout = Duration::from_secs_f64(arguments.timeout);
+    let steady = repeat(&launch, worker, &case, timeout)?;
     let (worker, record, symptom) = match steady {
         Outcome::Steady(steady) => *steady,
         Outcome::Passes(verdict) => {
@@ -82,26 +88,20 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
     };
     let begun = Instant::now();
-    let mut judge = DriverOracle {
-        trials: Trials::new(launch.clone(), worker),
-        limits: limits.clone(),
-        symptom: symptom.clone(),
-        record,
-        error: None,
-    };
+    let trials = Trials::new(launch.clone(), worker, timeout);
+    let mut judge = DriverOracle::new(trials, record, timeout, Some(listen()?));
     let failing = Candidate {
         document: document.clone(),
         case,
     };
-    let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
-    let reduction = reduce(failing, MOST_DRAWS, &can_draw, &mut judge);
+    let reduction = judge.reduce(failing, &limits);
     let seconds = begun.elapsed().as_secs_f64();
     if let Some(error) = judge.error {
         return Err(Failure::incomplete(format!(
             "the worker of {name} could not be started again: {error}"
         )));
     }
-    confirm(&launch, &reduction.smallest.case, &limits, &judge.symptom).map_err(|message| {
+    confirm(&launch, &reduction.smallest.case, &judge.symptom, timeout).map_err(|message| {
         let code = UNEXPECTED;
         let message = format!("the reduced case of {} {message}", arguments.case);
         Failure { code, message }
@@ -152,52 +152,66 @@ enum Outcome {
     Flaky(String),
 }
 
-/// Draws a case several times in several processes, each time alone.
+/// Draws a case several times in several processes, each time alone; once in each that it ends.
 fn repeat(
     launch: &Launch,
     first: Worker,
     case: &Case,
-    limits: &Limits,
+    timeout: Duration,
 ) -> Result<Outcome, Failure> {
     let mut records: Vec<Record> = Vec::new();
-    let mut ways: Vec<Option<Symptom>> = Vec::new();
     let mut worker = Some(first);
     let mut warm = None;
-    for _ in 0..PROCESSES {
+    let mut processes = 0;
+    let hung = |records: &[Record]| records.iter().any(|r| r.verdict == Verdict::Timeout);
+    while processes < if hung(&records) { HUNG } else { PROCESSES } {
+        processes += 1;
         let mut own = match worker.take() {
             Some(worker) => worker,
             None => Worker::start(launch).map_err(Failure::incomplete)?,
         };
+        let mut ended = false;
         for _ in 0..DRAWINGS {
-            let frames = own.draw(case).map_err(|e| {
-                Failure::incomplete(format!("it cannot be drawn on {}: {e}", launch.adapter))
-            })?;
-            let record = judged(case, limits, &frames);
-            let failed = record.verdict.is_violation();
-            ways.push(failed.then(|| Symptom::of(&record)));
+            let (record, ends) = own.record(case, timeout);
+            if record.verdict == Verdict::NotSupported {
+                let (name, message) = (&launch.adapter, record.message);
+                return Err(Failure::usage(format!("{name} does not support {message}")));
+            }
             records.push(record);
+            ended = ends;
+            if ended {
+                break;
+            }
         }
-        warm.get_or_insert(own);
+        if !ended {
+            warm.get_or_insert(own);
+        }
     }
-    let failed = ways.iter().flatten().count();
-    let (Some(worker), Some(record)) = (warm, records.into_iter().next()) else {
+    let worker = match warm {
+        Some(worker) => worker,
+        None => Worker::start(launch).map_err(Failure::incomplete)?,
+    };
+    let drawings = records.len();
+    let failing = |r: &&Record| r.verdict.is_bad() && r.verdict != Verdict::Open;
+    let ways: Vec<Symptom> = records.iter().filter(failing).map(Symptom::of).collect();
+    let Some(record) = records.into_iter().next() else {
         return Err(Failure::incomplete("nothing was drawn"));
     };
-    Ok(match ways.swap_remove(0) {
-        None if failed == 0 => Outcome::Passes(match record.message.as_str() {
+    Ok(match ways.first() {
+        None => Outcome::Passes(match record.message.as_str() {
             "" => record.verdict.to_string(),
             message => format!("{}, {message}", record.verdict),
         }),
-        Some(way) if failed == PROCESSES * DRAWINGS => {
-            let same = |other: &&Symptom| way.covers(other) && other.covers(&way);
-            match ways.iter().flatten().find(|other| !same(other)) {
-                None => Outcome::Steady(Box::new((worker, record, way))),
+        Some(way) if ways.len() == drawings => {
+            let same = |other: &&Symptom| way.covers(other) && other.covers(way);
+            match ways.iter().find(|other| !same(other)) {
+                None => Outcome::Steady(Box::new((worker, record, way.clone()))),
                 Some(other) => Outcome::Flaky(format!("it fails by {way} and by {other}")),
             }
         }
-        _ => Outcome::Flaky(format!(
-            "it fails in {failed} of {} drawings, in {PROCESSES} processes",
-            PROCESSES * DRAWINGS
+        Some(_) => Outcome::Flaky(format!(
+            "it fails in {} of {drawings} drawings, in {processes} processes",
+            ways.len()
         )),
     })
 }
@@ -241,7 +255,7 @@ impl Told<'_> {
             format!("{after} of {before} ({dropped:.1} % less)")
         };
         let mut text = format!(
-            "{} on {}\n  keys: {}\n  values: {}\n  draws: {} in {:.1} s{}\n  states: {}\n  violated: {}\n  {}\n",
+            "{} on {}\n  keys: {}\n  values: {}\n  draws: {} in {:.1} s{}\n  states: {}\n  {}: {}\n  {}\n",
             self.arguments.case,
             self.arguments.adapter,
             share(keys),
@@ -251,9 +265,13 @@ impl Told<'_> {
             if self.reduction.finished {
                 ""
             } else {
-                ", the most: more may be left to reduce"
+                ", a limit: more may be left to reduce"
             },
             self.shown().states(),
+            match self.record.verdict.is_violation() {
+                true => "violated".to_owned(),
+                false => self.record.verdict.to_string(),
+            },
             self.symptom,
             self.shown().sentence(),
         );

@@ -118,14 +118,34 @@ fn the_rasterizer_passes_all_scenes() {
 #[test]
 fn a_scene_that_ends_its_worker_is_kept_and_the_search_goes_on() {
     let folder = TempDir::new().unwrap();
-    let (code, summary, error) = fuzz("cpu:fault=abort", folder.path(), &["--count", "60"]);
+    let adapter = "cpu:fault=abort@scissor";
+    let (code, summary, error) = fuzz(adapter, folder.path(), &["--count", "60"]);
     assert_eq!(code, 1, "{error}");
     assert_eq!(summary["adapters"][0]["scenes"], 60);
     let groups = summary["groups"].as_array().unwrap();
-    assert_eq!(groups.len(), 1, "{summary}");
-    assert_eq!(groups[0]["verdict"], "crash");
-    assert!(groups[0]["count"].as_u64().unwrap() > 3, "{summary}");
-    assert_eq!(found(folder.path()).len(), 1);
+    for group in groups {
+        assert_eq!(group["verdict"], "crash");
+        assert_eq!(group["steady"], true);
+        assert_eq!(group["violation"], "process died by signal 6");
+    }
+    let group = &groups[0];
+    let failing = summary["adapters"][0]["failing"].as_u64().unwrap();
+    assert!(failing > 30, "{summary}");
+    assert!(
+        group["count"].as_u64().unwrap() > failing * 3 / 4,
+        "{summary}"
+    );
+    let sentence = group["sentence"].as_str().unwrap();
+    assert!(sentence.contains("about to abort"), "{sentence}");
+    // What ends the process is all that is left.
+    let files = found(folder.path());
+    assert_eq!(files.len(), groups.len());
+    let name = group["file"].as_str().unwrap().rsplit('/').next().unwrap();
+    let document: Value = serde_json::from_str(&files[name]).unwrap();
+    let draws = &document["scene"]["passes"][0]["draws"];
+    let keys: Vec<&String> = draws[0].as_object().unwrap().keys().collect();
+    assert_eq!(keys, ["mesh", "scissor", "shader"], "{document}");
+    assert_eq!(draws.as_array().unwrap().len(), 1, "{document}");
 }
 
 #[test]

@@ -10,8 +10,13 @@ use tempfile::TempDir;
 
 /// Reduces a case. Returns the exit code, the summary and the error output.
 fn reduce(case: &str, adapter: &str, out: &Path) -> (i32, Value, String) {
+    reduce_with(case, adapter, out, &[])
+}
+
+/// The same with further arguments.
+fn reduce_with(case: &str, adapter: &str, out: &Path, more: &[&str]) -> (i32, Value, String) {
     let out = out.to_str().unwrap();
-    let arguments = [
+    let own = [
         "reduce",
         case,
         "--adapter",
@@ -21,6 +26,7 @@ fn reduce(case: &str, adapter: &str, out: &Path) -> (i32, Value, String) {
         "--out",
         out,
     ];
+    let arguments = [&own, more].concat();
     let output = etalon(&arguments).output().unwrap();
     let summary = serde_json::from_slice(&output.stdout).unwrap_or(Value::Null);
     let error = String::from_utf8(output.stderr).unwrap();
@@ -165,6 +171,43 @@ fn the_state_that_a_driver_gets_wrong_stays() {
     let all = draws(&document);
     assert!(all.iter().any(|d| d.get("scissor").is_some()), "{document}");
     assert!(all.iter().all(|d| d.get("blend").is_none()), "{document}");
+}
+
+#[test]
+fn a_case_that_ends_its_worker_is_reduced_to_what_ends_it() {
+    let case = "sequence/state/scissor/across=draw/first=none/then=left";
+    for (fault, verdict, symptom) in [
+        ("abort", Verdict::Crash, "process died by signal 6"),
+        ("exit", Verdict::Crash, "process died with exit status 7"),
+        ("hang", Verdict::Timeout, "no answer"),
+        ("garbage", Verdict::Crash, "invalid message"),
+        ("lost", Verdict::DeviceLost, "planted"),
+        ("refused", Verdict::ResourceError, "planted"),
+        ("panic", Verdict::InternalError, "a planted panic"),
+    ] {
+        let folder = TempDir::new().unwrap();
+        let cases = folder.path().join("cases");
+        let adapter = format!("cpu:fault={fault}@scissor");
+        let more: &[&str] = match fault {
+            "hang" => &["--timeout", "0.5"],
+            _ => &[],
+        };
+        let (code, summary, error) = reduce_with(case, &adapter, &cases, more);
+        assert_eq!(code, 0, "{fault}: {error}");
+        for key in ["first_violation", "violation"] {
+            let told = summary[key].as_str().unwrap();
+            assert!(told.contains(symptom), "{fault}: {told}");
+        }
+        assert!(summary["draws"].as_u64().unwrap() <= 200, "{summary}");
+        let text = fs::read_to_string(summary["file"].as_str().unwrap()).unwrap();
+        let document: Value = serde_json::from_str(&text).unwrap();
+        let about = document["about"].as_str().unwrap();
+        assert!(about.contains(&format!("Ends by {verdict}")), "{about}");
+        let all = draws(&document);
+        assert_eq!(all.len(), 1, "{fault}: {document}");
+        let keys: Vec<&String> = all[0].as_object().unwrap().keys().collect();
+        assert_eq!(keys, ["mesh", "scissor", "shader"], "{fault}");
+    }
 }
 
 #[test]

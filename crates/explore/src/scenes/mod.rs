@@ -28,8 +28,6 @@ pub(crate) struct Made {
     pub(crate) scene: Value,
     /// Further submissions that are read back; empty for one.
     pub(crate) submissions: Vec<u32>,
-    /// The answers that it was made from.
-    pub(crate) choices: Vec<u32>,
     /// Its states, and those of each draw.
     pub(crate) scopes: Vec<Vec<State>>,
 }
@@ -42,12 +40,10 @@ pub(crate) fn scene(choices: Choices, space: &Space) -> Made {
         true => vec![maker.choices.range(1, 3)],
         false => Vec::new(),
     };
-    let (choices, scopes) = maker.choices.finish();
     Made {
         scene,
         submissions,
-        choices,
-        scopes,
+        scopes: maker.choices.finish(),
     }
 }
 

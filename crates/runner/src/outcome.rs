@@ -1,0 +1,37 @@
+//! The record of a case that was drawn alone, for callers that keep no run folder.
+
+use crate::judge::Judge;
+use crate::loss::Failure;
+use crate::process::WorkerProcess;
+use crate::supervisor::FailureReport;
+use etalon_case::Case;
+use etalon_frame::{Frame, Limits};
+use etalon_record::Record;
+
+/// Returns the record of a drawing, and whether its worker must not be used again. Frames are judged by themselves:
+/// their legal sets are of no use to another case.
+pub(crate) fn outcome(
+    process: &mut WorkerProcess,
+    case: &Case,
+    limits: &Limits,
+    frames: Result<Vec<Frame>, Failure>,
+) -> (Record, bool) {
+    match frames {
+        Ok(frames) => {
+            let judged = Judge::default().judge(0, case, "", limits, &frames);
+            (judged.record, false)
+        }
+        Err(failure) => {
+            let ends = failure.ends_worker();
+            let FailureReport {
+                verdict,
+                message,
+                process,
+            } = FailureReport::new(failure, Some(process));
+            let mut record = Record::new(&case.id, "", verdict);
+            record.message = message;
+            record.process = process;
+            (record, ends)
+        }
+    }
+}
