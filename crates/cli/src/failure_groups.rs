@@ -6,6 +6,7 @@
 
 use crate::failure::Failure;
 use crate::reduction::{DriverOracle, Shown, confirm, file_name};
+use etalon_case::Case;
 use etalon_explore::{Candidate, Oracle, RandomScene, Signature, keys};
 use etalon_frame::Limits;
 use etalon_record::{Record, Subject, Symptom, Verdict};
@@ -14,6 +15,7 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
 use std::time::Duration;
 
 /// The scenes of a group that are reduced before others are counted by their states.
@@ -35,8 +37,10 @@ pub(crate) struct Group {
     states: String,
     /// The number of keys of the first scene, and of what is left of it.
     keys: [usize; 2],
-    /// True if it fails by itself, in a new process.
+    /// True if it fails by itself, in a new process; before that was tried, if its reduction was one.
     steady: bool,
+    /// What is left of its first scene, until it is drawn in a new process.
+    unconfirmed: Option<Case>,
     file: PathBuf,
     /// The traits that tell it from other groups.
     key: (String, Option<Signature>),
@@ -83,12 +87,42 @@ impl Groups {
 
     /// Returns the groups, the commonest first.
     pub(crate) fn finish(mut self) -> Vec<Group> {
+        let found = Confirmations::of(&mut self).confirm();
+        self.note(found);
         self.all.sort_by_key(|g| std::cmp::Reverse(g.count));
         self.all
     }
 
-    /// Adds a failing scene. When the search is being stopped, it is kept as it is.
+    /// Adds failing scenes, while the groups that were found before are confirmed: new processes take longer to start
+    /// than scenes to reduce. When the search is being stopped, scenes are kept as they are.
     pub(crate) fn add(
+        &mut self,
+        failing: Vec<(RandomScene, Record)>,
+        stop: &AtomicBool,
+    ) -> Result<(), Failure> {
+        let unconfirmed = Confirmations::of(self);
+        let (found, added) = thread::scope(|scope| {
+            let confirming = scope.spawn(|| unconfirmed.confirm());
+            let mut all = failing.into_iter();
+            let added = all.try_for_each(|(scene, record)| self.add_one(scene, record, stop));
+            match confirming.join() {
+                Ok(found) => (found, added),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        });
+        self.note(found);
+        added
+    }
+
+    /// Notes which groups fail by themselves.
+    fn note(&mut self, found: Vec<(usize, bool)>) {
+        for (at, steady) in found {
+            self.all[at].steady = steady;
+        }
+    }
+
+    /// Adds a failing scene.
+    fn add_one(
         &mut self,
         scene: RandomScene,
         record: Record,
@@ -197,12 +231,10 @@ impl Groups {
             "{} On {adapter}.",
             seen.scene.document["about"].as_str().unwrap_or_default()
         );
-        let (case, symptom) = (&seen.scene.case, &seen.symptom);
-        let steady = seen.steady && confirm(&self.launch, case, symptom, self.timeout).is_ok();
         let shown = Shown {
             document: &seen.scene.document,
             record: &seen.record,
-            symptom,
+            symptom: &seen.symptom,
         };
         let text = serde_json::to_string_pretty(&shown.described(&origin))
             .map_err(|e| Failure::incomplete(format!("cannot write JSON: {e}")))?;
@@ -220,12 +252,47 @@ impl Groups {
             clause: shown.clause().map(str::to_owned),
             states: shown.states(),
             keys: [seen.keys, keys(&seen.scene.document["scene"])],
-            steady,
+            steady: seen.steady,
+            unconfirmed: seen.steady.then_some(seen.scene.case),
             file: path,
             key: seen.key,
             symptom: seen.symptom,
         });
         Ok(())
+    }
+}
+
+/// Groups that are to be confirmed.
+struct Confirmations {
+    launch: Launch,
+    timeout: Duration,
+    /// Number, case and symptom of each.
+    all: Vec<(usize, Case, Symptom)>,
+}
+
+impl Confirmations {
+    /// Those of which nothing is known yet.
+    fn of(groups: &mut Groups) -> Self {
+        let each = groups.all.iter_mut().enumerate();
+        let unconfirmed = each.filter_map(|(at, group)| {
+            let case = group.unconfirmed.take()?;
+            Some((at, case, group.symptom.clone()))
+        });
+        Self {
+            all: unconfirmed.collect(),
+            launch: groups.launch.clone(),
+            timeout: groups.timeout,
+        }
+    }
+
+    /// Draws each in a new process. Returns which of them fail there.
+    fn confirm(&self) -> Vec<(usize, bool)> {
+        let each = self.all.iter();
+        each.map(|(at, case, symptom)| {
+            let confirmed = confirm(&self.launch, case, symptom, self.timeout);
+            (*at, confirmed.is_ok())
+        })
+        .collect()
     }
 }
 

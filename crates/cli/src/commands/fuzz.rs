@@ -1,7 +1,7 @@
 //! `etalon fuzz`.
 //!
-//! Scenes are made, drawn and judged in batches. What fails is looked at between batches and in the order of the
-//! scenes, so that the groups do not depend on the number of workers.
+//! Scenes are made, drawn and judged in batches. What fails is looked at batch by batch and in the order of the scenes,
+//! so that the groups do not depend on the number of workers.
 
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::failure::{Failure, INCOMPLETE, UNEXPECTED};
@@ -23,10 +23,10 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread;
+use std::thread::{self, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
-/// The scenes between two looks at what failed.
+/// The scenes of a batch.
 const BATCH: usize = 128;
 /// The scenes of each adapter where neither their number nor a time is given.
 const COUNT: u64 = 1000;
@@ -211,24 +211,25 @@ fn fuzz(
     };
     let mut left = count;
     let mut next = make(&mut fuzzer, &limits, &mut left);
+    let mut failing = Vec::new();
     while !next.is_empty() && !stop.load(Ordering::Relaxed) {
         let scenes = std::mem::take(&mut next);
         let cases: Vec<&Case> = scenes.iter().map(|s| &s.candidate.case).collect();
         let late = arguments.time.is_some_and(|t| begun.elapsed() >= t);
         (tally.pairs, tally.states) = (fuzzer.pairs(), fuzzer.states());
-        // The next scenes are made while these are drawn.
-        let drawn = thread::scope(|scope| {
+        let seen = std::mem::take(&mut failing);
+        // While these are drawn, the next scenes are made, and what failed before is reduced.
+        let (drawn, added) = thread::scope(|scope| {
             let made = scope.spawn(|| match late {
                 true => Vec::new(),
                 false => make(&mut fuzzer, &limits, &mut left),
             });
+            let added = scope.spawn(|| groups.add(seen, stop));
             let drawn = batches.draw(&cases, stop);
-            match made.join() {
-                Ok(made) => next = made,
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-            drawn
+            next = joined(made);
+            (drawn, joined(added))
         });
+        added?;
         let drawn = drawn.map_err(Failure::incomplete)?;
         for (scene, record) in scenes.into_iter().zip(drawn) {
             let Some(record) = record else { continue };
@@ -238,15 +239,24 @@ fn fuzz(
                 tally.not_supported += 1;
             } else if record.verdict.is_bad() && record.verdict != Verdict::Open {
                 tally.failing += 1;
-                groups.add(scene, record, stop)?;
+                failing.push((scene, record));
             }
         }
         bar.set_message(format!("{}: {} groups", tally.adapter, groups.len()));
     }
+    groups.add(failing, stop)?;
     bar.finish_and_clear();
     tally.seconds = begun.elapsed().as_secs_f64();
     tally.groups = groups.finish();
     Ok(tally)
+}
+
+/// Returns the result of a thread, or passes its panic on.
+fn joined<T>(thread: ScopedJoinHandle<'_, T>) -> T {
+    match thread.join() {
+        Ok(result) => result,
+        Err(panic) => std::panic::resume_unwind(panic),
+    }
 }
 
 /// Makes the scenes of a batch.
