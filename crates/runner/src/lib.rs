@@ -12,6 +12,7 @@ mod drawing;
 mod event;
 mod exit_report;
 mod expected_values;
+mod failure_report;
 mod frame_file;
 mod grade;
 mod greeting;

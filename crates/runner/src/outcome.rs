@@ -1,9 +1,9 @@
 //! The record of a case that was drawn alone, for callers that keep no run folder.
 
+use crate::failure_report::FailureReport;
 use crate::judge::Judge;
 use crate::loss::Failure;
 use crate::process::WorkerProcess;
-use crate::supervisor::FailureReport;
 use etalon_case::Case;
 use etalon_frame::{Frame, Limits};
 use etalon_record::Record;

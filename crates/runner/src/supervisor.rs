@@ -4,13 +4,12 @@
 //! A start that fails is repeated at once and not later: requests in flight must all reach the same
 //! worker, or their answers would be taken for each other's.
 
-use crate::exit_report::ExitReport;
+use crate::failure_report::FailureReport;
 use crate::launch::{Launch, StartError};
 use crate::loss::{Failure, Loss};
 use crate::process::WorkerProcess;
 use crate::sync::lock;
 use crate::worker::Worker;
-use etalon_record::{ProcessEnd, Verdict};
 use std::sync::{Arc, Mutex};
 
 /// The number of failed starts in a row after which an adapter's worker is not started again.
@@ -37,16 +36,6 @@ pub(crate) struct Supervisor {
     worker: Option<WorkerProcess>,
     /// The number of workers so far.
     generation: u32,
-}
-
-/// The report on a failed request.
-pub(crate) struct FailureReport {
-    /// The verdict of the case that was being drawn.
-    pub(crate) verdict: Verdict,
-    /// The cause.
-    pub(crate) message: String,
-    /// The end of the worker's process, if it was lost.
-    pub(crate) process: Option<ProcessEnd>,
 }
 
 /// Starts a worker once.
@@ -135,30 +124,5 @@ impl Supervisor {
             self.worker = None;
         }
         report
-    }
-}
-
-impl FailureReport {
-    /// The report on a failed request to a worker; `None` where there was no worker to ask.
-    pub(crate) fn new(failure: Failure, worker: Option<&mut WorkerProcess>) -> Self {
-        let verdict = failure.verdict();
-        match failure {
-            Failure::Backend(error) => Self {
-                verdict,
-                message: error.to_string(),
-                process: None,
-            },
-            Failure::Lost(loss) => {
-                let ExitReport { message, end } = match worker {
-                    Some(process) => process.exit_report(loss),
-                    None => ExitReport::new(loss, None, false, String::new()),
-                };
-                Self {
-                    verdict,
-                    message,
-                    process: Some(end),
-                }
-            }
-        }
     }
 }

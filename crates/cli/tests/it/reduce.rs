@@ -239,9 +239,12 @@ fn a_flaky_failure_is_told_from_a_steady_one() {
         let case = format!("combined/common/seed={seed}");
         let (code, _, error) = reduce(&case, "cpu:fault=flaky", folder.path());
         if code == 1 {
-            assert!(error.contains("is flaky on cpu:fault=flaky"), "{error}");
+            // Four processes in a row may fail, and the one behind them not.
+            let flaky = error.contains("is flaky on cpu:fault=flaky");
+            assert!(flaky || error.contains("drawn alone it is pass"), "{error}");
+            return flaky;
         }
-        code == 1
+        false
     });
     assert!(flaky);
 }

@@ -2,10 +2,11 @@
 
 use super::adapter_run::{AdapterRun, Observation};
 use crate::drawing::Drawing;
+use crate::failure_report::FailureReport;
 use crate::loss::{Failure, Loss};
 use crate::process::WorkerProcess;
 use crate::story::tell_chain;
-use crate::supervisor::{FailureReport, start};
+use crate::supervisor::start;
 use crate::sync::lock;
 use etalon_record::{LossKind, Symptom, Verdict};
 use std::time::{Duration, Instant};
