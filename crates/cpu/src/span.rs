@@ -129,7 +129,7 @@ fn tests_early(draw: &Draw) -> bool {
         || shader.counts_runs()
         || shader.writes_mask()
         || shader.writes_reference()
-        || draw.multisample.alpha_to_coverage);
+        || draw.alpha_to_coverage());
     same || draw.early_tests == EarlyTests::Forced
 }
 
@@ -264,7 +264,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
             if let Some(written) = &output.mask {
                 mask = and(mask, self.steps.mask_keeps(written, sample, samples));
             }
-            if self.draw.multisample.alpha_to_coverage {
+            if self.draw.alpha_to_coverage() {
                 let covers = self.steps.alpha_covers(output.color[3], sample, samples);
                 mask = and(mask, covers);
             }
@@ -512,7 +512,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         for (t, index) in self.pass.color.iter().enumerate() {
             let target = &self.draw.targets[t];
             let mut color = output.at_location(t);
-            if self.draw.multisample.alpha_to_one {
+            if self.draw.alpha_to_one() {
                 color[3] = [1.0; LANES];
             }
             let encodings = self.encodings[t];

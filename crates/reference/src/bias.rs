@@ -41,7 +41,7 @@ pub(crate) fn depth_bias(
             }
         }
     };
-    let by_constant = unit.times(Interval::exact(f64::from(state.constant)));
+    let by_constant = flushed(unit).times(Interval::exact(f64::from(state.constant)));
     let by_slope = slopes(context, boxes, z).times(Interval::exact(f64::from(state.slope)));
     let sum = by_constant
         .plus(by_slope)
@@ -53,6 +53,15 @@ pub(crate) fn depth_bias(
         sum.map_increasing(|v| v.max(clamp))
     } else {
         sum
+    }
+}
+
+/// Returns a unit that may be 0 where it is too small for a normal number: texts promise a relative accuracy, and no
+/// denormalized numbers (OpenGL 4.6 and OpenGL ES 3.2, 2.3.4.1; Vulkan, Floating-Point Computation).
+fn flushed(unit: Interval) -> Interval {
+    match unit.low < f64::from(f32::MIN_POSITIVE) {
+        true => unit.hull(Interval::exact(0.0)),
+        false => unit,
     }
 }
 

@@ -557,7 +557,7 @@ impl Walk<'_> {
         if state.mask & (1 << place.at.sample) == 0 {
             return Possible::Never;
         }
-        if !state.alpha_to_coverage {
+        if !place.draw.alpha_to_coverage() {
             return Possible::Always;
         }
         let alpha = alpha.hull();

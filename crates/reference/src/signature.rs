@@ -176,8 +176,10 @@ impl Walk<'_> {
             let hit = match self.hit((pass, d as usize), primitive, sides, point) {
                 Ok(hit) => hit,
                 Err(reason) => {
-                    // Clipped at both ends of a row, it may still lie between them.
-                    signature.constant &= reason == Rejection::Coverage;
+                    // Clipped at both ends of a row, it may still lie between them; a line that misses both may
+                    // cross the row there.
+                    let triangle = matches!(primitive.shape, Shape::Triangle(_));
+                    signature.constant &= triangle && reason == Rejection::Coverage;
                     continue;
                 }
             };

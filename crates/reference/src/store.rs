@@ -125,7 +125,7 @@ impl Walk<'_> {
         let mut judging = Judging::new(self.rules);
         let pass = &self.scene.passes[place.pass];
         let mut second = output.second.unwrap_or([Range::exact(0.0); 4]);
-        if place.draw.multisample.alpha_to_one {
+        if place.draw.alpha_to_one() {
             second[3] = Range::exact(1.0);
         }
         for (location, index) in pass.color.iter().enumerate() {
@@ -133,7 +133,7 @@ impl Walk<'_> {
                 continue;
             };
             let mut color = output.at_location(location);
-            if place.draw.multisample.alpha_to_one {
+            if place.draw.alpha_to_one() {
                 color[3] = Range::exact(1.0);
             }
             let attachment = &self.scene.attachments[*index];

@@ -79,6 +79,17 @@ pub struct Draw {
 }
 
 impl Draw {
+    /// True if alpha reduces the coverage: where the first output is of integers, alpha to coverage and alpha to one
+    /// are skipped (Vulkan, Multisample Coverage; OpenGL 4.6, 17.3.1; OpenGL ES 3.2, 15.1.1).
+    pub fn alpha_to_coverage(&self) -> bool {
+        self.multisample.alpha_to_coverage && !self.shader.writes_integers()
+    }
+
+    /// True if alpha then counts as 1.
+    pub fn alpha_to_one(&self) -> bool {
+        self.multisample.alpha_to_one && !self.shader.writes_integers()
+    }
+
     /// Returns the vertex indices of each primitive that is rasterized, in order: the mesh's own, which
     /// tessellation may turn over.
     pub fn primitives(&self) -> Vec<PrimitiveVertices> {

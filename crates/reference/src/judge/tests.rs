@@ -394,3 +394,63 @@ fn an_average_depth_may_be_a_little_off_and_no_more() {
         assert_eq!(sample.allows(&[code(value), 3]), allowed, "{value}");
     }
 }
+
+#[test]
+fn a_line_between_texels_that_its_viewport_clips_is_not_lost() {
+    let scene = case(
+        r#"{"about":"t","spec":["t"],"scene":{
+            "attachments":{"color":{"format":"rgba8unorm","size":[7,64]}},
+            "passes":[{"color":["color"],"draws":[{
+                "mesh":{"kind":"vertices","units":"texels",
+                    "positions":[[-0.25,13.75,0.17],[0.5,38.5,0.17]]},
+                "params":{"color":[1,1,1,1]},"shader":"uniform_color","topology":"line-list",
+                "viewport":{"rect":[4,0,1,255],"depth":[0,0]}}]}],
+            "read":["color"]}}"#,
+    )
+    .scene;
+    let limits = limits(Api::Vulkan);
+    let set = judge(&scene, &limits, &Rules::of(&limits));
+    let group = &set.groups[0];
+    // No other texel of these rows lies in the viewport.
+    let drawn = |y: u32| group.sample(4, y, 0).allows(&[255; 4]);
+    let rows: Vec<u32> = (0..64).filter(|y| drawn(*y)).collect();
+    assert!(rows.contains(&22) && rows.contains(&23), "{rows:?}");
+}
+
+#[test]
+fn alpha_does_nothing_to_the_coverage_of_integers() {
+    let scene = case(
+        r#"{"about":"t","spec":["t"],"scene":{
+            "attachments":{"color":{"format":"rgba8uint","size":[2,2],"samples":4}},
+            "passes":[{"color":["color"],"draws":[{
+                "mesh":{"kind":"full"},"shader":"uint_color","params":{"color":[7,0,0,0]},
+                "multisample":{"alpha_to_coverage":true,"alpha_to_one":true}}]}],
+            "read":["color"]}}"#,
+    )
+    .scene;
+    for api in [Api::Vulkan, Api::OpenGl] {
+        let limits = limits(api);
+        let set = judge(&scene, &limits, &Rules::of(&limits));
+        let sample = set.groups[0].sample(0, 0, 3);
+        assert!(sample.allows(&[7, 0, 0, 0]), "{api}");
+        assert!(
+            !sample.allows(&[0; 4]) && !sample.allows(&[7, 0, 0, 1]),
+            "{api}"
+        );
+    }
+}
+
+#[test]
+fn a_bias_that_is_no_normal_number_may_be_nothing() {
+    let scene = scene(
+        &format!(r#"{COLOR},"depth":{{"format":"depth32float","clear":1}}"#),
+        r#"{"mesh":{"kind":"full","z":0},"shader":"uniform_color","depth_bias":{"constant":255},
+            "depth":{"compare":"always","write":true}}"#,
+        r#""depth""#,
+    );
+    let limits = limits(Api::Vulkan);
+    let set = judge(&scene, &limits, &Rules::of(&limits));
+    let sample = set.groups[0].sample(0, 0, 0);
+    assert!(sample.allows(&[0]) && sample.allows(&[255]));
+    assert!(!sample.allows(&[i64::from(f32::MIN_POSITIVE.to_bits())]));
+}
