@@ -20,7 +20,7 @@ fn vs(@location(0) position: vec4f, @location(1) color: vec4f) -> Varying {
 // A value that is 0 and takes so many dependent steps to find out.
 fn cost(position: vec4f, steps: f32) -> f32 {
     var hash = u32(position.x) * 747796405u + u32(position.y);
-    for (var i = 0u; i < u32(steps); i++) {
+    for (var i = 0u; i < u32(max(steps, 0.0)); i++) {
         hash = hash * 1664525u + 1013904223u;
         hash = hash ^ (hash >> 15u);
     }

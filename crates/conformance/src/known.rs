@@ -171,7 +171,8 @@ const ES_SOFTPIPE: Lacks = Lacks {
 
 const WGPU_FEATURES: &str = "advanced-blend advanced-blend-coherent alpha-to-one clear-commands \
     clip-distance-mask fragment-shader-absent-with-color \
-    sample-mask-output-with-alpha-to-coverage constant-alpha-blend-factor depth-bounds front-and-back-culling last-provoking-vertex \
+    sample-mask-output-with-alpha-to-coverage constant-alpha-blend-factor depth-bounds \
+    depth-output-without-depth front-and-back-culling last-provoking-vertex \
     logic-operations masked-clears min-max-blend-factors min-sample-shading mirrored-viewport \
     mixed-provoking-vertices polygon-mode-line precise-occlusion rasterizer-discard reversed-depth-range \
     sample-coverage scissor-outside separate-stencil-masks stencil-export tessellation triangle-fans \

@@ -33,6 +33,8 @@ state_enum! {
         DepthBounds = "depth-bounds",
         /// Depths beyond the viewport's range moved to its ends.
         DepthClamp = "depth-clamp",
+        /// Shaders that write a depth where no attachment holds one.
+        DepthOutputWithoutDepth = "depth-output-without-depth",
         /// Resolving depth to the average of its samples.
         DepthResolveAverage = "depth-resolve-average",
         /// Resolving depth to its greatest sample.

@@ -13,6 +13,7 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         Feature::CentroidInterpolation
         | Feature::ClearCommands
         | Feature::ConstantAlphaBlendFactor
+        | Feature::DepthOutputWithoutDepth
         | Feature::FrontAndBackCulling
         | Feature::LastProvokingVertex
         | Feature::MaskedClears

@@ -60,7 +60,12 @@ impl Scene {
             if mixes_provoking_vertices(pass) {
                 needed.insert(Requirement::Feature(Feature::MixedProvokingVertices));
             }
+            let held = pass.depth_stencil;
+            let holds_depth = held.is_some_and(|i| self.attachments[i].format.has_depth());
             for draw in &pass.draws {
+                if draw.shader.writes_depth() && !holds_depth {
+                    needed.insert(Requirement::Feature(Feature::DepthOutputWithoutDepth));
+                }
                 needed.extend(features(draw, size).into_iter().map(Requirement::Feature));
                 for (target, index) in draw.targets.iter().zip(&pass.color) {
                     if target.blends() {

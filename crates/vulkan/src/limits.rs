@@ -111,6 +111,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::ClearCommands
         | Feature::ConservativeDepth
         | Feature::ConstantAlphaBlendFactor
+        | Feature::DepthOutputWithoutDepth
         | Feature::FirstInstance
         | Feature::FirstProvokingVertex
         | Feature::ForcedEarlyTests

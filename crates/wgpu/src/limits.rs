@@ -185,6 +185,8 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
             flag(DownlevelFlags::DEPTH_BIAS_CLAMP),
         ),
         (Feature::DepthClamp, feature(Features::DEPTH_CLIP_CONTROL)),
+        // A pipeline whose shader writes `frag_depth` has a format with depth (GPURenderPipelineDescriptor).
+        (Feature::DepthOutputWithoutDepth, false),
         (
             Feature::DualSourceBlending,
             feature(Features::DUAL_SOURCE_BLENDING),
