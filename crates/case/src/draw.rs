@@ -7,7 +7,7 @@ use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
     Attachment, ColorTarget, Contents, Counter, Draw, EarlyTests, MAX_VERTICES, Mesh, Multisample,
-    Params, PolygonMode, PrimitiveTopology, RESTART, Shader, StencilFace, StencilOperation,
+    Params, PolygonMode, Pool, PrimitiveTopology, RESTART, Shader, StencilFace, StencilOperation,
     StencilState, Viewport,
 };
 
@@ -22,6 +22,7 @@ pub(crate) struct Target<'a> {
     pub(crate) bound: &'a [usize],
     pub(crate) attachments: &'a [Attachment],
     pub(crate) counters: &'a [Counter],
+    pub(crate) pool: Option<Pool>,
 }
 
 pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
@@ -95,6 +96,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
     sampler(wire, target, &textures).map_err(|e| e.key("sampler"))?;
     tessellation(wire, &mesh).map_err(|e| e.key("tessellation"))?;
     clip_distances(wire)?;
+    check_pool(wire, target)?;
     let counters = counters(wire, target.counters).map_err(|e| e.key("counters"))?;
     if wire.early_tests.is_conservative() && !wire.shader.writes_depth() {
         let message = "a promise about the written depth needs a shader that writes one";
@@ -255,6 +257,25 @@ fn sampler(wire: &DrawWire, target: &Target<'_>, textures: &[usize]) -> Result<(
     let format = |t: &usize| target.attachments[*t].format;
     if !textures.iter().map(format).all(filterable) {
         return Err(At::new("not every driver filters 32-bit floats"));
+    }
+    Ok(())
+}
+
+/// Checks that a shader that uses the pool has one of the size of its pass, as its parameters say.
+fn check_pool(wire: &DrawWire, target: &Target<'_>) -> Result<(), At> {
+    if !wire.shader.uses_pool() {
+        return Ok(());
+    }
+    let name = wire.shader.name();
+    if target.pool.is_none_or(|pool| pool.size != target.size) || target.samples > 1 {
+        let message =
+            format!("{name} uses the scene's pool: it has the size of the pass, and one sample");
+        return Err(At::new(message).key("shader"));
+    }
+    let [width, height, ..] = wire.params.color.0;
+    if [width, height] != target.size.map(|side| side as f32) {
+        let message = format!("{name} reads the size of the picture from red and green");
+        return Err(At::new(message).key("color").key("params"));
     }
     Ok(())
 }

@@ -8,7 +8,7 @@ use crate::path::check_path;
 use crate::tiles::tiles;
 use crate::values::typed;
 use crate::wire::{DepthStencilResolveWire, PassWire, SceneWire};
-use etalon_scene::{Attachment, Counter, DepthStencilResolve, Pass, ResolveMode, Scene};
+use etalon_scene::{Attachment, Counter, DepthStencilResolve, Pass, Pool, ResolveMode, Scene};
 use serde_json::Value;
 
 /// The most counters of a scene.
@@ -38,9 +38,12 @@ fn scene(wire: &SceneWire) -> Result<Scene, At> {
             kind: *kind,
         })
         .collect();
+    check_pool(wire).map_err(|e| e.key("pool"))?;
     let mut passes = Vec::new();
     for (i, p) in wire.passes.iter().enumerate() {
-        passes.push(pass(p, &attachments, &counters).map_err(|e| e.index(i).key("passes"))?);
+        passes.push(
+            pass(p, &attachments, &counters, wire.pool).map_err(|e| e.index(i).key("passes"))?,
+        );
     }
     let mut read = Vec::new();
     for (i, name) in wire.read.iter().enumerate() {
@@ -60,13 +63,34 @@ fn scene(wire: &SceneWire) -> Result<Scene, At> {
         passes,
         read,
         counters,
+        pool: wire.pool,
         path: wire.path,
     };
     check_path(&scene).map_err(|e| e.key("path"))?;
     Ok(scene)
 }
 
-fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Result<Pass, At> {
+/// Checks that a pool has room, is not too large and is used.
+fn check_pool(wire: &SceneWire) -> Result<(), At> {
+    let draws = || wire.passes.iter().flat_map(|pass| &pass.draws);
+    let used = draws().any(|draw| draw.shader.uses_pool());
+    match wire.pool {
+        None => Ok(()),
+        Some(_) if !used => Err(At::new("no shader uses it")),
+        Some(pool) if pool.nodes == 0 || pool.bytes() > Pool::MOST_BYTES => Err(At::new(format!(
+            "a pool has at least one node, and {} bytes at most",
+            Pool::MOST_BYTES
+        ))),
+        Some(_) => Ok(()),
+    }
+}
+
+fn pass(
+    wire: &PassWire,
+    attachments: &[Attachment],
+    counters: &[Counter],
+    pool: Option<Pool>,
+) -> Result<Pass, At> {
     let mut color = Vec::new();
     for (i, name) in wire.color.iter().enumerate() {
         let check = || -> Result<usize, At> {
@@ -136,6 +160,7 @@ fn pass(wire: &PassWire, attachments: &[Attachment], counters: &[Counter]) -> Re
             bound: &bound,
             attachments,
             counters,
+            pool,
         };
         for one in tiles(d, first.size).map_err(|e| e.index(i).key("draws"))? {
             let draw = draw(&one, &target).map_err(|e| e.index(i).key("draws"))?;

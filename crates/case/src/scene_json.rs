@@ -40,6 +40,9 @@ pub fn scene_json(scene: &Scene) -> Result<Value, &'static str> {
         let counters = counters.map(|c| (c.name.clone(), plain(&c.kind)));
         all.add("counters", counters.collect::<Map<_, _>>());
     }
+    if let Some(pool) = &scene.pool {
+        all.add("pool", plain(pool));
+    }
     all.differing("path", &scene.path, &Path::default());
     Ok(all.done())
 }

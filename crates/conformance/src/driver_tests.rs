@@ -13,7 +13,7 @@ macro_rules! driver_tests {
     ($($driver:ident)+; $more:tt) => {
         $(mod $driver {
             $crate::more_tests!($driver $more);
-            $crate::subject_tests!($driver: limits prepared drawing uploads sampling depth stencil raster fetch formats integers samples counters early_tests chains passes layers shaders targets);
+            $crate::subject_tests!($driver: limits prepared drawing uploads sampling depth stencil raster fetch formats integers samples counters early_tests chains passes layers lists shaders targets);
         })+
     };
 }

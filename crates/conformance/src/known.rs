@@ -10,7 +10,7 @@ pub type Defect = (&'static str, &'static str);
 
 /// The name of a defect of four samples: all scenes that need them are left out.
 pub const FOUR_SAMPLES: &str = "four samples";
-/// The name of a defect of shaders that count: all scenes that need them are left out.
+/// The name of a defect of shaders that count or write other storage: all scenes that need them are left out.
 pub const COUNTING_SHADERS: &str = "counting shaders";
 /// The name of a defect of sample masks: all scenes whose shaders write one are left out.
 pub(crate) const SAMPLE_MASKS: &str = "sample masks";
@@ -40,7 +40,9 @@ impl Known {
             Subject::new(backend, tolerated),
             |subject, (name, _)| match *name {
                 FOUR_SAMPLES => subject.without_four_samples(),
-                COUNTING_SHADERS => subject.without_feature(Feature::StorageCounters),
+                COUNTING_SHADERS => subject
+                    .without_feature(Feature::StorageCounters)
+                    .without_feature(Feature::FragmentStorage),
                 SAMPLE_MASKS => subject.without_feature(Feature::SampleMaskOutput),
                 MIP_LEVELS => subject.without_path(PathValue::Target(PathTarget::MipLevel)),
                 _ => subject,
@@ -138,7 +140,7 @@ const GL: Lacks = Lacks {
 };
 const GL_SOFTPIPE: Lacks = Lacks {
     features: &[
-        "advanced-blend advanced-blend-coherent depth-bias-clamp min-sample-shading \
+        "advanced-blend advanced-blend-coherent depth-bias-clamp fragment-storage min-sample-shading \
         mirrored-viewport sample-mask-output sample-mask-output-with-alpha-to-coverage \
         sample-shading storage-counters tessellation upper-left-domain",
         RESOLVES,

@@ -6,6 +6,8 @@
 mod backend;
 mod lanes;
 mod linear;
+mod lists;
+mod memory;
 mod pass;
 mod prepared;
 mod raster;

@@ -1,8 +1,8 @@
 //! Passes: load operations, clear commands, draws, resolves and store operations, in this order.
 
+use crate::memory::Memory;
 use crate::raster;
-use crate::span::Counted;
-use crate::steps::{Moment, Steps, Stored};
+use crate::steps::{Moment, Steps};
 use crate::surface::{Surface, depth_encoding};
 use etalon_backend::BackendError;
 use etalon_frame::{Aspect, ChannelEncoding};
@@ -15,52 +15,49 @@ const DISCARDED: f64 = 0.6;
 pub(crate) fn run<S: Steps>(
     scene: &Scene,
     number: usize,
-    surfaces: &mut [Surface],
-    counters: &mut [Counted],
+    memory: &mut Memory<'_>,
     steps: &S,
 ) -> Result<(), BackendError> {
     let pass = &scene.passes[number];
-    let reached = |moment, surfaces: &mut [Surface], counters: &mut [Counted]| {
-        steps.reached(moment, scene, Stored { surfaces, counters });
+    let reached = |moment, memory: &mut Memory<'_>| {
+        steps.reached(moment, scene, memory.stored());
     };
-    let clears = |draw: usize, surfaces: &mut [Surface], counters: &mut [Counted]| {
+    let clears = |draw: usize, memory: &mut Memory<'_>| {
         for command in pass.clears_before(draw) {
-            clear(scene, pass, command, surfaces, steps);
+            clear(scene, pass, command, memory.surfaces, steps);
             let clear = *command;
             reached(
                 Moment::Cleared {
                     pass: number,
                     clear,
                 },
-                surfaces,
-                counters,
+                memory,
             );
         }
     };
-    reached(Moment::Begin { pass: number }, surfaces, counters);
-    load(scene, pass, surfaces, steps);
-    reached(Moment::Loaded { pass: number }, surfaces, counters);
+    reached(Moment::Begin { pass: number }, memory);
+    load(scene, pass, memory.surfaces, steps);
+    reached(Moment::Loaded { pass: number }, memory);
     for (index, draw) in pass.draws.iter().enumerate() {
-        clears(index, surfaces, counters);
+        clears(index, memory);
         reached(
             Moment::Draw {
                 pass: number,
                 draw: index,
             },
-            surfaces,
-            counters,
+            memory,
         );
-        raster::draw(scene, pass, draw, surfaces, counters, steps);
+        raster::draw(scene, pass, draw, memory, steps);
         reached(
             Moment::Drawn {
                 pass: number,
                 draw: index,
             },
-            surfaces,
-            counters,
+            memory,
         );
     }
-    clears(pass.draws.len(), surfaces, counters);
+    clears(pass.draws.len(), memory);
+    let surfaces = &mut *memory.surfaces;
     for (source, target) in pass.color.iter().zip(&pass.resolve) {
         if let Some(target) = target {
             let both = surfaces.get_disjoint_mut([*source, *target]);
@@ -82,9 +79,9 @@ pub(crate) fn run<S: Steps>(
         let stencil = |values: &[u8]| steps.resolve_stencil(resolve.stencil, values);
         target.resolve_stencil_from(source, resolve.stencil, stencil);
     }
-    reached(Moment::End { pass: number }, surfaces, counters);
+    reached(Moment::End { pass: number }, memory);
     for (index, aspect) in pass.discarded() {
-        discard(scene, index, aspect, &mut surfaces[index]);
+        discard(scene, index, aspect, &mut memory.surfaces[index]);
     }
     Ok(())
 }

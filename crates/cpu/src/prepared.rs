@@ -1,8 +1,9 @@
 //! A scene prepared for drawing.
 
+use crate::lists::Lists;
+use crate::memory::{Counted, Memory};
 use crate::pass;
-use crate::span::Counted;
-use crate::steps::{Moment, Steps, Stored};
+use crate::steps::{Moment, Steps};
 use crate::surface::{Surface, depth_encoding};
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind, Frame, Image, ReadPath};
@@ -41,14 +42,15 @@ impl<S: Steps> Prepared for PreparedScene<S> {
             .collect();
         let counters = self.scene.counters.iter();
         self.counters = counters.map(|c| (c.kind, 0)).collect();
-        let stored = Stored {
+        let mut memory = Memory {
             surfaces: &mut self.surfaces,
             counters: &mut self.counters,
+            lists: &mut Lists::new(self.scene.pool),
         };
+        let stored = memory.stored();
         self.steps.reached(Moment::Initial, &self.scene, stored);
         for pass in 0..self.scene.passes.len() {
-            let (surfaces, counters) = (&mut self.surfaces, &mut self.counters);
-            pass::run(&self.scene, pass, surfaces, counters, &self.steps)?;
+            pass::run(&self.scene, pass, &mut memory, &self.steps)?;
         }
         let elapsed = start.elapsed();
         Ok(FrameTime {

@@ -2,9 +2,9 @@
 
 use crate::lanes::{LANES, Mask};
 use crate::linear::{CENTER, Linear, UNITS, position};
-use crate::span::{Counted, Span, SpanState};
+use crate::memory::Memory;
+use crate::span::{Span, SpanState};
 use crate::steps::Steps;
-use crate::surface::Surface;
 use etalon_frame::{ChannelEncoding, standard_sample_positions};
 use etalon_pipeline::shader::clip_distances;
 use etalon_pipeline::{
@@ -171,8 +171,7 @@ pub(crate) fn draw<S: Steps>(
     scene: &Scene,
     pass: &Pass,
     draw: &Draw,
-    surfaces: &mut [Surface],
-    counters: &mut [Counted],
+    memory: &mut Memory<'_>,
     steps: &S,
 ) {
     if draw.rasterizer_discard {
@@ -209,7 +208,7 @@ pub(crate) fn draw<S: Steps>(
             }
         })
         .collect();
-    let mut state = SpanState::new(scene, pass, draw, &samples, surfaces, counters, steps);
+    let mut state = SpanState::new(scene, pass, draw, &samples, memory, steps);
     let encoding = state.depth_encoding();
     let front = steps.lines_face_front();
     let provoking = draw.provoking_vertices();

@@ -2,10 +2,12 @@
 
 use crate::lanes::{Codes, LANES, Mask, Real};
 use crate::linear::{CENTER, Linear, UNITS};
+use crate::lists::Lists;
+use crate::memory::{Counted, Memory};
 use crate::steps::{Exported, Path, Steps, Tests};
 use crate::surface::{Surface, depth_encoding};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
-use etalon_pipeline::shader::{FragmentInput, FragmentOutput, Taps, cost, fragment};
+use etalon_pipeline::shader::{FragmentInput, FragmentOutput, List, Taps, cost, fragment};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, Point, takes_logic};
 use etalon_scene::{Draw, EarlyTests, Pass, Scene, Shader, StencilFace};
 
@@ -40,6 +42,7 @@ pub(crate) struct SpanState<'a, S> {
     asks_depth: bool,
     surfaces: &'a mut [Surface],
     counters: &'a mut [Counted],
+    lists: &'a mut Lists,
     steps: &'a S,
 }
 
@@ -85,9 +88,6 @@ impl Face {
 /// The number of texels for which an expensive shader's loop runs at once.
 const TOGETHER: usize = 4;
 
-/// A counter and its count.
-pub(crate) type Counted = (CounterKind, u64);
-
 fn and(a: Mask, b: Mask) -> Mask {
     std::array::from_fn(|i| a[i] & b[i])
 }
@@ -127,6 +127,7 @@ fn tests_early(draw: &Draw) -> bool {
     let same = !(shader.discards()
         || shader.writes_depth()
         || shader.counts_runs()
+        || shader.adds_to_pool()
         || shader.writes_mask()
         || shader.writes_reference()
         || draw.alpha_to_coverage());
@@ -179,8 +180,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         pass: &'a Pass,
         draw: &'a Draw,
         samples: &'a [Point],
-        surfaces: &'a mut [Surface],
-        counters: &'a mut [Counted],
+        memory: &'a mut Memory<'_>,
         steps: &'a S,
     ) -> Self {
         let format = |index: usize| scene.attachments[index].format;
@@ -204,8 +204,9 @@ impl<'a, S: Steps> SpanState<'a, S> {
             asks_depth: draw.depth.is_some()
                 || draw.depth_bounds.is_some()
                 || reads_depth(draw.shader),
-            surfaces,
-            counters,
+            surfaces: memory.surfaces,
+            counters: memory.counters,
+            lists: memory.lists,
             steps,
         }
     }
@@ -258,6 +259,9 @@ impl<'a, S: Steps> SpanState<'a, S> {
             };
             self.run_expensive_loop(span, new, &mut output);
             shaded = Some(output);
+            if let Some(node) = &output.node {
+                self.lists.add([span.x, span.y], node, new);
+            }
             if let Some(kept) = &output.kept {
                 mask = and(mask, self.steps.kept(kept));
             }
@@ -297,6 +301,10 @@ impl<'a, S: Steps> SpanState<'a, S> {
             }
             _ => [[0.0; LANES]; 4],
         };
+        let list = match self.draw.shader.reads_pool() {
+            true => self.lists.of([span.x, span.y]),
+            false => Vec::new(),
+        };
         let input = FragmentInput {
             color: span.color.map(|v| [v; LANES]),
             front: span.front,
@@ -308,6 +316,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 true => Taps::of(&tap),
                 false => Taps::NONE,
             },
+            list: List::Known(&list),
             uv: self.uv(span, point),
             params: &self.draw.params,
         };

@@ -57,6 +57,8 @@ state_enum! {
         FragmentShaderAbsent = "fragment-shader-absent",
         /// The same where there are colour attachments, whose channels are all masked.
         FragmentShaderAbsentWithColor = "fragment-shader-absent-with-color",
+        /// Fragment shaders that write storage, atomically, for later passes to read.
+        FragmentStorage = "fragment-storage",
         /// Culling front and back faces together.
         FrontAndBackCulling = "front-and-back-culling",
         /// Blending and write masks that differ between colour attachments.

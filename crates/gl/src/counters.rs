@@ -63,20 +63,6 @@ impl Counters {
         Some((index * self.stride) as i32)
     }
 
-    /// Zeroes the storage buffer, after all writes of earlier shaders.
-    pub(crate) fn reset(&self, context: &Context, runs: Option<(glow::Buffer, usize)>) {
-        let Some((buffer, size)) = runs else {
-            return;
-        };
-        let gl = &context.gl;
-        // SAFETY: the context is current, has storage buffers, and the buffer is of this size.
-        unsafe {
-            gl.memory_barrier(glow::BUFFER_UPDATE_BARRIER_BIT);
-            gl.bind_buffer(glow::SHADER_STORAGE_BUFFER, Some(buffer));
-            gl.buffer_sub_data_u8_slice(glow::SHADER_STORAGE_BUFFER, 0, &vec![0; size]);
-        }
-    }
-
     /// Returns the counts after the draws.
     pub(crate) fn read(
         &self,
@@ -137,5 +123,16 @@ impl Counters {
                 unsafe { context.gl.delete_query(query.object) };
             }
         }
+    }
+}
+
+/// Zeroes the first bytes of a storage buffer, after all writes of earlier shaders.
+pub(crate) fn zero(context: &Context, buffer: glow::Buffer, size: usize) {
+    let gl = &context.gl;
+    // SAFETY: the context is current, has storage buffers, and the buffer is not smaller.
+    unsafe {
+        gl.memory_barrier(glow::BUFFER_UPDATE_BARRIER_BIT);
+        gl.bind_buffer(glow::SHADER_STORAGE_BUFFER, Some(buffer));
+        gl.buffer_sub_data_u8_slice(glow::SHADER_STORAGE_BUFFER, 0, &vec![0; size]);
     }
 }

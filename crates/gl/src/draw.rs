@@ -4,7 +4,7 @@ use crate::attachment::Attachment;
 use crate::clear::{ClearCall, discard};
 use crate::context::Context;
 use crate::pool::Target;
-use crate::program::{PARAMS_BINDING, RUNS_BINDING};
+use crate::program::{PARAMS_BINDING, STORAGE_BINDING};
 use crate::query::Query;
 use crate::state::{self, DrawState};
 use crate::surface::Surface;
@@ -21,6 +21,8 @@ pub(crate) struct Inputs {
     pub(crate) arguments: Option<(glow::Buffer, usize)>,
     /// The storage buffer that shaders count in.
     pub(crate) runs: Option<(glow::Buffer, usize)>,
+    /// The scene's pool.
+    pub(crate) pool: Option<(glow::Buffer, usize)>,
 }
 
 impl Inputs {
@@ -32,6 +34,7 @@ impl Inputs {
             self.params,
             self.arguments,
             self.runs,
+            self.pool,
         ];
         all.into_iter().flatten()
     }
@@ -62,6 +65,8 @@ pub(crate) struct DrawCall {
     pub(crate) queries: Vec<Query>,
     /// The offset of the counter, if the shader counts.
     pub(crate) runs: Option<i32>,
+    /// True if the shader uses the pool.
+    pub(crate) uses_pool: bool,
     /// The offset of the parameter block, if the shader has one.
     pub(crate) params: Option<i32>,
     pub(crate) mode: u32,
@@ -153,14 +158,18 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
             gl.bind_texture(glow::TEXTURE_2D, Some(*texture));
             gl.bind_sampler(unit, draw.sampler);
         }
-        if let (Some(offset), Some((buffer, _))) = (draw.runs, inputs.runs) {
-            let (point, size) = (RUNS_BINDING, size_of::<u32>() as i32);
+        let storage = match (draw.runs, draw.uses_pool) {
+            (Some(offset), _) => inputs.runs.map(|(b, _)| (b, offset, size_of::<u32>())),
+            (None, true) => inputs.pool.map(|(buffer, size)| (buffer, 0, size)),
+            (None, false) => None,
+        };
+        if let Some((buffer, offset, size)) = storage {
             gl.bind_buffer_range(
                 glow::SHADER_STORAGE_BUFFER,
-                u32::from(point),
+                u32::from(STORAGE_BINDING),
                 Some(buffer),
                 offset,
-                size,
+                size as i32,
             );
         }
         for query in &draw.queries {
@@ -177,8 +186,8 @@ fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall) {
         for query in &draw.queries {
             gl.end_query(query.target);
         }
-        if draw.runs.is_some() {
-            // The next draw may use the same counter.
+        if storage.is_some() {
+            // The next draw may use the same counter, or read the pool.
             gl.memory_barrier(glow::SHADER_STORAGE_BARRIER_BIT);
         }
         if draw.flushed {

@@ -66,7 +66,7 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         // A program of ES has a fragment shader, or does not link (OpenGL ES 3.2, 7.3).
         Feature::FragmentShaderAbsent | Feature::FragmentShaderAbsentWithColor => !caps.es,
         Feature::StencilExport => caps.stencil_export,
-        Feature::StorageCounters => caps.storage_alignment.is_some(),
+        Feature::FragmentStorage | Feature::StorageCounters => caps.storage_alignment.is_some(),
     };
     Feature::ALL.into_iter().filter(known).collect()
 }

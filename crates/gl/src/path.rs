@@ -237,6 +237,7 @@ mod tests {
             passes: vec![Pass::default()],
             read: vec![0],
             counters: Vec::new(),
+            pool: None,
             path: Path {
                 target,
                 end,

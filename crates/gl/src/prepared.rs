@@ -4,7 +4,7 @@ use crate::attachment::{self, Attachment, InitialContents};
 use crate::clear::{self, ClearCall};
 use crate::codes;
 use crate::context::{Context, refused};
-use crate::counters::Counters;
+use crate::counters::{self, Counters};
 use crate::draw::{self, DrawCall, Inputs, Pass};
 use crate::enums::topology;
 use crate::objects::Objects;
@@ -31,6 +31,7 @@ pub(crate) struct PreparedScene<'a> {
     attachments: Vec<Attachment>,
     passes: Vec<Pass>,
     path: Path,
+    pool: Option<etalon_scene::Pool>,
     /// The attachments that are read, and the way of each to the host.
     read: Vec<(usize, PathEnd)>,
     inputs: Inputs,
@@ -62,6 +63,7 @@ impl<'a> PreparedScene<'a> {
             attachments: Vec::new(),
             passes: Vec::new(),
             path: scene.path,
+            pool: scene.pool,
             read: ends(objects, scene),
             inputs: Inputs::default(),
             counters: Counters::new(context, &scene.counters),
@@ -193,6 +195,10 @@ impl<'a> PreparedScene<'a> {
             params: buffer(&params)?,
             arguments: buffer(&geometry.arguments)?,
             runs: buffer(&vec![0; self.counters.storage_size()])?,
+            pool: match scene.pool {
+                Some(pool) => buffer(&vec![0; pool.bytes() as usize])?,
+                None => None,
+            },
         };
         Ok(places)
     }
@@ -301,6 +307,7 @@ impl<'a> PreparedScene<'a> {
             sampler: sampler.transpose()?,
             queries: self.counters.queries(context, pool, draw)?,
             runs: self.counters.runs(draw),
+            uses_pool: draw.shader.uses_pool(),
             params: block,
             mode: match draw.tessellation {
                 None => topology(draw.topology),
@@ -324,7 +331,11 @@ impl<'a> PreparedScene<'a> {
         let start = Instant::now();
         state::reset(context);
         attachment::set_initial_contents(context, &self.attachments);
-        self.counters.reset(context, self.inputs.runs);
+        let pool = self.inputs.pool.zip(self.pool);
+        let pool = pool.map(|((buffer, _), pool)| (buffer, pool.cleared_bytes() as usize));
+        for (buffer, size) in self.inputs.runs.into_iter().chain(pool) {
+            counters::zero(context, buffer, size);
+        }
         // SAFETY: the context is current; a query exists only where timers count.
         let (cpu, wall) = unsafe {
             if let Some(query) = objects.timer {

@@ -87,6 +87,10 @@ fn can_be_written(context: &Context, feature: Feature) -> bool {
             (shader, EarlyTests::Unchanged),
         ],
         Feature::ForcedEarlyTests => &[(shader, EarlyTests::Forced)],
+        Feature::FragmentStorage => &[
+            (Shader::ListAppend, EarlyTests::Implicit),
+            (Shader::ListCompose, EarlyTests::Implicit),
+        ],
         Feature::StorageCounters => &[(Shader::CountedColor, EarlyTests::Implicit)],
         _ => &[],
     };

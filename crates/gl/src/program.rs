@@ -18,8 +18,8 @@ use std::collections::HashMap;
 
 /// The binding point of the parameter block.
 pub(crate) const PARAMS_BINDING: u32 = 0;
-/// The binding point of the storage buffer that shaders count in.
-pub(crate) const RUNS_BINDING: u8 = 0;
+/// The binding point of the storage buffer: the counter of shader runs, or the pool.
+pub(crate) const STORAGE_BINDING: u8 = 0;
 
 /// The capabilities beyond WebGPU's core that the suite's shaders use.
 const CAPABILITIES: Capabilities = Capabilities::DUAL_SOURCE_BLENDING
@@ -27,8 +27,8 @@ const CAPABILITIES: Capabilities = Capabilities::DUAL_SOURCE_BLENDING
     .union(Capabilities::MULTISAMPLED_SHADING)
     .union(Capabilities::EARLY_DEPTH_TEST);
 
-/// The binding of the counter in the suite's shaders.
-const RUNS: ResourceBinding = ResourceBinding {
+/// The binding of storage in the suite's shaders.
+const STORAGE: ResourceBinding = ResourceBinding {
     group: 0,
     binding: 3,
 };
@@ -305,7 +305,7 @@ impl Translated {
             },
             // Other bindings are set by name, which all versions can; ES cannot for storage
             // buffers.
-            binding_map: glsl::BindingMap::from([(RUNS, RUNS_BINDING)]),
+            binding_map: glsl::BindingMap::from([(STORAGE, STORAGE_BINDING)]),
             ..glsl::Options::default()
         };
         let entry_point = if stage == ShaderStage::Vertex {

@@ -3,7 +3,7 @@
 use etalon_frame::TextureFormat;
 use etalon_scene::{
     Attachment, BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction, Contents,
-    DepthState, Draw, Mesh, Pass, Path, Scene, Shader, Viewport,
+    DepthState, Draw, Mesh, Pass, Path, Pool, Scene, Shader, Viewport,
 };
 
 /// Width and height of a method's picture in texels, where a scene does not ask for another.
@@ -49,6 +49,7 @@ pub(crate) fn over() -> Option<BlendState> {
 pub(crate) struct Stage {
     attachments: Vec<Attachment>,
     passes: Vec<Pass>,
+    pool: Option<Pool>,
 }
 
 impl Stage {
@@ -57,6 +58,7 @@ impl Stage {
         Self {
             attachments: Vec::new(),
             passes: Vec::new(),
+            pool: None,
         }
     }
 
@@ -107,6 +109,11 @@ impl Stage {
         self.attachment(name, format, size, samples, contents)
     }
 
+    /// Gives the scene a pool.
+    pub(crate) fn pool(&mut self, pool: Pool) {
+        self.pool = Some(pool);
+    }
+
     /// Adds a pass. A draw with one target has it for all of the pass's colour attachments, a draw
     /// without a viewport fills them.
     pub(crate) fn pass(&mut self, color: &[usize], depth_stencil: Option<usize>, draws: Vec<Draw>) {
@@ -147,6 +154,7 @@ impl Stage {
             passes: self.passes,
             read: read.to_vec(),
             counters: Vec::new(),
+            pool: self.pool,
             path: Path::default(),
         }
     }

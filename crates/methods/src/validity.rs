@@ -1,6 +1,6 @@
 //! The promises of the scene model, asserted of methods' scenes.
 
-use etalon_scene::{Contents, Scene};
+use etalon_scene::{Contents, Pool, Scene};
 
 /// Asserts what the model promises of every scene: indices in range, sizes and samples that agree, no
 /// pass that reads what it draws to, targets that the shader writes.
@@ -43,6 +43,14 @@ pub(crate) fn assert_valid(scene: &Scene) {
             assert_eq!(draw.targets.len(), pass.color.len());
             assert!(draw.targets.len() <= draw.shader.outputs());
             assert_eq!(draw.textures.len(), draw.shader.textures());
+            let pool = scene.pool.filter(|_| draw.shader.uses_pool());
+            assert_eq!(pool.is_some(), draw.shader.uses_pool());
+            if let Some(pool) = pool {
+                let [width, height, ..] = draw.params.color;
+                assert_eq!((pool.size, 1), shape(&drawn[0]));
+                assert_eq!([width, height], pool.size.map(|side| side as f32));
+                assert!(pool.nodes > 0 && pool.bytes() <= Pool::MOST_BYTES);
+            }
             assert_eq!(draw.sampler.is_some(), draw.shader.samples_texture());
             assert!(draw.depth.is_none() || pass.depth_stencil.is_some());
             assert!(!draw.multisample.alpha_to_coverage || shape(&drawn[0]).1 > 1);

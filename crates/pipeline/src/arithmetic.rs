@@ -33,6 +33,10 @@ pub trait Arithmetic {
     fn rounded(&mut self, value: Self::Real) -> Self::Real;
     /// The binary logarithm as a shader computes it.
     fn log2(&mut self, value: Self::Real) -> Self::Real;
+    /// Two to the power of a value as a shader computes it.
+    fn exp2(&mut self, value: Self::Real) -> Self::Real;
+    /// The square root as a shader computes it; NaN where the value is negative.
+    fn sqrt(&mut self, value: Self::Real) -> Self::Real;
     /// The third where the first is less than the second, else the fourth.
     fn select_less(
         &mut self,

@@ -86,6 +86,16 @@ impl<const N: usize> Arithmetic for Plain<N> {
     }
 
     #[inline(always)]
+    fn exp2(&mut self, value: [f32; N]) -> [f32; N] {
+        each(value, f32::exp2)
+    }
+
+    #[inline(always)]
+    fn sqrt(&mut self, value: [f32; N]) -> [f32; N] {
+        each(value, f32::sqrt)
+    }
+
+    #[inline(always)]
     fn select_less(
         &mut self,
         a: [f32; N],

@@ -11,7 +11,7 @@ use crate::stencil_face::Face;
 use crate::walk::{Place, Walk};
 use crate::world::{Cell, Event, World, Worlds};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, CounterKind};
-use etalon_pipeline::shader::{FragmentInput, FragmentOutput, Taps, fragment};
+use etalon_pipeline::shader::{FragmentInput, FragmentOutput, List, Taps, fragment};
 use etalon_pipeline::{
     Arithmetic, compare, front_facing, is_culled, stencil_passes, stencil_write,
 };
@@ -192,6 +192,7 @@ impl Walk<'_> {
                 true => Taps::of(&tap),
                 false => Taps::NONE,
             },
+            list: List::Unknown,
             uv: self.uv(place),
             params: &draw.params,
         };

@@ -124,6 +124,48 @@ impl<'r> Judging<'r> {
         self.computed(exact.widen(2_f64.powi(-21)).widen_relative(units))
     }
 
+    /// Returns the results of a shader's power of two: within 3 + 2 |x| units in the last place (Vulkan,
+    /// Precision of GLSL.std.450 Instructions; WGSL, 15.7.4), or within a shader's precision if that is more.
+    fn power_of_two(&self, value: Interval) -> Interval {
+        if value.may_be_nan() {
+            return value;
+        }
+        let largest = value.low.abs().max(value.high.abs());
+        let units = 3.0 + 2.0 * largest;
+        // The last place of subnormal numbers is as far as that of the least normal one.
+        let least = f64::from(f32::EPSILON) * f64::from(f32::MIN_POSITIVE);
+        let wide = value
+            .map_increasing(f64::exp2)
+            .widen_relative(units * f64::from(f32::EPSILON))
+            .widen(units * least);
+        self.computed(Interval {
+            low: wide.low.max(0.0),
+            ..wide
+        })
+    }
+
+    /// Returns the results of a shader's square root, which may be one over the inverse square root, within 2
+    /// and 2.5 units in the last place (Vulkan, Precision of GLSL.std.450 Instructions; WGSL, 15.7.4).
+    fn root(&self, value: Interval) -> Interval {
+        if value.low < 0.0 || value.may_be_nan() {
+            return Interval::EVERYTHING;
+        }
+        // A subnormal number may count as 0.
+        let counted = |v: f64| {
+            if v < f64::from(f32::MIN_POSITIVE) {
+                0.0
+            } else {
+                v
+            }
+        };
+        let exact = Interval {
+            low: counted(value.low).sqrt(),
+            high: value.high.sqrt(),
+        };
+        let units = 5.0 * f64::from(f32::EPSILON);
+        self.computed(exact.widen_relative(units))
+    }
+
     /// Widens to the destination's codes on either side, where blending may round to them.
     fn round_outward(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
         let precision = match self.advanced {
@@ -344,6 +386,14 @@ impl Arithmetic for Judging<'_> {
 
     fn log2(&mut self, value: Range) -> Range {
         value.zip(value, |v, _| self.logarithm(v))
+    }
+
+    fn exp2(&mut self, value: Range) -> Range {
+        value.zip(value, |v, _| self.power_of_two(v))
+    }
+
+    fn sqrt(&mut self, value: Range) -> Range {
+        value.zip(value, |v, _| self.root(v))
     }
 
     fn select_less(&mut self, a: Range, b: Range, less: Range, otherwise: Range) -> Range {

@@ -381,7 +381,9 @@ impl Bench<'_, '_> {
                         case: case.id.clone(),
                         adapter: name.clone(),
                     });
-                    (measured.picture != pair.picture)
+                    // Of atomics in shaders no order is promised, so that a pool may fill otherwise.
+                    let repeats = case.scene.pool.is_none();
+                    (repeats && measured.picture != pair.picture)
                         .then(|| changed(&adapter.record.limits))
                         .flatten()
                         .map(|message| (number + 1, Verdict::Flaky, message))

@@ -19,6 +19,7 @@ mod on_path;
 mod overlap;
 mod pass;
 mod path;
+mod pool;
 mod provoking;
 mod rasterization;
 mod requirements;
@@ -47,6 +48,7 @@ pub use pass::{
     ResolveMode, StoreOperation,
 };
 pub use path::Path;
+pub use pool::Pool;
 pub use provoking::ProvokingVertex;
 pub use rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, SampleCoverage, Viewport,

@@ -369,6 +369,7 @@ mod tests {
             passes: vec![pass.clone(), pass],
             read: vec![0],
             counters: Vec::new(),
+            pool: None,
             path,
         }
     }

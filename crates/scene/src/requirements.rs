@@ -32,6 +32,9 @@ impl Scene {
             let largest = attachment.size[0].max(attachment.size[1]);
             needed.insert(Requirement::Size(largest));
         }
+        if self.pool.is_some() {
+            needed.insert(Requirement::Feature(Feature::FragmentStorage));
+        }
         for counter in &self.counters {
             needed.extend(match counter.kind {
                 CounterKind::SamplesPassed => Some(Requirement::Feature(Feature::PreciseOcclusion)),

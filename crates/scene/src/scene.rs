@@ -7,6 +7,7 @@ use crate::attachment::Attachment;
 use crate::draw::Draw;
 use crate::pass::Pass;
 use crate::path::Path;
+use crate::pool::Pool;
 use etalon_frame::{CounterKind, TextureFormat};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -22,6 +23,9 @@ pub struct Scene {
     pub read: Vec<usize>,
     /// The counters, by name in ascending order. All are read back; each starts from 0.
     pub counters: Vec<Counter>,
+    /// The pool that fragment shaders fill and read, if any does.
+    #[serde(default)]
+    pub pool: Option<Pool>,
     /// The way in which the scene reaches the driver.
     #[serde(default)]
     pub path: Path,
@@ -64,13 +68,14 @@ impl Scene {
         scene
     }
 
-    /// Bytes of all attachments, by their formats' texel sizes.
+    /// Bytes of all attachments, by their formats' texel sizes, and of the pool.
     pub fn bytes(&self) -> u64 {
         let bytes = |a: &Attachment| {
             let texels = u64::from(a.size[0]) * u64::from(a.size[1]) * u64::from(a.samples);
             texels * u64::from(a.format.texel_bytes())
         };
-        self.attachments.iter().map(bytes).sum()
+        let attachments: u64 = self.attachments.iter().map(bytes).sum();
+        attachments + self.pool.map_or(0, Pool::bytes)
     }
 
     /// The formats of all attachments.

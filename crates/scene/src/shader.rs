@@ -50,12 +50,25 @@ struct Facts {
     clip_distances: u32,
     /// True if it counts its runs in a storage buffer.
     counter: bool,
+    /// Its use of the scene's pool.
+    pool: PoolUse,
     /// True if it runs once per sample.
     per_sample: bool,
     /// True if it reads the fragment's coordinates in the picture.
     coordinates: bool,
     /// True if it reads the fragment's depth.
     reads_depth: bool,
+}
+
+/// The use that a shader makes of the scene's pool.
+#[derive(PartialEq, Eq)]
+enum PoolUse {
+    /// None.
+    None,
+    /// Adds its fragments.
+    Adds,
+    /// Reads the list of its texel.
+    Reads,
 }
 
 /// The depth that a shader writes.
@@ -90,6 +103,7 @@ impl Facts {
         discards: false,
         clip_distances: 0,
         counter: false,
+        pool: PoolUse::None,
         per_sample: false,
         coordinates: false,
         reads_depth: false,
@@ -123,7 +137,7 @@ impl Shader {
 
     /// The WGSL text: a vertex entry point `vs` and, unless it is a vertex shader alone, a fragment entry point `fs`. Vertex inputs are
     /// location 0 position, 1 colour, 2 uv; group 0 holds the parameters at binding 0, textures at
-    /// bindings 1 and 2, the counter of runs at binding 3 and a sampler at binding 4.
+    /// bindings 1 and 2, the counter of runs or the pool at binding 3 and a sampler at binding 4.
     pub fn wgsl(self) -> &'static str {
         self.facts().wgsl
     }
@@ -194,6 +208,26 @@ impl Shader {
     /// True if the shader counts its runs in a storage buffer.
     pub fn counts_runs(self) -> bool {
         self.facts().counter
+    }
+
+    /// True if the shader adds its fragments to the scene's pool.
+    pub fn adds_to_pool(self) -> bool {
+        self.facts().pool == PoolUse::Adds
+    }
+
+    /// True if the shader reads lists from the scene's pool.
+    pub fn reads_pool(self) -> bool {
+        self.facts().pool == PoolUse::Reads
+    }
+
+    /// True if the shader uses the scene's pool, whose size `params.color`'s red and green hold.
+    pub fn uses_pool(self) -> bool {
+        self.facts().pool != PoolUse::None
+    }
+
+    /// True if the shader uses a storage buffer: a counter, or the scene's pool.
+    pub fn uses_storage(self) -> bool {
+        self.counts_runs() || self.uses_pool()
     }
 
     /// True if the shader writes integers.
@@ -314,6 +348,12 @@ shaders! {
     /// The vertex colour; writes a depth that grows linearly with the distance, 1 over the first
     /// texture coordinate, between the planes in `params.color`'s red and green.
     LinearDepth = "linear_depth" { params: true, uv: true, depth: Depth::Computed },
+    /// Adds the vertex colour and the fragment's depth to the list of its texel. `params.color`: width and height
+    /// of the picture.
+    ListAppend = "list_append" { params: true, pool: PoolUse::Adds, reads_depth: true },
+    /// The list of the texel, nearest first, premultiplied, and as alpha what it lets through. `params.color`: width
+    /// and height of the picture.
+    ListCompose = "list_compose" { params: true, pool: PoolUse::Reads, position_only: true },
     /// The vertex colour; writes as depth the binary logarithm of the distance, 1 over the first
     /// texture coordinate, over `params.color`'s red, times its blue.
     LogarithmicDepth = "logarithmic_depth" { params: true, uv: true, depth: Depth::Computed },
@@ -327,6 +367,14 @@ shaders! {
     /// As `sample_index`; writes the red of the texel of texture 0 under the fragment as sample mask, with
     /// all bits but the sample's own turned. Runs once per sample.
     MaskedSample = "masked_sample" { textures: 1, mask: true, per_sample: true, position_only: true },
+    /// Moment-based transparency: absorbance to location 0, its moments along depth to location 1.
+    MomentAbsorbance = "moment_absorbance" { outputs: 2, reads_depth: true },
+    /// Moment-based transparency: the mean of texture 0's sums, and as alpha what the absorbance in texture 1's
+    /// red lets through.
+    MomentResolve = "moment_resolve" { textures: 2, position_only: true },
+    /// Moment-based transparency: the vertex colour, premultiplied, times the transmittance in front of the
+    /// fragment, from the absorbance in texture 0 and its moments in texture 1.
+    MomentTransmittance = "moment_transmittance" { textures: 2, reads_depth: true },
     /// One step of depth peeling: the vertex colour and, to location 1, the depth of fragments behind
     /// the depth in texture 0; discards all others.
     Peel = "peel" { textures: 1, outputs: 2, discards: true, reads_depth: true },
@@ -380,7 +428,9 @@ mod tests {
                 text.matches("texture_2d<f32>;").count(),
                 "{name}"
             );
-            assert_eq!(shader.counts_runs(), has("@binding(3)"), "{name}");
+            assert_eq!(shader.uses_storage(), has("@binding(3)"), "{name}");
+            assert_eq!(shader.uses_pool(), has("array<atomic<u32>>"), "{name}");
+            assert_eq!(shader.adds_to_pool(), has("atomicExchange"), "{name}");
             assert_eq!(
                 shader.passes_position_alone(),
                 has("-> @builtin(position) vec4f"),

@@ -16,8 +16,8 @@ pub(crate) enum BufferUse {
     Input,
     /// Read by the host: attachments that are read back.
     Output,
-    /// Incremented by shaders, then read by the host: a few words.
-    Counts,
+    /// Written by shaders: counts, which the host reads, and the pool.
+    Storage,
 }
 
 /// A persistently mapped buffer in coherent memory.
@@ -65,7 +65,7 @@ impl Buffer {
                 vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
                 vk::MemoryPropertyFlags::HOST_CACHED,
             ),
-            BufferUse::Counts => (
+            BufferUse::Storage => (
                 vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
                 vk::MemoryPropertyFlags::DEVICE_LOCAL,
             ),

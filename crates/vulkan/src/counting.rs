@@ -5,6 +5,7 @@ use crate::device::Device;
 use crate::error::internal;
 use crate::inputs::OffsetAllocator;
 use crate::slot::{Needs, Slot};
+use crate::storage;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::CounterKind;
@@ -126,25 +127,7 @@ impl Counting {
             pool.reset(device, commands, count(owners)?);
         }
         if let Some(counts) = counts {
-            let whole = vk::WHOLE_SIZE;
-            // SAFETY: recording, outside of a render pass; no other work uses the buffer.
-            unsafe {
-                device
-                    .raw
-                    .cmd_fill_buffer(commands, counts.raw, 0, whole, 0);
-            }
-            barrier(
-                device,
-                commands,
-                vk::MemoryBarrier2::default()
-                    .src_stage_mask(vk::PipelineStageFlags2::ALL_TRANSFER)
-                    .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
-                    .dst_stage_mask(vk::PipelineStageFlags2::FRAGMENT_SHADER)
-                    .dst_access_mask(
-                        vk::AccessFlags2::SHADER_STORAGE_READ
-                            | vk::AccessFlags2::SHADER_STORAGE_WRITE,
-                    ),
-            );
+            storage::zero(device, commands, counts.raw, vk::WHOLE_SIZE);
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! Descriptor sets of draws: parameters, textures, sampler and counter.
+//! Descriptor sets of draws: parameters, textures, sampler and storage.
 
 use crate::buffer::Buffer;
 use crate::counting::Counting;
@@ -6,7 +6,7 @@ use crate::device::Device;
 use crate::error::internal;
 use crate::image::Image;
 use crate::inputs::PARAMS_BYTES;
-use crate::pipeline::{Bindings, Pipelines, RUNS_BINDING, SAMPLER_BINDING};
+use crate::pipeline::{Bindings, Pipelines, SAMPLER_BINDING, STORAGE_BINDING};
 use crate::samplers::Samplers;
 use crate::slot::Slot;
 use ash::vk;
@@ -22,6 +22,7 @@ struct Resources {
     textures: Vec<usize>,
     sampler: Option<Sampler>,
     counter: Option<usize>,
+    pool: bool,
 }
 
 /// The resources of a scene and the descriptor sets made so far.
@@ -29,6 +30,8 @@ pub(crate) struct Descriptors<'a> {
     pub(crate) input: &'a Buffer,
     /// The buffer that shaders count in, if any shader counts.
     pub(crate) counts: Option<&'a Buffer>,
+    /// The pool with its size in bytes, if the scene has one.
+    pub(crate) pool: Option<(&'a Buffer, u64)>,
     pub(crate) images: &'a [Image],
     sets: HashMap<Resources, vk::DescriptorSet>,
 }
@@ -46,10 +49,16 @@ pub(crate) fn write(
 }
 
 impl<'a> Descriptors<'a> {
-    pub(crate) fn new(input: &'a Buffer, counts: Option<&'a Buffer>, images: &'a [Image]) -> Self {
+    pub(crate) fn new(
+        input: &'a Buffer,
+        counts: Option<&'a Buffer>,
+        pool: Option<(&'a Buffer, u64)>,
+        images: &'a [Image],
+    ) -> Self {
         Self {
             input,
             counts,
+            pool,
             images,
             sets: HashMap::new(),
         }
@@ -73,6 +82,7 @@ impl<'a> Descriptors<'a> {
             textures: draw.textures.clone(),
             sampler: draw.sampler,
             counter: word.map(|(counter, _)| counter),
+            pool: draw.shader.uses_pool(),
         };
         if let Some(set) = self.sets.get(&resources) {
             return Ok(*set);
@@ -123,21 +133,36 @@ impl<'a> Descriptors<'a> {
         if sampler.is_some() {
             writes.push(write(SAMPLER_BINDING, vk::DescriptorType::SAMPLER).image_info(&samplers));
         }
-        let mut counts = [vk::DescriptorBufferInfo::default()];
-        if let Some(offset) = word {
-            let buffer = self
-                .counts
-                .ok_or_else(|| internal("there is no buffer of counts"))?;
-            counts[0] = vk::DescriptorBufferInfo {
-                buffer: buffer.raw,
-                offset,
-                range: size_of::<u32>() as u64,
-            };
-            writes
-                .push(write(RUNS_BINDING, vk::DescriptorType::STORAGE_BUFFER).buffer_info(&counts));
+        let mut storage = [vk::DescriptorBufferInfo::default()];
+        if let Some(info) = self.storage(draw, word)? {
+            storage[0] = info;
+            let kind = vk::DescriptorType::STORAGE_BUFFER;
+            writes.push(write(STORAGE_BINDING, kind).buffer_info(&storage));
         }
         // SAFETY: the set is new, and all that it names lives as long as the scene, samplers longer.
         unsafe { device.raw.update_descriptor_sets(&writes, &[]) };
         Ok(())
+    }
+
+    /// Returns the part of a storage buffer that a draw's shader uses: its counter's word, or the pool.
+    fn storage(
+        &self,
+        draw: &Draw,
+        word: Option<u64>,
+    ) -> Result<Option<vk::DescriptorBufferInfo>, BackendError> {
+        let (found, offset) = match word {
+            Some(offset) => {
+                let word = |buffer| (buffer, size_of::<u32>() as u64);
+                (self.counts.map(word), offset)
+            }
+            None if draw.shader.uses_pool() => (self.pool, 0),
+            None => return Ok(None),
+        };
+        let (buffer, range) = found.ok_or_else(|| internal("a shader's storage is missing"))?;
+        Ok(Some(vk::DescriptorBufferInfo {
+            buffer: buffer.raw,
+            offset,
+            range,
+        }))
     }
 }

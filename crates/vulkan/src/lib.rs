@@ -44,6 +44,7 @@ mod slot;
 mod spirv;
 mod state;
 mod stencil_export;
+mod storage;
 mod targets;
 mod tessellation;
 mod viewport;

@@ -105,7 +105,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::ClipDistanceMask | Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
         Feature::MinSampleShading | Feature::SampleShading => features.sample_rate_shading,
         Feature::StencilExport => device.stencil_export.into(),
-        Feature::StorageCounters => features.fragment_stores_and_atomics,
+        Feature::FragmentStorage | Feature::StorageCounters => features.fragment_stores_and_atomics,
         Feature::BaseVertex
         | Feature::CentroidInterpolation
         | Feature::ClearCommands

@@ -78,8 +78,8 @@ fn class(topology: PrimitiveTopology) -> PrimitiveTopology {
     }
 }
 
-/// The binding of the counter of shader runs.
-pub(crate) const RUNS_BINDING: u32 = 3;
+/// The binding of the storage buffer: the counter of shader runs, or the pool.
+pub(crate) const STORAGE_BINDING: u32 = 3;
 /// The binding of the sampler.
 pub(crate) const SAMPLER_BINDING: u32 = 4;
 
@@ -91,7 +91,7 @@ pub(crate) const INSTANCE_BINDING: u32 = 1;
 pub(crate) struct Bindings {
     pub(crate) textures: usize,
     pub(crate) sampler: bool,
-    pub(crate) runs: bool,
+    pub(crate) storage: bool,
 }
 
 impl Bindings {
@@ -99,7 +99,7 @@ impl Bindings {
         Self {
             textures: shader.textures(),
             sampler: shader.samples_texture(),
-            runs: shader.counts_runs(),
+            storage: shader.uses_storage(),
         }
     }
 }
@@ -171,9 +171,9 @@ impl Pipelines {
         for (number, _) in (1..).zip(0..bindings.textures) {
             all.push(binding(number, vk::DescriptorType::SAMPLED_IMAGE, both));
         }
-        if bindings.runs {
+        if bindings.storage {
             let kind = vk::DescriptorType::STORAGE_BUFFER;
-            all.push(binding(RUNS_BINDING, kind, fragment));
+            all.push(binding(STORAGE_BINDING, kind, fragment));
         }
         if bindings.sampler {
             let kind = vk::DescriptorType::SAMPLER;

@@ -30,6 +30,8 @@ pub(crate) struct Plan {
     pub(crate) passes: Vec<PassPlan>,
     pub(crate) reads: Vec<ReadPlan>,
     pub(crate) counting: Counting,
+    /// True if shaders use the scene's pool.
+    pub(crate) pool: bool,
 }
 
 /// The initial contents of an attachment and its role in the passes.

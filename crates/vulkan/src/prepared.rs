@@ -21,11 +21,12 @@ use crate::read::ReadPlan;
 use crate::record::{self, Recorder};
 use crate::render_pass::RenderPass;
 use crate::slot::{Needs, Slot};
+use crate::storage;
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::{
     Feature, Frame, PathCommands, PathEnd, PathPass, PathState, PathValue, Requirement,
 };
-use etalon_scene::{Contents, Draw, Pass, Scene};
+use etalon_scene::{Contents, Draw, Pass, Pool, Scene};
 use std::time::Instant;
 
 /// A scene with all objects that drawing it needs.
@@ -37,6 +38,8 @@ pub(crate) struct PreparedScene<'a> {
     output: Option<Buffer>,
     /// The buffer that shaders count in, if any shader counts.
     counts: Option<Buffer>,
+    /// The scene's pool.
+    pool: Option<(Buffer, Pool)>,
     /// The attachments' images, then those that they are copied to.
     images: Vec<Image>,
     plan: Plan,
@@ -67,6 +70,7 @@ impl<'a> PreparedScene<'a> {
             input: None,
             output: None,
             counts: None,
+            pool: None,
             images: Vec::new(),
             plan: Plan::default(),
             kind: PathCommands::One,
@@ -155,8 +159,14 @@ impl<'a> PreparedScene<'a> {
         if counting.bytes > 0 {
             let counts = pools
                 .memory
-                .buffer(device, BufferUse::Counts, counting.bytes)?;
+                .buffer(device, BufferUse::Storage, counting.bytes)?;
             self.counts = Some(counts);
+        }
+        if let Some(pool) = scene.pool {
+            let memory = &mut pools.memory;
+            let buffer = memory.buffer(device, BufferUse::Storage, pool.bytes())?;
+            self.pool = Some((buffer, pool));
+            self.plan.pool = true;
         }
 
         let setting = Setting {
@@ -164,7 +174,8 @@ impl<'a> PreparedScene<'a> {
             further: path::further(device, scene.path.state),
             viewport: scene.path.viewport,
         };
-        let mut sets = Descriptors::new(input, self.counts.as_ref(), &self.images);
+        let pool = self.pool.as_ref().map(|(b, pool)| (b, pool.bytes()));
+        let mut sets = Descriptors::new(input, self.counts.as_ref(), pool, &self.images);
         let parts = scene.passes.iter().zip(&inputs.draws);
         let parts = parts.flat_map(|(pass, places)| {
             let areas = areas(pass);
@@ -269,6 +280,9 @@ impl Prepared for PreparedScene<'_> {
         slot.reset_timestamps(device);
         let counting = &self.plan.counting;
         counting.reset(device, commands, slot, self.counts.as_ref())?;
+        if let Some((buffer, pool)) = &self.pool {
+            storage::zero(device, commands, buffer.raw, pool.cleared_bytes());
+        }
         record::initial_contents(device, commands, &self.plan, input.raw);
         slot.timestamp(device, 0);
         let kind = self.kind;
@@ -324,7 +338,13 @@ impl Drop for PreparedScene<'_> {
         for object in self.plan.passes.iter().filter_map(|p| p.object.as_ref()) {
             object.destroy(device);
         }
-        let buffers = [self.input.take(), self.output.take(), self.counts.take()];
+        let pool = self.pool.take().map(|(buffer, _)| buffer);
+        let buffers = [
+            self.input.take(),
+            self.output.take(),
+            self.counts.take(),
+            pool,
+        ];
         pools
             .memory
             .give_back(device, buffers.into_iter().flatten(), self.images.drain(..));

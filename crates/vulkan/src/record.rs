@@ -16,6 +16,7 @@ use crate::read::ReadPlan;
 use crate::render_pass::RenderPass;
 use crate::samples::TILE;
 use crate::slot::Slot;
+use crate::storage;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{PathCommands, PathEnd};
@@ -164,6 +165,11 @@ pub(crate) fn passes(
         let commands = recorder.next_pass(device)?;
         if index > 0 {
             between_passes(device, commands);
+            if plan.pool {
+                let stage = vk::PipelineStageFlags2::FRAGMENT_SHADER;
+                let written = vk::AccessFlags2::SHADER_STORAGE_WRITE;
+                storage::before_use(device, commands, stage, written);
+            }
         }
         change_roles(
             device,

@@ -21,6 +21,8 @@ pub(crate) struct Groups<'a, 's> {
     gpu: &'a Gpu,
     attachments: &'s [DeviceAttachment<'a>],
     counting: &'s Counting<'a>,
+    /// The scene's pool, with its size in bytes.
+    pool: Option<(&'s wgpu::Buffer, u64)>,
     /// The parameter blocks of all draws.
     buffer: Option<BufferLease<'a>>,
     /// The contents of `buffer`.
@@ -36,6 +38,7 @@ struct Key {
     textures: Vec<usize>,
     sampler: Option<Sampler>,
     runs: Option<usize>,
+    pool: bool,
 }
 
 impl<'a, 's> Groups<'a, 's> {
@@ -44,6 +47,7 @@ impl<'a, 's> Groups<'a, 's> {
         scene: &Scene,
         attachments: &'s [DeviceAttachment<'a>],
         counting: &'s Counting<'a>,
+        pool: Option<(&'s wgpu::Buffer, u64)>,
     ) -> Self {
         let draws = scene.passes.iter().flat_map(|pass| &pass.draws);
         let blocks = draws.filter(|draw| draw.shader.uses_params()).count();
@@ -54,6 +58,7 @@ impl<'a, 's> Groups<'a, 's> {
             gpu,
             attachments,
             counting,
+            pool,
             buffer: (blocks > 0).then(|| gpu.buffer(usage, blocks as u64 * stride)),
             params: Vec::new(),
             stride: stride as usize,
@@ -80,6 +85,7 @@ impl<'a, 's> Groups<'a, 's> {
             textures: draw.textures.clone(),
             sampler: draw.sampler,
             runs,
+            pool: draw.shader.uses_pool(),
         };
         if let Some(group) = self.made.get(&key) {
             let group = group.clone();
@@ -106,6 +112,9 @@ impl<'a, 's> Groups<'a, 's> {
         }
         if let Some((buffer, offset)) = key.runs.and_then(|counter| self.counting.runs(counter)) {
             give(3, part(buffer, offset, RUNS_BYTES));
+        }
+        if let Some((buffer, bytes)) = self.pool.filter(|_| key.pool) {
+            give(3, part(buffer, 0, bytes));
         }
         let (device, pipelines) = (&self.gpu.device, &self.gpu.pipelines);
         let sampler = match key.sampler {

@@ -23,8 +23,8 @@ pub(crate) struct Bindings {
     pub(crate) params: bool,
     /// The number of textures, from binding 1.
     textures: usize,
-    /// A counter of shader runs, at binding 3.
-    runs: bool,
+    /// A storage buffer, at binding 3: the counter of shader runs, or the pool.
+    storage: bool,
     /// A sampler, at binding 4.
     sampler: bool,
 }
@@ -34,7 +34,7 @@ impl Bindings {
         Self {
             params: shader.uses_params(),
             textures: shader.textures(),
-            runs: shader.counts_runs(),
+            storage: shader.uses_storage(),
             sampler: shader.samples_texture(),
         }
     }
@@ -52,7 +52,7 @@ impl Bindings {
             let texture = texture(sample_type, false);
             entry(binding, texture)
         }));
-        if self.runs {
+        if self.storage {
             let storage = wgpu::BufferBindingType::Storage { read_only: false };
             all.push(entry(3, buffer(storage, false, RUNS_BYTES)));
         }

@@ -172,6 +172,8 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
     let max_size = of.max_texture_dimension_2d;
     let flag = |flag| flags.contains(flag);
     let feature = |feature| features.contains(feature);
+    let storage = flag(DownlevelFlags::FRAGMENT_WRITABLE_STORAGE)
+        && of.max_storage_buffers_per_shader_stage > 0;
     let all = [
         (Feature::BaseVertex, flag(DownlevelFlags::BASE_VERTEX)),
         (Feature::CentroidInterpolation, true),
@@ -199,6 +201,7 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
             Feature::ForcedEarlyTests,
             feature(Features::SHADER_EARLY_DEPTH_TEST),
         ),
+        (Feature::FragmentStorage, storage),
         // A pipeline without targets fits no pass with colour attachments (render pass layouts).
         (Feature::FragmentShaderAbsent, true),
         (Feature::FragmentShaderAbsentWithColor, false),
@@ -221,11 +224,7 @@ fn offered(flags: DownlevelFlags, features: Features, of: &wgpu::Limits) -> BTre
         ),
         // WGSL has no such built-in.
         (Feature::StencilExport, false),
-        (
-            Feature::StorageCounters,
-            flag(DownlevelFlags::FRAGMENT_WRITABLE_STORAGE)
-                && of.max_storage_buffers_per_shader_stage > 0,
-        ),
+        (Feature::StorageCounters, storage),
         // WebGPU limits a viewport to twice the largest texture (setViewport).
         (Feature::ViewportOutside, 2 * max_size > VIEWPORT_REACH),
     ];

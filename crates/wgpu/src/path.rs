@@ -223,6 +223,7 @@ mod tests {
             passes: vec![Pass::default(), Pass::default()],
             read: vec![0],
             counters: Vec::new(),
+            pool: None,
             path,
         }
     }

@@ -268,6 +268,9 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::FlatColorDepth
         | Shader::Fog
         | Shader::FragCoordDepth
+        | Shader::ListAppend
+        | Shader::MomentAbsorbance
+        | Shader::MomentTransmittance
         | Shader::Peel
         | Shader::Stochastic
         | Shader::WeightedAccumulate => &ALL[..2],
@@ -287,6 +290,8 @@ fn attributes(shader: Shader) -> &'static [wgpu::VertexAttribute] {
         | Shader::MaskedDepth
         | Shader::MaskedDiscard
         | Shader::MaskedSample
+        | Shader::ListCompose
+        | Shader::MomentResolve
         | Shader::SampleDepth
         | Shader::SampleIndex
         | Shader::TexelColor

@@ -16,7 +16,7 @@ use etalon_frame::{
     Frame, PathCommands, PathDraws, PathEnd, PathState, PathValue, ReadPath, Requirement,
     TextureFormat,
 };
-use etalon_scene::{Call, Draw, Pass, PassOperations, Scene, Viewport};
+use etalon_scene::{Call, Draw, Pass, PassOperations, Pool, Scene, Viewport};
 use std::ops::Range;
 use std::time::Instant;
 use wgpu::BufferUsages;
@@ -37,6 +37,8 @@ pub(crate) struct PreparedScene<'a> {
     /// The arguments of indirect draws.
     arguments: Option<BufferLease<'a>>,
     counting: Counting<'a>,
+    /// The scene's pool.
+    pool: Option<(BufferLease<'a>, Pool)>,
     /// Kept alive for the bind groups.
     _params: Option<BufferLease<'a>>,
     submitted: bool,
@@ -114,7 +116,14 @@ impl<'a> PreparedScene<'a> {
         let (counting, counted) = Counting::new(gpu, scene);
         gpu.errors.check("making counters")?;
         let mut counted = counted.into_iter();
-        let mut groups = Groups::new(gpu, scene, &attachments, &counting);
+        let pool = scene.pool.map(|pool| {
+            let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+            (gpu.buffer(usage, pool.bytes()), pool)
+        });
+        let bound = pool
+            .as_ref()
+            .map(|(buffer, pool)| (&**buffer, pool.bytes()));
+        let mut groups = Groups::new(gpu, scene, &attachments, &counting, bound);
         let mut geometry = Geometry::default();
         let mut passes = Vec::new();
         for pass in &scene.passes {
@@ -161,6 +170,7 @@ impl<'a> PreparedScene<'a> {
             arguments: filled(BufferUsages::INDIRECT, &geometry.arguments),
             _params: params,
             counting,
+            pool,
             submitted: false,
         };
         if scene.path.commands == PathCommands::Secondary {
@@ -217,6 +227,9 @@ impl<'a> PreparedScene<'a> {
                 attachment.initialise(&mut encoder, !self.submitted);
             }
             self.counting.start(&mut encoder);
+            if let Some((buffer, pool)) = &self.pool {
+                encoder.clear_buffer(buffer, 0, Some(pool.cleared_bytes()));
+            }
         }
         for index in passes {
             self.record_pass(&mut encoder, index, &self.passes[index]);

@@ -5,7 +5,7 @@ use super::tiles::TilesWire;
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
     AdvancedBlend, BlendState, CompareFunction, CullMode, DepthBias, DepthState, EarlyTests,
-    FrontFace, LogicOperation, MeshSource, Multisample, PassOperations, Path, PolygonMode,
+    FrontFace, LogicOperation, MeshSource, Multisample, PassOperations, Path, PolygonMode, Pool,
     PrimitiveTopology, ProvokingVertex, ResolveMode, Sampler, Shader, Splat, StencilOperation,
     Tessellation, Viewport,
 };
@@ -26,6 +26,8 @@ pub(crate) struct SceneWire {
     /// Counters by name; all are read back.
     #[serde(default)]
     pub(crate) counters: BTreeMap<String, CounterKind>,
+    /// The pool that fragment shaders fill and read.
+    pub(crate) pool: Option<Pool>,
     /// The way in which the scene reaches the driver; it leaves the picture as it is.
     #[serde(default)]
     pub(crate) path: Path,

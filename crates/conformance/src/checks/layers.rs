@@ -141,6 +141,52 @@ pub(crate) fn weighted_layers_are_summed_and_shown(s: &Subject) -> Checked {
     Ok(())
 }
 
+/// Two layers at depths of their own, the farther one first: the moments tell the light that reaches each of them.
+pub(crate) fn moments_of_layers_tell_what_is_in_front(s: &Subject) -> Checked {
+    let float = || json!({ "format": "rgba32float", "size": [4, 4] });
+    let layers = |shader: &str, textures: &[&str]| {
+        let layer = |texels: [u32; 4], z: f64, color: [f64; 4]| {
+            json!({ "mesh": { "kind": "rect", "texels": texels, "z": z, "value": color }, "shader": shader,
+                    "textures": textures, "blend": blend("add", "one", "one") })
+        };
+        let far = layer([0, 0, 4, 4], 0.75, [1.0, 0.0, 0.0, 0.5]);
+        [far, layer([0, 0, 2, 3], 0.25, [0.0, 1.0, 0.0, 0.5])]
+    };
+    let frame = s.show(json!({
+        "attachments": { "absorbance": float(), "moments": float(), "sum": float(), "shown": blue() },
+        "passes": [
+            { "color": ["absorbance", "moments"], "draws": layers("moment_absorbance", &[]) },
+            { "color": ["sum"], "draws": layers("moment_transmittance", &["absorbance", "moments"]) },
+            { "color": ["shown"], "draws": [{
+                "mesh": full(), "shader": "moment_resolve", "textures": ["sum", "absorbance"],
+                "blend": blend("add", "one-minus-src-alpha", "src-alpha") }] }],
+        "read": ["absorbance", "moments", "shown", "sum"],
+    }))?;
+    // A quarter of a layer's own absorbance counts as in front of it.
+    let own = 0.5_f64.powf(0.25) * 0.5;
+    for (x, y) in texels([4, 4]) {
+        let (absorbance, moments, green, red, shown) = match x < 2 && y < 3 {
+            true => (
+                2.0,
+                [0.0, 0.5, 0.0, 0.125],
+                own,
+                own * 0.5,
+                [0.25, 0.5, 0.25],
+            ),
+            false => (1.0, [0.5, 0.25, 0.125, 0.0625], 0.0, own, [0.5, 0.0, 0.5]),
+        };
+        near(&frame, "absorbance", (x, y), [absorbance; 4], 1e-4);
+        near(&frame, "moments", (x, y), moments, 1e-4);
+        near(&frame, "sum", (x, y), [red, green, 0.0, red + green], 1e-3);
+        check_near(
+            &values(color(&frame, "shown"), x, y)[..3],
+            &shown,
+            3.0 / 255.0,
+        );
+    }
+    Ok(())
+}
+
 /// A threshold for each of four samples, in a texture that an earlier pass drew.
 pub(crate) fn samples_are_discarded_by_thresholds(s: &Subject) -> Checked {
     let frame = s.show(json!({

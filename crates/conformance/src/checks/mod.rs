@@ -13,6 +13,7 @@ mod formats;
 mod integers;
 mod layers;
 mod limits;
+mod lists;
 mod passes;
 mod prepared;
 mod raster;
@@ -160,7 +161,11 @@ registry! {
     }
     layers {
         layers_are_peeled_one_by_one layers_are_peeled_from_both_ends
-        weighted_layers_are_summed_and_shown samples_are_discarded_by_thresholds
+        weighted_layers_are_summed_and_shown
+        moments_of_layers_tell_what_is_in_front samples_are_discarded_by_thresholds
+    }
+    lists {
+        fragments_are_listed_and_composed a_full_pool_drops_the_rest
     }
     shaders {
         every_shader_draws

@@ -44,10 +44,17 @@ fn with_shader(shader: Shader, targets: usize) -> Value {
         draw["counters"] = json!(["runs"]);
         counters = json!({ "runs": "shader-runs" });
     }
+    if shader.uses_pool() {
+        draw["params"] = json!({ "color": [4, 4, 0, 0] });
+    }
+    let pool = shader
+        .uses_pool()
+        .then(|| json!({ "size": [4, 4], "nodes": 64 }));
     json!({
         "attachments": attachments,
         "passes": [{ "color": names, "depth_stencil": "depth", "draws": [draw] }],
         "read": names,
         "counters": counters,
+        "pool": pool,
     })
 }

@@ -97,6 +97,75 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["windows", "smoke"]),
     Claim::new(
         QUESTION,
+        "Moment-based transparency draws the geometry twice and takes three passes, whatever the layers.",
+        "Münstermann, Krumpen, Klein and Peters 2018, Moment-Based Order-Independent Transparency",
+        Test::Value {
+            quantity: Quantity::Passes,
+            of: "moment-based",
+            holds: Condition::Between(3.0, 3.0),
+        },
+    ),
+    Claim::new(
+        QUESTION,
+        "Weights from moments of what the scene absorbs are nearer to the truth than weights that depth alone gives.",
+        "Münstermann, Krumpen, Klein and Peters 2018, Moment-Based Order-Independent Transparency",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("moment-based"),
+            over: one!("weighted-blended"),
+            holds: Condition::Below(1.0),
+        },
+    ),
+    Claim::new(
+        QUESTION,
+        "Four moments tell few depths apart: the error of moment-based transparency grows with the layers.",
+        "Münstermann, Krumpen, Klein and Peters 2018, Moment-Based Order-Independent Transparency",
+        Test::Trend {
+            quantity: Quantity::Rmse,
+            of: "moment-based",
+            holds: Condition::Above(1.5),
+        },
+    )
+    .of(&["thin-layers"]),
+    Claim::new(
+        QUESTION,
+        "Linked lists hold every fragment, and so are right whatever the order.",
+        "Yang, Hensley, Grün and Thibieroz 2010, Real-Time Concurrent Linked List Construction on the GPU",
+        Test::Value {
+            quantity: Quantity::Rmse,
+            of: "linked-lists",
+            holds: Condition::AtMost(0.004),
+        },
+    )
+    .noting("In these scenes no picture has more fragments than the pool has nodes, eight for each texel.")
+    .of(&["windows", "intersecting-panes", "nested-glass", "smoke"]),
+    Claim::new(
+        QUESTION,
+        "Linked lists draw the geometry once, where depth peeling draws it once for each layer.",
+        "Yang, Hensley, Grün and Thibieroz 2010, Real-Time Concurrent Linked List Construction on the GPU",
+        Test::Ratio {
+            quantity: Quantity::Fragments,
+            of: one!("depth-peeling"),
+            over: one!("linked-lists"),
+            holds: Condition::Above(2.0),
+        },
+    )
+    .of(&["windows", "thin-layers", "smoke"]),
+    Claim::new(
+        QUESTION,
+        "A pool that is nearly large enough drops what was drawn last, as many peels drop what lies farthest: lists err more.",
+        "Yang, Hensley, Grün and Thibieroz 2010, Real-Time Concurrent Linked List Construction on the GPU: storage overflow",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("linked-lists"),
+            over: one!("depth-peeling"),
+            holds: Condition::Above(1.0),
+        },
+    )
+    .of(&["peeling"])
+    .between(8.0, 8.0),
+    Claim::new(
+        QUESTION,
         "Masks that are random in each layer compose layers better than the fixed masks of alpha to coverage.",
         "Enderton, Sintorn, Shirley and Luebke 2010, Stochastic Transparency",
         Test::Ratio {

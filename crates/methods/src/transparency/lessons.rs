@@ -64,6 +64,18 @@ pub(crate) const LESSONS: &[Lesson] = &[
         "McGuire and Bavoil 2013, Weighted Blended Order-Independent Transparency",
     ),
     Lesson::new(
+        "moment-based",
+        "One pass adds up four moments of the absorbance along depth; a second draws all surfaces again, each by the transmittance that the moments tell in front of it; a third takes the weighted mean.",
+        "Four moments tell two or three depths apart: among more layers the steps of the transmittance blur into a curve, and what is in front hides too little.",
+        "Münstermann, Krumpen, Klein and Peters 2018, Moment-Based Order-Independent Transparency",
+    ),
+    Lesson::new(
+        "linked-lists",
+        "One pass adds every fragment to a list of its texel in a pool of storage; a second sorts each list and composes it.",
+        "What no longer finds room in the pool is missing, whether near or far: here as many nodes as eight layers have texels.",
+        "Yang, Hensley, Grün and Thibieroz 2010, Real-Time Concurrent Linked List Construction on the GPU",
+    ),
+    Lesson::new(
         "front-to-back",
         "Objects are put under the picture, the nearest first, with premultiplied colours and the alpha that is left in the attachment.",
         "Right where the order of objects is; alpha in 8 bits rounds once more in each layer.",

@@ -6,7 +6,9 @@
 mod claims;
 mod draws;
 mod lessons;
+mod lists;
 mod many_samples;
+mod moments;
 mod ordered;
 mod peeling;
 mod scenes;
@@ -24,8 +26,10 @@ use crate::method_scene::MethodScene;
 use scenes::Glass;
 use wire::MethodName;
 
-/// The number of layers that are peeled where no `k` is given.
+/// The number of layers that are peeled, or of nodes per texel, where no `k` is given.
 const PEELED_LAYERS: u32 = 8;
+/// The most nodes per texel: no API need have larger storage buffers.
+const MOST_NODES: f64 = 32.0;
 
 /// Draws the scene by the method.
 ///
@@ -54,6 +58,12 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
         MethodName::DualDepthPeeling => {
             peeling::dual_depth_peeling(&glass, &list(), wire.k.unwrap_or(PEELED_LAYERS / 2))
         }
+        MethodName::LinkedLists => {
+            let nodes = wire.k.unwrap_or(PEELED_LAYERS);
+            within("k", f64::from(nodes), 1.0..=MOST_NODES)?;
+            lists::linked_lists(&glass, &list(), nodes)
+        }
+        MethodName::MomentBased => moments::moment_based(&glass, &list()),
         MethodName::WeightedBlended => weighted::weighted_blended(&glass, &list()),
     };
     Ok(MethodScene {

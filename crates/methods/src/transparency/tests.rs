@@ -19,7 +19,7 @@ const SCENES: [SceneName; 6] = [
     SceneName::Smoke,
 ];
 
-const METHODS: [MethodName; 11] = [
+const METHODS: [MethodName; 13] = [
     MethodName::Unsorted,
     MethodName::Sorted,
     MethodName::SortedTriangles,
@@ -30,6 +30,8 @@ const METHODS: [MethodName; 11] = [
     MethodName::DepthPeeling,
     MethodName::DualDepthPeeling,
     MethodName::WeightedBlended,
+    MethodName::MomentBased,
+    MethodName::LinkedLists,
     MethodName::FrontToBack,
 ];
 
@@ -140,6 +142,14 @@ fn parameters_at_their_ends_are_drawn_and_those_beyond_are_refused_by_name() {
         (
             "k",
             Wire {
+                method: MethodName::LinkedLists,
+                k: Some(33),
+                ..thin.clone()
+            },
+        ),
+        (
+            "k",
+            Wire {
                 k: Some(0),
                 ..thin.clone()
             },
@@ -211,6 +221,8 @@ fn passes_grow_with_what_is_peeled_and_with_nothing_else() {
     };
     for layers in [2, 16, 64] {
         assert_eq!(passes(MethodName::WeightedBlended, layers, None), 2);
+        assert_eq!(passes(MethodName::MomentBased, layers, None), 3);
+        assert_eq!(passes(MethodName::LinkedLists, layers, None), 2);
         assert_eq!(passes(MethodName::Sorted, layers, None), 1);
         // As many layers: one pass for each and one to blend it, or for two of them.
         assert_eq!(passes(MethodName::DepthPeeling, layers, Some(8)), 16);

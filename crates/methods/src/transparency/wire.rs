@@ -18,7 +18,7 @@ pub struct Wire {
     /// By how many degrees panes are turned, 0 to 65.
     pub(crate) angle: Option<f64>,
     /// The number of peels, 1 to 64: dual peeling takes two layers each time. Without it, so many
-    /// that 8 layers are peeled.
+    /// that 8 layers are peeled. Of linked lists, the nodes per texel, 1 to 32, on average; without it 8.
     pub(crate) k: Option<u32>,
 }
 
@@ -47,6 +47,11 @@ pub(crate) enum MethodName {
     DualDepthPeeling,
     /// The weighted mean of all layers (McGuire and Bavoil 2013).
     WeightedBlended,
+    /// The weighted mean of all layers, with weights from moments of absorbance along depth (Münstermann and others
+    /// 2018).
+    MomentBased,
+    /// Every fragment in a list of its texel, which is sorted in the end (Yang and others 2010).
+    LinkedLists,
     /// Blended object by object, nearest first: premultiplied colours under what is there.
     FrontToBack,
 }

@@ -51,3 +51,40 @@ pub(super) fn distance_behind<A: Arithmetic>(
     let distance = a.div(product, below);
     a.rounded(distance)
 }
+
+/// Returns a sum at the precision of shaders.
+pub(super) fn sum<A: Arithmetic>(a: &mut A, one: A::Real, other: A::Real) -> A::Real {
+    let sum = a.add(one, other);
+    a.rounded(sum)
+}
+
+/// Returns a difference at the precision of shaders.
+pub(super) fn difference<A: Arithmetic>(a: &mut A, one: A::Real, other: A::Real) -> A::Real {
+    let difference = a.sub(one, other);
+    a.rounded(difference)
+}
+
+/// Returns a product at the precision of shaders.
+pub(super) fn product<A: Arithmetic>(a: &mut A, one: A::Real, other: A::Real) -> A::Real {
+    let product = a.mul(one, other);
+    a.rounded(product)
+}
+
+/// Returns a quotient at the precision of shaders.
+pub(super) fn quotient<A: Arithmetic>(a: &mut A, one: A::Real, other: A::Real) -> A::Real {
+    let quotient = a.div(one, other);
+    a.rounded(quotient)
+}
+
+/// Returns a value times a constant, at the precision of shaders.
+pub(super) fn scaled<A: Arithmetic>(a: &mut A, value: A::Real, by: f32) -> A::Real {
+    let by = a.constant(by);
+    product(a, value, by)
+}
+
+/// Returns a value without its sign.
+pub(super) fn magnitude<A: Arithmetic>(a: &mut A, value: A::Real) -> A::Real {
+    let zero = a.constant(0.0);
+    let turned = a.sub(zero, value);
+    a.max(value, turned)
+}

@@ -1,5 +1,6 @@
 //! Twin of `shaders/fxaa.wgsl`. Choices are numbers, 1 for true, since lanes differ in them.
 
+use super::arithmetic::{difference, magnitude, product, quotient, scaled, sum};
 use super::interface::{FragmentInput, FragmentOutput};
 use crate::arithmetic::Arithmetic;
 
@@ -174,35 +175,4 @@ fn moved<A: Arithmetic>(
         let way = product(a, step[axis], steps);
         sum(a, from[axis], way)
     })
-}
-
-fn sum<A: Arithmetic>(a: &mut A, one: A::Real, other: A::Real) -> A::Real {
-    let sum = a.add(one, other);
-    a.rounded(sum)
-}
-
-fn difference<A: Arithmetic>(a: &mut A, one: A::Real, other: A::Real) -> A::Real {
-    let difference = a.sub(one, other);
-    a.rounded(difference)
-}
-
-fn product<A: Arithmetic>(a: &mut A, one: A::Real, other: A::Real) -> A::Real {
-    let product = a.mul(one, other);
-    a.rounded(product)
-}
-
-fn quotient<A: Arithmetic>(a: &mut A, one: A::Real, other: A::Real) -> A::Real {
-    let quotient = a.div(one, other);
-    a.rounded(quotient)
-}
-
-fn scaled<A: Arithmetic>(a: &mut A, value: A::Real, by: f32) -> A::Real {
-    let by = a.constant(by);
-    product(a, value, by)
-}
-
-fn magnitude<A: Arithmetic>(a: &mut A, value: A::Real) -> A::Real {
-    let zero = a.constant(0.0);
-    let turned = a.sub(zero, value);
-    a.max(value, turned)
 }

@@ -22,6 +22,8 @@ pub struct FragmentInput<'a, R> {
     pub texels: [[R; 4]; 2],
     /// Texture 0 at coordinates that the shader computes, where [`etalon_scene::Shader::taps_texture`].
     pub taps: Taps<'a, R>,
+    /// The list of the texel, where the shader reads it.
+    pub list: List<'a, R>,
     /// The interpolated texture coordinates, where [`etalon_scene::Shader::uses_uv`]; zeros elsewhere.
     pub uv: [R; 2],
     /// The parameter block.
@@ -53,6 +55,25 @@ impl<R> fmt::Debug for Taps<'_, R> {
     }
 }
 
+/// The fragments that earlier passes left for a texel.
+#[derive(Clone, Copy, Debug)]
+pub enum List<'a, R> {
+    /// They are not followed: what is made of them may be anything.
+    Unknown,
+    /// All of them, the later ones first. Where a lane has fewer, what is missing lies behind all depths and has no
+    /// alpha.
+    Known(&'a [Node<R>]),
+}
+
+/// A fragment in a list.
+#[derive(Clone, Copy, Debug)]
+pub struct Node<R> {
+    /// Its colour, straight.
+    pub color: [R; 4],
+    /// Its depth.
+    pub depth: R,
+}
+
 /// The outputs of a fragment shader.
 #[derive(Clone, Copy, Debug)]
 pub struct FragmentOutput<R> {
@@ -70,6 +91,8 @@ pub struct FragmentOutput<R> {
     pub mask: Option<SampleMask<R>>,
     /// The stencil reference, where the shader writes one.
     pub reference: Option<StencilReference<R>>,
+    /// The node that the shader adds to the list of its texel, where it does.
+    pub node: Option<Node<R>>,
 }
 
 impl<R: Copy> FragmentOutput<R> {
@@ -83,6 +106,7 @@ impl<R: Copy> FragmentOutput<R> {
             kept: None,
             mask: None,
             reference: None,
+            node: None,
         }
     }
 

@@ -31,11 +31,16 @@ mod front_facing;
 mod fxaa;
 mod interface;
 mod linear_depth;
+mod list_append;
+mod list_compose;
 mod logarithmic_depth;
 mod masked_color;
 mod masked_depth;
 mod masked_discard;
 mod masked_sample;
+mod moment_absorbance;
+mod moment_resolve;
+mod moment_transmittance;
 mod peel;
 mod sample_depth;
 mod sample_index;
@@ -53,7 +58,9 @@ mod weighted_accumulate;
 mod weighted_resolve;
 
 pub use expensive_color::cost;
-pub use interface::{FragmentInput, FragmentOutput, Kept, SampleMask, StencilReference, Taps};
+pub use interface::{
+    FragmentInput, FragmentOutput, Kept, List, Node, SampleMask, StencilReference, Taps,
+};
 
 use crate::arithmetic::Arithmetic;
 use etalon_scene::{Shader, Vertex};
@@ -93,11 +100,16 @@ pub fn fragment<A: Arithmetic>(
         Shader::FrontFacing => front_facing::fragment(a, input),
         Shader::Fxaa => fxaa::fragment(a, input),
         Shader::LinearDepth => linear_depth::fragment(a, input),
+        Shader::ListAppend => list_append::fragment(a, input),
+        Shader::ListCompose => list_compose::fragment(a, input),
         Shader::LogarithmicDepth => logarithmic_depth::fragment(a, input),
         Shader::MaskedColor => masked_color::fragment(a, input),
         Shader::MaskedDepth => masked_depth::fragment(a, input),
         Shader::MaskedDiscard => masked_discard::fragment(a, input),
         Shader::MaskedSample => masked_sample::fragment(a, input),
+        Shader::MomentAbsorbance => moment_absorbance::fragment(a, input),
+        Shader::MomentResolve => moment_resolve::fragment(a, input),
+        Shader::MomentTransmittance => moment_transmittance::fragment(a, input),
         Shader::Peel => peel::fragment(a, input),
         Shader::SampleDepth => sample_depth::fragment(a, input),
         Shader::SampleIndex => sample_index::fragment(a, input),

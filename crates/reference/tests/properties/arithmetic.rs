@@ -4,7 +4,7 @@ use crate::common::{all_rules, assert_inside, assert_within, config};
 use etalon_frame::{ChannelEncoding, CodeInterval};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, blend, window_position};
 use etalon_reference::rules::{BlendPrecision, Rounding};
-use etalon_reference::{Judging, Rules};
+use etalon_reference::{Interval, Judging, Range, Rules};
 use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState, Viewport};
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -262,5 +262,50 @@ proptest! {
         viewport in viewport(),
     ) {
         check_window_position(position, viewport)?;
+    }
+}
+
+/// An argument of a shader's function, and the width of its interval to either side.
+fn argument() -> impl Strategy<Value = (f32, [f64; 2])> {
+    let value = prop_oneof![
+        select(vec![
+            0.0_f32, 1e-40, 1e-38, 1e-30, 1.0, 2.0, 4.0, -1.0, -126.0, -149.0, -200.0, 127.5,
+            128.0, 1e30
+        ]),
+        -20.0_f32..=20.0,
+        0.0_f32..=1e-3,
+        -200.0_f32..=200.0,
+    ];
+    let reach = || select(vec![0.0, 1e-7, 1e-3, 1.0]);
+    (value, [reach(), reach()])
+}
+
+proptest! {
+    #![proptest_config(config(20_000))]
+
+    #[test]
+    fn powers_and_roots_lie_inside_the_judged_ones((value, [below, above]) in argument()) {
+        let exact = f64::from(value);
+        let judged = Range::same(Interval::between(exact - below, exact + above));
+        for rules in all_rules() {
+            let mut a = Judging::new(&rules);
+            for (name, plain, range) in [
+                ("exp2", Plain::<1>.exp2([value])[0], a.exp2(judged)),
+                ("sqrt", Plain::<1>.sqrt([value])[0], a.sqrt(judged)),
+                ("log2", Plain::<1>.log2([value])[0], a.log2(judged)),
+            ] {
+                let range = range.hull();
+                let held = match plain.is_nan() {
+                    true => range.may_be_nan(),
+                    false => range.contains(f64::from(plain)),
+                };
+                prop_assert!(held, "{name} of {value} under {}: {plain} is not in {range}", rules.name);
+            }
+            // An exact argument leaves no more than the error that a text grants.
+            if below == 0.0 && above == 0.0 && (-20.0..=20.0).contains(&value) {
+                let power = a.exp2(judged).hull();
+                prop_assert!(power.high - power.low < 1e-3 * exact.exp2(), "{value}: {power}");
+            }
+        }
     }
 }

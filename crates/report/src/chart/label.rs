@@ -35,7 +35,7 @@ impl Labels {
 
     /// The place of a text that belongs to a point: its left end and its base line.
     pub(crate) fn place(&mut self, text: &str, (x, y): (f64, f64)) -> Option<(f64, f64)> {
-        let width = 5.8 * text.chars().count() as f64;
+        let width: f64 = text.chars().map(advance).sum();
         let places = [
             (x + 6.0, y - 7.0),
             (x + 8.0, y + 3.5),
@@ -60,6 +60,14 @@ impl Labels {
         self.taken
             .push([left, base - 8.5, left + width, base + 2.0]);
         Some(found)
+    }
+}
+
+/// The width that a letter takes at most, in sans-serif fonts of the size of labels.
+fn advance(letter: char) -> f64 {
+    match letter {
+        'm' | 'w' => 9.5,
+        _ => 5.8,
     }
 }
 

@@ -43,7 +43,40 @@ function layersAt(figure, all, x, y) {
   const at = 4 * (y * all.truth.width + x);
   if (sum.some((v, i) => Math.abs(v * 255 - all.truth.data[at + i]) > 2)) return null;
   const base = { color: opaque?.color ?? background, depth: opaque?.depth ?? 1, name: opaque ? "the opaque surface" : "the background" };
-  return { glass, base, drawn: [0, 1, 2].map(i => all.picture.data[at + i]) };
+  // The fragments of all texels, and the nodes of a pool with eight for each.
+  const pool = () => group.pool ??= { nodes: 8 * size[0] * size[1], fragments: fragments(group.layers) };
+  return { glass, base, pool, drawn: [0, 1, 2].map(i => all.picture.data[at + i]) };
+}
+
+// The number of fragments in front of what is opaque, over all texels.
+function fragments({ size, surfaces }) {
+  const all = surfaces.map(numbers => {
+    const corners = [];
+    for (let i = 4; i < numbers.length; i += 3) corners.push(numbers.slice(i, i + 3));
+    return { corners, alpha: numbers[3], top: Math.min(...corners.map(c => c[1])), bottom: Math.max(...corners.map(c => c[1])) };
+  });
+  let count = 0;
+  for (let y = .5; y < size[1]; y++) {
+    const row = all.filter(s => s.top <= y && y <= s.bottom);
+    for (let x = .5; x < size[0]; x++) {
+      const found = row.map(s => [depthAt(s.corners, x, y), s.alpha]).filter(([depth]) => depth !== null);
+      const end = Math.min(1, ...found.filter(f => f[1] === 1).map(f => f[0]));
+      count += found.filter(([depth, alpha]) => alpha < 1 && depth < end).length;
+    }
+  }
+  return count;
+}
+
+// The one choice of layers that gives the drawn colour over what is behind them, a bit for each.
+function chosen(glass, base, drawn) {
+  if (glass.length > 12) return null;
+  const matches = [];
+  for (let bits = 0; bits < 1 << glass.length; bits++) {
+    const color = base.color.map((behind, c) =>
+      glass.reduceRight((sum, l, i) => bits >> i & 1 ? l.color[c] * l.alpha + sum * (1 - l.alpha) : sum, behind));
+    if (color.every((v, c) => Math.abs(v * 255 - drawn[c]) <= 1.5)) matches.push(bits);
+  }
+  return matches.length === 1 ? matches[0] : null;
 }
 
 // The one way to share four samples among layers and what is behind them that gives the drawn colour.
@@ -63,6 +96,25 @@ function samples(glass, base, drawn) {
   return matches.length === 1 ? matches[0] : null;
 }
 
+// The transmittance in front of each layer that four moments of the absorbance tell, as `moment_transmittance.wgsl` computes it.
+function transmittances(glass) {
+  const layers = glass.map(l => ({ z: 2 * l.depth - 1, absorbance: -Math.log2(Math.max(1 - l.alpha, 4.54e-5)) }));
+  const total = layers.reduce((s, l) => s + l.absorbance, 0);
+  const moment = n => layers.reduce((s, l) => s + l.absorbance * l.z ** n, 0) / total * (1 - 5e-7) + (n % 2 ? 0 : .375 * 5e-7);
+  const [b1, b2, b3, b4] = [1, 2, 3, 4].map(moment);
+  const mixed = b3 - b1 * b2, d1 = b2 - b1 * b1, l = mixed / d1, d2 = b4 - b2 * b2 - mixed * l;
+  return layers.map(({ z }) => {
+    const first = z - b1, second = z * z - b2 - first * l;
+    const own = 1 / (1 + first * first / d1 + second * second / d2);
+    // The two other places are the roots of a parabola.
+    const c2 = Math.abs(second / d2) < 1e-9 ? 1e-9 : second / d2, c1 = first / d1 - c2 * l, c0 = 1 - b1 * first / d1 + c2 * (b1 * l - b2);
+    const half = -(c1 + (c1 < 0 ? -1 : 1) * Math.sqrt(Math.max(c1 * c1 - 4 * c0 * c2, 0))) / 2;
+    const [near, far] = [half / c2, c0 / half].sort((a, b) => a - b);
+    const others = far < z ? 1 - own : near < z ? (far * z - (far + z) * b1 + b2) / ((near - z) * (near - far)) : 0;
+    return 2 ** (-total * Math.min(Math.max(own / 4 + others, 0), 1));
+  });
+}
+
 // Notes for each layer, and a last line, in the terms of a method.
 const TELL = {
   "weighted-blended": ({ glass, base }) => {
@@ -70,6 +122,20 @@ const TELL = {
     const total = glass.reduce((s, l, i) => s + l.alpha * weights[i], 0), revealage = glass.reduce((s, l) => s * (1 - l.alpha), 1);
     const part = i => glass[i].alpha * weights[i] / total * (1 - revealage);
     return [glass.map((_, i) => `weight ${weights[i].toPrecision(3)}: ${percent(part(i))} of the colour`), `revealage: ${percent(revealage)} of ${base.name}`];
+  },
+  "moment-based": ({ glass, base }) => {
+    const told = transmittances(glass), exact = glass.map(l => l.share / l.alpha);
+    const total = glass.reduce((s, l, i) => s + l.alpha * told[i], 0), left = glass.reduce((s, l) => s * (1 - l.alpha), 1);
+    const part = i => glass[i].alpha * told[i] / total * (1 - left);
+    return [glass.map((_, i) => `transmittance ${told[i].toFixed(3)} told, ${exact[i].toFixed(3)} exact: ${percent(part(i))} of the colour`),
+      `absorbance: ${percent(left)} of ${base.name} left`];
+  },
+  "linked-lists": ({ glass, base, pool, drawn }) => {
+    const { nodes, fragments } = pool(), all = `${fragments} fragments, ${nodes} nodes`;
+    if (fragments <= nodes) return [glass.map(() => "in the list"), all];
+    const bits = chosen(glass, base, drawn);
+    if (bits === null) return [[], `${all}: the drawn colour doesn't tell which layers found no room`];
+    return [glass.map((_, i) => bits >> i & 1 ? "in the list" : "found no room"), all];
   },
   "depth-peeling": ({ glass }, passes) => {
     const k = passes >> 1;

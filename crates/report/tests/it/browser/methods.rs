@@ -309,6 +309,39 @@ fn a_texel_is_told_of_in_its_methods_terms(chromium: &Chromium, path: &Path) {
             "revealage: 12.5 % of the background",
         )
     );
+    // Two panes turned by 45 degrees and one that is not, all wide enough for the middle.
+    let listed = told("linked-lists");
+    let start = layers(["; in the list"; 3], "");
+    assert!(
+        listed.starts_with(&start) && listed.ends_with(" fragments, 131072 nodes"),
+        "{listed}"
+    );
+    // A pool without room: the drawn colour tells which layer is missing, where but one choice gives it.
+    let full = |drawn: &str| -> String {
+        page.eval(&format!(
+            "(f => {{ const found = layersAt(f, compared(f), 64, 64), pool = () => ({{ nodes: 3, fragments: 9 }}); \
+             const [notes, last] = TELL['linked-lists']({{ ...found, pool, drawn: {drawn} }}); \
+             return [...notes, last].join('|'); }})(document.querySelector(\"{panes} .pictures:not(.off) [data-method=linked-lists]\"))"
+        ))
+    };
+    // Red and blue without the yellow between them.
+    assert_eq!(
+        full("[178, 102, 128]"),
+        "in the list|found no room|in the list|9 fragments, 3 nodes"
+    );
+    assert!(full("[0, 0, 0]").contains("doesn't tell which layers found no room"));
+    // A quarter of a layer's own absorbance counts as in front of it.
+    assert_eq!(
+        told("moment-based"),
+        layers(
+            [
+                "; transmittance 0.841 told, 1.000 exact: 50.0 % of the colour",
+                "; transmittance 0.420 told, 0.500 exact: 25.0 % of the colour",
+                "; transmittance 0.210 told, 0.250 exact: 12.5 % of the colour",
+            ],
+            "absorbance: 12.5 % of the background left",
+        )
+    );
     assert_eq!(
         told("depth-peeling"),
         layers(

@@ -16,7 +16,7 @@ const ADAPTERS: [(&str, bool, f64); 4] = [
 /// Name, cost, error at the parameter's middle, how the error grows with the parameter, passes.
 type Shape = (&'static str, f64, f64, f64, u32);
 
-const TRANSPARENCY: [Shape; 11] = [
+const TRANSPARENCY: [Shape; 13] = [
     ("unsorted", 1.0, 0.06, 1.0, 1),
     ("sorted", 1.05, 0.0011, 0.0, 1),
     ("sorted-triangles", 1.1, 0.0011, 0.0, 1),
@@ -27,6 +27,8 @@ const TRANSPARENCY: [Shape; 11] = [
     ("depth-peeling", 7.0, 0.0, 0.0, 8),
     ("dual-depth-peeling", 5.0, 0.0012, 0.0, 6),
     ("weighted-blended", 1.8, 0.008, 2.2, 2),
+    ("linked-lists", 2.1, 0.0009, 0.0, 2),
+    ("moment-based", 2.6, 0.0021, 1.4, 3),
     ("front-to-back", 1.3, 0.0014, 0.1, 2),
 ];
 

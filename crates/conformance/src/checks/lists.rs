@@ -1,0 +1,88 @@
+//! Lists of fragments that one pass leaves in storage and a later one reads.
+
+use super::Checked;
+use crate::frames::{check_near, color, texels, values};
+use crate::scenes::{blend, full, scene, test};
+use crate::subject::Subject;
+use etalon_frame::Frame;
+use serde_json::{Value, json};
+
+/// Layers of texels, depth and colour that become nodes in front of a depth of 0.7, and what the lists compose to over
+/// opaque blue.
+fn listed(layers: &[([u32; 4], f64, [f64; 4])], nodes: u32) -> Value {
+    let params = json!({ "color": [4, 4, 0, 0] });
+    let append: Vec<Value> = layers
+        .iter()
+        .map(|(texels, z, value)| {
+            json!({ "mesh": { "kind": "rect", "texels": texels, "z": z, "value": value },
+                    "shader": "list_append", "params": params, "early_tests": "forced",
+                    "depth": test("less", false), "write_mask": "" })
+        })
+        .collect();
+    let under = json!({ "color": blend("add", "one", "src-alpha")["color"],
+                        "alpha": blend("add", "zero", "one")["alpha"] });
+    json!({
+        "attachments": {
+            "shown": { "format": "rgba8unorm", "size": [4, 4], "clear": [0, 0, 1, 1] },
+            "depth": { "format": "depth32float", "size": [4, 4], "clear": 0.7 } },
+        "passes": [
+            { "color": ["shown"], "depth_stencil": "depth", "draws": append },
+            { "color": ["shown"], "draws": [{
+                "mesh": full(), "shader": "list_compose", "params": params, "blend": under }] }],
+        "read": ["shown"],
+        "pool": { "size": [4, 4], "nodes": nodes },
+    })
+}
+
+fn shown(frame: &Frame, (x, y): (u32, u32)) -> [f64; 4] {
+    let all = values(color(frame, "shown"), x, y);
+    std::array::from_fn(|c| all[c])
+}
+
+const ALL: [u32; 4] = [0, 0, 4, 4];
+const RED: [f64; 4] = [1.0, 0.0, 0.0, 0.5];
+const GREEN: [f64; 4] = [0.0, 1.0, 0.0, 0.5];
+
+/// The farther one comes first, one lies behind what is opaque, and one covers half of the texels.
+pub(crate) fn fragments_are_listed_and_composed(s: &Subject) -> Checked {
+    let layers = [
+        (ALL, 0.6, RED),
+        (ALL, 0.9, [1.0, 1.0, 1.0, 0.9]),
+        ([0, 0, 2, 4], 0.2, GREEN),
+    ];
+    let frame = s.show(listed(&layers, 48))?;
+    for (x, y) in texels([4, 4]) {
+        let due = match x < 2 {
+            true => [0.25, 0.5, 0.25, 1.0],
+            false => [0.5, 0.0, 0.5, 1.0],
+        };
+        check_near(&shown(&frame, (x, y)), &due, 1.01 / 255.0);
+    }
+    Ok(())
+}
+
+/// Whichever fragments find room, there are as many as the pool has nodes, in every submission.
+pub(crate) fn a_full_pool_drops_the_rest(s: &Subject) -> Checked {
+    let scene = scene(listed(&[(ALL, 0.3, RED), (ALL, 0.4, RED)], 20));
+    let mut prepared = s.prepare(&scene)?;
+    for _ in 0..3 {
+        prepared.submit().expect("the scene is drawn");
+        let frame = prepared.read_back().expect("the frame is read back");
+        let mut nodes = 0;
+        for at in texels([4, 4]) {
+            let [red, green, blue, _] = shown(&frame, at);
+            // Each node leaves a half of the background.
+            let count = (-blue.log2()).round();
+            check_near(
+                &[red, green, blue],
+                &[1.0 - 0.5_f64.powf(count), 0.0, 0.5_f64.powf(count)],
+                1.01 / 255.0,
+            );
+            nodes += count as u32;
+        }
+        assert_eq!(nodes, 20);
+    }
+    drop(prepared);
+    s.check_silence("a full pool");
+    Ok(())
+}

@@ -1,0 +1,26 @@
+//! What a submission has stored so far.
+
+use crate::lists::Lists;
+use crate::steps::Stored;
+use crate::surface::Surface;
+use etalon_frame::CounterKind;
+
+/// A counter and its count.
+pub(crate) type Counted = (CounterKind, u64);
+
+/// The attachments, the counters and the pool, in the scene's order.
+pub(crate) struct Memory<'m> {
+    pub(crate) surfaces: &'m mut [Surface],
+    pub(crate) counters: &'m mut [Counted],
+    pub(crate) lists: &'m mut Lists,
+}
+
+impl Memory<'_> {
+    /// Returns what a planted bug may change.
+    pub(crate) fn stored(&mut self) -> Stored<'_> {
+        Stored {
+            surfaces: self.surfaces,
+            counters: self.counters,
+        }
+    }
+}

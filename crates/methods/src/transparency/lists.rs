@@ -1,0 +1,43 @@
+//! Per-pixel linked lists (Yang, Hensley, Grün and Thibieroz 2010).
+
+use super::draws::{PICTURE, clear, depths, opaque};
+use super::scenes::Glass;
+use crate::polygon::{Polygon, cover, mesh};
+use crate::stage::{SIZE, Stage, add, depth, draw};
+use etalon_scene::{
+    BlendFactor, BlendState, CompareFunction, EarlyTests, Params, Pool, Scene, Shader,
+};
+
+/// Two passes whatever there is: every fragment in front of what is opaque becomes a node of its texel's list, then
+/// the lists are sorted and composed over the picture. The pool holds so many nodes for each texel, on average.
+pub(super) fn linked_lists(glass: &Glass, polygons: &[Polygon], nodes: u32) -> Scene {
+    let mut stage = Stage::new();
+    let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
+    let depth_stencil = depths(&mut stage, 1);
+    let [width, height] = SIZE;
+    stage.pool(Pool {
+        size: SIZE,
+        nodes: nodes * width * height,
+    });
+    let params = Params {
+        color: [width as f32, height as f32, 0.0, 0.0],
+        back_color: [0.0; 4],
+    };
+    let mut append = draw(Shader::ListAppend, mesh(SIZE, polygons));
+    append.params = params;
+    append.depth = depth(CompareFunction::Less, false);
+    // What fails the depth test must not become a node, although the shader has side effects.
+    append.early_tests = EarlyTests::Forced;
+    append.targets[0].write_mask = 0;
+    let draws = opaque(glass, Shader::FlatColor).into_iter().chain([append]);
+    stage.pass(&[picture], Some(depth_stencil), draws.collect());
+
+    let mut compose = draw(Shader::ListCompose, cover());
+    compose.params = params;
+    compose.targets[0].blend = Some(BlendState {
+        color: add(BlendFactor::One, BlendFactor::SrcAlpha),
+        alpha: add(BlendFactor::Zero, BlendFactor::One),
+    });
+    stage.pass(&[picture], None, vec![compose]);
+    stage.read(&[picture])
+}

@@ -1,0 +1,112 @@
+//! Twin of `shaders/list_compose.wgsl`.
+
+use super::arithmetic::{difference, product, sum};
+use super::interface::{FragmentInput, FragmentOutput, List, Node};
+use crate::arithmetic::Arithmetic;
+
+pub(super) fn fragment<A: Arithmetic>(
+    a: &mut A,
+    input: &FragmentInput<'_, A::Real>,
+) -> FragmentOutput<A::Real> {
+    let (zero, one) = (a.constant(0.0), a.constant(1.0));
+    let List::Known(list) = input.list else {
+        return FragmentOutput::of([a.div(zero, zero); 4]);
+    };
+    let mut nodes = list.to_vec();
+    sort(a, &mut nodes);
+    let (mut color, mut left) = ([zero; 3], one);
+    for node in nodes {
+        let alpha = node.color[3];
+        let share = product(a, alpha, left);
+        for (sum_of, own) in color.iter_mut().zip(node.color) {
+            let own = product(a, own, share);
+            *sum_of = sum(a, *sum_of, own);
+        }
+        let through = difference(a, one, alpha);
+        left = product(a, left, through);
+    }
+    let [red, green, blue] = color;
+    FragmentOutput::of([red, green, blue, left])
+}
+
+/// Sorts nodes by depth, the nearest first; those at the same depth stay in order. Lanes differ in their order, so
+/// that each pair of neighbours is compared until no lane can have any left to exchange.
+fn sort<A: Arithmetic>(a: &mut A, nodes: &mut [Node<A::Real>]) {
+    for end in (1..nodes.len()).rev() {
+        for i in 0..end {
+            let [this, next] = [nodes[i], nodes[i + 1]];
+            let mut choose = |if_nearer: A::Real, otherwise: A::Real| {
+                a.select_less(next.depth, this.depth, if_nearer, otherwise)
+            };
+            let depths = [
+                choose(next.depth, this.depth),
+                choose(this.depth, next.depth),
+            ];
+            let colors = [0, 1, 2, 3].map(|c| {
+                [
+                    choose(next.color[c], this.color[c]),
+                    choose(this.color[c], next.color[c]),
+                ]
+            });
+            for (place, depth) in depths.into_iter().enumerate() {
+                let color = colors.map(|both| both[place]);
+                nodes[i + place] = Node { color, depth };
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::interface::Taps;
+    use super::*;
+    use crate::plain::Plain;
+    use etalon_scene::Params;
+
+    /// The colour and what is left of the background, of nodes in the order of the list.
+    fn composed(list: &[(f32, [f32; 4])]) -> [f32; 4] {
+        let nodes: Vec<Node<[f32; 1]>> = list
+            .iter()
+            .map(|(depth, color)| Node {
+                color: color.map(|v| [v]),
+                depth: [*depth],
+            })
+            .collect();
+        let input = FragmentInput {
+            color: [[0.0]; 4],
+            front: true,
+            depth: [0.0],
+            sample: 0,
+            position: [[0.5]; 2],
+            texels: [[[0.0]; 4]; 2],
+            taps: Taps::NONE,
+            list: List::Known(&nodes),
+            uv: [[0.0]; 2],
+            params: &Params::default(),
+        };
+        fragment(&mut Plain::<1>, &input).color.map(|[v]| v)
+    }
+
+    #[test]
+    fn nodes_are_composed_nearest_first_in_whatever_order_they_came() {
+        let near = (0.25, [1.0, 0.0, 0.0, 0.5]);
+        let middle = (0.5, [0.0, 1.0, 0.0, 0.5]);
+        let far = (0.75, [0.0, 0.0, 1.0, 1.0]);
+        for list in [
+            [near, middle, far],
+            [far, middle, near],
+            [middle, far, near],
+            [middle, near, far],
+        ] {
+            assert_eq!(composed(&list), [0.5, 0.25, 0.25, 0.0], "{list:?}");
+        }
+        assert_eq!(composed(&[]), [0.0, 0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn of_two_at_one_depth_the_later_is_in_front() {
+        let (red, green) = ((0.5, [1.0, 0.0, 0.0, 0.5]), (0.5, [0.0, 1.0, 0.0, 0.5]));
+        assert_eq!(composed(&[red, green]), [0.5, 0.25, 0.0, 0.25]);
+        assert_eq!(composed(&[green, red]), [0.25, 0.5, 0.0, 0.25]);
+    }
+}

@@ -1,0 +1,41 @@
+//! The order of uses of storage buffers: zeroes before shaders, the writes of a pass before the reads of the next.
+
+use crate::device::Device;
+use ash::vk;
+
+/// Records zeroes to the first bytes of a storage buffer, before fragment shaders use it.
+pub(crate) fn zero(
+    device: &Device,
+    commands: vk::CommandBuffer,
+    buffer: vk::Buffer,
+    bytes: vk::DeviceSize,
+) {
+    // SAFETY: recording, outside of a render pass; no other work uses the buffer, which is not smaller.
+    unsafe {
+        device.raw.cmd_fill_buffer(commands, buffer, 0, bytes, 0);
+    }
+    let (written, stage) = (
+        vk::AccessFlags2::TRANSFER_WRITE,
+        vk::PipelineStageFlags2::ALL_TRANSFER,
+    );
+    before_use(device, commands, stage, written);
+}
+
+/// Makes writes visible to what fragment shaders read from storage and write to it.
+pub(crate) fn before_use(
+    device: &Device,
+    commands: vk::CommandBuffer,
+    stage: vk::PipelineStageFlags2,
+    written: vk::AccessFlags2,
+) {
+    let barriers = [vk::MemoryBarrier2::default()
+        .src_stage_mask(stage)
+        .src_access_mask(written)
+        .dst_stage_mask(vk::PipelineStageFlags2::FRAGMENT_SHADER)
+        .dst_access_mask(
+            vk::AccessFlags2::SHADER_STORAGE_READ | vk::AccessFlags2::SHADER_STORAGE_WRITE,
+        )];
+    let info = vk::DependencyInfo::default().memory_barriers(&barriers);
+    // SAFETY: recording, outside of a render pass.
+    unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
+}

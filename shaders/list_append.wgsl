@@ -1,0 +1,42 @@
+// Per-pixel linked lists (Yang, Hensley, Grün and Thibieroz 2010), their making: the fragment becomes a node in
+// front of its texel's list. The pool holds the number of nodes asked for, one head for each texel, and nodes of
+// six words: colour, depth, and the node behind. Nodes have numbers from 1 on, and 0 ends a list. Of what the
+// pool has no room for, nothing is left. The first parameter holds the picture's size.
+
+struct Params {
+    color: vec4f,
+    back_color: vec4f,
+}
+
+@group(0) @binding(0) var<uniform> params: Params;
+@group(0) @binding(3) var<storage, read_write> pool: array<atomic<u32>>;
+
+struct Varying {
+    @builtin(position) position: vec4f,
+    @location(0) @interpolate(flat) color: vec4f,
+}
+
+@vertex
+fn vs(@location(0) position: vec4f, @location(1) color: vec4f) -> Varying {
+    return Varying(position, color);
+}
+
+@fragment
+fn fs(in: Varying) -> @location(0) vec4f {
+    let size = vec2u(params.color.xy);
+    let texel = vec2u(in.position.xy);
+    let head = 1u + texel.y * size.x + texel.x;
+    let first = 1u + size.x * size.y;
+    let node = atomicAdd(&pool[0], 1u);
+    if node < (arrayLength(&pool) - first) / 6u {
+        let at = first + node * 6u;
+        atomicStore(&pool[at], bitcast<u32>(in.color.r));
+        atomicStore(&pool[at + 1u], bitcast<u32>(in.color.g));
+        atomicStore(&pool[at + 2u], bitcast<u32>(in.color.b));
+        atomicStore(&pool[at + 3u], bitcast<u32>(in.color.a));
+        atomicStore(&pool[at + 4u], bitcast<u32>(in.position.z));
+        let behind = atomicExchange(&pool[head], node + 1u);
+        atomicStore(&pool[at + 5u], behind);
+    }
+    return vec4f(0.0);
+}
