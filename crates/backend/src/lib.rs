@@ -17,10 +17,15 @@ mod call_fault;
 pub mod codes;
 mod halves;
 mod read_fault;
+mod recording;
 
 pub use call_fault::CallFault;
 pub use halves::halves;
 pub use read_fault::ReadFault;
+pub use recording::{
+    Argument, Call, Constant, CounterPart, Form, Phase, Plane, RecordedContext, RecordedCounter,
+    RecordedImage, Recording,
+};
 
 use etalon_frame::{Frame, Limits, Requirement};
 use etalon_scene::Scene;
@@ -70,6 +75,12 @@ pub trait Backend {
     /// first; none if they are not enabled.
     fn messages(&self) -> Vec<String> {
         Vec::new()
+    }
+
+    /// Returns the calls of the scene that was prepared first, up to now. `None` unless the backend was opened to
+    /// record.
+    fn recording(&self) -> Option<Recording> {
+        None
     }
 }
 

@@ -1,8 +1,8 @@
 //! The command line: one subcommand per file of `commands`.
 
 use crate::commands::{
-    adapters, bench, bisect, check, completions, diff, expectations, explain, fuzz, list, man,
-    merge, mutants, reduce, report, run, show, site,
+    adapters, bench, bisect, bundle, check, completions, diff, expectations, explain, fuzz, list,
+    man, merge, mutants, reduce, report, run, show, site,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -54,6 +54,8 @@ pub(crate) enum Command {
     Explain(explain::Arguments),
     /// Reduce a failing case to the smallest one that fails in the same way
     Reduce(reduce::Arguments),
+    /// Write a program that shows a bug without the suite, and a report
+    Bundle(bundle::Arguments),
     /// Draw random scenes on adapters, and reduce those that fail
     Fuzz(fuzz::Arguments),
     /// Plant bugs in the cpu rasterizer and report which of them the cases catch

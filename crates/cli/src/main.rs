@@ -29,6 +29,7 @@ mod output;
 mod processors;
 mod progress;
 mod provenance;
+mod reducing;
 mod reduction;
 mod report_files;
 mod scene_text;
@@ -65,6 +66,7 @@ fn main() -> ExitCode {
         Command::Bisect(arguments) => commands::bisect::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Reduce(arguments) => commands::reduce::run(&arguments),
+        Command::Bundle(arguments) => commands::bundle::run(&arguments),
         Command::Fuzz(arguments) => commands::fuzz::run(&arguments),
         Command::Mutants(arguments) => commands::mutants::run(&arguments),
         Command::Completions(arguments) => {

@@ -68,6 +68,9 @@ pub(crate) struct DriverOracle<'a> {
     until: Option<Instant>,
     /// True if candidates were left.
     late: bool,
+    /// Starts the process in which each candidate that fails is drawn once more, alone: for drivers on which a failure
+    /// leaves something behind that makes the next case fail.
+    pub(crate) alone: Option<Launch>,
 }
 
 impl<'a> DriverOracle<'a> {
@@ -93,6 +96,7 @@ impl<'a> DriverOracle<'a> {
             stop,
             until: ends.then(|| Instant::now() + LOST_TIME),
             late: false,
+            alone: None,
         }
     }
 
@@ -122,6 +126,7 @@ impl Oracle for DriverOracle<'_> {
             stop,
             until,
             late,
+            alone,
         } = self;
         if error.is_some() {
             return None;
@@ -131,9 +136,15 @@ impl Oracle for DriverOracle<'_> {
                 || stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
             if *late { None } else { candidates.next() }
         };
-        let mut found = |_: &Candidate, judged: Record| {
+        let timeout = trials.timeout;
+        let mut found = |candidate: &Candidate, judged: Record| {
             let seen = Symptom::of(&judged);
             if !symptom.covers(&seen) {
+                return false;
+            }
+            let fails_alone =
+                |launch: &Launch| confirm(launch, &candidate.case, &seen, timeout).is_ok();
+            if !alone.as_ref().is_none_or(fails_alone) {
                 return false;
             }
             *symptom = seen;

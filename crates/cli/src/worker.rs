@@ -114,6 +114,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
             debug: what.validate,
             read_fault: what.read_fault,
             call_fault: what.call_fault,
+            record: what.record,
         };
         etalon_gl::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };

@@ -8,8 +8,9 @@ use crate::path;
 use crate::planted;
 use crate::prepared::PreparedScene;
 use crate::probe::Probed;
+use crate::recording;
 use crate::state;
-use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Unavailable};
+use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Recording, Unavailable};
 use etalon_frame::{Api, ApiVersion, Limits, standard_sample_positions};
 use etalon_scene::Scene;
 use glow::HasContext;
@@ -21,6 +22,7 @@ pub struct GlBackend {
     limits: Limits,
     objects: Objects,
     pub(crate) context: Context,
+    options: Options,
 }
 
 /// Opens an adapter. `name` becomes [`AdapterInfo::name`].
@@ -65,6 +67,7 @@ pub(crate) fn open_with(
         limits,
         objects,
         context,
+        options: options.clone(),
     };
     backend
         .context
@@ -165,5 +168,9 @@ impl Backend for GlBackend {
 
     fn messages(&self) -> Vec<String> {
         self.context.messages()
+    }
+
+    fn recording(&self) -> Option<Recording> {
+        recording::recorded(&self.options, self.context.caps.version)
     }
 }

@@ -32,6 +32,20 @@ pub(crate) fn texel_bytes(format: TextureFormat) -> usize {
     }
 }
 
+/// Returns, of each channel, the first bit in a texel of client memory and the number of bits.
+pub(crate) fn places(format: TextureFormat) -> Vec<[u32; 2]> {
+    let channels = (0..).zip(format.color_channels());
+    match layout(format) {
+        Layout::Each(size) => channels
+            .map(|(c, _)| [c * 8 * size as u32, 8 * size as u32])
+            .collect(),
+        Layout::Packed(_, shifts) => channels
+            .zip(shifts)
+            .map(|((_, e), s)| [*s, bits(*e)])
+            .collect(),
+    }
+}
+
 /// Returns the client image of codes.
 pub(crate) fn pack(format: TextureFormat, codes: &[u32]) -> Vec<u8> {
     let mut bytes = Vec::new();

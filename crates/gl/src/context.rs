@@ -6,6 +6,7 @@ use crate::egl::{EglContext, function_at};
 use crate::entry_points::EntryPoints;
 use crate::options::{Options, Profile, Tuning};
 use crate::planted;
+use crate::recording;
 use etalon_backend::{BackendError, ReadFault, Unavailable};
 use glow::HasContext;
 use std::ffi::{CStr, c_char};
@@ -44,6 +45,7 @@ impl Context {
         tuning: Tuning,
     ) -> Result<Self, Unavailable> {
         planted::plant(options.call_fault);
+        recording::install(options.record);
         let names = Names::query(&egl)?;
         let es = options.profile == Profile::Es;
         let version = parse_version(&names.version).ok_or_else(|| unusable("GL_VERSION"))?;

@@ -3,6 +3,7 @@
 use crate::context::{Context, refused};
 use crate::pool::Pool;
 use crate::query::{Query, query_target};
+use crate::recording;
 use etalon_backend::BackendError;
 use etalon_frame::CounterKind;
 use etalon_scene::{Counter, Draw};
@@ -69,12 +70,15 @@ impl Counters {
         context: &Context,
         runs: Option<(glow::Buffer, usize)>,
     ) -> Result<Vec<u64>, BackendError> {
+        let any = |kind: &CounterKind| *kind == CounterKind::AnySamplesPassed;
+        recording::counters(self.kinds.iter().map(any));
         let mut counts = match runs {
             Some((buffer, size)) => self.read_runs(context, buffer, size)?,
             None => vec![0; self.kinds.len()],
         };
         for (index, query) in &self.queries {
             let result = context.query_result(query.object);
+            recording::counter_part(*index, 0, recording::WHOLE);
             let count = &mut counts[*index];
             *count = match self.kinds[*index] {
                 CounterKind::AnySamplesPassed => (*count).max(result.min(1)),
@@ -105,6 +109,11 @@ impl Counters {
             }
             bytes.copy_from_slice(std::slice::from_raw_parts(mapped, size));
             gl.unmap_buffer(target);
+        }
+        for (index, kind) in self.kinds.iter().enumerate() {
+            if *kind == CounterKind::ShaderRuns {
+                recording::counter_part(index, (index * self.stride) as u32, 4);
+            }
         }
         let first = |place: &[u8]| {
             let word = place.first_chunk().copied().unwrap_or_default();

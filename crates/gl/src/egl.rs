@@ -4,6 +4,7 @@
 //! unknown error codes.
 
 use crate::planted;
+use crate::recording;
 use etalon_backend::Unavailable;
 use khronos_egl::api::{EGL1_0 as _, EGL1_2 as _, EGL1_4 as _};
 use khronos_egl::{self as egl, Dynamic, EGL1_4};
@@ -514,7 +515,7 @@ impl EglContext {
 
     /// See [`Egl::proc_address`].
     pub(crate) fn proc_address(&self, name: &CStr) -> *const c_void {
-        planted::address(name, self.egl.proc_address(name))
+        recording::address(name, planted::address(name, self.egl.proc_address(name)))
     }
 }
 

@@ -34,6 +34,7 @@ mod probe;
 mod program;
 mod query;
 mod read;
+mod recording;
 mod state;
 mod support;
 mod surface;

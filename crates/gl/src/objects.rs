@@ -5,8 +5,9 @@ use crate::context::Context;
 use crate::pool::Pool;
 use crate::probe::{self, Probed};
 use crate::program::Programs;
+use crate::recording;
 use crate::support::Support;
-use etalon_backend::Unavailable;
+use etalon_backend::{Phase, Unavailable};
 use etalon_frame::TextureFormat;
 use etalon_scene::Params;
 use glow::HasContext;
@@ -30,6 +31,9 @@ impl Objects {
     pub(crate) fn new(context: &Context) -> Result<(Self, Probed), Unavailable> {
         let gl = &context.gl;
         let refused = |message: String| Unavailable::new(message, "use another driver");
+        let probed = probe::probe(context);
+        // The objects of scenes are made behind the probes, so that a recording has them and nothing else.
+        recording::begin(Phase::Prepare);
         // SAFETY: the context is current and has the limit since version 3.
         let (alignment, vertex_array, no_vertices, timer) = unsafe {
             let no_vertices = gl.create_vertex_array().map_err(refused)?;
@@ -38,7 +42,7 @@ impl Objects {
             for attribute in 0..3 {
                 gl.enable_vertex_attrib_array(attribute);
             }
-            let timer = if context.caps.timer {
+            let timer = if context.caps.timer && !recording::is_installed() {
                 Some(gl.create_query().map_err(refused)?)
             } else {
                 None
@@ -51,7 +55,7 @@ impl Objects {
             )
         };
         let alignment = usize::try_from(alignment).unwrap_or(0).max(1);
-        let probed = probe::probe(context);
+        recording::end();
         let objects = Self {
             formats: probed.formats.clone(),
             pool: RefCell::default(),

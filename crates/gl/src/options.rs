@@ -28,6 +28,9 @@ pub struct Options {
     pub read_fault: Option<ReadFault>,
     /// A fault that a test of the suite plants between the backend and the driver.
     pub call_fault: Option<CallFault>,
+    /// Records the calls of the first scene that is prepared, for [`etalon_backend::Backend::recording`]. The context
+    /// then has no timer.
+    pub record: bool,
 }
 
 /// Capabilities that tests can disable.

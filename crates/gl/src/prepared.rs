@@ -12,10 +12,11 @@ use crate::path;
 use crate::pool::Pool;
 use crate::program::FragmentForm;
 use crate::read::{Reading, Source};
+use crate::recording;
 use crate::state::{self, DrawState};
 use crate::surface::{Surface, SurfaceKind, upload};
 use crate::vertices::{Fetched, Geometry};
-use etalon_backend::{BackendError, FrameTime, Prepared};
+use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
 use etalon_frame::{
     Frame, PathCommands, PathDraws, PathEnd, PathState, PathTarget, PathValue, Requirement,
     TextureFormat,
@@ -70,7 +71,10 @@ impl<'a> PreparedScene<'a> {
             submitted: false,
             reusable: false,
         };
-        prepared.fill(scene)?;
+        recording::begin(Phase::Prepare);
+        let filled = prepared.fill(scene);
+        recording::end();
+        filled?;
         context.check("preparing a scene")?;
         prepared.reusable = true;
         Ok(prepared)
@@ -328,6 +332,7 @@ impl<'a> PreparedScene<'a> {
         let (context, objects) = (self.context, self.objects);
         let gl = &context.gl;
         context.make_current()?;
+        recording::begin(Phase::Submit);
         let start = Instant::now();
         state::reset(context);
         attachment::set_initial_contents(context, &self.attachments);
@@ -356,6 +361,7 @@ impl<'a> PreparedScene<'a> {
             gl.finish();
             (cpu, start.elapsed())
         };
+        recording::end();
         context.check("drawing a scene")?;
         let gpu = objects.timer.and_then(|query| context.elapsed(query));
         Ok(FrameTime {
@@ -366,8 +372,17 @@ impl<'a> PreparedScene<'a> {
     }
 
     fn try_read_back(&self) -> Result<Frame, BackendError> {
+        self.context.make_current()?;
+        recording::begin(Phase::Read);
+        let frame = self.frame();
+        recording::end();
+        let frame = frame?;
+        self.context.check("reading a frame back")?;
+        Ok(frame)
+    }
+
+    fn frame(&self) -> Result<Frame, BackendError> {
         let (context, objects) = (self.context, self.objects);
-        context.make_current()?;
         let mut reading = Reading {
             context,
             pool: &mut objects.pool.borrow_mut(),
@@ -394,7 +409,6 @@ impl<'a> PreparedScene<'a> {
                 end: *end,
             })?);
         }
-        context.check("reading a frame back")?;
         Ok(frame)
     }
 }

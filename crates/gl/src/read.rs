@@ -5,11 +5,12 @@ use crate::context::{Context, refused};
 use crate::format::gl_format;
 use crate::pool::Pool;
 use crate::program::{Programs, Reader, View};
+use crate::recording;
 use crate::state;
 use crate::support::{ReadPlan, ShaderStencil};
 use crate::surface::{Storage, Surface, SurfaceKind};
 use etalon_backend::codes::code_of_float;
-use etalon_backend::{BackendError, halves};
+use etalon_backend::{BackendError, Form, halves};
 use etalon_frame::{Aspect, ChannelEncoding, Image, PathEnd, PathTarget, ReadPath, TextureFormat};
 use glow::HasContext;
 
@@ -46,6 +47,13 @@ impl Source<'_> {
 impl Reading<'_> {
     /// Returns the images of all aspects of an attachment, depth before stencil.
     pub(crate) fn images(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
+        let images = self.images_at(source)?;
+        recording::images(&images);
+        Ok(images)
+    }
+
+    /// Returns the images, in a copy where the path has one.
+    fn images_at(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
         if !matches!(source.end, PathEnd::Copy | PathEnd::Blit) {
             return self.images_of(source);
         }
@@ -124,13 +132,13 @@ impl Reading<'_> {
             return Ok(copy(self.context, source, source.plan).0);
         }
         if format.is_integer() {
-            let wide = self.fetch(surface, Reader::Integers)?;
+            let wide = self.fetch(surface, Reader::Integers, Aspect::Color)?;
             let texels = wide.chunks_exact(4);
             return Ok(texels
                 .flat_map(|texel| texel.iter().take(channels.len()).copied())
                 .collect());
         }
-        let wide = self.fetch(surface, Reader::Floats)?;
+        let wide = self.fetch(surface, Reader::Floats, Aspect::Color)?;
         Ok(narrowed(&wide, channels))
     }
 
@@ -140,12 +148,12 @@ impl Reading<'_> {
         surface: &Surface,
         encoding: ChannelEncoding,
     ) -> Result<Vec<u32>, BackendError> {
-        let wide = self.fetch(surface, Reader::Floats)?;
+        let wide = self.fetch(surface, Reader::Floats, Aspect::Depth)?;
         Ok(narrowed(&wide, &[encoding]))
     }
 
     fn fetched_stencil(&mut self, surface: &Surface) -> Result<Vec<u32>, BackendError> {
-        let wide = self.fetch(surface, Reader::Integers)?;
+        let wide = self.fetch(surface, Reader::Integers, Aspect::Stencil)?;
         Ok(wide.chunks_exact(4).map(|texel| texel[0]).collect())
     }
 
@@ -187,7 +195,12 @@ impl Reading<'_> {
 
     /// Fetches a surface into a scratch surface and reads that: four words per sample, the samples
     /// of a texel in sequence.
-    fn fetch(&mut self, surface: &Surface, reader: Reader) -> Result<Vec<u32>, BackendError> {
+    fn fetch(
+        &mut self,
+        surface: &Surface,
+        reader: Reader,
+        aspect: Aspect,
+    ) -> Result<Vec<u32>, BackendError> {
         let context = self.context;
         let gl = &context.gl;
         let Storage::Texture(part) = surface.storage else {
@@ -248,6 +261,11 @@ impl Reading<'_> {
                 &mut wide,
                 false,
             );
+            let form = match reader {
+                Reader::Integers => Form::Code,
+                Reader::Floats => Form::Float,
+            };
+            recording::plane(aspect, 16, each(4, 32), form);
             for (texel, values) in wide.chunks_exact(4).enumerate() {
                 let at = (texel * samples as usize + sample) * 4;
                 all[at..at + 4].copy_from_slice(values);
@@ -284,7 +302,7 @@ fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Op
         words
     };
     let depth = glow::DEPTH_COMPONENT;
-    match plan {
+    let codes = match plan {
         ReadPlan::Packed => {
             let mut bytes = vec![0_u8; texels * codes::texel_bytes(format)];
             if let Some(client) = gl_format(format) {
@@ -351,7 +369,43 @@ fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Op
             );
             (values.into_iter().map(u32::from).collect(), None)
         }
+    };
+    note_planes(plan, format);
+    codes
+}
+
+/// Tells the recording where the codes are that were just copied.
+fn note_planes(plan: ReadPlan, format: TextureFormat) {
+    let plane = |aspect, texel, channels, form| recording::plane(aspect, texel, channels, form);
+    let one = |bit, bits| vec![[bit, bits]];
+    match plan {
+        ReadPlan::Packed => {
+            let texel = codes::texel_bytes(format) as u32;
+            plane(Aspect::Color, texel, codes::places(format), Form::Code);
+        }
+        ReadPlan::Bytes => plane(Aspect::Color, 4, each(4, 8), Form::Byte),
+        ReadPlan::Floats => plane(Aspect::Color, 16, each(4, 32), Form::Float),
+        ReadPlan::Integers => plane(Aspect::Color, 16, each(4, 32), Form::Code),
+        ReadPlan::Depth16 => plane(Aspect::Depth, 2, one(0, 16), Form::Code),
+        ReadPlan::Depth24 => plane(Aspect::Depth, 4, one(8, 24), Form::Code),
+        ReadPlan::DepthFloat => plane(Aspect::Depth, 4, one(0, 32), Form::Code),
+        ReadPlan::Depth24Stencil8 => {
+            plane(Aspect::Depth, 4, one(8, 24), Form::Code);
+            plane(Aspect::Stencil, 4, one(0, 8), Form::Code);
+        }
+        ReadPlan::DepthFloatStencil8 => {
+            plane(Aspect::Depth, 8, one(0, 32), Form::Code);
+            plane(Aspect::Stencil, 8, one(32, 8), Form::Code);
+        }
+        ReadPlan::Stencil | ReadPlan::Fetched | ReadPlan::Shader { .. } => {
+            plane(Aspect::Stencil, 1, one(0, 8), Form::Code);
+        }
     }
+}
+
+/// Returns the places of so many channels of so many bits, one behind the other.
+fn each(channels: u32, bits: u32) -> Vec<[u32; 2]> {
+    (0..channels).map(|c| [c * bits, bits]).collect()
 }
 
 /// Returns the code of at most 8 bits that was widened to a byte.
@@ -380,6 +434,7 @@ fn read_pixels<T: bytemuck::Pod>(
         false => (vec![(0, width)], vec![(0, height)]),
     };
     let native = |(first, length): (u32, u32)| (first as i32, length as i32);
+    recording::memory(bytemuck::cast_slice(into));
     for (y, high) in rows.into_iter().map(native) {
         for (x, wide) in columns.iter().copied().map(native) {
             let bytes = bytemuck::cast_slice_mut(into);

@@ -445,7 +445,7 @@ impl Expectations {
     }
 
     /// The first expectation that counts and names a bad verdict of a case on an adapter.
-    pub(crate) fn first_bad(&self, adapter: &AdapterRecord, case: &str) -> Option<&Known> {
+    pub fn first_bad(&self, adapter: &AdapterRecord, case: &str) -> Option<&Known> {
         self.matching(adapter, case)
             .find(|known| known.verdict.is_bad() && !self.expired(known))
     }

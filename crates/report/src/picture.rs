@@ -77,6 +77,64 @@ struct View<'a> {
     range: [f64; 2],
 }
 
+/// The pixels of a picture.
+struct Canvas {
+    pixels: Vec<[u8; 4]>,
+    width: u32,
+    height: u32,
+}
+
+impl Canvas {
+    /// Draws the border of a square, as far as it lies inside.
+    fn frame(&mut self, left: i64, top: i64, side: i64, color: [u8; 4]) {
+        for i in 0..side {
+            for (x, y) in [
+                (left + i, top),
+                (left + i, top + side - 1),
+                (left, top + i),
+                (left + side - 1, top + i),
+            ] {
+                let inside = |v: i64, most: u32| (0..i64::from(most)).contains(&v);
+                if inside(x, self.width) && inside(y, self.height) {
+                    self.pixels[(y * i64::from(self.width) + x) as usize] = color;
+                }
+            }
+        }
+    }
+}
+
+/// Returns the pictures of an image as PNG files with a ring around a sample (column, row and number): the least that is
+/// allowed, what came back, and their difference. `None` when the image's lists do not fit its size.
+pub fn ringed_pictures(image: &FrameImage, at: [u32; 3]) -> Option<[Vec<u8>; 3]> {
+    if !image.is_whole() || image.wrong.is_empty() || image.channels.is_empty() {
+        return None;
+    }
+    let window = window(image);
+    let longest = window.width.max(window.height).max(1);
+    let view = View {
+        image,
+        window,
+        scale: (TARGET / longest).clamp(1, ENLARGED),
+        range: range(image),
+    };
+    let color = image.aspect == Aspect::Color;
+    let codes = |codes: &[u32]| {
+        view.ringed(at, |sample, _, _| match color {
+            true => [0, 1, 2].map(|c| view.value(codes, sample, c)),
+            false => [view.value(codes, sample, 0); 3],
+        })
+    };
+    let difference = view.ringed(at, |sample, _, _| match image.wrong[sample] {
+        FrameImage::FINE => FINE,
+        FrameImage::IMPRECISE => IMPRECISE,
+        _ => {
+            let bright = 0.4 + 0.6 * view.distance(sample);
+            FAIL.map(|c| (f64::from(c) * bright).round() as u8)
+        }
+    });
+    Some([codes(&image.low)?, codes(&image.actual)?, difference?])
+}
+
 /// The pictures of an image. `None` when the image's lists do not fit its size.
 pub(crate) fn strip(image: &FrameImage) -> Option<Strip> {
     if !image.is_whole() || image.wrong.is_empty() || image.channels.is_empty() {
@@ -286,8 +344,22 @@ impl View<'_> {
         &self,
         label: &'static str,
         block: u32,
-        mut pixel: impl FnMut(usize, u32, u32) -> [u8; 3],
+        pixel: impl FnMut(usize, u32, u32) -> [u8; 3],
     ) -> Option<Picture> {
+        let Canvas {
+            pixels,
+            width,
+            height,
+        } = self.canvas(block, pixel);
+        let enlarge = self.scale / block;
+        Some(Picture {
+            label,
+            uri: uri(&pixels, width, height)?,
+            size: [width * enlarge, height * enlarge],
+        })
+    }
+
+    fn canvas(&self, block: u32, mut pixel: impl FnMut(usize, u32, u32) -> [u8; 3]) -> Canvas {
         let w = self.window;
         let samples = self.image.samples;
         let gap = if samples > 1 { block } else { 0 };
@@ -308,12 +380,34 @@ impl View<'_> {
                 pixels.push([r, g, b, 255]);
             }
         }
-        let enlarge = self.scale / block;
-        Some(Picture {
-            label,
-            uri: uri(&pixels, width, height)?,
-            size: [width * enlarge, height * enlarge],
-        })
+        Canvas {
+            pixels,
+            width,
+            height,
+        }
+    }
+
+    /// Returns a picture as a PNG file with a ring around a sample.
+    fn ringed(
+        &self,
+        [x, y, sample]: [u32; 3],
+        pixel: impl FnMut(usize, u32, u32) -> [u8; 3],
+    ) -> Option<Vec<u8>> {
+        let block = self.scale.max(4);
+        let mut canvas = self.canvas(block, pixel);
+        let w = self.window;
+        let tile = w.width * block + if self.image.samples > 1 { block } else { 0 };
+        let left = sample * tile + x.checked_sub(w.x)? * block;
+        let top = y.checked_sub(w.y)? * block;
+        // White inside the texel, black around it: one of them shows on any colour.
+        canvas.frame(i64::from(left), i64::from(top), i64::from(block), [255; 4]);
+        canvas.frame(
+            i64::from(left) - 1,
+            i64::from(top) - 1,
+            i64::from(block) + 2,
+            [0, 0, 0, 255],
+        );
+        png(&canvas.pixels, canvas.width, canvas.height)
     }
 
     fn caption(&self, same: bool, alpha: Alpha) -> String {

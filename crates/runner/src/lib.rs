@@ -54,4 +54,4 @@ pub use story::{story_of_relation, story_of_sample};
 pub use texel::judge_texel;
 pub use trial::Trials;
 pub use version_search::releases_to_draw;
-pub use worker::{DrawError, Worker};
+pub use worker::{DrawError, Recorded, Worker};

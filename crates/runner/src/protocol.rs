@@ -1,6 +1,6 @@
 //! The protocol between parent and worker: length-prefixed binary messages over two pipes.
 
-use etalon_backend::{AdapterInfo, BackendError, FrameTime, Unavailable};
+use etalon_backend::{AdapterInfo, BackendError, FrameTime, Recording, Unavailable};
 use etalon_frame::{Frame, Limits};
 use etalon_scene::Scene;
 use serde::de::DeserializeOwned;
@@ -23,6 +23,8 @@ pub(crate) enum Request<'s> {
     ReadBack { slot: u32 },
     /// Forget a scene.
     Drop { slot: u32 },
+    /// Tell the calls of the first scene.
+    Recording { slot: u32 },
 }
 
 /// An answer of the worker, one per request and in their order.
@@ -49,6 +51,7 @@ pub(crate) enum Payload {
     Submitted(Vec<FrameTime>),
     Frame(Box<Frame>),
     Dropped,
+    Recording(Option<Box<Recording>>),
 }
 
 /// An adapter as its worker describes it.
@@ -67,7 +70,8 @@ impl Request<'_> {
             Self::Prepare { slot, .. }
             | Self::Submit { slot, .. }
             | Self::ReadBack { slot }
-            | Self::Drop { slot } => *slot,
+            | Self::Drop { slot }
+            | Self::Recording { slot } => *slot,
         }
     }
 }

@@ -41,7 +41,7 @@ pub fn serve(
     while let Some(request) = next {
         let request: Request<'_> = request?;
         let slot = request.slot();
-        let is_last = matches!(request, Request::Drop { .. });
+        let is_last = matches!(request, Request::Drop { .. } | Request::Recording { .. });
         let start = Instant::now();
         // A panic is the suite's own bug and no crash of the driver. The parent starts another
         // worker after it, so that no half-done state is used again.
@@ -121,5 +121,6 @@ fn answer<'b>(
             slots.remove(&slot);
             Ok(Payload::Dropped)
         }
+        Request::Recording { .. } => Ok(Payload::Recording(backend.recording().map(Box::new))),
     }
 }

@@ -1,16 +1,17 @@
 //! A worker process whose adapter is open.
 
-use crate::drawing::DRAW_TIMEOUT;
+use crate::drawing::{DRAW_TIMEOUT, Due};
 use crate::launch::{Launch, StartError};
 use crate::loss::Failure;
 use crate::outcome::outcome;
 use crate::process::{Wait, WorkerProcess};
-use crate::protocol::{Hello, Response};
-use etalon_backend::BackendError;
+use crate::protocol::{Hello, Payload, Request, Response};
+use etalon_backend::{BackendError, Recording};
 use etalon_case::Case;
 use etalon_frame::Frame;
 use etalon_record::{Record, Release};
-use std::time::Duration;
+use etalon_scene::Scene;
+use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// The time that a driver may take to start.
@@ -69,11 +70,55 @@ impl Worker {
     /// The backend's error, or how the worker was lost.
     pub fn draw(&mut self, case: &Case) -> Result<Vec<Frame>, DrawError> {
         let drawing = self.process.draw_case(0, case, Wait::of(DRAW_TIMEOUT));
-        drawing.frames.map_err(|failure| match failure {
-            Failure::Backend(error) => DrawError::Backend(error),
-            Failure::Lost(loss) => DrawError::Lost(self.process.exit_report(loss).message),
+        drawing.frames.map_err(|failure| self.lost(failure))
+    }
+}
+
+impl Worker {
+    /// Draws one scene of a case that was not drawn by this worker before, whose adapter was opened to record. Returns
+    /// the frame, the messages of validation layers and debug output, and the calls; `None` if the backend records
+    /// none.
+    ///
+    /// # Errors
+    /// As [`Worker::draw`].
+    pub fn recorded(&mut self, scene: &Scene) -> Result<Recorded, DrawError> {
+        let asked = Instant::now();
+        self.process.request_frames(0, scene, vec![1]);
+        let drawing = self
+            .process
+            .receive_frames(0, Due::ONE, asked, Wait::of(DRAW_TIMEOUT));
+        let frames = drawing.frames.map_err(|failure| self.lost(failure))?;
+        let answer = self
+            .process
+            .ask(Request::Recording { slot: 0 }, DRAW_TIMEOUT);
+        let (payload, _) = answer.map_err(|failure| self.lost(failure))?;
+        let (Some(frame), Payload::Recording(recording)) = (frames.into_iter().next(), payload)
+        else {
+            return Err(DrawError::Lost("the worker gave a wrong answer".to_owned()));
+        };
+        Ok(Recorded {
+            frame,
+            messages: drawing.messages,
+            recording: recording.map(|r| *r),
         })
     }
+
+    fn lost(&mut self, failure: Failure) -> DrawError {
+        match failure {
+            Failure::Backend(error) => DrawError::Backend(error),
+            Failure::Lost(loss) => DrawError::Lost(self.process.exit_report(loss).message),
+        }
+    }
+}
+
+/// A scene that was drawn once.
+pub struct Recorded {
+    /// Its frame.
+    pub frame: Frame,
+    /// Messages of validation layers and debug output.
+    pub messages: Vec<String>,
+    /// The calls.
+    pub recording: Option<Recording>,
 }
 
 /// Why a case could not be drawn.

@@ -57,6 +57,7 @@ fn open(name: &str, backend: BackendName) -> Open {
         device: None,
         egl: None,
         validate: false,
+        record: false,
         hidden: None,
         read_fault: None,
         call_fault: None,
@@ -152,7 +153,7 @@ impl Candidate {
                 NoStart::Wrong(format!("{file}: entry `{}`: {reason}", self.name()))
             }
             StartError::Broken(reason) => {
-                let backend = self.open(&resolved, query.validate).backend;
+                let backend = self.open(&resolved, query).backend;
                 NoStart::Failed(backend, self.absent(reason, self.remedy()))
             }
         })?;
@@ -206,7 +207,7 @@ impl Candidate {
         })
     }
 
-    fn open(&self, resolved: &Resolved, validate: bool) -> Open {
+    fn open(&self, resolved: &Resolved, query: &Query<'_>) -> Open {
         let mut open = match self {
             Self::Described(description, _) => Open {
                 device: description.device,
@@ -217,7 +218,8 @@ impl Candidate {
             },
             Self::Enumerated(open) | Self::Hidden(open) => open.clone(),
         };
-        open.validate = validate;
+        open.validate = query.validate;
+        open.record = query.record;
         open
     }
 
@@ -254,8 +256,7 @@ impl Candidate {
             environment.extend(cache::disable());
         }
         environment.extend(default_runtime_folder().map(|(name, value)| (name, Some(value))));
-        let open = serde_json::to_string(&self.open(resolved, query.validate))
-            .map_err(|e| e.to_string())?;
+        let open = serde_json::to_string(&self.open(resolved, query)).map_err(|e| e.to_string())?;
         let launcher = (!resolved.launcher.is_empty()).then(|| Launcher {
             prefix: resolved.launcher.clone(),
             open: open.clone(),

@@ -23,6 +23,9 @@ pub(crate) struct Open {
     /// True if validation layers and debug output are enabled.
     #[serde(default)]
     pub(crate) validate: bool,
+    /// True if the calls of the first scene are recorded.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub(crate) record: bool,
     /// The fault of a hidden adapter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) hidden: Option<Hidden>,
@@ -32,4 +35,8 @@ pub(crate) struct Open {
     /// The fault planted in the calls of a driver: `gl:llvmpipe:call-fault=last-row`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) call_fault: Option<CallFault>,
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
 }

@@ -11,6 +11,8 @@ pub(crate) struct Query<'a> {
     pub(crate) file: Option<&'a Path>,
     /// True if validation layers and debug output are enabled.
     pub(crate) validate: bool,
+    /// True if the calls of the first scene are recorded.
+    pub(crate) record: bool,
     /// True if the drivers' shader caches on disk are disabled.
     pub(crate) cold: bool,
 }

@@ -3,6 +3,7 @@
 pub(crate) mod adapters;
 pub(crate) mod bench;
 pub(crate) mod bisect;
+pub(crate) mod bundle;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod diff;

@@ -1,28 +1,19 @@
 //! `etalon reduce`.
 
-use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::{find, library};
-use crate::failure::{Failure, UNEXPECTED};
+use crate::failure::Failure;
 use crate::flags::{AdapterFileArguments, Format, parse_timeout};
-use crate::interruption::listen;
 use crate::output::{summarize, summarize_json};
-use crate::reduction::{DriverOracle, Shown, TIMEOUT, confirm, file_name};
+use crate::reducing::{smallest, start};
+use crate::reduction::{Shown, TIMEOUT, file_name};
 use clap::Args;
-use etalon_case::{Case, build};
+use etalon_case::build;
 use etalon_explore::{Candidate, Reduction, keys, leaves, states};
-use etalon_record::{Record, Symptom, Verdict};
-use etalon_runner::{Launch, Trials, Worker};
+use etalon_record::{Record, Symptom};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
-
-/// The processes in which a case is drawn at the start, and the drawings in each: a failure that depends on
-/// either is no steady one.
-const PROCESSES: usize = 4;
-const DRAWINGS: usize = 3;
-/// The processes of a case that does not end, each of which costs its time.
-const HUNG: usize = 2;
+use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -61,59 +52,26 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         );
         Failure::usage(message)
     })?;
-    let (launch, worker) = start(arguments)?;
-    let name = &arguments.adapter;
-    let limits = worker.hello.limits.clone();
+    let (launch, worker) = start(&arguments.adapter, arguments.file.adapter_file.as_deref())?;
+    let limits = &worker.hello.limits;
     if let Some(missing) = limits.missing(&case.requirements()) {
+        let name = &arguments.adapter;
         return Err(Failure::usage(format!("{name} does not support {missing}")));
     }
-    let timeout = Duration::from_secs_f64(arguments.timeout);
-    let steady = repeat(&launch, worker, &case, timeout)?;
-    let (worker, record, symptom) = match steady {
-        Outcome::Steady(steady) => *steady,
-        Outcome::Passes(verdict) => {
-            return Err(Failure::nothing(format!(
-                "{} does not fail on {name}, drawn alone: {verdict}; there is nothing to reduce",
-                arguments.case
-            )));
-        }
-        Outcome::Flaky(message) => {
-            return Err(Failure {
-                code: UNEXPECTED,
-                message: format!(
-                    "{} is flaky on {name}: {message}; only a steady failure can be reduced",
-                    arguments.case
-                ),
-            });
-        }
-    };
-    let begun = Instant::now();
-    let trials = Trials::new(launch.clone(), worker, timeout);
-    let mut judge = DriverOracle::new(trials, record, timeout, Some(listen()?));
     let failing = Candidate {
         document: document.clone(),
         case,
     };
-    let reduction = judge.reduce(failing, &limits);
-    let seconds = begun.elapsed().as_secs_f64();
-    if let Some(error) = judge.error {
-        return Err(Failure::incomplete(format!(
-            "the worker of {name} could not be started again: {error}"
-        )));
-    }
-    confirm(&launch, &reduction.smallest.case, &judge.symptom, timeout).map_err(|message| {
-        let code = UNEXPECTED;
-        let message = format!("the reduced case of {} {message}", arguments.case);
-        Failure { code, message }
-    })?;
+    let timeout = Duration::from_secs_f64(arguments.timeout);
+    let smallest = smallest(&arguments.case, failing, &launch, worker, timeout)?;
     let told = Told {
         arguments,
         before: &document["scene"],
-        reduction: &reduction,
-        record: &judge.record,
-        first: &symptom,
-        symptom: &judge.symptom,
-        seconds,
+        reduction: &smallest.reduction,
+        record: &smallest.record,
+        first: &smallest.first,
+        symptom: &smallest.symptom,
+        seconds: smallest.seconds,
     };
     let path = arguments.out.join(format!("{id}.json"));
     let text = serde_json::to_string_pretty(&told.document())
@@ -126,94 +84,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Format::Json => summarize_json(&told.json(&path.display().to_string()))?,
     }
     Ok(0)
-}
-
-fn start(arguments: &Arguments) -> Result<(Launch, Worker), Failure> {
-    let names = std::slice::from_ref(&arguments.adapter);
-    let adapters = discover(&Query {
-        names,
-        file: arguments.file.adapter_file.as_deref(),
-        ..Query::default()
-    })?;
-    refuse_absent(names, &adapters.absent)?;
-    let mut ready = adapters.ready.into_iter();
-    ready
-        .next()
-        .ok_or_else(|| Failure::usage(format!("adapter {} cannot be used", arguments.adapter)))
-}
-
-/// What repeated drawings of a case show.
-enum Outcome {
-    /// It fails in the same way every time.
-    Steady(Box<(Worker, Record, Symptom)>),
-    /// It never fails.
-    Passes(String),
-    /// It fails sometimes, or in several ways.
-    Flaky(String),
-}
-
-/// Draws a case several times in several processes, each time alone; once in each that it ends.
-fn repeat(
-    launch: &Launch,
-    first: Worker,
-    case: &Case,
-    timeout: Duration,
-) -> Result<Outcome, Failure> {
-    let mut records: Vec<Record> = Vec::new();
-    let mut worker = Some(first);
-    let mut warm = None;
-    let mut processes = 0;
-    let hung = |records: &[Record]| records.iter().any(|r| r.verdict == Verdict::Timeout);
-    while processes < if hung(&records) { HUNG } else { PROCESSES } {
-        processes += 1;
-        let mut own = match worker.take() {
-            Some(worker) => worker,
-            None => Worker::start(launch).map_err(Failure::incomplete)?,
-        };
-        let mut ended = false;
-        for _ in 0..DRAWINGS {
-            let (record, ends) = own.record(case, timeout);
-            if record.verdict == Verdict::NotSupported {
-                let (name, message) = (&launch.adapter, record.message);
-                return Err(Failure::usage(format!("{name} does not support {message}")));
-            }
-            records.push(record);
-            ended = ends;
-            if ended {
-                break;
-            }
-        }
-        if !ended {
-            warm.get_or_insert(own);
-        }
-    }
-    let worker = match warm {
-        Some(worker) => worker,
-        None => Worker::start(launch).map_err(Failure::incomplete)?,
-    };
-    let drawings = records.len();
-    let failing = |r: &&Record| r.verdict.is_bad() && r.verdict != Verdict::Open;
-    let ways: Vec<Symptom> = records.iter().filter(failing).map(Symptom::of).collect();
-    let Some(record) = records.into_iter().next() else {
-        return Err(Failure::incomplete("nothing was drawn"));
-    };
-    Ok(match ways.first() {
-        None => Outcome::Passes(match record.message.as_str() {
-            "" => record.verdict.to_string(),
-            message => format!("{}, {message}", record.verdict),
-        }),
-        Some(way) if ways.len() == drawings => {
-            let same = |other: &&Symptom| way.covers(other) && other.covers(way);
-            match ways.iter().find(|other| !same(other)) {
-                None => Outcome::Steady(Box::new((worker, record, way.clone()))),
-                Some(other) => Outcome::Flaky(format!("it fails by {way} and by {other}")),
-            }
-        }
-        Some(_) => Outcome::Flaky(format!(
-            "it fails in {} of {drawings} drawings, in {processes} processes",
-            ways.len()
-        )),
-    })
 }
 
 /// A reduction, for people and programs.

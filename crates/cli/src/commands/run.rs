@@ -195,6 +195,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         file: arguments.file.adapter_file.as_deref(),
         validate: arguments.validate,
         cold: arguments.shader_cache == CacheState::Cold,
+        ..Query::default()
     })?;
     // A driver that is installed and does not start has a record for each case like any other.
     let dead = take_unstarted(&mut adapters);

@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 20] = [
+const TABLE: [(&str, &[&str], &[&str]); 21] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -53,12 +53,14 @@ const TABLE: [(&str, &[&str], &[&str]); 20] = [
         ],
         &[],
     ),
+    ("bundle", &["backend", "frame"], &[]),
     ("explore", &["case", "frame", "scene"], &[]),
     ("report", &["frame", "methods", "record", "stats"], &[]),
     (
         "cli",
         &[
             "backend",
+            "bundle",
             "case",
             "cpu",
             "explore",

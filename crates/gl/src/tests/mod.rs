@@ -18,6 +18,7 @@ fn contexts(driver: &str, clip_control: bool) -> [GlBackend; 2] {
             debug: true,
             read_fault: None,
             call_fault: None,
+            record: false,
         };
         let backend = open_with("gl:test", &options, Tuning { clip_control })
             .unwrap_or_else(|e| panic!("{driver} cannot be opened: {e} ({GALLIUM_INSTALL})"));

@@ -34,6 +34,7 @@ fn devices_are_enumerated_and_open() {
             debug: false,
             read_fault: None,
             call_fault: None,
+            record: false,
         };
         let backend = open("gl:device", &options).expect("the software device opens");
         run_all(&backend, &drivers::llvmpipe());

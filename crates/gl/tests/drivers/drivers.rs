@@ -14,6 +14,7 @@ pub(crate) fn context(profile: Profile, driver: &str) -> GlBackend {
         debug: true,
         read_fault: None,
         call_fault: None,
+        record: false,
     };
     let backend = open("gl:test", &options)
         .unwrap_or_else(|e| panic!("{driver} cannot be opened: {e} ({GALLIUM_INSTALL})"));

@@ -1,0 +1,176 @@
+//! A bundle on disk: a folder, and the same as an archive.
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// A file of a bundle.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    /// Its name.
+    pub name: String,
+    /// What it is, for the report.
+    pub about: String,
+    /// Its content.
+    pub content: Vec<u8>,
+}
+
+impl File {
+    /// Returns a file.
+    pub fn new(name: &str, about: &str, content: Vec<u8>) -> Self {
+        Self {
+            name: name.to_owned(),
+            about: about.to_owned(),
+            content,
+        }
+    }
+
+    /// Returns a text file.
+    pub fn text(name: &str, about: &str, content: String) -> Self {
+        Self::new(name, about, content.into_bytes())
+    }
+}
+
+/// A bundle that was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// The folder.
+    pub folder: PathBuf,
+    /// The archive.
+    pub archive: PathBuf,
+}
+
+/// Why a bundle could not be written.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// There is one of the same name.
+    #[error("{path} exists; replace it with --force, or choose another folder with --out", path = .0.display())]
+    Exists(PathBuf),
+    /// The system refused.
+    #[error("cannot write {path}: {source}", path = .path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+}
+
+/// Checks that nothing is lost by writing a bundle of a name.
+///
+/// # Errors
+/// If there is one, unless it may be replaced.
+pub fn free(out: &Path, name: &str, replace: bool) -> Result<(), WriteError> {
+    let Written { folder, archive } = places(out, name);
+    for path in [folder, archive] {
+        if !replace && path.exists() {
+            return Err(WriteError::Exists(path));
+        }
+    }
+    Ok(())
+}
+
+/// Writes a bundle. It is complete or not there: what is unfinished has another name.
+///
+/// # Errors
+/// If there is one of the same name that may not be replaced, or the system refuses.
+pub fn write(out: &Path, name: &str, files: &[File], replace: bool) -> Result<Written, WriteError> {
+    free(out, name, replace)?;
+    let written = places(out, name);
+    let unfinished = out.join(format!(".{name}.{}", std::process::id()));
+    let io = |path: &Path| {
+        let path = path.to_owned();
+        move |source| WriteError::Io { path, source }
+    };
+    let done = || -> Result<(), WriteError> {
+        fs::create_dir_all(&unfinished).map_err(io(&unfinished))?;
+        for file in files {
+            let path = unfinished.join(&file.name);
+            fs::write(&path, &file.content).map_err(io(&path))?;
+        }
+        let packed = packed(name, files).map_err(io(&written.archive))?;
+        if written.folder.exists() {
+            fs::remove_dir_all(&written.folder).map_err(io(&written.folder))?;
+        }
+        fs::rename(&unfinished, &written.folder).map_err(io(&written.folder))?;
+        fs::write(&written.archive, packed).map_err(io(&written.archive))
+    };
+    let result = done();
+    if result.is_err() {
+        // The first error is the one to report.
+        let _ = fs::remove_dir_all(&unfinished);
+    }
+    result.map(|()| written.clone())
+}
+
+fn places(out: &Path, name: &str) -> Written {
+    Written {
+        folder: out.join(name),
+        archive: out.join(format!("{name}.tar.gz")),
+    }
+}
+
+/// Returns the files as an archive, below a folder of the bundle's name. The same files give the same bytes.
+fn packed(name: &str, files: &[File]) -> io::Result<Vec<u8>> {
+    let mut archive = tar::Builder::new(GzEncoder::new(Vec::new(), Compression::default()));
+    for file in files {
+        let mut header = tar::Header::new_gnu();
+        header.set_size(file.content.len() as u64);
+        header.set_mode(0o644);
+        header.set_mtime(0);
+        archive.append_data(
+            &mut header,
+            Path::new(name).join(&file.name),
+            file.content.as_slice(),
+        )?;
+    }
+    let mut packed = archive.into_inner()?;
+    packed.flush()?;
+    packed.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flate2::read::GzDecoder;
+    use std::io::Read;
+
+    #[test]
+    fn an_archive_holds_the_files_and_is_always_the_same() {
+        let files = [
+            File::text("a.txt", "a", "one".to_owned()),
+            File::new("b.bin", "b", vec![0, 255]),
+        ];
+        let bytes = packed("name", &files).unwrap();
+        assert_eq!(bytes, packed("name", &files).unwrap());
+        let mut archive = tar::Archive::new(GzDecoder::new(bytes.as_slice()));
+        let mut found = Vec::new();
+        for entry in archive.entries().unwrap() {
+            let mut entry = entry.unwrap();
+            let mut content = Vec::new();
+            entry.read_to_end(&mut content).unwrap();
+            found.push((entry.path().unwrap().display().to_string(), content));
+        }
+        let due = [
+            ("name/a.txt", b"one".to_vec()),
+            ("name/b.bin", vec![0, 255]),
+        ];
+        assert_eq!(found, due.map(|(name, content)| (name.to_owned(), content)));
+    }
+
+    #[test]
+    fn a_bundle_replaces_another_only_when_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let files = [File::text("a.txt", "a", "one".to_owned())];
+        write(folder.path(), "x", &files, false).unwrap();
+        let again = write(folder.path(), "x", &files, false).unwrap_err();
+        assert!(again.to_string().contains("--force"), "{again}");
+        let files = [File::text("b.txt", "b", "two".to_owned())];
+        let written = write(folder.path(), "x", &files, true).unwrap();
+        assert!(!written.folder.join("a.txt").exists());
+        assert_eq!(fs::read(written.folder.join("b.txt")).unwrap(), b"two");
+    }
+}

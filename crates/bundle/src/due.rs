@@ -1,0 +1,69 @@
+//! The values that a frame must have for the bug to be absent.
+
+use etalon_frame::{Aspect, ChannelEncoding};
+
+/// The values that are checked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Due {
+    /// Samples of texels.
+    pub texels: Vec<DueTexel>,
+    /// Counters.
+    pub counters: Vec<DueCounter>,
+}
+
+/// A sample and the values that it may have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DueTexel {
+    /// The column, counted from the left.
+    pub x: u32,
+    /// The row, counted from the top.
+    pub y: u32,
+    /// The sample, counted from 0.
+    pub sample: u32,
+    /// The channels that are read.
+    pub channels: Vec<DueChannel>,
+    /// The permitted outcomes: of each, the least and the greatest order of each channel. The sample is right if one of
+    /// them holds it.
+    pub allowed: Vec<Vec<[i64; 2]>>,
+}
+
+/// A channel of an attachment.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DueChannel {
+    /// The attachment's name.
+    pub attachment: String,
+    /// The aspect.
+    pub aspect: Aspect,
+    /// The channel's place in its image.
+    pub channel: usize,
+    /// The encoding.
+    pub encoding: ChannelEncoding,
+}
+
+/// A counter and the counts that it may have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DueCounter {
+    /// The name.
+    pub name: String,
+    /// The place among the scene's counters.
+    pub index: usize,
+    /// The least count.
+    pub least: u64,
+    /// The greatest count; `None` where there is none.
+    pub most: Option<u64>,
+}
+
+impl DueChannel {
+    /// Returns the channel's name: `red` of a colour, else the aspect's.
+    pub(crate) fn name(&self) -> String {
+        let channel = match self.aspect {
+            Aspect::Color => ["red", "green", "blue", "alpha"]
+                .get(self.channel)
+                .copied()
+                .unwrap_or("color"),
+            Aspect::Depth => "depth",
+            Aspect::Stencil => "stencil",
+        };
+        format!("{channel} of {}", self.attachment)
+    }
+}

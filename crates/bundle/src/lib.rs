@@ -1,0 +1,25 @@
+//! Reproducers of driver bugs that need nothing of the suite: a program printed from the calls that a backend made,
+//! and a report to send with it.
+//!
+//! Everything comes as data: the recorded calls, the texels that are wrong with what is allowed there, the device.
+//! Names and ids are a user's own and reach neither C code nor a shell without being quoted.
+
+#![cfg_attr(
+    test,
+    expect(clippy::unwrap_used, reason = "a test that panics has failed")
+)]
+
+mod archive;
+mod c;
+mod check;
+mod due;
+mod error;
+mod gl;
+mod program;
+mod report;
+
+pub use archive::{File, WriteError, Written, free, write};
+pub use due::{Due, DueChannel, DueCounter, DueTexel};
+pub use error::BundleError;
+pub use program::{Head, program};
+pub use report::{Expected, Report, Versions};

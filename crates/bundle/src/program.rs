@@ -1,0 +1,40 @@
+//! The program of a bundle, by the API whose calls were recorded.
+
+use crate::due::Due;
+use crate::error::BundleError;
+use crate::gl;
+use etalon_backend::{RecordedContext, Recording};
+
+/// The head of a program: sentences for people.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Head {
+    /// The bug in a line.
+    pub title: String,
+    /// What is wrong.
+    pub sentence: String,
+    /// The command that runs the program on the driver.
+    pub run: String,
+}
+
+/// Returns the program.
+///
+/// # Errors
+/// If a call cannot be printed, or a value that must be checked was not read.
+pub fn program(head: &Head, recording: &Recording, due: &Due) -> Result<String, BundleError> {
+    match &recording.context {
+        RecordedContext::Egl {
+            es,
+            version,
+            library,
+            device,
+        } => {
+            let context = gl::Context {
+                es: *es,
+                version: *version,
+                library: library.as_deref(),
+                device: *device,
+            };
+            gl::program(head, &context, recording, due)
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! The report that goes with a program: what a maintainer asks first.
+
+use etalon_backend::AdapterInfo;
+use std::fmt::Write;
+
+/// The facts of a report.
+#[derive(Clone, Debug)]
+pub struct Report {
+    /// The bug in a line.
+    pub title: String,
+    /// What is wrong at the first wrong texel or counter.
+    pub sentence: String,
+    /// The clause that is violated.
+    pub clause: Option<String>,
+    /// The device and the driver.
+    pub device: AdapterInfo,
+    /// The machine: operating system and processor.
+    pub machine: String,
+    /// The releases that were tried.
+    pub versions: Option<Versions>,
+    /// The first wrong values.
+    pub expected: Vec<Expected>,
+    /// The states that are not the default.
+    pub states: Vec<String>,
+    /// The runs that failed, and all.
+    pub frequency: [u32; 2],
+    /// The messages of debug output or of the validation layer were asked for and none came.
+    pub clean: bool,
+    /// The command that runs the program.
+    pub run: String,
+    /// Words to search for in the tracker.
+    pub search: Vec<String>,
+    /// The operations that lead to the value, in order.
+    pub story: Vec<String>,
+    /// The files beside the report, each with what it is.
+    pub files: Vec<(String, String)>,
+}
+
+/// The releases that have a bug.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Versions {
+    /// The ranges, in words.
+    pub bad: String,
+    /// True, with its version, if the newest release that was tried has the bug; false if not.
+    pub newest: Option<(String, bool)>,
+}
+
+/// A wrong value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Expected {
+    /// The place.
+    pub place: String,
+    /// What it must be.
+    pub due: String,
+    /// What it is.
+    pub actual: String,
+}
+
+impl Report {
+    /// Returns the report as Markdown.
+    pub fn markdown(&self) -> String {
+        let mut text = format!("# {}\n\n", plain(&self.title));
+        text.push_str(
+            "> Before you file this: run the program yourself, read the clause, and look for duplicates. ",
+        );
+        if !self.search.is_empty() {
+            let words: Vec<String> = self.search.iter().map(|word| code(word)).collect();
+            let _ = write!(text, "Words to search for: {}. ", words.join(", "));
+        }
+        text.push_str("Delete these lines then.\n\n");
+        let _ = write!(text, "{}\n\n", plain(&self.sentence));
+        if let Some(clause) = &self.clause {
+            let _ = write!(text, "Violated: {}\n\n", plain(clause));
+        }
+        self.device_block(&mut text);
+        text.push_str("## Expected and actual\n\n| where | must be | is |\n|---|---|---|\n");
+        for wrong in &self.expected {
+            let _ = writeln!(
+                text,
+                "| {} | {} | {} |",
+                plain(&wrong.place),
+                plain(&wrong.due),
+                plain(&wrong.actual)
+            );
+        }
+        let [failed, runs] = self.frequency;
+        let _ = write!(
+            text,
+            "\nIt fails in {failed} of {runs} runs, each in a process of its own. "
+        );
+        text.push_str(match self.clean {
+            true => "The API's own checks (debug output) report nothing.\n",
+            false => "The API's own checks were not available.\n",
+        });
+        let _ = write!(
+            text,
+            "\n## Run it\n\n```sh\ncc repro.c -ldl -o repro\n{}\n```\n\n`repro.c` needs a C compiler and no header of the API. Exit \
+             status 1: the bug is there; 0: it is not; 77: the driver lacks something; 2: a call fails.\n",
+            self.run
+        );
+        if !self.states.is_empty() {
+            text.push_str("\n## State\n\nWhat is not the default:\n\n");
+            for state in &self.states {
+                let _ = writeln!(text, "- {}", code(state));
+            }
+        }
+        if !self.story.is_empty() {
+            text.push_str("\n## How the value comes about\n\n```\n");
+            for line in &self.story {
+                let _ = writeln!(text, "{}", line.replace("```", "'''"));
+            }
+            text.push_str("```\n");
+        }
+        if !self.files.is_empty() {
+            text.push_str("\n## Files\n\n");
+            for (name, what) in &self.files {
+                let _ = writeln!(text, "- `{name}`: {what}");
+            }
+        }
+        text
+    }
+
+    fn device_block(&self, text: &mut String) {
+        text.push_str("| | |\n|---|---|\n");
+        let device = &self.device;
+        let mut row = |name: &str, value: &str| {
+            if !value.is_empty() {
+                let _ = writeln!(text, "| {name} | {} |", plain(value));
+            }
+        };
+        row("API", &device.api_version);
+        row("device", &device.device);
+        row(
+            "driver",
+            &format!("{} {}", device.driver, device.driver_version),
+        );
+        row("system", &self.machine);
+        if let Some(versions) = &self.versions {
+            row("releases with the bug", &versions.bad);
+            if let Some((newest, bad)) = &versions.newest {
+                let still = match bad {
+                    true => format!("still in {newest}"),
+                    false => format!("not in {newest}"),
+                };
+                row("newest release tried", &still);
+            }
+        }
+        text.push('\n');
+    }
+}
+
+/// Returns a text of one line that Markdown leaves as it is.
+fn plain(text: &str) -> String {
+    let mut safe = String::new();
+    for c in text.chars() {
+        match c {
+            '\n' | '\r' | '\t' => safe.push(' '),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '&' => safe.push_str("&amp;"),
+            '|' | '`' | '*' | '[' | ']' | '\\' | '#' => {
+                safe.push('\\');
+                safe.push(c);
+            }
+            c => safe.push(c),
+        }
+    }
+    safe
+}
+
+/// Returns a text as code in a line.
+fn code(text: &str) -> String {
+    format!("`{}`", text.replace(['`', '\n', '\r'], "'"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn report() -> Report {
+        Report {
+            title: "lines have the facing of the triangle before them".to_owned(),
+            sentence: "texel 3,4 is [0, 0, 255, 255]".to_owned(),
+            clause: Some("OpenGL 4.6: 14.6.1".to_owned()),
+            device: AdapterInfo {
+                name: "gl:softpipe".to_owned(),
+                backend: "gl".to_owned(),
+                device: "softpipe".to_owned(),
+                driver: "Mesa".to_owned(),
+                driver_version: "22.3.6".to_owned(),
+                driver_id: String::new(),
+                api_version: "OpenGL 3.3 core".to_owned(),
+                software: true,
+            },
+            machine: "Linux".to_owned(),
+            versions: Some(Versions {
+                bad: "22.3.6 to 26.2.6".to_owned(),
+                newest: Some(("26.2.6".to_owned(), true)),
+            }),
+            expected: vec![Expected {
+                place: "texel 3,4 | red".to_owned(),
+                due: "255".to_owned(),
+                actual: "0".to_owned(),
+            }],
+            states: vec!["cull_mode: back".to_owned()],
+            frequency: [20, 20],
+            clean: true,
+            run: "GALLIUM_DRIVER=softpipe ./repro".to_owned(),
+            search: vec!["facing".to_owned()],
+            story: Vec::new(),
+            files: vec![("repro.c".to_owned(), "the program".to_owned())],
+        }
+    }
+
+    #[test]
+    fn a_report_has_what_a_maintainer_asks() {
+        let text = report().markdown();
+        for part in [
+            "# lines have the facing",
+            "look for duplicates",
+            "`facing`",
+            "| driver | Mesa 22.3.6 |",
+            "| releases with the bug | 22.3.6 to 26.2.6 |",
+            "still in 26.2.6",
+            "| texel 3,4 \\| red | 255 | 0 |",
+            "20 of 20 runs",
+            "GALLIUM_DRIVER=softpipe ./repro",
+            "- `cull_mode: back`",
+        ] {
+            assert!(text.contains(part), "{part}: {text}");
+        }
+    }
+
+    #[test]
+    fn hostile_names_stay_text() {
+        let mut hostile = report();
+        hostile.title = "a\n# b <script>alert(1)</script> `x` [y](z)".to_owned();
+        hostile.states = vec!["`; rm -rf`\n".to_owned()];
+        let text = hostile.markdown();
+        assert!(
+            !text.contains("<script>") && !text.contains("\n# b"),
+            "{text}"
+        );
+        assert!(text.contains("\\[y\\](z)"), "{text}");
+        assert!(text.contains("- `'; rm -rf''`"), "{text}");
+    }
+}

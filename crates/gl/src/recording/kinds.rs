@@ -1,0 +1,95 @@
+//! The kinds of arguments that say all by themselves.
+
+use super::Pointer;
+use super::names::{
+    barrier_bits, buffer_bits, constant, factor, map_bits, or_none, parameter, primitive,
+};
+use etalon_backend::Argument;
+
+/// A kind of argument.
+pub(super) trait Kind {
+    /// Its type in C.
+    type Raw: Copy;
+    /// Returns its value.
+    fn value(raw: Self::Raw) -> Argument;
+}
+
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $name:ident($raw:ty): $value:expr;)+) => {
+        $(
+            $(#[$doc])*
+            pub(super) struct $name;
+
+            impl Kind for $name {
+                type Raw = $raw;
+
+                fn value(raw: $raw) -> Argument {
+                    let value: fn($raw) -> Argument = $value;
+                    value(raw)
+                }
+            }
+        )+
+    };
+}
+
+fn object(kind: &str, number: u32) -> Argument {
+    Argument::Object(kind.to_owned(), u64::from(number))
+}
+
+kinds! {
+    /// A constant.
+    Enum(u32): |v| Argument::Constant(constant(v));
+    /// A blend factor or a stencil operation.
+    Factor(u32): |v| Argument::Constant(factor(v));
+    /// A buffer that is drawn to or read.
+    Draw(u32): |v| Argument::Constant(or_none(v));
+    /// The mode of a draw.
+    Mode(u32): |v| Argument::Constant(primitive(v));
+    /// The buffers of a blit.
+    Buffers(u32): |v| Argument::Bits(buffer_bits(v));
+    /// The access to a mapped buffer.
+    Access(u32): |v| Argument::Bits(map_bits(v));
+    /// The barriers of a memory barrier.
+    Barriers(u32): |v| Argument::Bits(barrier_bits(v));
+    /// The value of a parameter.
+    Parameter(i32): |v| parameter(v).map_or(Argument::Integer(v), Argument::Constant);
+    /// A signed number.
+    Int(i32): Argument::Integer;
+    /// An unsigned number.
+    Uint(u32): Argument::Unsigned;
+    /// True or false.
+    Bool(u8): |v| Argument::Boolean(v != 0);
+    /// A size or an offset in a buffer.
+    Size(isize): |v| Argument::Size(v as i64);
+    /// A float.
+    Float(f32): |v| Argument::Float(v.to_bits());
+    /// A float of 64 bits.
+    Double(f64): |v| Argument::Double(v.to_bits());
+    /// An offset in the buffer that is bound.
+    Offset(Pointer): |v| Argument::Offset(v as u64);
+    /// A buffer.
+    Buffer(u32): |v| object("buffer", v);
+    /// A texture.
+    Texture(u32): |v| object("texture", v);
+    /// A framebuffer.
+    Framebuffer(u32): |v| object("framebuffer", v);
+    /// A renderbuffer.
+    Renderbuffer(u32): |v| object("renderbuffer", v);
+    /// A sampler.
+    Sampler(u32): |v| object("sampler", v);
+    /// A query.
+    Query(u32): |v| object("query", v);
+    /// A vertex array.
+    VertexArray(u32): |v| object("vertex_array", v);
+    /// A program.
+    Program(u32): |v| object("program", v);
+    /// A shader.
+    Shader(u32): |v| object("shader", v);
+    /// The place of a uniform in the programs of the context.
+    Location(i32): |v| match u32::try_from(v) {
+        Ok(place) => object("location", place + 1),
+        Err(_) => Argument::Integer(v),
+    };
+    /// The place of a uniform block in its program.
+    Block(u32): |v| object("block", v.wrapping_add(1));
+}
