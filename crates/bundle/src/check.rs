@@ -76,20 +76,42 @@ static int is_right(const struct texel *t)
     return 0;
 }
 
+/* The number that a place in the order stands for. */
+static double shown(const struct channel *c, double order)
+{
+    double sign = order < 0 ? -1 : 1, size = fabs(order);
+    uint32_t code = size < 0x7F800000 ? (uint32_t)size : 0x7F800000;
+    float value;
+    if (c->order == SINGLE) {
+        memcpy(&value, &code, sizeof value);
+        return sign * (double)value;
+    }
+    if (c->order == HALF && size < 0x7C00)
+        return sign * (code < 0x400 ? ldexp(code, -24) : ldexp(code % 0x400 + 0x400, (int)(code / 0x400) - 25));
+    return c->order == HALF ? sign * INFINITY : order;
+}
+
 static void tell(const struct texel *t)
 {
     unsigned i;
     printf("%s is wrong:", t->place);
     for (i = 0; i < t->channels; i++) {
-        double value = value_of(&t->channel[i]);
-        const struct range *range = &t->allowed[i];
-        if (t->outcomes == 1 && value >= range->least && value <= range->most)
+        const struct channel *c = &t->channel[i];
+        double value = value_of(c);
+        double least = t->allowed[i].least, most = t->allowed[i].most;
+        if (t->outcomes == 1 && value >= least && value <= most)
             continue;
-        printf(" %s %.9g", t->channel[i].name, value);
-        if (t->outcomes == 1 && range->least == range->most)
-            printf(" (must be %.9g)", range->least);
-        else if (t->outcomes == 1)
-            printf(" (must be %.9g to %.9g)", range->least, range->most);
+        printf(" %s %.9g", c->name, shown(c, value));
+        if (t->outcomes != 1)
+            continue;
+        if (least == most)
+            printf(" (must be %.9g)", shown(c, least));
+        else if (isinf(most))
+            printf(" (must be at least %.9g)", shown(c, least));
+        else if (isinf(least))
+            printf(" (must be at most %.9g)", shown(c, most));
+        else
+            printf(" (must be %.9g to %.9g)", shown(c, least), shown(c, most));
     }
     printf("\n");
 }

@@ -21,5 +21,6 @@ mod report;
 pub use archive::{File, WriteError, Written, free, write};
 pub use due::{Due, DueChannel, DueCounter, DueTexel};
 pub use error::BundleError;
+pub use gl::Trim;
 pub use program::{Head, program};
 pub use report::{Expected, Report, Versions};

@@ -2,7 +2,7 @@
 
 use crate::due::Due;
 use crate::error::BundleError;
-use crate::gl;
+use crate::gl::{self, Trim};
 use etalon_backend::{RecordedContext, Recording};
 
 /// The head of a program: sentences for people.
@@ -16,11 +16,16 @@ pub struct Head {
     pub run: String,
 }
 
-/// Returns the program.
+/// Returns the program, with `trim` taken out of it.
 ///
 /// # Errors
 /// If a call cannot be printed, or a value that must be checked was not read.
-pub fn program(head: &Head, recording: &Recording, due: &Due) -> Result<String, BundleError> {
+pub fn program(
+    head: &Head,
+    recording: &Recording,
+    due: &Due,
+    trim: Trim,
+) -> Result<String, BundleError> {
     match &recording.context {
         RecordedContext::Egl {
             es,
@@ -34,7 +39,7 @@ pub fn program(head: &Head, recording: &Recording, due: &Due) -> Result<String, 
                 library: library.as_deref(),
                 device: *device,
             };
-            gl::program(head, &context, recording, due)
+            gl::program(head, &context, recording, due, trim)
         }
     }
 }

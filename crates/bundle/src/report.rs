@@ -28,6 +28,8 @@ pub struct Report {
     pub clean: bool,
     /// The command that runs the program.
     pub run: String,
+    /// The last line of the program, if it was built and run and showed the bug.
+    pub built: Option<String>,
     /// Words to search for in the tracker.
     pub search: Vec<String>,
     /// The operations that lead to the value, in order.
@@ -98,6 +100,13 @@ impl Report {
              status 1: the bug is there; 0: it is not; 77: the driver lacks something; 2: a call fails.\n",
             self.run
         );
+        text.push_str(&match &self.built {
+            Some(line) => format!(
+                "\nBuilt and run on the driver above, it ends with 1: `{}`\n",
+                line.replace('`', "'")
+            ),
+            None => "\nIt was not built and run on the driver above.\n".to_owned(),
+        });
         if !self.states.is_empty() {
             text.push_str("\n## State\n\nWhat is not the default:\n\n");
             for state in &self.states {
@@ -154,6 +163,8 @@ fn plain(text: &str) -> String {
     let mut safe = String::new();
     for c in text.chars() {
         match c {
+            // In front of a paragraph it begins a quotation.
+            '>' if !safe.trim().is_empty() => safe.push('>'),
             '\n' | '\r' | '\t' => safe.push(' '),
             '<' => safe.push_str("&lt;"),
             '>' => safe.push_str("&gt;"),
@@ -206,6 +217,7 @@ mod tests {
             frequency: [20, 20],
             clean: true,
             run: "GALLIUM_DRIVER=softpipe ./repro".to_owned(),
+            built: Some("texel 3,4 is wrong".to_owned()),
             search: vec!["facing".to_owned()],
             story: Vec::new(),
             files: vec![("repro.c".to_owned(), "the program".to_owned())],
@@ -225,6 +237,7 @@ mod tests {
             "| texel 3,4 \\| red | 255 | 0 |",
             "20 of 20 runs",
             "GALLIUM_DRIVER=softpipe ./repro",
+            "it ends with 1: `texel 3,4 is wrong`",
             "- `cull_mode: back`",
         ] {
             assert!(text.contains(part), "{part}: {text}");

@@ -13,6 +13,7 @@
 
 mod adapters;
 mod blessing;
+mod built_program;
 mod cases;
 mod catalogue;
 mod check;

@@ -2,7 +2,7 @@
 
 use crate::c;
 use crate::error::BundleError;
-use etalon_backend::{Argument, Call, Constant, Phase, Recording};
+use etalon_backend::{Argument, Call, Constant, Phase};
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write;
 
@@ -29,10 +29,10 @@ pub(super) struct Printer {
 
 impl Printer {
     /// Returns the functions that make the calls.
-    pub(super) fn body(&mut self, recording: &Recording) -> Result<String, BundleError> {
+    pub(super) fn body(&mut self, calls: &[&Call]) -> Result<String, BundleError> {
         let mut text = String::new();
         let mut phase = None;
-        for call in &recording.calls {
+        for call in calls {
             if phase != Some(call.phase) {
                 if phase.is_some() {
                     text.push_str("}\n");

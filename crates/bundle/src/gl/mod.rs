@@ -1,6 +1,7 @@
 //! OpenGL and OpenGL ES: one C file that loads EGL and needs no header of the API.
 
 mod calls;
+mod trim;
 
 use crate::c::{comment, paragraph, string};
 use crate::check;
@@ -8,7 +9,10 @@ use crate::due::Due;
 use crate::error::BundleError;
 use crate::program::Head;
 use calls::Printer;
+use trim::trimmed;
+
 use etalon_backend::Recording;
+pub use trim::Trim;
 
 /// The context of EGL that a program makes.
 pub(crate) struct Context<'a> {
@@ -28,6 +32,7 @@ pub(crate) fn program(
     context: &Context<'_>,
     recording: &Recording,
     due: &Due,
+    trim: Trim,
 ) -> Result<String, BundleError> {
     let Context {
         es,
@@ -37,7 +42,7 @@ pub(crate) fn program(
     } = *context;
     let api = if es { "OpenGL ES" } else { "OpenGL" };
     let mut printer = Printer::default();
-    let body = printer.body(recording)?;
+    let body = printer.body(&trimmed(&recording.calls, trim))?;
     let check = check::check(recording, due)?;
     let mut text = String::from("/*\n");
     for part in [&head.title, &head.sentence] {
@@ -57,6 +62,16 @@ pub(crate) fn program(
     text.push_str(&printer.constants());
     text.push_str(&printer.functions());
     text.push_str(HELPERS);
+    for (call, helper) in [
+        ("compiled(", COMPILED),
+        ("linked(", LINKED),
+        ("copy(", COPY),
+        ("complete(", COMPLETE),
+    ] {
+        if body.contains(call) {
+            text.push_str(helper);
+        }
+    }
     text.push_str(&format!(
         "\nstatic const char *const default_library = {};\n\
          static const int es = {}, major = {major}, minor = {minor}, device = {};\n\
@@ -128,7 +143,10 @@ static void check(const char *call, int line)
     }
 }
 #define CALL(call) ((call), check(#call, __LINE__))
+"#;
 
+/// What a shader leans on.
+const COMPILED: &str = r#"
 /* Ends the program if a shader has not compiled. */
 static void compiled(GLuint shader, int line)
 {
@@ -141,7 +159,10 @@ static void compiled(GLuint shader, int line)
         exit(FAILED);
     }
 }
+"#;
 
+/// What a linked program leans on.
+const LINKED: &str = r#"
 /* Ends the program if a program has not linked. */
 static void linked(GLuint program, int line)
 {
@@ -154,7 +175,10 @@ static void linked(GLuint program, int line)
         exit(FAILED);
     }
 }
+"#;
 
+/// What a mapped buffer leans on.
+const COPY: &str = r#"
 /* Copies what is mapped. */
 static void copy(unsigned char *to, const void *from, size_t size, int line)
 {
@@ -163,7 +187,10 @@ static void copy(unsigned char *to, const void *from, size_t size, int line)
         exit(FAILED);
     memcpy(to, from, size);
 }
+"#;
 
+/// What a framebuffer leans on.
+const COMPLETE: &str = r#"
 /* Ends the program if the driver does not support a framebuffer. */
 static void complete(GLenum status, int line)
 {

@@ -1,6 +1,7 @@
 //! `etalon bundle`.
 
 use crate::adapters::{Query, discover, releases_of};
+use crate::built_program::{Run, built_and_run};
 use crate::cases::{find, library};
 use crate::expectations;
 use crate::failure::{Failure, UNEXPECTED};
@@ -11,7 +12,7 @@ use crate::reducing::{smallest, start, started};
 use crate::reduction::{Shown, TIMEOUT, file_name};
 use clap::Args;
 use etalon_bundle::{
-    Due, DueChannel, DueCounter, DueTexel, Expected, File, Head, Report, Versions,
+    Due, DueChannel, DueCounter, DueTexel, Expected, File, Head, Report, Trim, Versions,
 };
 use etalon_case::{Case, build};
 use etalon_explore::{Candidate, states};
@@ -24,6 +25,8 @@ use std::time::Duration;
 
 /// The wrong samples that a program checks.
 const CHECKED: usize = 8;
+/// The exit status of a program that shows its bug.
+const BUG: i32 = 1;
 /// The processes that count how often the case fails.
 const RUNS: u32 = 20;
 
@@ -129,10 +132,25 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         sentence: shown.sentence(),
         run: run.clone(),
     };
-    let program = etalon_bundle::program(&head, recording, &due).map_err(|e| {
-        let message = format!("no program can be printed: {e}");
-        refused(arguments, &message, &smallest.symptom)
-    })?;
+    let (program, built) = shortest(
+        |trim| {
+            etalon_bundle::program(&head, recording, &due, trim).map_err(|e| {
+                let message = format!("no program can be printed: {e}");
+                refused(arguments, &message, &smallest.symptom)
+            })
+        },
+        |program| built_and_run(program, &launch, timeout),
+    )?;
+    if let Some(run) = built.as_ref().filter(|run| run.status != Some(BUG)) {
+        return Err(refused(
+            arguments,
+            &format!(
+                "the program made of its calls does not show the bug: {}, {}",
+                run.ending, run.line
+            ),
+            &smallest.symptom,
+        ));
+    }
     let described = shown.described(&format!(
         "Reduced from {} on {}.",
         arguments.case, arguments.adapter
@@ -177,6 +195,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         frequency,
         clean,
         run,
+        built: built.map(|run| run.line),
         search: search(&adapter, reduced.symptom),
         story: judged
             .story
@@ -218,6 +237,22 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }))?,
     }
     Ok(0)
+}
+
+/// Returns the shortest program that shows the bug when it is built and run, with that run; the whole one if none does,
+/// or if none is run here.
+fn shortest(
+    program: impl Fn(Trim) -> Result<String, Failure>,
+    run: impl Fn(&str) -> Result<Option<Run>, Failure>,
+) -> Result<(String, Option<Run>), Failure> {
+    for trim in Trim::ALL {
+        let text = program(trim)?;
+        let Some(ran) = run(&text)? else { break };
+        if ran.status == Some(BUG) || trim == Trim::Nothing {
+            return Ok((text, Some(ran)));
+        }
+    }
+    Ok((program(Trim::Nothing)?, None))
 }
 
 /// The reason why there is no bundle.
@@ -548,16 +583,10 @@ fn run_command(launch: &Launch) -> String {
     format!("{before}./repro")
 }
 
-/// Returns a word that a shell takes as it is.
+/// Returns a word that a shell takes as it is. No variable of an environment has a zero byte.
 fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,+@%".contains(c);
-    match !word.is_empty() && word.chars().all(plain) {
-        true => word.to_owned(),
-        false => format!(
-            "'{}'",
-            word.replace(['\n', '\r'], " ").replace('\'', "'\\''")
-        ),
-    }
+    shlex::try_quote(&word.replace(['\n', '\r', '\0'], " "))
+        .map_or_else(|_| "''".to_owned(), Into::into)
 }
 
 #[cfg(test)]
@@ -568,7 +597,7 @@ mod tests {
     fn no_value_of_the_environment_leaves_its_word() {
         assert_eq!(quoted("llvmpipe"), "llvmpipe");
         assert_eq!(quoted("a b; rm -rf $HOME"), "'a b; rm -rf $HOME'");
-        assert_eq!(quoted("it's"), "'it'\\''s'");
+        assert_eq!(quoted("it's"), "\"it's\"");
         assert_eq!(quoted(""), "''");
     }
 }

@@ -1,0 +1,584 @@
+//! State that no call sees, taken out of recorded calls.
+//!
+//! The backend sets all state before each pass, and parameters of what is off to values that would be seen. A
+//! reader wants neither. What is taken out changes no result by the specification (OpenGL 4.6, 21: state has the
+//! initial values of its tables, and is read when a command draws, clears or copies), but a driver's bug may hang on
+//! it: a trimmed program must be run before it is believed.
+
+use etalon_backend::{Argument, Call};
+use std::collections::BTreeMap;
+
+/// How much is taken out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trim {
+    /// Nothing: each call that was made.
+    Nothing,
+    /// State that is set to the value that it has, or set anew before it is read.
+    Redundant,
+    /// Also the parameters of capabilities that are off.
+    Idle,
+}
+
+impl Trim {
+    /// From the shortest program to the whole one.
+    pub const ALL: [Self; 3] = [Self::Idle, Self::Redundant, Self::Nothing];
+}
+
+/// Returns the calls that are left, in their order.
+pub(super) fn trimmed(calls: &[Call], trim: Trim) -> Vec<&Call> {
+    if trim == Trim::Nothing {
+        return calls.iter().collect();
+    }
+    let mut keep = vec![true; calls.len()];
+    let mut slots: BTreeMap<Key, Slot> = BTreeMap::new();
+    for (index, call) in calls.iter().enumerate() {
+        if let Some(setter) = setter(call) {
+            keep[index] = false;
+            let slot = slots.entry(setter.key).or_insert_with(|| Slot {
+                guards: setter.guards,
+                active: setter.initial.into_iter().collect(),
+                pending: Vec::new(),
+            });
+            if setter.whole {
+                slot.pending.clear();
+            }
+            slot.pending.push((index, setter.value));
+        } else if let Some(replaced) = replaced(&call.function) {
+            for (key, slot) in &mut slots {
+                if matches!(key, Key::State(family, _) if *family == replaced) {
+                    for index in slot.flush() {
+                        keep[index] = true;
+                    }
+                    slot.active = vec![(call.function.clone(), Vec::new())];
+                }
+            }
+        } else if is_action(&call.function) {
+            let on: Vec<u32> = slots
+                .iter()
+                .filter_map(|(key, slot)| match key {
+                    Key::Capability(capability) => slot.is_on().then_some(*capability),
+                    Key::State(..) => None,
+                })
+                .collect();
+            for slot in slots.values_mut() {
+                let guards = slot.guards;
+                let idle = !guards.is_empty() && !guards.iter().any(|g| on.contains(g));
+                if trim == Trim::Idle && idle {
+                    continue;
+                }
+                for index in slot.flush() {
+                    keep[index] = true;
+                }
+            }
+        }
+    }
+    let kept = calls.iter().zip(keep).filter(|(_, keep)| *keep);
+    kept.map(|(call, _)| call).collect()
+}
+
+/// A piece of state.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Key {
+    /// Whether a capability is on.
+    Capability(u32),
+    /// The state of a family of functions, or what their first argument names of it.
+    State(&'static str, Option<u64>),
+}
+
+/// A call that does nothing but set state: the function and its arguments.
+type Value = (String, Vec<u64>);
+
+/// What is known of a piece of state.
+struct Slot {
+    guards: &'static [u32],
+    /// The calls that made it what the last action saw.
+    active: Vec<Value>,
+    /// The calls since, by their place.
+    pending: Vec<(usize, Value)>,
+}
+
+impl Slot {
+    /// True if a capability is on, with the calls since the last action.
+    fn is_on(&self) -> bool {
+        let replaced = self.pending.first().is_some_and(|(_, v)| is_whole(v));
+        let before = self.active.iter().filter(|_| !replaced);
+        let mut since = before.chain(self.pending.iter().map(|(_, value)| value));
+        since.any(|(function, _)| function.starts_with("glEnable"))
+    }
+
+    /// Makes the pending calls active. Returns the places of those that change anything.
+    fn flush(&mut self) -> Vec<usize> {
+        let pending = std::mem::take(&mut self.pending);
+        let values: Vec<Value> = pending.iter().map(|(_, value)| value.clone()).collect();
+        let replaced = values.first().is_some_and(is_whole);
+        if values.is_empty()
+            || self.active.ends_with(&values) && (!replaced || self.active == values)
+        {
+            return Vec::new();
+        }
+        if replaced {
+            self.active = values;
+        } else {
+            self.active.extend(values);
+        }
+        pending.into_iter().map(|(index, _)| index).collect()
+    }
+}
+
+/// A call that sets state.
+struct Setter {
+    key: Key,
+    value: Value,
+    /// True if nothing of what was set before is left.
+    whole: bool,
+    /// The call that would set the initial value.
+    initial: Option<Value>,
+    /// The capabilities without which it is not read; empty if it always is.
+    guards: &'static [u32],
+}
+
+const BLEND: u32 = 0x0BE2;
+const CULL_FACE: u32 = 0x0B44;
+const SCISSOR_TEST: u32 = 0x0C11;
+const STENCIL_TEST: u32 = 0x0B90;
+const DEPTH_TEST: u32 = 0x0B71;
+const DEPTH_BOUNDS_TEST: u32 = 0x8890;
+const SAMPLE_COVERAGE: u32 = 0x80A0;
+const SAMPLE_MASK: u32 = 0x8E51;
+const SAMPLE_SHADING: u32 = 0x8C36;
+const COLOR_LOGIC_OP: u32 = 0x0BF2;
+const OFFSETS: &[u32] = &[0x8037, 0x2A02, 0x2A01];
+/// The capabilities that are on at the start.
+const ON: [u32; 2] = [0x0BD0, 0x809D];
+
+/// A function that sets state.
+struct Known {
+    function: &'static str,
+    family: &'static str,
+    /// True if each value of the first argument has state of its own.
+    by_target: bool,
+    /// True if it sets all state of the family.
+    whole: bool,
+    /// The arguments that set the initial values, behind the target.
+    initial: Option<&'static [u64]>,
+    guards: &'static [u32],
+}
+
+const fn known(
+    function: &'static str,
+    family: &'static str,
+    whole: bool,
+    initial: Option<&'static [u64]>,
+    guards: &'static [u32],
+) -> Known {
+    Known {
+        function,
+        family,
+        by_target: false,
+        whole,
+        initial,
+        guards,
+    }
+}
+
+const fn by_target(function: &'static str, initial: Option<&'static [u64]>) -> Known {
+    Known {
+        function,
+        family: function,
+        by_target: true,
+        whole: true,
+        initial,
+        guards: &[],
+    }
+}
+
+/// One, as the bits of an `f32` and of an `f64`.
+const F1: u64 = 0x3f80_0000;
+const D1: u64 = 0x3ff0_0000_0000_0000;
+
+/// The functions, with the initial values of OpenGL 4.6, tables 23.
+const KNOWN: [Known; 39] = [
+    known(
+        "glCullFace",
+        "cull_face",
+        true,
+        Some(&[0x0405]),
+        &[CULL_FACE],
+    ),
+    known("glFrontFace", "front_face", true, Some(&[0x0901]), &[]),
+    known(
+        "glDepthFunc",
+        "depth_func",
+        true,
+        Some(&[0x0201]),
+        &[DEPTH_TEST],
+    ),
+    known("glDepthMask", "depth_mask", true, Some(&[1]), &[]),
+    known("glColorMask", "color_mask", true, Some(&[1, 1, 1, 1]), &[]),
+    known("glColorMaski", "color_mask", false, None, &[]),
+    known("glStencilMask", "stencil_mask", true, None, &[]),
+    known("glStencilMaskSeparate", "stencil_mask", false, None, &[]),
+    known("glStencilFunc", "stencil_func", true, None, &[STENCIL_TEST]),
+    known(
+        "glStencilFuncSeparate",
+        "stencil_func",
+        false,
+        None,
+        &[STENCIL_TEST],
+    ),
+    known(
+        "glStencilOp",
+        "stencil_op",
+        true,
+        Some(&[0x1E00, 0x1E00, 0x1E00]),
+        &[STENCIL_TEST],
+    ),
+    known(
+        "glStencilOpSeparate",
+        "stencil_op",
+        false,
+        None,
+        &[STENCIL_TEST],
+    ),
+    known("glBlendFunc", "blend_func", true, Some(&[1, 0]), &[BLEND]),
+    known("glBlendFuncSeparate", "blend_func", true, None, &[BLEND]),
+    known("glBlendFunci", "blend_func", false, None, &[BLEND]),
+    known("glBlendFuncSeparatei", "blend_func", false, None, &[BLEND]),
+    known(
+        "glBlendEquation",
+        "blend_equation",
+        true,
+        Some(&[0x8006]),
+        &[BLEND],
+    ),
+    known(
+        "glBlendEquationSeparate",
+        "blend_equation",
+        true,
+        None,
+        &[BLEND],
+    ),
+    known("glBlendEquationi", "blend_equation", false, None, &[BLEND]),
+    known(
+        "glBlendEquationSeparatei",
+        "blend_equation",
+        false,
+        None,
+        &[BLEND],
+    ),
+    known(
+        "glBlendColor",
+        "blend_color",
+        true,
+        Some(&[0, 0, 0, 0]),
+        &[BLEND],
+    ),
+    known(
+        "glLogicOp",
+        "logic_op",
+        true,
+        Some(&[0x1503]),
+        &[COLOR_LOGIC_OP],
+    ),
+    known(
+        "glPolygonOffset",
+        "polygon_offset",
+        true,
+        Some(&[0, 0]),
+        OFFSETS,
+    ),
+    known(
+        "glPolygonOffsetClamp",
+        "polygon_offset",
+        true,
+        None,
+        OFFSETS,
+    ),
+    known(
+        "glPolygonMode",
+        "polygon_mode",
+        true,
+        Some(&[0x0408, 0x1B02]),
+        &[],
+    ),
+    known("glLineWidth", "line_width", true, Some(&[F1]), &[]),
+    known("glScissor", "scissor", true, None, &[SCISSOR_TEST]),
+    known("glDepthRange", "depth_range", true, Some(&[0, D1]), &[]),
+    known("glDepthRangef", "depth_range", true, Some(&[0, F1]), &[]),
+    known(
+        "glProvokingVertex",
+        "provoking_vertex",
+        true,
+        Some(&[0x8E4E]),
+        &[],
+    ),
+    known(
+        "glClipControl",
+        "clip_control",
+        true,
+        Some(&[0x8CA1, 0x935E]),
+        &[],
+    ),
+    known(
+        "glSampleCoverage",
+        "sample_coverage",
+        true,
+        Some(&[F1, 0]),
+        &[SAMPLE_COVERAGE],
+    ),
+    known("glSampleMaski", "sample_mask", true, None, &[SAMPLE_MASK]),
+    known(
+        "glMinSampleShading",
+        "sample_shading",
+        true,
+        Some(&[0]),
+        &[SAMPLE_SHADING],
+    ),
+    known(
+        "glDepthBoundsEXT",
+        "depth_bounds",
+        true,
+        Some(&[0, D1]),
+        &[DEPTH_BOUNDS_TEST],
+    ),
+    by_target("glPixelStorei", None),
+    by_target("glBindSampler", Some(&[0])),
+    by_target("glClampColor", None),
+    by_target("glViewportIndexedf", None),
+];
+
+fn known_of(function: &str) -> Option<&'static Known> {
+    // Functions of extensions are those of later versions.
+    let core = |name: &str| {
+        ["OES", "ARB", "ANGLE", "EXT"]
+            .iter()
+            .find_map(|suffix| function.strip_suffix(suffix))
+            .is_some_and(|stem| stem == name)
+    };
+    let mut all = KNOWN.iter();
+    all.find(|k| k.function == function || core(k.function))
+}
+
+fn is_whole((function, _): &Value) -> bool {
+    known_of(function).is_none_or(|known| known.whole)
+}
+
+/// Returns a call as a setter of state; `None` if it does anything else.
+fn setter(call: &Call) -> Option<Setter> {
+    if call.result.is_some() {
+        return None;
+    }
+    let arguments: Option<Vec<u64>> = call.arguments.iter().map(number).collect();
+    let arguments = arguments?;
+    let function = call.function.as_str();
+    if let ("glEnable" | "glDisable", [capability]) = (function, arguments.as_slice()) {
+        let capability = u32::try_from(*capability).ok()?;
+        let initial = match ON.contains(&capability) {
+            true => "glEnable",
+            false => "glDisable",
+        };
+        return Some(Setter {
+            key: Key::Capability(capability),
+            initial: Some((initial.to_owned(), arguments.clone())),
+            value: (function.to_owned(), arguments),
+            whole: true,
+            guards: &[],
+        });
+    }
+    if let ("glEnablei" | "glDisablei", [capability, _]) = (function, arguments.as_slice()) {
+        return Some(Setter {
+            key: Key::Capability(u32::try_from(*capability).ok()?),
+            initial: None,
+            value: (function.to_owned(), arguments),
+            whole: false,
+            guards: &[],
+        });
+    }
+    let known = known_of(function)?;
+    let target = match known.by_target {
+        true => Some(*arguments.first()?),
+        false => None,
+    };
+    let initial = match (known.family, target) {
+        // Rows are aligned to 4 bytes, and nothing is skipped.
+        ("glPixelStorei", Some(0x0D05 | 0x0CF5)) => Some(vec![4]),
+        ("glPixelStorei", _) => Some(vec![0]),
+        _ => known.initial.map(<[u64]>::to_vec),
+    };
+    let with_target = |values: Vec<u64>| target.into_iter().chain(values).collect();
+    Some(Setter {
+        key: Key::State(known.family, target),
+        initial: initial.map(|values| (function.to_owned(), with_target(values))),
+        value: (function.to_owned(), arguments),
+        whole: known.whole,
+        guards: known.guards,
+    })
+}
+
+/// Returns the family of which a function sets state that is not followed here.
+fn replaced(function: &str) -> Option<&'static str> {
+    match function {
+        "glScissorArrayv" => Some("scissor"),
+        "glDepthRangeArrayv" => Some("depth_range"),
+        "glViewport" | "glViewportArrayv" => Some("glViewportIndexedf"),
+        _ => None,
+    }
+}
+
+/// True if a function reads state: it draws, clears or copies.
+fn is_action(function: &str) -> bool {
+    const PREFIXES: [&str; 7] = [
+        "glDraw",
+        "glClear",
+        "glReadPixels",
+        "glBlit",
+        "glCopy",
+        "glTexImage",
+        "glTexSubImage",
+    ];
+    function != "glDrawBuffers" && PREFIXES.iter().any(|p| function.starts_with(p))
+}
+
+/// Returns an argument's value as a number; `None` of what is none.
+fn number(argument: &Argument) -> Option<u64> {
+    Some(match argument {
+        Argument::Integer(value) => u64::from(value.cast_unsigned()),
+        Argument::Unsigned(value) => u64::from(*value),
+        Argument::Boolean(value) => u64::from(*value),
+        Argument::Size(value) => value.cast_unsigned(),
+        // Both zeros are one.
+        Argument::Float(bits) => match f32::from_bits(*bits) {
+            0.0 => 0,
+            _ => u64::from(*bits),
+        },
+        Argument::Double(bits) => match f64::from_bits(*bits) {
+            0.0 => 0,
+            _ => *bits,
+        },
+        Argument::Constant(constant) => u64::from(constant.value),
+        Argument::Object(_, number) => *number,
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_backend::{Constant, Phase};
+
+    fn call(function: &str, values: &[u32]) -> Call {
+        Call {
+            phase: Phase::Submit,
+            function: function.to_owned(),
+            arguments: values
+                .iter()
+                .map(|value| {
+                    Argument::Constant(Constant {
+                        name: String::new(),
+                        value: *value,
+                    })
+                })
+                .collect(),
+            result: None,
+        }
+    }
+
+    /// Returns what is left, as text.
+    fn left(calls: &[(&str, &[u32])], trim: Trim) -> Vec<String> {
+        let calls: Vec<Call> = calls
+            .iter()
+            .map(|(name, values)| call(name, values))
+            .collect();
+        let text = |call: &&Call| {
+            let values: Vec<u64> = call.arguments.iter().filter_map(number).collect();
+            format!("{}{values:?}", call.function)
+        };
+        trimmed(&calls, trim).iter().map(text).collect()
+    }
+
+    const CALLS: [(&str, &[u32]); 12] = [
+        ("glDisable", &[BLEND]),
+        ("glDepthFunc", &[0x0200]),
+        ("glDepthMask", &[1]),
+        ("glEnable", &[STENCIL_TEST]),
+        ("glDisable", &[STENCIL_TEST]),
+        ("glLogicOp", &[0x1500]),
+        ("glClearBufferfv", &[0]),
+        ("glEnable", &[DEPTH_TEST]),
+        ("glDepthMask", &[0]),
+        ("glDrawArrays", &[4, 0, 3]),
+        ("glDepthMask", &[0]),
+        ("glDrawArrays", &[4, 3, 3]),
+    ];
+
+    #[test]
+    fn state_that_changes_nothing_goes() {
+        assert_eq!(left(&CALLS, Trim::Nothing).len(), CALLS.len());
+        assert_eq!(
+            left(&CALLS, Trim::Redundant),
+            [
+                "glDepthFunc[512]",
+                "glLogicOp[5376]",
+                "glClearBufferfv[0]",
+                "glEnable[2929]",
+                "glDepthMask[0]",
+                "glDrawArrays[4, 0, 3]",
+                "glDrawArrays[4, 3, 3]",
+            ]
+        );
+        assert_eq!(
+            left(&CALLS, Trim::Idle),
+            [
+                "glDepthFunc[512]",
+                "glClearBufferfv[0]",
+                "glEnable[2929]",
+                "glDepthMask[0]",
+                "glDrawArrays[4, 0, 3]",
+                "glDrawArrays[4, 3, 3]",
+            ]
+        );
+    }
+
+    #[test]
+    fn state_of_one_target_counts_with_that_of_all() {
+        let calls: [(&str, &[u32]); 7] = [
+            ("glColorMask", &[1, 1, 1, 1]),
+            ("glColorMaski", &[1, 0, 0, 0, 0]),
+            ("glDrawArrays", &[]),
+            ("glColorMask", &[1, 1, 1, 1]),
+            ("glDrawArrays", &[]),
+            ("glColorMask", &[1, 1, 1, 1]),
+            ("glDrawArrays", &[]),
+        ];
+        assert_eq!(
+            left(&calls, Trim::Idle),
+            [
+                "glColorMask[1, 1, 1, 1]",
+                "glColorMaski[1, 0, 0, 0, 0]",
+                "glDrawArrays[]",
+                "glColorMask[1, 1, 1, 1]",
+                "glDrawArrays[]",
+                "glDrawArrays[]",
+            ]
+        );
+    }
+
+    #[test]
+    fn an_enabled_target_makes_the_parameters_read() {
+        let calls: [(&str, &[u32]); 4] = [
+            ("glBlendFunc", &[0, 1]),
+            ("glDisable", &[BLEND]),
+            ("glEnablei", &[BLEND, 1]),
+            ("glDrawArrays", &[]),
+        ];
+        assert_eq!(
+            left(&calls, Trim::Idle),
+            [
+                "glBlendFunc[0, 1]",
+                "glDisable[3042]",
+                "glEnablei[3042, 1]",
+                "glDrawArrays[]"
+            ]
+        );
+    }
+}
