@@ -15,6 +15,7 @@ mod check;
 mod due;
 mod error;
 mod gl;
+mod head;
 mod program;
 mod report;
 
@@ -22,5 +23,6 @@ pub use archive::{File, WriteError, Written, free, write};
 pub use due::{Due, DueChannel, DueCounter, DueTexel};
 pub use error::BundleError;
 pub use gl::Trim;
-pub use program::{Head, program};
+pub use head::Head;
+pub use program::program;
 pub use report::{Expected, Report, Versions};

@@ -3,18 +3,8 @@
 use crate::due::Due;
 use crate::error::BundleError;
 use crate::gl::{self, Trim};
+use crate::head::Head;
 use etalon_backend::{RecordedContext, Recording};
-
-/// The head of a program: sentences for people.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Head {
-    /// The bug in a line.
-    pub title: String,
-    /// What is wrong.
-    pub sentence: String,
-    /// The command that runs the program on the driver.
-    pub run: String,
-}
 
 /// Returns the program, with `trim` taken out of it.
 ///

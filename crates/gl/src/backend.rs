@@ -171,6 +171,6 @@ impl Backend for GlBackend {
     }
 
     fn recording(&self) -> Option<Recording> {
-        recording::recorded(&self.options, self.context.caps.version)
+        recording::recorded(self.options.recorded_context(self.context.caps.version))
     }
 }

@@ -1,7 +1,7 @@
 //! The options of an adapter: the API, and the way to its driver.
 
 use crate::egl::Platform;
-use etalon_backend::{CallFault, ReadFault};
+use etalon_backend::{CallFault, ReadFault, RecordedContext};
 use std::path::PathBuf;
 
 /// The OpenGL variant of a context.
@@ -31,6 +31,21 @@ pub struct Options {
     /// Records the calls of the first scene that is prepared, for [`etalon_backend::Backend::recording`]. The context
     /// then has no timer.
     pub record: bool,
+}
+
+impl Options {
+    /// Returns the context of recorded calls; `version` is its major and minor version.
+    pub(crate) fn recorded_context(&self, version: (u32, u32)) -> RecordedContext {
+        RecordedContext::Egl {
+            es: self.profile == Profile::Es,
+            version: [version.0, version.1],
+            library: self.library.as_ref().map(|p| p.display().to_string()),
+            device: match self.platform {
+                Platform::Surfaceless => None,
+                Platform::Device(index) => u32::try_from(index).ok(),
+            },
+        }
+    }
 }
 
 /// Capabilities that tests can disable.

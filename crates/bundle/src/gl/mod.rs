@@ -7,7 +7,7 @@ use crate::c::{comment, paragraph, string};
 use crate::check;
 use crate::due::Due;
 use crate::error::BundleError;
-use crate::program::Head;
+use crate::head::Head;
 use calls::Printer;
 use trim::trimmed;
 

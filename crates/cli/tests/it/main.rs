@@ -4,6 +4,7 @@
 mod adapters;
 mod bench;
 mod bisect;
+mod bundle;
 mod call_faults;
 mod check;
 mod ci_files;

@@ -1,7 +1,7 @@
 //! The functions that are recorded, and those that need not be.
 
 use super::kinds::*;
-use super::{Pointer, announced, driver, keep, keeps, new_output};
+use super::recorder::{Pointer, announced, driver, keep, keeps, new_output};
 use etalon_backend::Argument;
 use std::ffi::{CStr, c_char, c_void};
 

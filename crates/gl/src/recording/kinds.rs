@@ -1,9 +1,9 @@
 //! The kinds of arguments that say all by themselves.
 
-use super::Pointer;
 use super::names::{
     barrier_bits, buffer_bits, constant, factor, map_bits, or_none, parameter, primitive,
 };
+use super::recorder::Pointer;
 use etalon_backend::Argument;
 
 /// A kind of argument.
