@@ -31,7 +31,7 @@ pub(crate) fn is_measuring_area(area: &str) -> bool {
 pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
     let library = library(arguments.cases.as_ref())?;
     let cases = build(&library, arguments.profile.into(), &arguments.globs)?;
-    let cases = some(cases, &arguments.globs)?;
+    let cases = some(cases, arguments)?;
     if arguments.cases.is_some() {
         warn(&library, &cases);
     }
@@ -81,7 +81,7 @@ pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<String>, Failu
     let selection = etalon_runner::select(&library, arguments.profile.into(), &arguments.globs);
     let selection = selection.map_err(Failure::usage)?;
     let ids = selection.cases.iter().map(|case| case.id()).collect();
-    some(ids, &arguments.globs)
+    some(ids, arguments)
 }
 
 /// Returns the number of cases of the full profile that match as well as the selected ones, and that the profile
@@ -100,19 +100,26 @@ pub(crate) fn left_out(arguments: &CaseArguments, selected: &[String]) -> Result
 }
 
 /// Returns what was selected, unless it is nothing.
-fn some<T>(selected: Vec<T>, globs: &[String]) -> Result<Vec<T>, Failure> {
-    if selected.is_empty() {
-        return Err(Failure::nothing(if globs.is_empty() {
-            "there are no cases".to_owned()
-        } else {
-            format!(
-                "no case matches {}{}; `etalon list` lists all",
-                globs.join(" "),
-                proposed(globs)
-            )
-        }));
+fn some<T>(selected: Vec<T>, arguments: &CaseArguments) -> Result<Vec<T>, Failure> {
+    let globs = &arguments.globs;
+    if !selected.is_empty() {
+        return Ok(selected);
     }
-    Ok(selected)
+    if globs.is_empty() {
+        return Err(Failure::nothing("there are no cases"));
+    }
+    let library = library(arguments.cases.as_ref())?;
+    let full = etalon_runner::select(&library, Profile::Full, globs).map_err(Failure::usage)?;
+    let globs_shown = globs.join(" ");
+    Err(Failure::nothing(match full.cases.len() {
+        0 => format!(
+            "no case matches {globs_shown}{}; `etalon list` lists all",
+            proposed(globs)
+        ),
+        matching => format!(
+            "no case of the quick profile matches {globs_shown}, of the full one {matching}: add --profile full"
+        ),
+    }))
 }
 
 /// Returns what the globs may have meant: an area, a case file, or a case.

@@ -31,6 +31,25 @@ pub(crate) fn explain(record: &Record) -> String {
     }
 }
 
+/// The commands from a wrong picture to a report, each with what it gives.
+pub(crate) fn onward(record: &Record) -> [(&'static str, String); 3] {
+    let (case, adapter) = (quoted(&record.case), quoted(&record.adapter));
+    [
+        (
+            "Smallest case",
+            format!("etalon reduce {case} --adapter {adapter}"),
+        ),
+        (
+            "Releases that have it",
+            format!("etalon bisect {case} --line LINE --adapters FILE"),
+        ),
+        (
+            "A program that shows it, and a report",
+            format!("etalon bundle {case} --adapter {adapter}"),
+        ),
+    ]
+}
+
 #[cfg(test)]
 mod tests {
     #[test]

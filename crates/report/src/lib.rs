@@ -38,7 +38,7 @@ pub use diff::benches::{BenchDiff, BenchFacts, TimeChange, Untimed, diff, diff_t
 pub use diff::runs;
 pub use error::ReportError;
 pub use hunt::{WrittenHunt, hunt_table, write_hunt};
-pub use picture::ringed_pictures;
+pub use picture::{Ringed, ringed_pictures};
 pub use run::{RUN_FILES, RUN_FOLDERS, Written, dead_lines, table, write, write_run};
 pub use site::{SITE_FILE, WrittenSite, write_site};
 pub use terminal::TableOptions;

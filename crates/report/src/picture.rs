@@ -103,9 +103,18 @@ impl Canvas {
     }
 }
 
-/// Returns the pictures of an image as PNG files with a ring around a sample (column, row and number): the least that is
-/// allowed, what came back, and their difference. `None` when the image's lists do not fit its size.
-pub fn ringed_pictures(image: &FrameImage, at: [u32; 3]) -> Option<[Vec<u8>; 3]> {
+/// Pictures of an image as PNG files with a ring around a sample.
+#[derive(Clone, Debug)]
+pub struct Ringed {
+    /// The least that is allowed, what came back, and their difference.
+    pub pictures: [Vec<u8>; 3],
+    /// True if the first two show alpha as grey, since nothing else differs.
+    pub alpha: bool,
+}
+
+/// Returns the pictures of an image with a ring around a sample (column, row and number). `None` when the image's lists
+/// do not fit its size.
+pub fn ringed_pictures(image: &FrameImage, at: [u32; 3]) -> Option<Ringed> {
     if !image.is_whole() || image.wrong.is_empty() || image.channels.is_empty() {
         return None;
     }
@@ -118,10 +127,15 @@ pub fn ringed_pictures(image: &FrameImage, at: [u32; 3]) -> Option<[Vec<u8>; 3]>
         range: range(image),
     };
     let color = image.aspect == Aspect::Color;
+    let value = |codes: &[u32], sample, channel| view.value(codes, sample, channel);
+    let alike =
+        |sample| (0..3).all(|c| value(&image.low, sample, c) == value(&image.actual, sample, c));
+    let alpha = color && image.channels.len() == 4 && (0..image.wrong.len()).all(alike);
     let codes = |codes: &[u32]| {
-        view.ringed(at, |sample, _, _| match color {
-            true => [0, 1, 2].map(|c| view.value(codes, sample, c)),
-            false => [view.value(codes, sample, 0); 3],
+        view.ringed(at, |sample, _, _| match (color, alpha) {
+            (true, false) => [0, 1, 2].map(|c| value(codes, sample, c)),
+            (true, true) => [value(codes, sample, 3); 3],
+            (false, _) => [value(codes, sample, 0); 3],
         })
     };
     let difference = view.ringed(at, |sample, _, _| match image.wrong[sample] {
@@ -132,7 +146,10 @@ pub fn ringed_pictures(image: &FrameImage, at: [u32; 3]) -> Option<[Vec<u8>; 3]>
             FAIL.map(|c| (f64::from(c) * bright).round() as u8)
         }
     });
-    Some([codes(&image.low)?, codes(&image.actual)?, difference?])
+    Some(Ringed {
+        pictures: [codes(&image.low)?, codes(&image.actual)?, difference?],
+        alpha,
+    })
 }
 
 /// The pictures of an image. `None` when the image's lists do not fit its size.

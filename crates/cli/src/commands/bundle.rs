@@ -457,18 +457,25 @@ impl Reduced<'_> {
             .iter()
             .find(|i| i.attachment == mismatch.attachment && i.aspect == mismatch.aspect);
         let at = [wrong.x, wrong.y, wrong.sample];
-        let Some([due, actual, difference]) =
-            image.and_then(|i| etalon_report::ringed_pictures(i, at))
-        else {
+        let Some(ringed) = image.and_then(|i| etalon_report::ringed_pictures(i, at)) else {
             return Vec::new();
+        };
+        let [due, actual, difference] = ringed.pictures;
+        let shown = match ringed.alpha {
+            true => ": alpha as grey, since nothing else differs",
+            false => "",
         };
         vec![
             File::new(
                 "expected.png",
-                "the picture that is allowed; its least values, where several are",
+                &format!("the picture that is allowed; its least values, where several are{shown}"),
                 due,
             ),
-            File::new("actual.png", "the picture that came back", actual),
+            File::new(
+                "actual.png",
+                &format!("the picture that came back{shown}"),
+                actual,
+            ),
             File::new(
                 "difference.png",
                 "wrong texels in orange, the first with a ring",
@@ -583,10 +590,9 @@ fn run_command(launch: &Launch) -> String {
     format!("{before}./repro")
 }
 
-/// Returns a word that a shell takes as it is. No variable of an environment has a zero byte.
+/// Returns a word in one line that a shell takes as it is.
 fn quoted(word: &str) -> String {
-    shlex::try_quote(&word.replace(['\n', '\r', '\0'], " "))
-        .map_or_else(|_| "''".to_owned(), Into::into)
+    etalon_report::quoted(&word.replace(['\n', '\r', '\0'], " "))
 }
 
 #[cfg(test)]
@@ -597,7 +603,7 @@ mod tests {
     fn no_value_of_the_environment_leaves_its_word() {
         assert_eq!(quoted("llvmpipe"), "llvmpipe");
         assert_eq!(quoted("a b; rm -rf $HOME"), "'a b; rm -rf $HOME'");
-        assert_eq!(quoted("it's"), "\"it's\"");
+        assert_eq!(quoted("it's"), "'it'\\''s'");
         assert_eq!(quoted(""), "''");
     }
 }

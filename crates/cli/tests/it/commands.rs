@@ -106,6 +106,10 @@ fn nothing_chosen_is_no_success() {
             .stdout(is_empty())
             .stderr(contains("no case matches").and(contains(globs[0])));
     }
+    etalon(&["list", "combined/extended/seed=16"])
+        .assert()
+        .code(4)
+        .stderr(contains("of the full one 1: add --profile full"));
     let empty = tempfile::tempdir().unwrap();
     etalon(&["list", "--cases"])
         .arg(empty.path())

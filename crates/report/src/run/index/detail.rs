@@ -70,6 +70,9 @@ pub(crate) fn body(record: &Record, drawn: Option<&Drawn>, budget: &mut Budget) 
         @if let Some(story) = &record.story { (operations(story, record)) }
         @if !record.wrong.is_empty() {
             p.again { "Explain it: " code { (command::explain(record)) } }
+            @if record.adapter != "cpu" {
+                @for (gives, line) in command::onward(record) { p.again { (gives) ": " code { (line) } } }
+            }
         }
         p.again {
             "Draw it again: "
