@@ -24,5 +24,5 @@ pub use due::{Due, DueChannel, DueCounter, DueTexel};
 pub use error::BundleError;
 pub use gl::Trim;
 pub use head::Head;
-pub use program::program;
+pub use program::{program, shader_test};
 pub use report::{Expected, Report, Versions};

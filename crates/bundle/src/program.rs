@@ -33,3 +33,10 @@ pub fn program(
         }
     }
 }
+
+/// Returns the scene as a test for piglit's `shader_runner`; `None` if the format cannot say it.
+pub fn shader_test(recording: &Recording, due: &Due) -> Option<String> {
+    match &recording.context {
+        RecordedContext::Egl { es, version, .. } => gl::shader_test(*es, *version, recording, due),
+    }
+}

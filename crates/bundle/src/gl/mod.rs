@@ -1,6 +1,7 @@
 //! OpenGL and OpenGL ES: one C file that loads EGL and needs no header of the API.
 
 mod calls;
+mod shader_test;
 mod trim;
 
 use crate::c::{comment, paragraph, string};
@@ -12,6 +13,7 @@ use calls::Printer;
 use trim::trimmed;
 
 use etalon_backend::Recording;
+pub(crate) use shader_test::shader_test;
 pub use trim::Trim;
 
 /// The context of EGL that a program makes.

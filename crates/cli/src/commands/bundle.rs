@@ -13,6 +13,7 @@ use crate::reduction::{Shown, TIMEOUT, file_name};
 use clap::Args;
 use etalon_bundle::{
     Due, DueChannel, DueCounter, DueTexel, Expected, File, Head, Report, Trim, Versions,
+    shader_test,
 };
 use etalon_case::{Case, build};
 use etalon_explore::{Candidate, states};
@@ -166,6 +167,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             ),
         ),
     ];
+    if let Some(test) = shader_test(recording, &due) {
+        files.push(File::text(
+            "repro.shader_test",
+            "the same for piglit: `shader_runner repro.shader_test -auto -fbo`",
+            test,
+        ));
+    }
     files.extend(reduced.pictures(&recorded.frame));
     let report = Report {
         title,
