@@ -23,8 +23,8 @@ pub use call_fault::CallFault;
 pub use halves::halves;
 pub use read_fault::ReadFault;
 pub use recording::{
-    Argument, Call, Constant, CounterPart, Form, Phase, Plane, RecordedContext, RecordedCounter,
-    RecordedImage, Recording,
+    Argument, Call, Constant, CounterPart, Form, Member, Phase, Plane, RecordedContext,
+    RecordedCounter, RecordedImage, Recording,
 };
 
 use etalon_frame::{Frame, Limits, Requirement};

@@ -30,6 +30,13 @@ pub enum RecordedContext {
         /// The index of the EGL device; `None` for the platform without a surface.
         device: Option<u32>,
     },
+    /// A device of Vulkan, and all that is made of it.
+    Vulkan {
+        /// The device's name.
+        device: String,
+        /// The version of Vulkan that the instance asks for.
+        version: u32,
+    },
 }
 
 /// The part of a scene's work that a call belongs to.
@@ -91,6 +98,28 @@ pub enum Argument {
     Null,
     /// Memory of the program that the driver writes to, by its number in [`Recording`], and its size in bytes.
     Output(u32, u64),
+    /// Values in place, all of one kind.
+    Values(Vec<Argument>),
+    /// A structure.
+    Struct {
+        /// The name of its type.
+        kind: String,
+        /// Its size in bytes.
+        size: u64,
+        /// Its members, in their order.
+        members: Vec<Member>,
+    },
+}
+
+/// A member of a structure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Member {
+    /// Its name.
+    pub name: String,
+    /// Its offset in bytes.
+    pub offset: u64,
+    /// Its value.
+    pub value: Argument,
 }
 
 /// A constant of an API.

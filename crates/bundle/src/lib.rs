@@ -18,6 +18,7 @@ mod gl;
 mod head;
 mod program;
 mod report;
+mod vulkan;
 
 pub use archive::{File, WriteError, Written, free, write};
 pub use due::{Due, DueChannel, DueCounter, DueTexel};

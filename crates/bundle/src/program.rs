@@ -4,6 +4,7 @@ use crate::due::Due;
 use crate::error::BundleError;
 use crate::gl::{self, Trim};
 use crate::head::Head;
+use crate::vulkan;
 use etalon_backend::{RecordedContext, Recording};
 
 /// Returns the program, with `trim` taken out of it.
@@ -31,6 +32,9 @@ pub fn program(
             };
             gl::program(head, &context, recording, due, trim)
         }
+        RecordedContext::Vulkan { device, version } => {
+            vulkan::program(head, device, *version, recording, due)
+        }
     }
 }
 
@@ -38,5 +42,6 @@ pub fn program(
 pub fn shader_test(recording: &Recording, due: &Due) -> Option<String> {
     match &recording.context {
         RecordedContext::Egl { es, version, .. } => gl::shader_test(*es, *version, recording, due),
+        RecordedContext::Vulkan { .. } => None,
     }
 }

@@ -138,6 +138,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
                 validate: what.validate,
                 read_fault: what.read_fault,
                 call_fault: what.call_fault,
+                record: what.record,
             };
             etalon_vulkan::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
         }

@@ -3,11 +3,13 @@
 use crate::device::{Device, identify};
 use crate::error::unavailable;
 use crate::gpu::Gpu;
-use crate::instance::Instance;
+use crate::instance::{INSTANCE_VERSION, Instance};
 use crate::planted;
 use crate::prepared::PreparedScene;
+use crate::recording;
 use etalon_backend::{
-    AdapterInfo, Backend, BackendError, CallFault, Prepared, ReadFault, Unavailable,
+    AdapterInfo, Backend, BackendError, CallFault, Phase, Prepared, ReadFault, RecordedContext,
+    Recording, Unavailable,
 };
 use etalon_frame::Limits;
 use etalon_scene::Scene;
@@ -26,6 +28,9 @@ pub struct Options {
     pub read_fault: Option<ReadFault>,
     /// A fault that a test of the suite plants between the backend and the driver.
     pub call_fault: Option<CallFault>,
+    /// Records the calls of the first scene that is prepared, for [`Backend::recording`]. The device then has no
+    /// timestamps.
+    pub record: bool,
 }
 
 /// An open Vulkan device. It belongs to one thread.
@@ -53,7 +58,12 @@ pub fn enumerate() -> Result<Vec<AdapterInfo>, Unavailable> {
 /// If there is no such device, it lacks Vulkan 1.3, its driver fails, or the validation layer is
 /// requested and not installed.
 pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable> {
-    let instance = Rc::new(Instance::new(options.validate)?);
+    recording::install(options.record);
+    let mut instance = Instance::new(options.validate)?;
+    if options.record {
+        instance.record();
+    }
+    let instance = Rc::new(instance);
     let devices = instance.physical_devices()?;
     let Some(physical) = devices.get(options.device).copied() else {
         return Err(Unavailable::new(
@@ -92,6 +102,14 @@ impl Backend for VulkanBackend {
         Ok(Box::new(PreparedScene::new(&self.gpu, scene)?))
     }
 
+    fn recording(&self) -> Option<Recording> {
+        recording::phase(Phase::Prepare);
+        recording::recorded(RecordedContext::Vulkan {
+            device: self.info.device.clone(),
+            version: INSTANCE_VERSION,
+        })
+    }
+
     fn messages(&self) -> Vec<String> {
         self.gpu.device.instance.take_messages()
     }
@@ -111,6 +129,7 @@ mod tests {
             validate: true,
             read_fault: None,
             call_fault: None,
+            record: false,
         };
         let backend = open("vulkan:0", &options).expect("this test needs a Vulkan driver");
         assert_eq!(backend.messages(), Vec::<String>::new());
@@ -137,6 +156,7 @@ mod tests {
             validate: true,
             read_fault: None,
             call_fault: None,
+            record: false,
         };
         let backend = open("vulkan:0", &options).expect("this test needs a Vulkan driver");
         let library = Library::built_in().expect("built-in files parse");

@@ -3,6 +3,7 @@
 
 use crate::device::Device;
 use crate::error::{Check, internal};
+use crate::recording;
 use ash::vk;
 use etalon_backend::BackendError;
 
@@ -98,6 +99,7 @@ impl Buffer {
         // SAFETY: `range` checked that the mapping holds all of it, the device does not use the
         // buffer while its scene is being prepared, and `bytes` cannot overlap mapped memory.
         unsafe { std::ptr::copy_nonoverlapping(bytes.as_ptr(), self.pointer.add(at), bytes.len()) };
+        recording::written(self.pointer, offset, bytes);
         Ok(())
     }
 
@@ -109,6 +111,7 @@ impl Buffer {
         unsafe {
             std::ptr::copy_nonoverlapping(self.pointer.add(at), bytes.as_mut_ptr(), length);
         }
+        recording::read(self.pointer, offset, length);
         Ok(bytes)
     }
 

@@ -4,6 +4,7 @@ use crate::buffer::Buffer;
 use crate::device::Device;
 use crate::error::internal;
 use crate::inputs::OffsetAllocator;
+use crate::recording;
 use crate::slot::{Needs, Slot};
 use crate::storage;
 use ash::vk;
@@ -155,8 +156,17 @@ impl Counting {
         counts: Option<&Buffer>,
     ) -> Result<Vec<u64>, BackendError> {
         let mut totals = vec![0_u64; self.kinds.len()];
+        let any = |kind: &CounterKind| *kind == CounterKind::AnySamplesPassed;
+        recording::counters(self.kinds.iter().map(any));
         let passed = slot.occlusion.results(device, self.occlusion.len())?;
+        let note = |owners: &[usize]| {
+            for (counter, offset) in owners.iter().zip((0..).step_by(8)) {
+                recording::counter_part(*counter, offset, 8);
+            }
+        };
+        note(&self.occlusion);
         let invoked = slot.statistics.results(device, self.statistics.len())?;
+        note(&self.statistics);
         let passed = self.occlusion.iter().zip(passed);
         let invoked = self.statistics.iter().zip(invoked);
         for (counter, result) in passed.chain(invoked) {
@@ -167,10 +177,11 @@ impl Counting {
                 _ => total.wrapping_add(result),
             };
         }
-        for (total, word) in totals.iter_mut().zip(&self.words) {
+        for (index, (total, word)) in totals.iter_mut().zip(&self.words).enumerate() {
             if let Some(offset) = word {
                 let counts = counts.ok_or_else(|| internal("there is no buffer of counts"))?;
                 let bytes = counts.read(*offset, size_of::<u32>())?;
+                recording::counter_part(index, 0, 4);
                 let word = bytes
                     .try_into()
                     .map_err(|_| internal("a count is a word"))?;

@@ -2,6 +2,7 @@
 
 use crate::error::{Check, describe};
 use crate::instance::{INSTANCE_VERSION, Instance};
+use crate::recording;
 use ash::vk;
 use etalon_backend::{AdapterInfo, BackendError, Unavailable};
 use etalon_frame::{ApiVersion, Property};
@@ -366,6 +367,7 @@ impl Device {
         let promises = promises(api, physical);
         // SAFETY: as above.
         let memory = unsafe { api.get_physical_device_memory_properties(physical) };
+        recording::memory_types(&memory);
 
         let priorities = [1.0];
         let queues = [vk::DeviceQueueCreateInfo::default()
@@ -456,7 +458,10 @@ impl Device {
             logic_enable,
             advanced_blend,
             stencil_export,
-            timestamp_bits: if properties.limits.timestamp_period > 0.0 {
+            // Nobody wants them in a program.
+            timestamp_bits: if properties.limits.timestamp_period > 0.0
+                && !recording::is_installed()
+            {
                 family.timestamp_valid_bits
             } else {
                 0

@@ -213,7 +213,7 @@ pub(crate) fn texel_bytes(raw: vk::Format, aspect: Aspect) -> usize {
 
 /// Returns the bits of an aspect's channels in a copied texel. The upper bits of a copied 24-bit
 /// depth are undefined.
-fn copied_layout(raw: vk::Format, aspect: Aspect) -> &'static TexelLayout {
+pub(crate) fn copied_layout(raw: vk::Format, aspect: Aspect) -> &'static TexelLayout {
     match (aspect, depth_encoding(raw)) {
         (Aspect::Color, _) => layout(raw),
         (Aspect::Depth, ChannelEncoding::Unorm(16)) => &[(0, 16)],

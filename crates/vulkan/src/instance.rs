@@ -1,6 +1,7 @@
 //! The loader, the instance and the messages of the validation layer.
 
 use crate::error::describe;
+use crate::recording;
 use ash::{ext, vk};
 use etalon_backend::Unavailable;
 use std::ffi::{CStr, c_void};
@@ -98,6 +99,11 @@ impl Instance {
             instance.messenger = Some(messenger(entry, &instance.raw, messages)?);
         }
         Ok(instance)
+    }
+
+    /// Records the calls of the devices that are made from now on.
+    pub(crate) fn record(&mut self) {
+        self.raw = recording::instance(&self.raw);
     }
 
     pub(crate) fn raw(&self) -> &ash::Instance {

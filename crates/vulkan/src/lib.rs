@@ -36,6 +36,7 @@ mod prepared;
 mod queries;
 mod read;
 mod record;
+mod recording;
 mod render_pass;
 mod samplers;
 mod samples;

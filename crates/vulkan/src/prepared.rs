@@ -19,10 +19,11 @@ use crate::plan::{
 };
 use crate::read::ReadPlan;
 use crate::record::{self, Recorder};
+use crate::recording::{self, Needed};
 use crate::render_pass::RenderPass;
 use crate::slot::{Needs, Slot};
 use crate::storage;
-use etalon_backend::{BackendError, FrameTime, Prepared};
+use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
 use etalon_frame::{
     Feature, Frame, PathCommands, PathEnd, PathPass, PathState, PathValue, Requirement,
 };
@@ -77,6 +78,9 @@ impl<'a> PreparedScene<'a> {
             progress: Progress::NotDrawn,
         };
         prepared.kind = scene.path.commands;
+        if recording::is_installed() {
+            recording::needs(Needed::of(scene));
+        }
         prepared.fill(&scene.on_path())?;
         Ok(prepared)
     }
@@ -275,6 +279,7 @@ impl Prepared for PreparedScene<'_> {
             return Err(internal("the scene is not prepared"));
         };
         self.progress = Progress::NotDrawn;
+        recording::phase(Phase::Submit);
         let start = Instant::now();
         let commands = slot.begin(device)?;
         slot.reset_timestamps(device);
@@ -300,6 +305,7 @@ impl Prepared for PreparedScene<'_> {
         let (Some(slot), Some(output)) = (&mut self.slot, &self.output) else {
             return Err(internal("the scene is not prepared"));
         };
+        recording::phase(Phase::Read);
         match self.progress {
             Progress::NotDrawn => return Err(internal("read back before anything was drawn")),
             Progress::Drawn => {

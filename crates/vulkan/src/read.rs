@@ -8,11 +8,12 @@ use crate::format;
 use crate::gpu::Gpu;
 use crate::image::Image;
 use crate::inputs::OffsetAllocator;
+use crate::recording;
 use crate::samples::{self, SampleReader, SampleReaders, SampleType};
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::codes::code_of_fetched;
-use etalon_backend::{BackendError, ReadFault};
+use etalon_backend::{BackendError, Form, Plane, ReadFault};
 use etalon_frame::{Aspect, ChannelEncoding, ReadPath};
 use etalon_scene::Scene;
 
@@ -148,7 +149,7 @@ impl ReadPlan {
         if let Some(fault) = fault {
             fault.apply(&mut codes, self.size, self.samples, &self.channels);
         }
-        Ok(etalon_frame::Image {
+        let image = etalon_frame::Image {
             attachment: self.name.clone(),
             aspect: self.aspect,
             size: self.size,
@@ -156,7 +157,37 @@ impl ReadPlan {
             channels: self.channels.clone(),
             read: ReadPath::Copy,
             codes,
-        })
+        };
+        recording::image(&image, self.planes().into_iter());
+        Ok(image)
+    }
+
+    /// Returns where the channels of each sample lie in the bytes that were read.
+    fn planes(&self) -> Vec<Plane> {
+        let texel = u32::try_from(self.texel_bytes()).unwrap_or(u32::MAX);
+        if self.reader.is_none() {
+            let channels = format::copied_layout(self.raw, self.aspect);
+            return vec![Plane {
+                output: 0,
+                texel,
+                channels: channels.iter().map(|(bit, bits)| [*bit, *bits]).collect(),
+                form: Form::Code,
+            }];
+        }
+        let words = samples::words(self.aspect) as u32;
+        let form = match self.sample_type {
+            SampleType::Integers | SampleType::Stencil => Form::Code,
+            SampleType::Color | SampleType::Depth => Form::Float,
+        };
+        let plane = |sample: u32| Plane {
+            output: 0,
+            texel,
+            channels: (0..words)
+                .map(|word| [32 * (sample * words + word), 32])
+                .collect(),
+            form,
+        };
+        (0..self.samples).map(plane).collect()
     }
 
     /// Returns the codes of the samples that the shader stored, without the channels that the

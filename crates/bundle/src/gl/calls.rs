@@ -272,6 +272,9 @@ impl Printer {
                 self.memories.insert(*number, *bytes);
                 format!("memory_{number}")
             }
+            Argument::Values(_) | Argument::Struct { .. } => {
+                return Err(BundleError::Call(call.function.clone()));
+            }
         })
     }
 
@@ -351,7 +354,11 @@ fn kind_of(argument: &Argument) -> String {
         Argument::Created(..) => "GLuint *",
         Argument::Array(all) => return format!("const {} *", element_of(all)),
         Argument::Text(_) => "const char *",
-        Argument::Bytes(_) | Argument::Offset(_) | Argument::Null => "const void *",
+        Argument::Bytes(_)
+        | Argument::Offset(_)
+        | Argument::Null
+        | Argument::Values(_)
+        | Argument::Struct { .. } => "const void *",
         Argument::Output(..) => "void *",
     }
     .to_owned()

@@ -63,6 +63,7 @@ fn a_device_that_is_not_there_is_unavailable() {
         validate: false,
         read_fault: None,
         call_fault: None,
+        record: false,
     };
     let error = open("vulkan:none", &options).map(|_| ()).unwrap_err();
     assert!(error.reason.contains("1000"), "{error}");

@@ -30,6 +30,7 @@ pub(crate) fn backend(validate: bool) -> VulkanBackend {
         validate,
         read_fault: None,
         call_fault: None,
+        record: false,
     };
     open(&name, &options).unwrap_or_else(|e| panic!("{name}: {e}"))
 }

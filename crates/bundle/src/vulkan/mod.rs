@@ -1,0 +1,246 @@
+//! Vulkan: one C file that loads `libvulkan` and needs no header of the API.
+
+mod calls;
+
+use crate::c::{comment, paragraph, string};
+use crate::check;
+use crate::due::Due;
+use crate::error::BundleError;
+use crate::head::Head;
+use calls::Printer;
+use etalon_backend::Recording;
+
+/// Returns the program.
+pub(crate) fn program(
+    head: &Head,
+    device: &str,
+    version: u32,
+    recording: &Recording,
+    due: &Due,
+) -> Result<String, BundleError> {
+    let mut printer = Printer::default();
+    let body = printer.body(&recording.calls)?;
+    let check = check::check(recording, due)?;
+    let mut text = String::from("/*\n");
+    for part in [&head.title, &head.sentence] {
+        text.push_str(&paragraph(part));
+        text.push_str(" *\n");
+    }
+    text.push_str(&format!(
+        " * Build and run:\n *   cc repro.c -ldl -o repro\n *   {}\n *\n{}{} */\n",
+        comment(&head.run),
+        paragraph(
+            "The first argument, if there is one, is the index of the device; otherwise it is the one whose name is that \
+             below, or the first. Exit status: 1 if the bug is there, 0 if not, 77 if the driver lacks something, 2 if \
+             a call fails."
+        ),
+        paragraph(
+            "Needs the headers of the C library and none of the API. Structures and functions have the names of the \
+             specification; the names of values are comments."
+        ),
+    ));
+    text.push_str(PREAMBLE);
+    text.push_str(&printer.types());
+    text.push_str(&printer.functions());
+    text.push_str(&format!(
+        "\nstatic const char *const wanted = {};\nstatic const uint32_t version = 0x{version:x};\n",
+        string(device)
+    ));
+    text.push_str(HELPERS);
+    text.push_str(
+        &printer
+            .load()
+            .replace(
+                "static void load(void)",
+                "static void load_device(VkDevice device)",
+            )
+            .replace("= function(", "= device_function(device, "),
+    );
+    text.push_str(&printer.variables());
+    text.push_str(&body);
+    text.push_str(&check);
+    text.push_str(&format!(
+        "\nint main(int count, char **arguments)\n{{\n    choose_device(count > 1 ? atoi(arguments[1]) : -1);\n{}    return \
+         check_values();\n}}\n",
+        printer.parts()
+    ));
+    Ok(text)
+}
+
+/// The beginning of every program: types and results.
+const PREAMBLE: &str = r#"
+#include <dlfcn.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BUG = 1, FAILED = 2, LACKS = 77 };
+
+"#;
+
+/// The instance, the device and its memory.
+const HELPERS: &str = r#"
+typedef struct {
+    uint64_t size, alignment;
+    uint32_t types;
+} Requirements;
+
+typedef struct {
+    uint32_t count;
+    struct {
+        uint32_t flags, heap;
+    } types[32];
+    uint32_t heaps;
+    struct {
+        uint64_t size;
+        uint64_t flags;
+    } all_heaps[16];
+} MemoryProperties;
+
+static void *(*find_instance_function)(void *, const char *);
+static void *(*find_device_function)(void *, const char *);
+static void *instance;
+static VkPhysicalDevice physical;
+static MemoryProperties memory_properties;
+static Requirements needs;
+
+static void lacks(const char *what)
+{
+    printf("not supported: %s\n", what);
+    exit(LACKS);
+}
+
+/* Ends the program if a call has failed. */
+static void check(int32_t result, const char *call, int line)
+{
+    if (result) {
+        printf("line %d: %s: VkResult %d\n", line, call, result);
+        /* A feature, an extension, a layer or a format that the driver does not have. */
+        exit(result == -8 || result == -7 || result == -6 || result == -11 || result == -9 ? LACKS : FAILED);
+    }
+}
+
+static void *instance_function(const char *name)
+{
+    void *address = find_instance_function(instance, name);
+    if (!address)
+        lacks(name);
+    return address;
+}
+
+static void *device_function(VkDevice device, const char *name)
+{
+    void *address = find_device_function(device, name);
+    if (!address)
+        lacks(name);
+    return address;
+}
+
+/* Makes the instance, and chooses a device. */
+static void choose_device(int index)
+{
+    void *library = dlopen("libvulkan.so.1", RTLD_NOW);
+    struct {
+        uint32_t type;
+        const void *next;
+        const char *name;
+        uint32_t name_version;
+        const char *engine;
+        uint32_t engine_version, version;
+    } application = { 0, NULL, "repro", 0, NULL, 0, version };
+    struct {
+        uint32_t type;
+        const void *next;
+        uint32_t flags;
+        const void *application;
+        uint32_t layers;
+        const void *layer_names;
+        uint32_t extensions;
+        const void *extension_names;
+    } info = { 1, NULL, 0, &application, 0, NULL, 0, NULL };
+    int32_t (*create_instance)(const void *, const void *, void **);
+    int32_t (*enumerate)(void *, uint32_t *, VkPhysicalDevice *);
+    void (*get_properties)(VkPhysicalDevice, void *);
+    void (*get_memory)(VkPhysicalDevice, MemoryProperties *);
+    static union {
+        unsigned char bytes[2048];
+        uint64_t aligned;
+    } properties;
+    static VkPhysicalDevice all[64];
+    uint32_t number = 64, i, api;
+    const char *name = (const char *)properties.bytes + 20;
+    if (!library)
+        lacks(dlerror());
+    *(void **)&find_instance_function = dlsym(library, "vkGetInstanceProcAddr");
+    if (!find_instance_function)
+        lacks("vkGetInstanceProcAddr");
+    *(void **)&create_instance = instance_function("vkCreateInstance");
+    check(create_instance(&info, NULL, &instance), "vkCreateInstance", __LINE__);
+    *(void **)&enumerate = instance_function("vkEnumeratePhysicalDevices");
+    *(void **)&get_properties = instance_function("vkGetPhysicalDeviceProperties");
+    *(void **)&get_memory = instance_function("vkGetPhysicalDeviceMemoryProperties");
+    *(void **)&find_device_function = instance_function("vkGetDeviceProcAddr");
+    check(enumerate(instance, &number, all), "vkEnumeratePhysicalDevices", __LINE__);
+    if (!number || index >= (int)number)
+        lacks("the device");
+    for (i = 0; index < 0 && i < number; i++) {
+        get_properties(all[i], properties.bytes);
+        if (!strcmp(name, wanted))
+            index = (int)i;
+    }
+    physical = all[index < 0 ? 0 : index];
+    get_properties(physical, properties.bytes);
+    memcpy(&api, properties.bytes, sizeof api);
+    printf("%s\n", name);
+    if (api < version)
+        lacks("the version of Vulkan");
+    get_memory(physical, &memory_properties);
+}
+
+static VkDevice create_device(const void *info, int line)
+{
+    int32_t (*create)(VkPhysicalDevice, const void *, const void *, VkDevice *);
+    VkDevice device = NULL;
+    *(void **)&create = instance_function("vkCreateDevice");
+    check(create(physical, info, NULL, &device), "vkCreateDevice", line);
+    return device;
+}
+
+/* Allocates what the last buffer or image needs, of a type that has these properties. */
+static void allocate(VkDevice device, uint32_t flags, VkDeviceMemory *memory, int line)
+{
+    struct {
+        uint32_t type;
+        const void *next;
+        uint64_t size;
+        uint32_t memory_type;
+    } info = { 5, NULL, 0, 0 };
+    int32_t (*allocate_memory)(VkDevice, const void *, const void *, VkDeviceMemory *);
+    uint32_t i, wanted_flags[2];
+    int tries;
+    /* Else of one that the host sees, if it has to. */
+    wanted_flags[0] = flags;
+    wanted_flags[1] = flags & 6;
+    *(void **)&allocate_memory = device_function(device, "vkAllocateMemory");
+    info.size = needs.size;
+    for (tries = 0; tries < 2; tries++)
+        for (i = 0; i < memory_properties.count; i++)
+            if ((needs.types >> i & 1) && (memory_properties.types[i].flags & wanted_flags[tries]) == wanted_flags[tries]) {
+                info.memory_type = i;
+                check(allocate_memory(device, &info, NULL, memory), "vkAllocateMemory", line);
+                return;
+            }
+    lacks("a memory type");
+}
+
+static unsigned char *map(VkDevice device, VkDeviceMemory memory, int line)
+{
+    int32_t (*map_memory)(VkDevice, VkDeviceMemory, uint64_t, uint64_t, uint32_t, void **);
+    void *start = NULL;
+    *(void **)&map_memory = device_function(device, "vkMapMemory");
+    check(map_memory(device, memory, 0, ~(uint64_t)0, 0, &start), "vkMapMemory", line);
+    return start;
+}
+"#;

@@ -1,0 +1,137 @@
+//! The features and extensions that a scene needs.
+//!
+//! The backend enables all that it may ever use. A program that did so would run on no other device.
+
+use etalon_backend::{Argument, Call};
+use etalon_frame::{Feature, PathState, PathViewport, Requirement};
+use etalon_scene::Scene;
+
+/// What the device of a scene's program enables.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Needed {
+    /// Members of `VkPhysicalDeviceFeatures`.
+    features: Vec<&'static str>,
+    extensions: Vec<&'static str>,
+    /// True if all is kept, since the scene's path uses further states.
+    all: bool,
+}
+
+impl Needed {
+    /// Returns the needs of a scene.
+    pub(crate) fn of(scene: &Scene) -> Self {
+        let mut needed = Self {
+            all: scene.path.state != PathState::default()
+                || scene.path.viewport != PathViewport::default(),
+            ..Self::default()
+        };
+        for requirement in scene.requirements() {
+            if let Requirement::Feature(feature) = requirement {
+                needed.features.extend(member(feature));
+                needed.extensions.extend(extension(feature));
+            }
+        }
+        needed
+    }
+
+    /// Leaves out of a call that makes a device what is not needed.
+    pub(super) fn narrow(&self, call: &mut Call) {
+        if self.all || call.function != "vkCreateDevice" {
+            return;
+        }
+        if let Some(Argument::Array(all)) = call.arguments.get_mut(1)
+            && let Some(Argument::Struct { members, .. }) = all.first_mut()
+        {
+            let mut extensions = 0;
+            for member in &mut *members {
+                match (member.name.as_str(), &mut member.value) {
+                    ("pNext", value) => self.unchain(value),
+                    ("ppEnabledExtensionNames", value) => {
+                        if let Argument::Array(names) = value {
+                            names.retain(|name| matches!(name, Argument::Text(name) if self.extensions.contains(&name.as_str())));
+                            extensions = names.len() as u32;
+                        }
+                        if extensions == 0 {
+                            *value = Argument::Null;
+                        }
+                    }
+                    ("pEnabledFeatures", Argument::Array(all)) => {
+                        if let Some(Argument::Struct { members, .. }) = all.first_mut() {
+                            for member in members {
+                                if !self.features.contains(&member.name.as_str()) {
+                                    member.value = Argument::Unsigned(0);
+                                }
+                            }
+                        }
+                    }
+                    _ => {}
+                }
+            }
+            for member in members {
+                if member.name == "enabledExtensionCount" {
+                    member.value = Argument::Unsigned(extensions);
+                }
+            }
+        }
+    }
+
+    /// Takes the structures of extensions that are left out from a chain.
+    fn unchain(&self, chain: &mut Argument) {
+        let Argument::Array(all) = chain else { return };
+        let Some(Argument::Struct { kind, members, .. }) = all.first_mut() else {
+            return;
+        };
+        let owner = match kind.as_str() {
+            "VkPhysicalDeviceExtendedDynamicState3FeaturesEXT" => "VK_EXT_extended_dynamic_state3",
+            "VkPhysicalDeviceExtendedDynamicState2FeaturesEXT" => "VK_EXT_extended_dynamic_state2",
+            "VkPhysicalDeviceProvokingVertexFeaturesEXT" => "VK_EXT_provoking_vertex",
+            "VkPhysicalDeviceBlendOperationAdvancedFeaturesEXT" => {
+                "VK_EXT_blend_operation_advanced"
+            }
+            _ => "",
+        };
+        let mut rest = Argument::Null;
+        for member in members {
+            if member.name == "pNext" {
+                self.unchain(&mut member.value);
+                rest = member.value.clone();
+            }
+        }
+        if !owner.is_empty() && !self.extensions.contains(&owner) {
+            *chain = rest;
+        }
+    }
+}
+
+/// Returns the feature of the device behind one of a scene.
+fn member(feature: Feature) -> Option<&'static str> {
+    Some(match feature {
+        Feature::AlphaToOne => "alphaToOne",
+        Feature::ClipDistances => "shaderClipDistance",
+        Feature::DepthBiasClamp => "depthBiasClamp",
+        Feature::DepthBounds => "depthBounds",
+        Feature::DepthClamp => "depthClamp",
+        Feature::DualSourceBlending => "dualSrcBlend",
+        Feature::FirstInstance => "drawIndirectFirstInstance",
+        Feature::FragmentInvocations => "pipelineStatisticsQuery",
+        Feature::FragmentStorage | Feature::StorageCounters => "fragmentStoresAndAtomics",
+        Feature::IndependentBlend => "independentBlend",
+        Feature::LogicOperations => "logicOp",
+        Feature::MinSampleShading | Feature::SampleShading => "sampleRateShading",
+        Feature::PolygonModeLine => "fillModeNonSolid",
+        Feature::PreciseOcclusion => "occlusionQueryPrecise",
+        Feature::Tessellation | Feature::UpperLeftDomain => "tessellationShader",
+        _ => return None,
+    })
+}
+
+/// Returns the extension behind a feature of a scene.
+fn extension(feature: Feature) -> Option<&'static str> {
+    Some(match feature {
+        Feature::AdvancedBlend | Feature::AdvancedBlendCoherent => {
+            "VK_EXT_blend_operation_advanced"
+        }
+        Feature::LastProvokingVertex | Feature::MixedProvokingVertices => "VK_EXT_provoking_vertex",
+        Feature::StencilExport => "VK_EXT_shader_stencil_export",
+        _ => return None,
+    })
+}

@@ -1,0 +1,202 @@
+//! What is kept of the calls.
+
+use super::needed::Needed;
+use ash::vk;
+use etalon_backend::{
+    Argument, Call, CounterPart, Phase, Plane, RecordedContext, RecordedCounter, RecordedImage,
+    Recording,
+};
+use etalon_frame::Image;
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+thread_local! {
+    static RECORDER: RefCell<Option<Recorder>> = const { RefCell::new(None) };
+}
+
+/// The calls so far.
+struct Recorder {
+    /// The driver's own functions.
+    driver: HashMap<&'static str, usize>,
+    phase: Phase,
+    calls: Vec<Call>,
+    /// The memories that calls wrote to.
+    outputs: u32,
+    memory: vk::PhysicalDeviceMemoryProperties,
+    images: Vec<RecordedImage>,
+    counters: Vec<RecordedCounter>,
+    needed: Needed,
+    /// The first thing that could not be kept.
+    failed: Option<String>,
+}
+
+/// Prepares to record the device that is opened on this thread, or not to.
+pub(crate) fn install(record: bool) {
+    RECORDER.set(record.then(|| Recorder {
+        driver: HashMap::new(),
+        phase: Phase::Prepare,
+        calls: Vec::new(),
+        outputs: 0,
+        memory: vk::PhysicalDeviceMemoryProperties::default(),
+        images: Vec::new(),
+        counters: Vec::new(),
+        needed: Needed::default(),
+        failed: None,
+    }));
+}
+
+/// Returns what a function makes of the recorder of this thread, if there is one.
+fn with<R>(call: impl FnOnce(&mut Recorder) -> R) -> Option<R> {
+    RECORDER.with_borrow_mut(|recorder| recorder.as_mut().map(call))
+}
+
+/// True if the device of this thread was opened to record.
+pub(crate) fn is_installed() -> bool {
+    with(|_| ()).is_some()
+}
+
+/// Keeps the calls from now on as those of a phase.
+pub(crate) fn phase(phase: Phase) {
+    with(|r| r.phase = phase);
+}
+
+/// Tells the memory types of the device.
+pub(crate) fn memory_types(properties: &vk::PhysicalDeviceMemoryProperties) {
+    with(|r| r.memory = *properties);
+}
+
+/// Tells what the scene needs.
+pub(crate) fn needs(needed: Needed) {
+    with(|r| r.needed = needed);
+}
+
+/// Returns the properties of a memory type as bits.
+pub(super) fn flags_of(memory_type: u32) -> u32 {
+    let flags = |r: &mut Recorder| {
+        let types = r.memory.memory_types_as_slice();
+        types
+            .get(memory_type as usize)
+            .map(|t| t.property_flags.as_raw())
+    };
+    with(flags).flatten().unwrap_or_default()
+}
+
+/// Keeps bytes that the host wrote to mapped memory.
+pub(crate) fn written(mapped: *const u8, offset: u64, bytes: &[u8]) {
+    keep("write", || {
+        vec![
+            memory(mapped),
+            Argument::Size(offset.cast_signed()),
+            Argument::Bytes(bytes.to_vec()),
+        ]
+    });
+}
+
+/// Keeps that the host read mapped memory. The bytes are those of a new memory.
+pub(crate) fn read(mapped: *const u8, offset: u64, length: usize) {
+    let output = new_output(length as u64);
+    keep("read", || {
+        vec![output, memory(mapped), Argument::Size(offset.cast_signed())]
+    });
+}
+
+fn memory(mapped: *const u8) -> Argument {
+    Argument::Object("mapped".to_owned(), mapped.addr() as u64)
+}
+
+/// Names an image of which the memory that was read last has the texels.
+pub(crate) fn image(image: &Image, planes: impl Iterator<Item = Plane>) {
+    with(|r| {
+        let output = r.outputs.saturating_sub(1);
+        r.images.push(RecordedImage {
+            attachment: image.attachment.clone(),
+            aspect: image.aspect,
+            channels: image.channels.clone(),
+            size: image.size,
+            planes: planes.map(|plane| Plane { output, ..plane }).collect(),
+        });
+    });
+}
+
+/// Notes the counters before their parts are known.
+pub(crate) fn counters(any: impl Iterator<Item = bool>) {
+    let counter = |any| RecordedCounter {
+        parts: Vec::new(),
+        any,
+    };
+    with(|r| r.counters = any.map(counter).collect());
+}
+
+/// Adds bytes of the memory that was written last to a counter.
+pub(crate) fn counter_part(index: usize, offset: u32, bytes: u32) {
+    with(|r| {
+        let output = r.outputs.saturating_sub(1);
+        if let Some(counter) = r.counters.get_mut(index) {
+            counter.parts.push(CounterPart {
+                output,
+                offset,
+                bytes,
+            });
+        }
+    });
+}
+
+/// Returns what was recorded; `None` if something could not be kept.
+pub(crate) fn recorded(context: RecordedContext) -> Option<Recording> {
+    with(|r| match r.failed {
+        Some(_) => None,
+        None => Some(Recording {
+            context,
+            calls: {
+                let mut calls = r.calls.clone();
+                calls.iter_mut().for_each(|call| r.needed.narrow(call));
+                calls
+            },
+            images: r.images.clone(),
+            counters: r.counters.clone(),
+        }),
+    })
+    .flatten()
+}
+
+/// Notes that something could not be kept.
+pub(super) fn fail(what: &str) {
+    with(|r| r.failed.get_or_insert_with(|| what.to_owned()).clone());
+}
+
+/// Returns the driver's own function behind one of this module's, which the backend found in its place.
+pub(super) fn driver(name: &'static str) -> usize {
+    with(|r| r.driver.get(name).copied())
+        .flatten()
+        .unwrap_or_default()
+}
+
+/// Keeps the address of a driver's function behind one of this module's.
+pub(super) fn stands_before(name: &'static str, address: usize) {
+    with(|r| r.driver.insert(name, address));
+}
+
+/// Keeps a call.
+pub(super) fn keep(function: &str, arguments: impl FnOnce() -> Vec<Argument>) {
+    if !is_installed() {
+        return;
+    }
+    let arguments = arguments();
+    with(|r| {
+        r.calls.push(Call {
+            phase: r.phase,
+            function: function.to_owned(),
+            arguments,
+            result: None,
+        });
+    });
+}
+
+/// Returns a new memory, which the call that is made writes to.
+pub(super) fn new_output(bytes: u64) -> Argument {
+    let number = with(|r| {
+        r.outputs += 1;
+        r.outputs - 1
+    });
+    Argument::Output(number.unwrap_or_default(), bytes)
+}
