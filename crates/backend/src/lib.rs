@@ -24,7 +24,7 @@ pub use halves::halves;
 pub use read_fault::ReadFault;
 pub use recording::{
     Argument, Call, Constant, CounterPart, Form, Member, Phase, Plane, RecordedContext,
-    RecordedCounter, RecordedImage, Recording,
+    RecordedCounter, RecordedImage, Recording, VulkanNeeds,
 };
 
 use etalon_frame::{Frame, Limits, Requirement};

@@ -36,7 +36,24 @@ pub enum RecordedContext {
         device: String,
         /// The version of Vulkan that the instance asks for.
         version: u32,
+        /// What the device must have besides features and extensions.
+        needs: VulkanNeeds,
     },
+}
+
+/// What a scene needs of a device of Vulkan that no feature or extension stands for.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct VulkanNeeds {
+    /// The formats that are blended into, as `VkFormat`.
+    pub blended: Vec<u32>,
+    /// The modes in which depth is resolved, as `VkResolveModeFlags`.
+    pub depth_resolve: u32,
+    /// The modes in which stencil is resolved.
+    pub stencil_resolve: u32,
+    /// True if depth and stencil are resolved in different modes.
+    pub independent_resolve: bool,
+    /// True if one of them is not resolved.
+    pub independent_resolve_none: bool,
 }
 
 /// The part of a scene's work that a call belongs to.
@@ -168,6 +185,8 @@ pub enum Form {
     Byte,
     /// It is the code's value as the bits of an `f32`.
     Float,
+    /// It is the code's share of the greatest code as the bits of an `f32`: sRGB that is read without conversion.
+    Fraction,
 }
 
 /// A counter of a scene, as it came back.

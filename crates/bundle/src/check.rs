@@ -215,7 +215,7 @@ fn place(
     let at = (u64::from(texel.y) * u64::from(image.size[0]) + u64::from(texel.x))
         * u64::from(plane.texel);
     let (order, width) = match (plane.form, channel.encoding) {
-        (Form::Float, _) => ("VALUE", 32),
+        (Form::Float | Form::Fraction, _) => ("VALUE", 32),
         (Form::Byte, encoding) => match width(encoding) {
             8 => ("UNSIGNED", 8),
             width => ("WIDENED", width),
@@ -248,7 +248,11 @@ fn width(encoding: ChannelEncoding) -> u32 {
 /// Returns the bounds of a range of orders, as the numbers that the program compares. Of a value that came back as a
 /// float the bounds lie half way to the next code.
 fn bounds([least, most]: [i64; 2], encoding: ChannelEncoding, form: Form) -> [f64; 2] {
-    if form != Form::Float {
+    let encoding = match (form, encoding) {
+        (Form::Fraction, ChannelEncoding::Srgb8) => ChannelEncoding::Unorm(8),
+        _ => encoding,
+    };
+    if !matches!(form, Form::Float | Form::Fraction) {
         return [least as f64, most as f64];
     }
     let value = |order: i64| encoding.value_of_order(order);

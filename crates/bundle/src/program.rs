@@ -32,8 +32,17 @@ pub fn program(
             };
             gl::program(head, &context, recording, due, trim)
         }
-        RecordedContext::Vulkan { device, version } => {
-            vulkan::program(head, device, *version, recording, due)
+        RecordedContext::Vulkan {
+            device,
+            version,
+            needs,
+        } => {
+            let context = vulkan::Context {
+                device,
+                version: *version,
+                needs,
+            };
+            vulkan::program(head, &context, recording, due)
         }
     }
 }

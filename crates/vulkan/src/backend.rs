@@ -8,8 +8,8 @@ use crate::planted;
 use crate::prepared::PreparedScene;
 use crate::recording;
 use etalon_backend::{
-    AdapterInfo, Backend, BackendError, CallFault, Phase, Prepared, ReadFault, RecordedContext,
-    Recording, Unavailable,
+    AdapterInfo, Backend, BackendError, CallFault, Phase, Prepared, ReadFault, Recording,
+    Unavailable,
 };
 use etalon_frame::Limits;
 use etalon_scene::Scene;
@@ -104,10 +104,7 @@ impl Backend for VulkanBackend {
 
     fn recording(&self) -> Option<Recording> {
         recording::phase(Phase::Prepare);
-        recording::recorded(RecordedContext::Vulkan {
-            device: self.info.device.clone(),
-            version: INSTANCE_VERSION,
-        })
+        recording::recorded(&self.info.device, INSTANCE_VERSION)
     }
 
     fn messages(&self) -> Vec<String> {

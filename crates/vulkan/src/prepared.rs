@@ -79,7 +79,8 @@ impl<'a> PreparedScene<'a> {
         };
         prepared.kind = scene.path.commands;
         if recording::is_installed() {
-            recording::needs(Needed::of(scene));
+            let native = |format| gpu.natives.get(&format).map(|native| native.raw);
+            recording::needs(Needed::of(scene, native));
         }
         prepared.fill(&scene.on_path())?;
         Ok(prepared)

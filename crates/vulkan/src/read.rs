@@ -177,6 +177,7 @@ impl ReadPlan {
         let words = samples::words(self.aspect) as u32;
         let form = match self.sample_type {
             SampleType::Integers | SampleType::Stencil => Form::Code,
+            _ if self.channels.contains(&ChannelEncoding::Srgb8) => Form::Fraction,
             SampleType::Color | SampleType::Depth => Form::Float,
         };
         let plane = |sample: u32| Plane {

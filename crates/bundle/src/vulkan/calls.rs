@@ -184,6 +184,12 @@ impl Printer {
                     word(flags)
                 ));
             }
+            ("vkCreateImage", [device, info, _, made]) => {
+                let device = self.value(call, device)?;
+                let info = self.value(call, info)?;
+                let made = self.value(call, made)?;
+                return Ok(format!("create_image({device}, {info}, {made}, __LINE__);"));
+            }
             ("vkMapMemory", [device, memory, _, _, _, Argument::Created(_, mapped)]) => {
                 let device = self.value(call, device)?;
                 let memory = self.value(call, memory)?;

@@ -8,16 +8,30 @@ use crate::due::Due;
 use crate::error::BundleError;
 use crate::head::Head;
 use calls::Printer;
-use etalon_backend::Recording;
+use etalon_backend::{Recording, VulkanNeeds};
+
+/// The device of a program.
+pub(crate) struct Context<'a> {
+    /// The device's name.
+    pub(crate) device: &'a str,
+    /// The version of Vulkan.
+    pub(crate) version: u32,
+    /// What the device must have.
+    pub(crate) needs: &'a VulkanNeeds,
+}
 
 /// Returns the program.
 pub(crate) fn program(
     head: &Head,
-    device: &str,
-    version: u32,
+    context: &Context<'_>,
     recording: &Recording,
     due: &Due,
 ) -> Result<String, BundleError> {
+    let Context {
+        device,
+        version,
+        needs,
+    } = *context;
     let mut printer = Printer::default();
     let body = printer.body(&recording.calls)?;
     let check = check::check(recording, due)?;
@@ -43,8 +57,16 @@ pub(crate) fn program(
     text.push_str(&printer.types());
     text.push_str(&printer.functions());
     text.push_str(&format!(
-        "\nstatic const char *const wanted = {};\nstatic const uint32_t version = 0x{version:x};\n",
-        string(device)
+        "\nstatic const char *const wanted = {};\nstatic const uint32_t version = 0x{version:x};\n\
+         /* Formats that are blended into; modes in which depth and stencil are resolved. */\n\
+         static const uint32_t blended[] = {{ {} }};\n\
+         static const uint32_t depth_resolve = {}, stencil_resolve = {}, independent = {}, independent_none = {};\n",
+        string(device),
+        needs.blended.iter().map(|format| format!("{format}, ")).collect::<String>() + "0",
+        needs.depth_resolve,
+        needs.stencil_resolve,
+        u32::from(needs.independent_resolve),
+        u32::from(needs.independent_resolve_none),
     ));
     text.push_str(HELPERS);
     text.push_str(
@@ -138,6 +160,44 @@ static void *device_function(VkDevice device, const char *name)
     return address;
 }
 
+/* Ends the program if the device lacks what no feature stands for. */
+static void check_device(void)
+{
+    struct {
+        uint32_t linear, optimal, buffer;
+    } format;
+    struct {
+        uint32_t type;
+        void *next;
+        uint32_t depth, stencil, independent_none, independent;
+    } resolves = { 1000199000, NULL, 0, 0, 0, 0 };
+    static struct {
+        uint32_t type;
+        void *next;
+        union {
+            unsigned char bytes[2048];
+            uint64_t aligned;
+        } properties;
+    } both;
+    void (*get_format)(VkPhysicalDevice, uint32_t, void *);
+    void (*get_properties)(VkPhysicalDevice, void *);
+    uint32_t i;
+    *(void **)&get_format = instance_function("vkGetPhysicalDeviceFormatProperties");
+    *(void **)&get_properties = instance_function("vkGetPhysicalDeviceProperties2");
+    for (i = 0; blended[i]; i++) {
+        get_format(physical, blended[i], &format);
+        /* VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT */
+        if (!(format.optimal & 0x100))
+            lacks("blending into the format");
+    }
+    both.type = 1000059001;
+    both.next = &resolves;
+    get_properties(physical, &both);
+    if ((resolves.depth & depth_resolve) != depth_resolve || (resolves.stencil & stencil_resolve) != stencil_resolve
+        || resolves.independent < independent || resolves.independent_none < independent_none)
+        lacks("the mode in which depth or stencil is resolved");
+}
+
 /* Makes the instance, and chooses a device. */
 static void choose_device(int index)
 {
@@ -197,6 +257,7 @@ static void choose_device(int index)
     if (api < version)
         lacks("the version of Vulkan");
     get_memory(physical, &memory_properties);
+    check_device();
 }
 
 static VkDevice create_device(const void *info, int line)
@@ -206,6 +267,26 @@ static VkDevice create_device(const void *info, int line)
     *(void **)&create = instance_function("vkCreateDevice");
     check(create(physical, info, NULL, &device), "vkCreateDevice", line);
     return device;
+}
+
+/* Creates an image, if the driver has its format for its usage. */
+static void create_image(VkDevice device, const VkImageCreateInfo *info, VkImage *image, int line)
+{
+    int32_t (*get_format)(VkPhysicalDevice, uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, void *);
+    int32_t (*create)(VkDevice, const void *, const void *, VkImage *);
+    struct {
+        uint32_t width, height, depth, levels, layers, samples;
+        uint64_t size;
+    } format = { 0, 0, 0, 0, 0, 0, 0 };
+    *(void **)&get_format = instance_function("vkGetPhysicalDeviceImageFormatProperties");
+    *(void **)&create = device_function(device, "vkCreateImage");
+    check(
+        get_format(physical, info->format, info->imageType, info->tiling, info->usage, info->flags, &format),
+        "vkGetPhysicalDeviceImageFormatProperties", line);
+    if (format.width < info->extent.width || format.height < info->extent.height || format.layers < info->arrayLayers
+        || format.levels < info->mipLevels || !(format.samples & info->samples))
+        lacks("such an image");
+    check(create(device, info, NULL, image), "vkCreateImage", line);
 }
 
 /* Allocates what the last buffer or image needs, of a type that has these properties. */

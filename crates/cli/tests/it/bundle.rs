@@ -284,6 +284,69 @@ fn the_case_file_of_a_bundle_fails_as_the_case_did() {
     assert!(error.contains("--force"), "{error}");
 }
 
+/// Cases that lavapipe fails. One for each finding.
+const FAILING_ON_LAVAPIPE: [&str; 8] = [
+    "paths/resolve/pass=dynamic-rendering/start=transfer/target=array-layer",
+    "capabilities/depth-resolve/format=depth16unorm/mode=average/samples=4",
+    "found/reduced/bug=indexed-indirect",
+    "found/reduced/bug=alpha-to-coverage-of-integers",
+    "found/reduced/bug=alpha-to-one-of-integers",
+    "found/reduced/bug=outline-stencil-face",
+    "paths/resolve-depth/pass=render-pass/start=transfer/target=array-layer",
+    "multisample/alpha-between-draws/multisample=to-one/samples=4",
+];
+
+#[test]
+fn a_program_of_vulkan_keeps_to_the_rules_and_accuses_one_driver() {
+    let count = sample::count("cases that lavapipe fails", 3, FAILING_ON_LAVAPIPE.len());
+    for case in &FAILING_ON_LAVAPIPE[..count] {
+        let (out, empty) = (TempDir::new().unwrap(), TempDir::new().unwrap());
+        let (code, summary, error) = bundle(case, "vulkan:lavapipe", out.path(), &[]);
+        assert_eq!(code, 0, "{case}: {error}");
+        assert_eq!(summary["clean"], true, "{summary}");
+        let folder = Path::new(summary["folder"].as_str().unwrap());
+        let program = built(folder, empty.path());
+        let report = fs::read_to_string(folder.join("report.md")).unwrap();
+        let accused = run_as_told(&report, empty.path());
+        assert_eq!(
+            accused.status.code(),
+            Some(1),
+            "{case}: {}",
+            last_line(&accused)
+        );
+
+        // The layer writes what it objects to where the program writes.
+        let mut lines = report.lines();
+        let line = lines.find(|line| line.ends_with("./repro")).unwrap();
+        let checked = Command::new("sh")
+            .args(["-c", line])
+            .env("VK_INSTANCE_LAYERS", "VK_LAYER_KHRONOS_validation")
+            .current_dir(empty.path())
+            .output()
+            .unwrap();
+        let text = String::from_utf8_lossy(&checked.stdout);
+        assert_eq!(text.lines().count(), 2, "{case}: {text}");
+
+        let other = "/usr/lib/chromium/vk_swiftshader_icd.json";
+        let sound = Command::new(&program)
+            .env("VK_DRIVER_FILES", other)
+            .env("VK_ICD_FILENAMES", other)
+            .output()
+            .unwrap();
+        let line = last_line(&sound);
+        match sound.status.code() {
+            Some(0) => assert_eq!(line, "right"),
+            Some(77) => assert!(
+                line.contains("VkResult") || line.starts_with("not supported"),
+                "{line}"
+            ),
+            // SwiftShader has these bugs too: `ci/findings/swiftshader-*.json`.
+            Some(1) if case.contains("coverage-of-integers") || case.contains("outline") => {}
+            other => panic!("{case}: {other:?}: {line}"),
+        }
+    }
+}
+
 /// Cases that `shader_runner`'s format can say, a driver that fails them, and one that does not.
 const SAID: [(&str, &str, &str, Option<&str>); 3] = [
     (
@@ -345,6 +408,20 @@ fn piglit_runs_what_its_format_can_say() {
     assert_eq!(code, 0, "{error}");
     let folder = Path::new(summary["folder"].as_str().unwrap());
     assert!(!folder.join("repro.shader_test").exists());
+}
+
+#[test]
+fn a_fault_of_the_suite_becomes_no_bundle() {
+    let case = "multisample/formats/format=rgba8unorm-srgb/samples=4";
+    for adapter in ["gl:llvmpipe", "vulkan:lavapipe"] {
+        let out = TempDir::new().unwrap();
+        let adapter = format!("{adapter}:read-fault=off-by-one");
+        let (code, _, error) = bundle(case, &adapter, out.path(), &[]);
+        assert_eq!(code, 1, "{adapter}: {error}");
+        let words = "does not show the bug: exit status: 0, right";
+        assert!(error.contains(words), "{adapter}: {error}");
+        assert_eq!(fs::read_dir(out.path()).unwrap().count(), 0);
+    }
 }
 
 /// Text that would leave a C string, a comment, a shell's word or Markdown.

@@ -41,8 +41,8 @@ pub(super) enum Kind {
     F32s(usize),
     /// Words in place.
     U32s(usize),
-    /// The address of the chain's next structure.
-    Next,
+    /// The address of the chain's next structure, one of these.
+    Next(&'static &'static [&'static Layout]),
     /// The address of a text that ends with a zero byte.
     Text,
     /// The address of such addresses.
@@ -183,7 +183,7 @@ impl Kind {
                         .map(|i| Argument::Unsigned(get(at.add(4 * i))))
                         .collect(),
                 ),
-                Self::Next => next(get(at)),
+                Self::Next(tagged) => next(tagged, get(at)),
                 Self::Text => text(get(at)),
                 Self::Texts(count) => {
                     let all: Vec<*const c_char> = behind(at, count.of(structure));
@@ -227,14 +227,13 @@ impl Kind {
 ///
 /// # Safety
 /// A structure of the API is at the address, or it is null.
-unsafe fn next(address: *const c_void) -> Argument {
+unsafe fn next(tagged: &[&Layout], address: *const c_void) -> Argument {
     if address.is_null() {
         return Argument::Null;
     }
     // SAFETY: each structure of a chain begins with its type.
     let kind: vk::StructureType = unsafe { get(address.cast()) };
-    let mut all = super::layouts::TAGGED.iter();
-    match all.find(|layout| layout.structure == Some(kind)) {
+    match tagged.iter().find(|layout| layout.structure == Some(kind)) {
         // SAFETY: the type says so.
         Some(layout) => unsafe { layout.array(address, 1) },
         None => {

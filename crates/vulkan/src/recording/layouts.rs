@@ -137,7 +137,7 @@ pub(super) static TAGGED: &[&Layout] = &[
 
 layout! { tagged DEVICE_QUEUE_CREATE_INFO: "VkDeviceQueueCreateInfo" vk::DeviceQueueCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(DeviceQueueCreateFlags),
     queue_family_index: U32,
     queue_count: U32,
@@ -146,7 +146,7 @@ layout! { tagged DEVICE_QUEUE_CREATE_INFO: "VkDeviceQueueCreateInfo" vk::DeviceQ
 
 layout! { tagged DEVICE_CREATE_INFO: "VkDeviceCreateInfo" vk::DeviceCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(DeviceCreateFlags),
     queue_create_info_count: U32,
     p_queue_create_infos: Structs(&DEVICE_QUEUE_CREATE_INFO, count!(vk::DeviceCreateInfo<'static>, queue_create_info_count)),
@@ -217,7 +217,7 @@ layout! { plain PHYSICAL_DEVICE_FEATURES: "VkPhysicalDeviceFeatures" vk::Physica
 
 layout! { tagged PHYSICAL_DEVICE_VULKAN13_FEATURES: "VkPhysicalDeviceVulkan13Features" vk::PhysicalDeviceVulkan13Features<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     robust_image_access: U32,
     inline_uniform_block: U32,
     descriptor_binding_inline_uniform_block_update_after_bind: U32,
@@ -237,14 +237,14 @@ layout! { tagged PHYSICAL_DEVICE_VULKAN13_FEATURES: "VkPhysicalDeviceVulkan13Fea
 
 layout! { tagged PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT: "VkPhysicalDeviceProvokingVertexFeaturesEXT" vk::PhysicalDeviceProvokingVertexFeaturesEXT<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     provoking_vertex_last: U32,
     transform_feedback_preserves_provoking_vertex: U32,
 } }
 
 layout! { tagged PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE3_FEATURES_EXT: "VkPhysicalDeviceExtendedDynamicState3FeaturesEXT" vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     extended_dynamic_state3_tessellation_domain_origin: U32,
     extended_dynamic_state3_depth_clamp_enable: U32,
     extended_dynamic_state3_polygon_mode: U32,
@@ -280,7 +280,7 @@ layout! { tagged PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE3_FEATURES_EXT: "VkPhysic
 
 layout! { tagged PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE2_FEATURES_EXT: "VkPhysicalDeviceExtendedDynamicState2FeaturesEXT" vk::PhysicalDeviceExtendedDynamicState2FeaturesEXT<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     extended_dynamic_state2: U32,
     extended_dynamic_state2_logic_op: U32,
     extended_dynamic_state2_patch_control_points: U32,
@@ -288,13 +288,13 @@ layout! { tagged PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE2_FEATURES_EXT: "VkPhysic
 
 layout! { tagged PHYSICAL_DEVICE_BLEND_OPERATION_ADVANCED_FEATURES_EXT: "VkPhysicalDeviceBlendOperationAdvancedFeaturesEXT" vk::PhysicalDeviceBlendOperationAdvancedFeaturesEXT<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     advanced_blend_coherent_operations: U32,
 } }
 
 layout! { tagged BUFFER_CREATE_INFO: "VkBufferCreateInfo" vk::BufferCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(BufferCreateFlags),
     size: U64,
     usage: flags!(BufferUsageFlags),
@@ -305,14 +305,14 @@ layout! { tagged BUFFER_CREATE_INFO: "VkBufferCreateInfo" vk::BufferCreateInfo<'
 
 layout! { tagged MEMORY_ALLOCATE_INFO: "VkMemoryAllocateInfo" vk::MemoryAllocateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     allocation_size: U64,
     memory_type_index: U32,
 } }
 
 layout! { tagged IMAGE_CREATE_INFO: "VkImageCreateInfo" vk::ImageCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(ImageCreateFlags),
     image_type: named!(ImageType),
     format: named!(Format),
@@ -330,7 +330,7 @@ layout! { tagged IMAGE_CREATE_INFO: "VkImageCreateInfo" vk::ImageCreateInfo<'sta
 
 layout! { tagged IMAGE_FORMAT_LIST_CREATE_INFO: "VkImageFormatListCreateInfo" vk::ImageFormatListCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     view_format_count: U32,
     p_view_formats: NamedWords(name_of!(Format), count!(vk::ImageFormatListCreateInfo<'static>, view_format_count)),
 } }
@@ -352,7 +352,7 @@ layout! { plain IMAGE_SUBRESOURCE_RANGE: "VkImageSubresourceRange" vk::ImageSubr
 
 layout! { tagged IMAGE_VIEW_CREATE_INFO: "VkImageViewCreateInfo" vk::ImageViewCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(ImageViewCreateFlags),
     image: Handle("VkImage"),
     view_type: named!(ImageViewType),
@@ -363,7 +363,7 @@ layout! { tagged IMAGE_VIEW_CREATE_INFO: "VkImageViewCreateInfo" vk::ImageViewCr
 
 layout! { tagged SHADER_MODULE_CREATE_INFO: "VkShaderModuleCreateInfo" vk::ShaderModuleCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(ShaderModuleCreateFlags),
     code_size: U64,
     p_code: Code(offset_of!(vk::ShaderModuleCreateInfo<'static>, code_size)),
@@ -379,7 +379,7 @@ layout! { plain DESCRIPTOR_SET_LAYOUT_BINDING: "VkDescriptorSetLayoutBinding" vk
 
 layout! { tagged DESCRIPTOR_SET_LAYOUT_CREATE_INFO: "VkDescriptorSetLayoutCreateInfo" vk::DescriptorSetLayoutCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(DescriptorSetLayoutCreateFlags),
     binding_count: U32,
     p_bindings: Structs(&DESCRIPTOR_SET_LAYOUT_BINDING, count!(vk::DescriptorSetLayoutCreateInfo<'static>, binding_count)),
@@ -393,7 +393,7 @@ layout! { plain PUSH_CONSTANT_RANGE: "VkPushConstantRange" vk::PushConstantRange
 
 layout! { tagged PIPELINE_LAYOUT_CREATE_INFO: "VkPipelineLayoutCreateInfo" vk::PipelineLayoutCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineLayoutCreateFlags),
     set_layout_count: U32,
     p_set_layouts: Handles("VkDescriptorSetLayout", count!(vk::PipelineLayoutCreateInfo<'static>, set_layout_count)),
@@ -408,7 +408,7 @@ layout! { plain DESCRIPTOR_POOL_SIZE: "VkDescriptorPoolSize" vk::DescriptorPoolS
 
 layout! { tagged DESCRIPTOR_POOL_CREATE_INFO: "VkDescriptorPoolCreateInfo" vk::DescriptorPoolCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(DescriptorPoolCreateFlags),
     max_sets: U32,
     pool_size_count: U32,
@@ -417,7 +417,7 @@ layout! { tagged DESCRIPTOR_POOL_CREATE_INFO: "VkDescriptorPoolCreateInfo" vk::D
 
 layout! { tagged DESCRIPTOR_SET_ALLOCATE_INFO: "VkDescriptorSetAllocateInfo" vk::DescriptorSetAllocateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     descriptor_pool: Handle("VkDescriptorPool"),
     descriptor_set_count: U32,
     p_set_layouts: Handles("VkDescriptorSetLayout", count!(vk::DescriptorSetAllocateInfo<'static>, descriptor_set_count)),
@@ -437,7 +437,7 @@ layout! { plain DESCRIPTOR_BUFFER_INFO: "VkDescriptorBufferInfo" vk::DescriptorB
 
 layout! { tagged WRITE_DESCRIPTOR_SET: "VkWriteDescriptorSet" vk::WriteDescriptorSet<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     dst_set: Handle("VkDescriptorSet"),
     dst_binding: U32,
     dst_array_element: U32,
@@ -450,7 +450,7 @@ layout! { tagged WRITE_DESCRIPTOR_SET: "VkWriteDescriptorSet" vk::WriteDescripto
 
 layout! { tagged SAMPLER_CREATE_INFO: "VkSamplerCreateInfo" vk::SamplerCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(SamplerCreateFlags),
     mag_filter: named!(Filter),
     min_filter: named!(Filter),
@@ -471,14 +471,14 @@ layout! { tagged SAMPLER_CREATE_INFO: "VkSamplerCreateInfo" vk::SamplerCreateInf
 
 layout! { tagged COMMAND_POOL_CREATE_INFO: "VkCommandPoolCreateInfo" vk::CommandPoolCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(CommandPoolCreateFlags),
     queue_family_index: U32,
 } }
 
 layout! { tagged COMMAND_BUFFER_ALLOCATE_INFO: "VkCommandBufferAllocateInfo" vk::CommandBufferAllocateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     command_pool: Handle("VkCommandPool"),
     level: named!(CommandBufferLevel),
     command_buffer_count: U32,
@@ -486,7 +486,7 @@ layout! { tagged COMMAND_BUFFER_ALLOCATE_INFO: "VkCommandBufferAllocateInfo" vk:
 
 layout! { tagged COMMAND_BUFFER_INHERITANCE_RENDERING_INFO: "VkCommandBufferInheritanceRenderingInfo" vk::CommandBufferInheritanceRenderingInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(RenderingFlags),
     view_mask: U32,
     color_attachment_count: U32,
@@ -498,7 +498,7 @@ layout! { tagged COMMAND_BUFFER_INHERITANCE_RENDERING_INFO: "VkCommandBufferInhe
 
 layout! { tagged COMMAND_BUFFER_INHERITANCE_INFO: "VkCommandBufferInheritanceInfo" vk::CommandBufferInheritanceInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     render_pass: Handle("VkRenderPass"),
     subpass: U32,
     framebuffer: Handle("VkFramebuffer"),
@@ -509,20 +509,20 @@ layout! { tagged COMMAND_BUFFER_INHERITANCE_INFO: "VkCommandBufferInheritanceInf
 
 layout! { tagged COMMAND_BUFFER_BEGIN_INFO: "VkCommandBufferBeginInfo" vk::CommandBufferBeginInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(CommandBufferUsageFlags),
     p_inheritance_info: Structs(&COMMAND_BUFFER_INHERITANCE_INFO, Count::One),
 } }
 
 layout! { tagged FENCE_CREATE_INFO: "VkFenceCreateInfo" vk::FenceCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(FenceCreateFlags),
 } }
 
 layout! { tagged QUERY_POOL_CREATE_INFO: "VkQueryPoolCreateInfo" vk::QueryPoolCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(QueryPoolCreateFlags),
     query_type: named!(QueryType),
     query_count: U32,
@@ -531,7 +531,7 @@ layout! { tagged QUERY_POOL_CREATE_INFO: "VkQueryPoolCreateInfo" vk::QueryPoolCr
 
 layout! { tagged PIPELINE_CACHE_CREATE_INFO: "VkPipelineCacheCreateInfo" vk::PipelineCacheCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineCacheCreateFlags),
     initial_data_size: U64,
     p_initial_data: Unused,
@@ -539,7 +539,7 @@ layout! { tagged PIPELINE_CACHE_CREATE_INFO: "VkPipelineCacheCreateInfo" vk::Pip
 
 layout! { tagged PIPELINE_SHADER_STAGE_CREATE_INFO: "VkPipelineShaderStageCreateInfo" vk::PipelineShaderStageCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineShaderStageCreateFlags),
     stage: flags!(ShaderStageFlags),
     module: Handle("VkShaderModule"),
@@ -562,7 +562,7 @@ layout! { plain VERTEX_INPUT_ATTRIBUTE_DESCRIPTION: "VkVertexInputAttributeDescr
 
 layout! { tagged PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO: "VkPipelineVertexInputStateCreateInfo" vk::PipelineVertexInputStateCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineVertexInputStateCreateFlags),
     vertex_binding_description_count: U32,
     p_vertex_binding_descriptions: Structs(&VERTEX_INPUT_BINDING_DESCRIPTION, count!(vk::PipelineVertexInputStateCreateInfo<'static>, vertex_binding_description_count)),
@@ -572,7 +572,7 @@ layout! { tagged PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO: "VkPipelineVertexInput
 
 layout! { tagged PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO: "VkPipelineInputAssemblyStateCreateInfo" vk::PipelineInputAssemblyStateCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineInputAssemblyStateCreateFlags),
     topology: named!(PrimitiveTopology),
     primitive_restart_enable: U32,
@@ -580,13 +580,13 @@ layout! { tagged PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO: "VkPipelineInputAsse
 
 layout! { tagged PIPELINE_TESSELLATION_DOMAIN_ORIGIN_STATE_CREATE_INFO: "VkPipelineTessellationDomainOriginStateCreateInfo" vk::PipelineTessellationDomainOriginStateCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     domain_origin: named!(TessellationDomainOrigin),
 } }
 
 layout! { tagged PIPELINE_TESSELLATION_STATE_CREATE_INFO: "VkPipelineTessellationStateCreateInfo" vk::PipelineTessellationStateCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineTessellationStateCreateFlags),
     patch_control_points: U32,
 } }
@@ -629,7 +629,7 @@ layout! { plain VIEWPORT: "VkViewport" vk::Viewport {
 
 layout! { tagged PIPELINE_VIEWPORT_STATE_CREATE_INFO: "VkPipelineViewportStateCreateInfo" vk::PipelineViewportStateCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineViewportStateCreateFlags),
     viewport_count: U32,
     p_viewports: Structs(&VIEWPORT, count!(vk::PipelineViewportStateCreateInfo<'static>, viewport_count)),
@@ -639,13 +639,13 @@ layout! { tagged PIPELINE_VIEWPORT_STATE_CREATE_INFO: "VkPipelineViewportStateCr
 
 layout! { tagged PIPELINE_RASTERIZATION_PROVOKING_VERTEX_STATE_CREATE_INFO_EXT: "VkPipelineRasterizationProvokingVertexStateCreateInfoEXT" vk::PipelineRasterizationProvokingVertexStateCreateInfoEXT<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     provoking_vertex_mode: named!(ProvokingVertexModeEXT),
 } }
 
 layout! { tagged PIPELINE_RASTERIZATION_STATE_CREATE_INFO: "VkPipelineRasterizationStateCreateInfo" vk::PipelineRasterizationStateCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineRasterizationStateCreateFlags),
     depth_clamp_enable: U32,
     rasterizer_discard_enable: U32,
@@ -661,7 +661,7 @@ layout! { tagged PIPELINE_RASTERIZATION_STATE_CREATE_INFO: "VkPipelineRasterizat
 
 layout! { tagged PIPELINE_MULTISAMPLE_STATE_CREATE_INFO: "VkPipelineMultisampleStateCreateInfo" vk::PipelineMultisampleStateCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineMultisampleStateCreateFlags),
     rasterization_samples: flags!(SampleCountFlags),
     sample_shading_enable: U32,
@@ -683,7 +683,7 @@ layout! { plain STENCIL_OP_STATE: "VkStencilOpState" vk::StencilOpState {
 
 layout! { tagged PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO: "VkPipelineDepthStencilStateCreateInfo" vk::PipelineDepthStencilStateCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineDepthStencilStateCreateFlags),
     depth_test_enable: U32,
     depth_write_enable: U32,
@@ -709,7 +709,7 @@ layout! { plain PIPELINE_COLOR_BLEND_ATTACHMENT_STATE: "VkPipelineColorBlendAtta
 
 layout! { tagged PIPELINE_COLOR_BLEND_ADVANCED_STATE_CREATE_INFO_EXT: "VkPipelineColorBlendAdvancedStateCreateInfoEXT" vk::PipelineColorBlendAdvancedStateCreateInfoEXT<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     src_premultiplied: U32,
     dst_premultiplied: U32,
     blend_overlap: named!(BlendOverlapEXT),
@@ -717,7 +717,7 @@ layout! { tagged PIPELINE_COLOR_BLEND_ADVANCED_STATE_CREATE_INFO_EXT: "VkPipelin
 
 layout! { tagged PIPELINE_COLOR_BLEND_STATE_CREATE_INFO: "VkPipelineColorBlendStateCreateInfo" vk::PipelineColorBlendStateCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineColorBlendStateCreateFlags),
     logic_op_enable: U32,
     logic_op: named!(LogicOp),
@@ -728,7 +728,7 @@ layout! { tagged PIPELINE_COLOR_BLEND_STATE_CREATE_INFO: "VkPipelineColorBlendSt
 
 layout! { tagged PIPELINE_DYNAMIC_STATE_CREATE_INFO: "VkPipelineDynamicStateCreateInfo" vk::PipelineDynamicStateCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineDynamicStateCreateFlags),
     dynamic_state_count: U32,
     p_dynamic_states: NamedWords(name_of!(DynamicState), count!(vk::PipelineDynamicStateCreateInfo<'static>, dynamic_state_count)),
@@ -736,7 +736,7 @@ layout! { tagged PIPELINE_DYNAMIC_STATE_CREATE_INFO: "VkPipelineDynamicStateCrea
 
 layout! { tagged PIPELINE_RENDERING_CREATE_INFO: "VkPipelineRenderingCreateInfo" vk::PipelineRenderingCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     view_mask: U32,
     color_attachment_count: U32,
     p_color_attachment_formats: NamedWords(name_of!(Format), count!(vk::PipelineRenderingCreateInfo<'static>, color_attachment_count)),
@@ -746,7 +746,7 @@ layout! { tagged PIPELINE_RENDERING_CREATE_INFO: "VkPipelineRenderingCreateInfo"
 
 layout! { tagged GRAPHICS_PIPELINE_CREATE_INFO: "VkGraphicsPipelineCreateInfo" vk::GraphicsPipelineCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineCreateFlags),
     stage_count: U32,
     p_stages: Structs(&PIPELINE_SHADER_STAGE_CREATE_INFO, count!(vk::GraphicsPipelineCreateInfo<'static>, stage_count)),
@@ -768,7 +768,7 @@ layout! { tagged GRAPHICS_PIPELINE_CREATE_INFO: "VkGraphicsPipelineCreateInfo" v
 
 layout! { tagged COMPUTE_PIPELINE_CREATE_INFO: "VkComputePipelineCreateInfo" vk::ComputePipelineCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(PipelineCreateFlags),
     stage: Struct(&PIPELINE_SHADER_STAGE_CREATE_INFO),
     layout: Handle("VkPipelineLayout"),
@@ -778,14 +778,14 @@ layout! { tagged COMPUTE_PIPELINE_CREATE_INFO: "VkComputePipelineCreateInfo" vk:
 
 layout! { tagged ATTACHMENT_DESCRIPTION_STENCIL_LAYOUT: "VkAttachmentDescriptionStencilLayout" vk::AttachmentDescriptionStencilLayout<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     stencil_initial_layout: named!(ImageLayout),
     stencil_final_layout: named!(ImageLayout),
 } }
 
 layout! { tagged ATTACHMENT_DESCRIPTION2: "VkAttachmentDescription2" vk::AttachmentDescription2<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(AttachmentDescriptionFlags),
     format: named!(Format),
     samples: flags!(SampleCountFlags),
@@ -799,13 +799,13 @@ layout! { tagged ATTACHMENT_DESCRIPTION2: "VkAttachmentDescription2" vk::Attachm
 
 layout! { tagged ATTACHMENT_REFERENCE_STENCIL_LAYOUT: "VkAttachmentReferenceStencilLayout" vk::AttachmentReferenceStencilLayout<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     stencil_layout: named!(ImageLayout),
 } }
 
 layout! { tagged ATTACHMENT_REFERENCE2: "VkAttachmentReference2" vk::AttachmentReference2<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     attachment: U32,
     layout: named!(ImageLayout),
     aspect_mask: flags!(ImageAspectFlags),
@@ -813,7 +813,7 @@ layout! { tagged ATTACHMENT_REFERENCE2: "VkAttachmentReference2" vk::AttachmentR
 
 layout! { tagged SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE: "VkSubpassDescriptionDepthStencilResolve" vk::SubpassDescriptionDepthStencilResolve<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     depth_resolve_mode: flags!(ResolveModeFlags),
     stencil_resolve_mode: flags!(ResolveModeFlags),
     p_depth_stencil_resolve_attachment: Structs(&ATTACHMENT_REFERENCE2, Count::One),
@@ -821,7 +821,7 @@ layout! { tagged SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE: "VkSubpassDescriptio
 
 layout! { tagged SUBPASS_DESCRIPTION2: "VkSubpassDescription2" vk::SubpassDescription2<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(SubpassDescriptionFlags),
     pipeline_bind_point: named!(PipelineBindPoint),
     view_mask: U32,
@@ -837,7 +837,7 @@ layout! { tagged SUBPASS_DESCRIPTION2: "VkSubpassDescription2" vk::SubpassDescri
 
 layout! { tagged MEMORY_BARRIER2: "VkMemoryBarrier2" vk::MemoryBarrier2<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     src_stage_mask: U64,
     src_access_mask: U64,
     dst_stage_mask: U64,
@@ -846,7 +846,7 @@ layout! { tagged MEMORY_BARRIER2: "VkMemoryBarrier2" vk::MemoryBarrier2<'static>
 
 layout! { tagged SUBPASS_DEPENDENCY2: "VkSubpassDependency2" vk::SubpassDependency2<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     src_subpass: U32,
     dst_subpass: U32,
     src_stage_mask: flags!(PipelineStageFlags),
@@ -859,7 +859,7 @@ layout! { tagged SUBPASS_DEPENDENCY2: "VkSubpassDependency2" vk::SubpassDependen
 
 layout! { tagged RENDER_PASS_CREATE_INFO2: "VkRenderPassCreateInfo2" vk::RenderPassCreateInfo2<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(RenderPassCreateFlags),
     attachment_count: U32,
     p_attachments: Structs(&ATTACHMENT_DESCRIPTION2, count!(vk::RenderPassCreateInfo2<'static>, attachment_count)),
@@ -873,7 +873,7 @@ layout! { tagged RENDER_PASS_CREATE_INFO2: "VkRenderPassCreateInfo2" vk::RenderP
 
 layout! { tagged FRAMEBUFFER_CREATE_INFO: "VkFramebufferCreateInfo" vk::FramebufferCreateInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(FramebufferCreateFlags),
     render_pass: Handle("VkRenderPass"),
     attachment_count: U32,
@@ -885,7 +885,7 @@ layout! { tagged FRAMEBUFFER_CREATE_INFO: "VkFramebufferCreateInfo" vk::Framebuf
 
 layout! { tagged RENDER_PASS_BEGIN_INFO: "VkRenderPassBeginInfo" vk::RenderPassBeginInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     render_pass: Handle("VkRenderPass"),
     framebuffer: Handle("VkFramebuffer"),
     render_area: Struct(&RECT2_D),
@@ -895,7 +895,7 @@ layout! { tagged RENDER_PASS_BEGIN_INFO: "VkRenderPassBeginInfo" vk::RenderPassB
 
 layout! { tagged RENDERING_ATTACHMENT_INFO: "VkRenderingAttachmentInfo" vk::RenderingAttachmentInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     image_view: Handle("VkImageView"),
     image_layout: named!(ImageLayout),
     resolve_mode: flags!(ResolveModeFlags),
@@ -908,7 +908,7 @@ layout! { tagged RENDERING_ATTACHMENT_INFO: "VkRenderingAttachmentInfo" vk::Rend
 
 layout! { tagged RENDERING_INFO: "VkRenderingInfo" vk::RenderingInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(RenderingFlags),
     render_area: Struct(&RECT2_D),
     layer_count: U32,
@@ -921,7 +921,7 @@ layout! { tagged RENDERING_INFO: "VkRenderingInfo" vk::RenderingInfo<'static> {
 
 layout! { tagged BUFFER_MEMORY_BARRIER2: "VkBufferMemoryBarrier2" vk::BufferMemoryBarrier2<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     src_stage_mask: U64,
     src_access_mask: U64,
     dst_stage_mask: U64,
@@ -935,7 +935,7 @@ layout! { tagged BUFFER_MEMORY_BARRIER2: "VkBufferMemoryBarrier2" vk::BufferMemo
 
 layout! { tagged IMAGE_MEMORY_BARRIER2: "VkImageMemoryBarrier2" vk::ImageMemoryBarrier2<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     src_stage_mask: U64,
     src_access_mask: U64,
     dst_stage_mask: U64,
@@ -950,7 +950,7 @@ layout! { tagged IMAGE_MEMORY_BARRIER2: "VkImageMemoryBarrier2" vk::ImageMemoryB
 
 layout! { tagged DEPENDENCY_INFO: "VkDependencyInfo" vk::DependencyInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     dependency_flags: flags!(DependencyFlags),
     memory_barrier_count: U32,
     p_memory_barriers: Structs(&MEMORY_BARRIER2, count!(vk::DependencyInfo<'static>, memory_barrier_count)),
@@ -962,14 +962,14 @@ layout! { tagged DEPENDENCY_INFO: "VkDependencyInfo" vk::DependencyInfo<'static>
 
 layout! { tagged COMMAND_BUFFER_SUBMIT_INFO: "VkCommandBufferSubmitInfo" vk::CommandBufferSubmitInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     command_buffer: Handle("VkCommandBuffer"),
     device_mask: U32,
 } }
 
 layout! { tagged SEMAPHORE_SUBMIT_INFO: "VkSemaphoreSubmitInfo" vk::SemaphoreSubmitInfo<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     semaphore: Handle("VkSemaphore"),
     value: U64,
     stage_mask: U64,
@@ -978,7 +978,7 @@ layout! { tagged SEMAPHORE_SUBMIT_INFO: "VkSemaphoreSubmitInfo" vk::SemaphoreSub
 
 layout! { tagged SUBMIT_INFO2: "VkSubmitInfo2" vk::SubmitInfo2<'static> {
     s_type: named!(StructureType),
-    p_next: Next,
+    p_next: Next(&TAGGED),
     flags: flags!(SubmitFlags),
     wait_semaphore_info_count: U32,
     p_wait_semaphore_infos: Structs(&SEMAPHORE_SUBMIT_INFO, count!(vk::SubmitInfo2<'static>, wait_semaphore_info_count)),

@@ -2,8 +2,9 @@
 //!
 //! The backend enables all that it may ever use. A program that did so would run on no other device.
 
-use etalon_backend::{Argument, Call};
-use etalon_frame::{Feature, PathState, PathViewport, Requirement};
+use ash::vk;
+use etalon_backend::{Argument, Call, VulkanNeeds};
+use etalon_frame::{Feature, PathState, PathViewport, Requirement, TextureFormat};
 use etalon_scene::Scene;
 
 /// What the device of a scene's program enables.
@@ -12,22 +13,31 @@ pub(crate) struct Needed {
     /// Members of `VkPhysicalDeviceFeatures`.
     features: Vec<&'static str>,
     extensions: Vec<&'static str>,
+    pub(super) further: VulkanNeeds,
     /// True if all is kept, since the scene's path uses further states.
     all: bool,
 }
 
 impl Needed {
-    /// Returns the needs of a scene.
-    pub(crate) fn of(scene: &Scene) -> Self {
+    /// Returns the needs of a scene; `native` returns the `VkFormat` of a format.
+    pub(crate) fn of(scene: &Scene, native: impl Fn(TextureFormat) -> Option<vk::Format>) -> Self {
         let mut needed = Self {
             all: scene.path.state != PathState::default()
                 || scene.path.viewport != PathViewport::default(),
             ..Self::default()
         };
         for requirement in scene.requirements() {
-            if let Requirement::Feature(feature) = requirement {
-                needed.features.extend(member(feature));
-                needed.extensions.extend(extension(feature));
+            match requirement {
+                Requirement::Feature(feature) => {
+                    needed.features.extend(member(feature));
+                    needed.extensions.extend(extension(feature));
+                    resolve(feature, &mut needed.further);
+                }
+                Requirement::Blending(format) => {
+                    let raw = native(format).map(|raw| raw.as_raw().cast_unsigned());
+                    needed.further.blended.extend(raw);
+                }
+                _ => {}
             }
         }
         needed
@@ -122,6 +132,22 @@ fn member(feature: Feature) -> Option<&'static str> {
         Feature::Tessellation | Feature::UpperLeftDomain => "tessellationShader",
         _ => return None,
     })
+}
+
+/// Adds the way in which depth or stencil is resolved.
+fn resolve(feature: Feature, needs: &mut VulkanNeeds) {
+    match feature {
+        Feature::DepthResolveAverage => {
+            needs.depth_resolve |= vk::ResolveModeFlags::AVERAGE.as_raw();
+        }
+        Feature::DepthResolveMin => needs.depth_resolve |= vk::ResolveModeFlags::MIN.as_raw(),
+        Feature::DepthResolveMax => needs.depth_resolve |= vk::ResolveModeFlags::MAX.as_raw(),
+        Feature::StencilResolveMin => needs.stencil_resolve |= vk::ResolveModeFlags::MIN.as_raw(),
+        Feature::StencilResolveMax => needs.stencil_resolve |= vk::ResolveModeFlags::MAX.as_raw(),
+        Feature::IndependentResolve => needs.independent_resolve = true,
+        Feature::IndependentResolveNone => needs.independent_resolve_none = true,
+        _ => {}
+    }
 }
 
 /// Returns the extension behind a feature of a scene.

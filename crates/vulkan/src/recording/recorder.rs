@@ -142,11 +142,15 @@ pub(crate) fn counter_part(index: usize, offset: u32, bytes: u32) {
 }
 
 /// Returns what was recorded; `None` if something could not be kept.
-pub(crate) fn recorded(context: RecordedContext) -> Option<Recording> {
+pub(crate) fn recorded(device: &str, version: u32) -> Option<Recording> {
     with(|r| match r.failed {
         Some(_) => None,
         None => Some(Recording {
-            context,
+            context: RecordedContext::Vulkan {
+                device: device.to_owned(),
+                version,
+                needs: r.needed.further.clone(),
+            },
             calls: {
                 let mut calls = r.calls.clone();
                 calls.iter_mut().for_each(|call| r.needed.narrow(call));
