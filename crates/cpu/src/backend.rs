@@ -5,6 +5,7 @@ use crate::prepared::PreparedScene;
 use crate::raster::SAMPLES;
 use crate::steps::Faithful;
 use crate::surface::depth_encoding;
+use crate::tiles::{Machine, Plan, TiledScene};
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
 use etalon_frame::{
     Api, ApiVersion, Feature, FormatSupport, Limits, PathValue, Property, ReadPath, TextureFormat,
@@ -13,16 +14,30 @@ use etalon_frame::{
 use etalon_scene::Scene;
 use std::collections::BTreeSet;
 
+/// The texels of the largest attachment from which a scene is drawn in tiles.
+const LEAST_TEXELS: usize = 64 * 64;
+
 /// The rasterizer.
 #[derive(Debug)]
 pub struct CpuBackend {
     info: AdapterInfo,
     limits: Limits,
+    /// The machine's means for kernels; `None` leaves every scene to the span code.
+    tiles: Option<Machine>,
 }
 
 impl CpuBackend {
     /// Returns the rasterizer with an adapter name.
     pub fn new(name: &str) -> Self {
+        Self {
+            tiles: Some(Machine::whole()),
+            ..Self::spans(name)
+        }
+    }
+
+    /// Returns the rasterizer with an adapter name, without its kernels: every scene is drawn by the span code, on the
+    /// calling thread.
+    pub fn spans(name: &str) -> Self {
         let formats = TextureFormat::ALL
             .into_iter()
             .map(|format| {
@@ -64,6 +79,7 @@ impl CpuBackend {
                     .map(|n| (n, standard_sample_positions(n)))
                     .collect(),
             },
+            tiles: None,
         }
     }
 }
@@ -80,6 +96,11 @@ impl Backend for CpuBackend {
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
         if let Some(missing) = self.limits.missing(&scene.requirements()) {
             return Err(BackendError::NotSupported(missing));
+        }
+        if let Some(machine) = self.tiles
+            && let Ok(plan) = Plan::new(scene, LEAST_TEXELS)
+        {
+            return Ok(Box::new(TiledScene::new(scene.clone(), plan, machine)));
         }
         Ok(Box::new(PreparedScene::new(scene.clone(), Faithful)))
     }

@@ -15,6 +15,7 @@ mod sampling;
 mod span;
 pub mod steps;
 mod surface;
+mod tiles;
 
 pub use backend::CpuBackend;
 pub use prepared::PreparedScene;

@@ -9,7 +9,7 @@ use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_scene::{Clear, ClearTarget, LoadOperation, Pass, Scene};
 
 /// The value of what is discarded. No case clears or draws it.
-const DISCARDED: f64 = 0.6;
+pub(crate) const DISCARDED: f64 = 0.6;
 
 /// Runs a pass on its attachments.
 pub(crate) fn run<S: Steps>(

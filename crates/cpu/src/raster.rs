@@ -164,7 +164,7 @@ fn ends([a, b, c]: [f32; 3]) -> [f32; 2] {
 }
 
 /// Left, top, right and bottom of the texels that a draw may write; the last two are exclusive.
-type Bounds = [usize; 4];
+pub(crate) type Bounds = [usize; 4];
 
 /// Draws into the pass's attachments.
 pub(crate) fn draw<S: Steps>(
@@ -274,7 +274,7 @@ pub(crate) fn draw<S: Steps>(
 }
 
 /// Returns the intersection of scissor, attachments and the viewport with a texel around it.
-fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
+pub(crate) fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
     let [x, y, w, h] = draw.viewport.area();
     let [sx, sy, sw, sh] = draw.scissor.unwrap_or([0, 0, size[0], size[1]]);
     let axis = |start: f32, length: f32, s: u32, l: u32, size: u32| {
@@ -290,7 +290,7 @@ fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
 }
 
 /// Returns the depth bias of a polygon.
-fn depth_bias(
+pub(crate) fn depth_bias(
     draw: &Draw,
     points: [Point; 3],
     z: [f32; 3],

@@ -23,7 +23,7 @@ impl MutantBackend {
     pub fn new(name: &str) -> Option<Self> {
         let mutant = mutants().iter().find(|m| m.name == name)?;
         Some(Self {
-            inner: CpuBackend::new(&format!("cpu:{name}")),
+            inner: CpuBackend::spans(&format!("cpu:{name}")),
             mutant,
             before: RefCell::new(None),
         })

@@ -28,10 +28,10 @@ impl Hidden {
     /// Opens the rasterizer with the fault. `pipe` leads to the parent.
     pub(crate) fn open(&self, name: &str, pipe: File) -> Box<dyn Backend> {
         match self {
-            Self::Slower(percent) => Box::new(Slower::new(CpuBackend::new("cpu"), *percent)),
+            Self::Slower(percent) => Box::new(Slower::new(CpuBackend::spans("cpu"), *percent)),
             Self::Fault(fault, marked) => {
                 let planted = (*fault, *marked);
-                Box::new(Faulty::new(CpuBackend::new(name), name, planted, pipe))
+                Box::new(Faulty::new(CpuBackend::spans(name), name, planted, pipe))
             }
         }
     }

@@ -249,7 +249,7 @@ fn fuzz(arguments: &Arguments, scenes: u64, chosen: &[MutantInfo]) -> Result<u8,
 /// Parts the cases that the rasterizer fails without a bug from the others: they would catch every bug.
 fn without_own_failures(cases: Vec<Case>, limits: &Limits) -> (Vec<Case>, Vec<String>) {
     let fails = |case: &Case| {
-        let backend = CpuBackend::new("cpu");
+        let backend = CpuBackend::spans("cpu");
         let frames = etalon_runner::draw_frames(&backend, case);
         frames.map_or(true, |frames| {
             let judged = Judge::default().judge(0, case, "cpu", limits, &frames);

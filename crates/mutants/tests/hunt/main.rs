@@ -115,7 +115,7 @@ impl Cases {
             // A selftest fails whatever draws it.
             .filter(|c| c.judged_as.is_none());
         Self {
-            faithful: CpuBackend::new("cpu"),
+            faithful: CpuBackend::spans("cpu"),
             judge: Judge::default(),
             all: chosen.map(|case| (case, OnceCell::new())).collect(),
         }

@@ -1,0 +1,70 @@
+//! The depths of a triangle.
+
+use super::setup::{Triangle, point};
+use crate::lanes::{Codes, LANES};
+use crate::linear::UNITS;
+use crate::steps::{Faithful, Steps};
+use etalon_frame::ChannelEncoding;
+use etalon_pipeline::DepthPlane;
+use etalon_scene::Draw;
+
+/// Returns a depth with its bias, held to the viewport's range as before the depth test.
+#[inline(always)]
+pub(crate) fn held(draw: &Draw, depth: f32, bias: f64) -> f32 {
+    let depth = (f64::from(depth) + bias) as f32;
+    Faithful.held_to_range(depth, draw.viewport.depth)
+}
+
+/// The depths of a triangle over the window.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Depths {
+    origin: [i32; 2],
+    z: f64,
+    across: f64,
+    down: f64,
+    /// The least and the greatest depth of the corners.
+    ends: [f32; 2],
+    bias: f64,
+    range: [f32; 2],
+    encoding: ChannelEncoding,
+}
+
+impl Depths {
+    /// Returns the depths of a triangle.
+    #[inline(always)]
+    pub(crate) fn new(draw: &Draw, triangle: &Triangle, encoding: ChannelEncoding) -> Self {
+        let z = triangle.corners.map(|v| v.z);
+        let points = triangle.corners.map(|v| point(v.at));
+        let plane = DepthPlane::new(points, z.map(f64::from));
+        let [near, far] = draw.viewport.depth;
+        Self {
+            origin: triangle.corners[0].at,
+            z: f64::from(z[0]),
+            across: plane.dx,
+            down: plane.dy,
+            ends: [z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2])],
+            bias: triangle.bias,
+            range: [near.min(far), near.max(far)],
+            encoding,
+        }
+    }
+
+    /// Returns the codes at one point of the texels from one on.
+    #[inline(always)]
+    pub(crate) fn codes(&self, x: i32, y: i32, sample: [i32; 2]) -> Codes {
+        let units = UNITS as i32;
+        let down = f64::from(y * units + sample[1] - self.origin[1]) * self.down;
+        let first = x * units + sample[0] - self.origin[0];
+        let mut depths = [0.0_f32; LANES];
+        let held = |v: f32, [low, high]: [f32; 2]| {
+            let v = if v < low { low } else { v };
+            if v > high { high } else { v }
+        };
+        for (lane, depth) in depths.iter_mut().enumerate() {
+            let across = f64::from(first + lane as i32 * units) * self.across;
+            let value = held((self.z + across + down) as f32, self.ends);
+            *depth = held((f64::from(value) + self.bias) as f32, self.range);
+        }
+        Faithful.depth_codes(self.encoding, depths)
+    }
+}

@@ -1,0 +1,134 @@
+//! Attachments in memory, tile by tile.
+
+use super::TILE;
+use crate::steps::{Faithful, Steps};
+use crate::surface::depth_encoding;
+use etalon_frame::{Aspect, ChannelEncoding};
+use etalon_scene::{Attachment, Contents};
+
+/// The codes of a texel's colour channels; those that the format lacks are 0.
+pub(crate) type Texel = [u8; 4];
+
+/// The texels of a tile.
+pub(crate) const AREA: usize = TILE * TILE;
+
+/// An attachment. Each aspect holds tile after tile, in rows of tiles; a tile holds plane after plane, one for each
+/// sample; a plane holds its rows. What lies beyond the attachment's edges has no meaning.
+#[derive(Debug, Default)]
+pub(crate) struct Image {
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    /// Tiles side by side.
+    pub(crate) across: usize,
+    pub(crate) samples: usize,
+    pub(crate) color: Vec<Texel>,
+    pub(crate) depth: Vec<u32>,
+    pub(crate) stencil: Vec<u8>,
+    /// The values that all of an aspect has, as long as they are not in memory.
+    pub(crate) clear: Clears,
+}
+
+/// The values of aspects that were cleared and not written since.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Clears {
+    pub(crate) color: Option<Texel>,
+    pub(crate) depth: Option<u32>,
+    pub(crate) stencil: Option<u8>,
+}
+
+/// Returns the texel of these channels whose codes a function gives.
+pub(crate) fn texel(
+    encodings: &[ChannelEncoding],
+    code: impl Fn(usize, ChannelEncoding) -> u32,
+) -> Texel {
+    let mut texel = [0; 4];
+    for (c, (slot, encoding)) in texel.iter_mut().zip(encodings).enumerate() {
+        *slot = code(c, *encoding) as u8;
+    }
+    texel
+}
+
+impl Image {
+    /// Returns memory for an attachment, without its contents.
+    pub(crate) fn new(attachment: &Attachment) -> Self {
+        let [width, height] = attachment.size.map(|s| s as usize);
+        let (across, down) = (width.div_ceil(TILE), height.div_ceil(TILE));
+        let samples = attachment.samples as usize;
+        let texels = across * down * samples * AREA;
+        let format = attachment.format;
+        let count = |has: bool| if has { texels } else { 0 };
+        Self {
+            width,
+            height,
+            across,
+            samples,
+            color: vec![[0; 4]; count(format.is_color())],
+            depth: vec![0; count(format.has_depth())],
+            stencil: vec![0; count(format.has_stencil())],
+            clear: Clears::default(),
+        }
+    }
+
+    /// Begins with an attachment's initial contents.
+    pub(crate) fn begin(&mut self, attachment: &Attachment) {
+        let encodings = attachment.format.color_channels();
+        self.clear = Clears::default();
+        match &attachment.contents {
+            Contents::Color(value) => {
+                let code = |c: usize, encoding| Faithful.clear_code(encoding, value[c]);
+                self.clear.color = Some(texel(encodings, code));
+            }
+            Contents::DepthStencil { depth, stencil } => {
+                let encoding = depth_encoding(attachment.format);
+                self.clear.depth = encoding.map(|e| Faithful.clear_code(e, *depth));
+                self.clear.stencil = attachment.format.has_stencil().then_some(*stencil);
+            }
+            Contents::Texels(codes) => {
+                for (i, codes) in codes.chunks_exact(encodings.len()).enumerate() {
+                    let at = self.place(i % self.width, i / self.width, 0);
+                    self.color[at] = texel(encodings, |c, _| codes[c]);
+                }
+            }
+        }
+    }
+
+    /// Writes what was cleared and not drawn to.
+    pub(crate) fn finish(&mut self) {
+        let clear = std::mem::take(&mut self.clear);
+        if let Some(value) = clear.color {
+            self.color.fill(value);
+        }
+        if let Some(value) = clear.depth {
+            self.depth.fill(value);
+        }
+        if let Some(value) = clear.stencil {
+            self.stencil.fill(value);
+        }
+    }
+
+    /// Returns the place of a texel's sample in an aspect's memory.
+    pub(crate) fn place(&self, x: usize, y: usize, sample: usize) -> usize {
+        let tile = y / TILE * self.across + x / TILE;
+        (tile * self.samples + sample) * AREA + y % TILE * TILE + x % TILE
+    }
+
+    /// Returns the codes of one aspect in the order of [`etalon_frame::Image`].
+    pub(crate) fn codes(&self, aspect: Aspect, channels: usize) -> Vec<u32> {
+        let mut codes = Vec::with_capacity(self.width * self.height * self.samples * channels);
+        for y in 0..self.height {
+            for x in 0..self.width {
+                for s in 0..self.samples {
+                    let at = self.place(x, y, s);
+                    match aspect {
+                        Aspect::Color => {
+                            codes.extend(self.color[at][..channels].iter().map(|c| u32::from(*c)));
+                        }
+                        Aspect::Depth => codes.push(self.depth[at]),
+                        Aspect::Stencil => codes.push(u32::from(self.stencil[at])),
+                    }
+                }
+            }
+        }
+        codes
+    }
+}

@@ -1,0 +1,243 @@
+//! The choice of kernels: once per draw, when a scene is prepared.
+
+use crate::linear::UNITS;
+use crate::raster::bounds;
+use crate::surface::depth_encoding;
+use etalon_frame::{ChannelEncoding, TextureFormat, standard_sample_positions};
+use etalon_pipeline::{Plain, takes_logic, window_position};
+use etalon_scene::{
+    DepthState, Draw, Pass, PolygonMode, PrimitiveTopology, ProvokingVertex, RESTART, Scene,
+    Shader, StencilState,
+};
+
+/// The farthest that a vertex may lie from the window's corner, in texels: beyond it the kernels' integers overflow.
+const FARTHEST: f32 = 16384.0;
+
+/// The kernels of a scene.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    pub(crate) passes: Vec<PassPlan>,
+}
+
+/// The kernels of a pass.
+#[derive(Debug)]
+pub(crate) struct PassPlan {
+    /// The colour attachment.
+    pub(crate) color: Option<usize>,
+    /// The attachment that it is resolved to.
+    pub(crate) resolve: Option<usize>,
+    /// The attachment of depth and stencil.
+    pub(crate) depth_stencil: Option<usize>,
+    pub(crate) size: [usize; 2],
+    /// The positions of samples in a texel, in sub-texel units.
+    pub(crate) positions: Vec<[i32; 2]>,
+    /// The channels of the colour attachment.
+    pub(crate) channels: &'static [ChannelEncoding],
+    /// True if logic operations apply to it.
+    pub(crate) logic: bool,
+    pub(crate) depth: Option<ChannelEncoding>,
+    pub(crate) draws: Vec<DrawPlan>,
+}
+
+/// The kernels of a draw.
+#[derive(Debug)]
+pub(crate) struct DrawPlan {
+    /// Its place in the pass.
+    pub(crate) index: usize,
+    pub(crate) shading: Shading,
+    /// Left, top, right and bottom of the texels whose sample may be written, sample by sample; the last two are
+    /// exclusive.
+    pub(crate) rects: Vec<[i32; 4]>,
+    /// The rectangle around all of them.
+    pub(crate) bounds: [i32; 4],
+    pub(crate) depth: Option<DepthState>,
+    pub(crate) stencil: Option<StencilState>,
+    /// True if every three vertices or indices are a triangle whose first vertex is flat over it.
+    pub(crate) listed: bool,
+}
+
+/// The source of a triangle's colour, which is constant over it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Shading {
+    /// The provoking vertex's.
+    Vertex,
+    /// The provoking vertex's, after so many steps of work for each texel.
+    Expensive(f32),
+    /// The parameters' first or second, by facing.
+    Facing,
+    /// The parameters' first.
+    Uniform,
+    /// None: zeros.
+    Nothing,
+}
+
+/// The reason why a scene has no kernels.
+pub(crate) type Reason = &'static str;
+
+impl Plan {
+    /// Returns the kernels of a scene whose pictures have at least so many texels.
+    pub(crate) fn new(scene: &Scene, least: usize) -> Result<Self, Reason> {
+        if scene.pool.is_some() {
+            return Err("a pool");
+        }
+        for attachment in &scene.attachments {
+            if !has_kernels(attachment.format) {
+                return Err("a format");
+            }
+        }
+        let largest = scene.attachments.iter().map(|a| a.size[0] * a.size[1]);
+        if (largest.max().unwrap_or(0) as usize) < least {
+            return Err("a small picture");
+        }
+        let passes = scene.passes.iter().map(|pass| PassPlan::new(scene, pass));
+        Ok(Self {
+            passes: passes.collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+/// True if images of a format can be drawn to in tiles.
+fn has_kernels(format: TextureFormat) -> bool {
+    let byte = |e: &ChannelEncoding| {
+        use ChannelEncoding::{Snorm, Srgb8, Uint, Unorm};
+        matches!(e, Unorm(8) | Snorm(8) | Uint(8) | Srgb8)
+    };
+    format.color_channels().iter().all(byte)
+}
+
+impl PassPlan {
+    fn new(scene: &Scene, pass: &Pass) -> Result<Self, Reason> {
+        if pass.color.len() > 1 {
+            return Err("several colour attachments");
+        }
+        if pass.depth_stencil_resolve.is_some() {
+            return Err("a resolve of depth or stencil");
+        }
+        if !pass.clears.is_empty() {
+            return Err("clear commands");
+        }
+        let color = pass.color.first().copied();
+        let size = scene.pass_size(pass);
+        let positions = standard_sample_positions(scene.pass_samples(pass));
+        let format = |index: usize| scene.attachments[index].format;
+        let depth_stencil = pass.depth_stencil;
+        let mut plan = Self {
+            color,
+            resolve: pass.resolve.first().copied().flatten(),
+            depth_stencil,
+            size: size.map(|s| s as usize),
+            positions: positions
+                .into_iter()
+                .map(|p| p.map(|v| i32::from(v) * UNITS as i32 / 256))
+                .collect(),
+            channels: color.map_or(&[], |i| format(i).color_channels()),
+            logic: color.is_some_and(|i| takes_logic(format(i))),
+            depth: depth_stencil.and_then(|i| depth_encoding(format(i))),
+            draws: Vec::new(),
+        };
+        let stencil = depth_stencil.is_some_and(|i| format(i).has_stencil());
+        for (index, draw) in pass.draws.iter().enumerate() {
+            if !draw.rasterizer_discard {
+                let draw = DrawPlan::new(draw, index, size, &plan, stencil)?;
+                plan.draws.push(draw);
+            }
+        }
+        Ok(plan)
+    }
+}
+
+impl DrawPlan {
+    fn new(
+        draw: &Draw,
+        index: usize,
+        size: [u32; 2],
+        pass: &PassPlan,
+        stencil: bool,
+    ) -> Result<Self, Reason> {
+        let shading = match draw.shader {
+            Shader::FlatColor => Shading::Vertex,
+            Shader::ExpensiveColor if pass.positions.len() == 1 => {
+                Shading::Expensive(draw.params.back_color[0])
+            }
+            Shader::FrontFacing => Shading::Facing,
+            Shader::UniformColor | Shader::UintColor => Shading::Uniform,
+            Shader::VertexOnly => Shading::Nothing,
+            _ => return Err("a shader"),
+        };
+        use PrimitiveTopology::{TriangleFan, TriangleList, TriangleStrip};
+        if !matches!(draw.topology, TriangleList | TriangleStrip | TriangleFan)
+            || draw.polygon_mode != PolygonMode::Fill
+        {
+            return Err("points or lines");
+        }
+        if !draw.counters.is_empty() {
+            return Err("counters");
+        }
+        if draw.depth_bounds.is_some() {
+            return Err("depth bounds");
+        }
+        if draw.targets.iter().any(|t| t.advanced.is_some()) {
+            return Err("advanced blending");
+        }
+        if draw.stencil.is_some() && !stencil {
+            return Err("a stencil test without stencil");
+        }
+        let inside = draw.mesh.vertices.iter().all(|v| {
+            let [[x], [y], [z]] = window_position(&mut Plain::<1>, v.position, &draw.viewport);
+            let clip = v.position[2] / v.position[3];
+            let clips = !draw.depth_clamp && !(0.0..=1.0).contains(&clip);
+            x.abs() <= FARTHEST && y.abs() <= FARTHEST && z.is_finite() && !clips
+        });
+        if !inside {
+            return Err("clipped by the near or the far plane, or far outside");
+        }
+        let drawn = bounds(draw, size).map(|v| v as i32);
+        let rects: Vec<_> = pass
+            .positions
+            .iter()
+            .map(|p| rect(draw, drawn, *p))
+            .collect();
+        let around = rects.iter().copied().reduce(|a, b| {
+            [
+                a[0].min(b[0]),
+                a[1].min(b[1]),
+                a[2].max(b[2]),
+                a[3].max(b[3]),
+            ]
+        });
+        let in_order = match &draw.mesh.indices {
+            Some(indices) => !indices.contains(&RESTART),
+            None => true,
+        };
+        Ok(Self {
+            index,
+            shading,
+            bounds: around.unwrap_or_default(),
+            rects,
+            depth: draw.depth.filter(|_| pass.depth.is_some()),
+            stencil: draw.stencil,
+            listed: in_order
+                && draw.topology == TriangleList
+                && draw.tessellation.is_none()
+                && draw.provoking != Some(ProvokingVertex::Last),
+        })
+    }
+}
+
+/// Returns the texels of a rectangle whose sample at a position lies in the viewport.
+fn rect(draw: &Draw, [left, top, right, bottom]: [i32; 4], position: [i32; 2]) -> [i32; 4] {
+    let [x, y, w, h] = draw.viewport.area();
+    // `as` saturates; the number of texels is far less.
+    let edge = |v: f32, position: i32| {
+        let edge = (v * UNITS as f32).ceil() as i64 - i64::from(position);
+        // The quotient is rounded up.
+        let texel = -(-edge).div_euclid(UNITS);
+        texel.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
+    };
+    [
+        left.max(edge(x, position[0])),
+        top.max(edge(y, position[1])),
+        right.min(edge(x + w, position[0])),
+        bottom.min(edge(y + h, position[1])),
+    ]
+}

@@ -1,0 +1,406 @@
+//! Vertices to triangles, and triangles to the tiles that they touch.
+
+use super::TILE;
+use super::edges::{Edges, Touch};
+use super::paint::{Kernel, Paint};
+use super::plan::{DrawPlan, PassPlan, Shading};
+use crate::lanes::LANES;
+use crate::linear::UNITS;
+use crate::raster::depth_bias;
+use crate::steps::{Faithful, Steps};
+use etalon_pipeline::{Plain, Point, front_facing, is_culled, signed_area, window_position};
+use etalon_scene::{Draw, PrimitiveVertices, Vertex};
+use std::ops::Range;
+
+/// The distinct colours of a blending draw for each of which a function of codes is made.
+const FUNCTIONS: usize = 64;
+
+/// A vertex in the window.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Placed {
+    /// In sub-texel units.
+    pub(crate) at: [i32; 2],
+    pub(crate) z: f32,
+}
+
+/// A triangle that may cover samples.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Triangle {
+    /// In the order of the primitive, which the depth's plane depends on.
+    pub(crate) corners: [Placed; 3],
+    pub(crate) bias: f64,
+    /// The code of all its depths, if it is flat.
+    pub(crate) code: u32,
+    /// The place of its draw among the pass's kernels.
+    pub(crate) draw: u32,
+    /// The place of its paint in its part.
+    pub(crate) paint: u32,
+    /// The first and the last column and row of the texels that it may cover.
+    pub(crate) around: [i16; 4],
+    pub(crate) front: bool,
+    /// True if all of it has one depth.
+    pub(crate) flat: bool,
+    /// True if numbers of 32 bits hold its edge functions in its own surroundings.
+    pub(crate) small: bool,
+    /// True if scissor or viewport may cut it.
+    pub(crate) cut: bool,
+}
+
+/// The triangles of a range of a pass's primitives.
+#[derive(Debug, Default)]
+pub(crate) struct Part {
+    pub(crate) triangles: Vec<Triangle>,
+    pub(crate) paints: Vec<Paint>,
+    /// The entries of each tile, in the order of drawing.
+    pub(crate) bins: Vec<Vec<Entry>>,
+}
+
+/// A triangle in a tile.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Entry(u32);
+
+impl Entry {
+    fn new(triangle: usize, whole: bool) -> Self {
+        Self((triangle as u32) << 1 | u32::from(whole))
+    }
+
+    /// Returns the place of the triangle in its part.
+    pub(crate) fn triangle(self) -> usize {
+        (self.0 >> 1) as usize
+    }
+
+    /// Returns true if it covers all samples of the tile.
+    pub(crate) fn is_whole(self) -> bool {
+        self.0 & 1 != 0
+    }
+}
+
+/// A draw's vertices and primitives.
+#[derive(Debug)]
+pub(crate) struct Input<'a> {
+    pub(crate) draw: &'a Draw,
+    pub(crate) plan: &'a DrawPlan,
+    /// The place of its first vertex among those of the pass.
+    pub(crate) base: usize,
+    /// The number of its first primitive in the pass.
+    pub(crate) first: usize,
+    pub(crate) count: usize,
+    /// Vertices and provoking vertex of each primitive, unless the draw is a list.
+    pub(crate) primitives: Vec<([usize; 3], usize)>,
+}
+
+impl<'a> Input<'a> {
+    /// Returns the input of a draw whose vertices and primitives stand behind others.
+    pub(crate) fn new(draw: &'a Draw, plan: &'a DrawPlan, base: usize, first: usize) -> Self {
+        let listed = || {
+            let order = draw.mesh.indices.as_ref();
+            order.map_or(draw.mesh.vertices.len(), Vec::len) / 3
+        };
+        let primitives: Vec<_> = match plan.listed {
+            true => Vec::new(),
+            false => {
+                let all = draw.primitives().into_iter().zip(draw.provoking_vertices());
+                all.filter_map(|(primitive, provoking)| match primitive {
+                    PrimitiveVertices::Triangle(triangle) => Some((triangle, provoking)),
+                    PrimitiveVertices::Point(_) | PrimitiveVertices::Line(_) => None,
+                })
+                .collect()
+            }
+        };
+        let count = match plan.listed {
+            true => listed(),
+            false => primitives.len(),
+        };
+        Self {
+            draw,
+            plan,
+            base,
+            first,
+            count,
+            primitives,
+        }
+    }
+
+    /// Returns vertices and provoking vertex of a primitive.
+    #[inline(always)]
+    fn primitive(&self, number: usize) -> ([usize; 3], usize) {
+        if !self.plan.listed {
+            return self.primitives[number];
+        }
+        let at = 3 * number;
+        let triangle = match &self.draw.mesh.indices {
+            Some(indices) => {
+                let three = &indices[at..at + 3];
+                [three[0], three[1], three[2]].map(|i| i as usize)
+            }
+            None => [at, at + 1, at + 2],
+        };
+        (triangle, triangle[0])
+    }
+}
+
+/// Transforms vertices to the window.
+#[inline(always)]
+pub(crate) fn place(draw: &Draw, vertices: &[Vertex], placed: &mut [Placed]) {
+    for (vertex, placed) in vertices.iter().zip(placed) {
+        let [[x], [y], [z]] = window_position(&mut Plain::<1>, vertex.position, &draw.viewport);
+        // The plan has vertices near the window only.
+        let snap = |v: f32| (v * UNITS as f32 + 0.5).floor() as i32;
+        *placed = Placed {
+            at: [snap(x), snap(y)],
+            z,
+        };
+    }
+}
+
+impl Part {
+    /// Empties the part for a pass of so many tiles.
+    pub(crate) fn clear(&mut self, tiles: usize) {
+        self.triangles.clear();
+        self.paints.clear();
+        self.bins.iter_mut().for_each(Vec::clear);
+        self.bins.resize_with(tiles, Vec::new);
+    }
+
+    /// Sets up and sorts the primitives of a range of the pass's numbers.
+    #[inline(always)]
+    pub(crate) fn set_up(
+        &mut self,
+        pass: &PassPlan,
+        inputs: &[Input<'_>],
+        placed: &[Placed],
+        range: Range<usize>,
+    ) {
+        for (number, input) in inputs.iter().enumerate() {
+            let start = range.start.clamp(input.first, input.first + input.count);
+            let end = range.end.clamp(start, input.first + input.count);
+            let mut draw = SetUp::new(pass, input, number, self);
+            for primitive in start..end {
+                let (triangle, provoking) = input.primitive(primitive - input.first);
+                draw.triangle(triangle.map(|i| placed[input.base + i]), provoking);
+            }
+        }
+    }
+}
+
+/// The set-up of a draw's triangles.
+struct SetUp<'a> {
+    pass: &'a PassPlan,
+    draw: &'a Draw,
+    plan: &'a DrawPlan,
+    number: usize,
+    part: &'a mut Part,
+    /// The first of the draw's paints.
+    first: usize,
+    /// The last paint with its colour.
+    last: Option<([u32; 4], u32)>,
+    /// The least and the greatest offset of samples across and down.
+    samples: [[i32; 2]; 2],
+    across: usize,
+}
+
+impl<'a> SetUp<'a> {
+    fn new(pass: &'a PassPlan, input: &'a Input<'_>, number: usize, part: &'a mut Part) -> Self {
+        let ends = |axis: usize| {
+            let all = || pass.positions.iter().map(|p| p[axis]);
+            [all().min().unwrap_or(0), all().max().unwrap_or(0)]
+        };
+        Self {
+            pass,
+            draw: input.draw,
+            plan: input.plan,
+            number,
+            first: part.paints.len(),
+            part,
+            last: None,
+            samples: [ends(0), ends(1)],
+            across: pass.size[0].div_ceil(TILE),
+        }
+    }
+
+    #[inline(always)]
+    fn triangle(&mut self, corners: [Placed; 3], provoking: usize) {
+        let [a, b, c] = corners.map(|v| v.at);
+        // The extents of small triangles, and of most others, are small enough for the product.
+        let area = (i64::from(b[1]) - i64::from(a[1])) * (i64::from(c[0]) - i64::from(a[0]))
+            - (i64::from(b[0]) - i64::from(a[0])) * (i64::from(c[1]) - i64::from(a[1]));
+        if area == 0 {
+            return;
+        }
+        let front = front_facing(area, self.draw.front_face);
+        if is_culled(self.draw.cull, front) {
+            return;
+        }
+        let units = UNITS as i32;
+        let extent = |axis: usize| {
+            let [a, b, c] = [a[axis], b[axis], c[axis]];
+            [a.min(b).min(c), a.max(b).max(c)]
+        };
+        let (wide, high) = (extent(0), extent(1));
+        // The first texel with a sample at or behind the least coordinate, and the last one with a sample before the
+        // greatest.
+        let texels = |[low, high]: [i32; 2], [first, last]: [i32; 2]| {
+            [
+                -(last - low).div_euclid(units),
+                (high - first).div_euclid(units),
+            ]
+        };
+        let [left, right] = texels(wide, self.samples[0]);
+        let [top, bottom] = texels(high, self.samples[1]);
+        let bounds = self.plan.bounds;
+        let around = [
+            left.max(bounds[0]),
+            top.max(bounds[1]),
+            right.min(bounds[2] - 1),
+            bottom.min(bounds[3] - 1),
+        ];
+        if around[0] > around[2] || around[1] > around[3] {
+            return;
+        }
+        let paint = self.paint(front, provoking);
+        let flat = corners[0].z == corners[1].z && corners[0].z == corners[2].z;
+        let bias = self.bias(&corners);
+        let within = |[low, high]: [i32; 2]| high - low <= super::edges::SMALL;
+        let around = around.map(|v| v as i16);
+        // Samples of a texel have rectangles of their own, which differ by a texel at most.
+        let cut = left <= bounds[0] + 1
+            || top <= bounds[1] + 1
+            || right >= bounds[2] - 2
+            || bottom >= bounds[3] - 2;
+        let triangle = Triangle {
+            corners,
+            bias,
+            code: match (flat, self.pass.depth) {
+                (true, Some(encoding)) => {
+                    let depth = super::depth::held(self.draw, corners[0].z, bias);
+                    Faithful.depth_codes(encoding, [depth; LANES])[0]
+                }
+                _ => 0,
+            },
+            draw: self.number as u32,
+            paint,
+            around,
+            front,
+            flat,
+            small: within(wide) && within(high),
+            cut,
+        };
+        let index = self.part.triangles.len();
+        self.part.triangles.push(triangle);
+        self.sort(index, &triangle);
+    }
+
+    /// Returns the bias of a triangle's depths.
+    #[inline(always)]
+    fn bias(&self, corners: &[Placed; 3]) -> f64 {
+        let state = &self.draw.depth_bias;
+        if state.constant == 0 && state.slope == 0.0 {
+            return 0.0;
+        }
+        let points = corners.map(|v| point(v.at));
+        depth_bias(
+            self.draw,
+            points,
+            corners.map(|v| v.z),
+            self.pass.depth,
+            &Faithful,
+        )
+    }
+
+    /// Returns the place of the paint of a triangle.
+    #[inline(always)]
+    fn paint(&mut self, front: bool, provoking: usize) -> u32 {
+        let params = &self.draw.params;
+        let color = match self.plan.shading {
+            Shading::Vertex | Shading::Expensive(_) => self.draw.mesh.vertices[provoking].color,
+            Shading::Facing if !front => params.back_color,
+            Shading::Facing | Shading::Uniform => params.color,
+            Shading::Nothing => [0.0; 4],
+        };
+        let bits = color.map(f32::to_bits);
+        match self.last {
+            Some((last, paint)) if last == bits => paint,
+            _ => self.new_paint(color),
+        }
+    }
+
+    #[inline(never)]
+    fn new_paint(&mut self, color: [f32; 4]) -> u32 {
+        let quick = self.part.paints.len() - self.first > FUNCTIONS;
+        let paint = Paint::new(
+            self.draw,
+            color,
+            self.pass.channels,
+            self.pass.logic,
+            self.pass.positions.len(),
+            quick,
+        );
+        let place = self.part.paints.len() as u32;
+        self.part.paints.push(paint);
+        self.last = Some((color.map(f32::to_bits), place));
+        place
+    }
+
+    /// Adds a triangle to the tiles that it touches.
+    #[inline(always)]
+    fn sort(&mut self, index: usize, triangle: &Triangle) {
+        let [left, top, right, bottom] = triangle.around.map(|v| v as usize / TILE);
+        if left == right && top == bottom && triangle.small {
+            self.part.bins[top * self.across + left].push(Entry::new(index, false));
+            return;
+        }
+        let edges = Edges::<i64>::new(triangle);
+        for y in top..=bottom {
+            for x in left..=right {
+                let texels = tile_texels(self.pass, [x, y]);
+                let touch = edges.touch(&texels, &self.samples);
+                let whole = match touch {
+                    Touch::None => continue,
+                    Touch::Part => false,
+                    Touch::Whole => self.plan.rects.iter().all(|rect| {
+                        let [a, b, c, d] = texels;
+                        rect[0] <= a && rect[1] <= b && c <= rect[2] && d <= rect[3]
+                    }),
+                };
+                self.part.bins[y * self.across + x].push(Entry::new(index, whole));
+            }
+        }
+    }
+}
+
+/// Returns left, top, right and bottom of a tile's texels that the attachment has; the last two are exclusive.
+pub(crate) fn tile_texels(pass: &PassPlan, [x, y]: [usize; 2]) -> [i32; 4] {
+    let [width, height] = pass.size;
+    let (left, top) = (x * TILE, y * TILE);
+    let all = [
+        left,
+        top,
+        (left + TILE).min(width),
+        (top + TILE).min(height),
+    ];
+    all.map(|v| v as i32)
+}
+
+/// Returns a position as the pipeline has it.
+pub(crate) fn point([x, y]: [i32; 2]) -> Point {
+    Point {
+        x: i64::from(x),
+        y: i64::from(y),
+    }
+}
+
+impl Kernel {
+    /// Returns true if the function leaves every texel as it is.
+    pub(crate) fn keeps(&self) -> bool {
+        matches!(self, Self::Keep)
+    }
+}
+
+/// Returns the clockwise order of a triangle's corners on the screen.
+pub(crate) fn clockwise(corners: &[Placed; 3]) -> [[i32; 2]; 3] {
+    let [a, b, c] = corners.map(|v| v.at);
+    match signed_area([a, b, c].map(point)) > 0 {
+        true => [a, c, b],
+        false => [a, b, c],
+    }
+}

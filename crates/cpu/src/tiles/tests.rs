@@ -1,0 +1,280 @@
+//! The kernels against the span code.
+
+use super::{Machine, Plan, TiledScene};
+use crate::PreparedScene;
+use crate::steps::Faithful;
+use etalon_backend::Prepared;
+use etalon_case::{CaseFile, Library, Profile};
+use etalon_frame::Frame;
+use etalon_scene::{Contents, Scene, Shader};
+use fearless_simd::{Level, Simd};
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// The vector instructions that this machine has, by name.
+fn levels() -> Vec<(&'static str, Level)> {
+    let best = Level::new();
+    let mut all = Vec::new();
+    #[cfg(target_arch = "x86_64")]
+    {
+        let named = [
+            ("sse2", best.as_sse2().map(|s| s.level())),
+            ("sse4.2", best.as_sse4_2().map(|s| s.level())),
+            ("avx2", best.as_avx2().map(|s| s.level())),
+            ("avx512", best.as_avx512().map(|s| s.level())),
+        ];
+        all.extend(named.into_iter().filter_map(|(n, l)| Some((n, l?))));
+    }
+    if all.is_empty() {
+        all.push(("best", best));
+    }
+    all
+}
+
+fn drawn(mut prepared: impl Prepared) -> Frame {
+    // The second submission meets the memory of the first.
+    prepared.submit().expect("draws");
+    prepared.submit().expect("draws");
+    prepared.read_back().expect("reads")
+}
+
+/// Returns the first difference between the frames of the kernels and those of the span code, if the scene has
+/// kernels; the reason why it has none otherwise.
+fn compare(
+    scene: &Scene,
+    machines: &[(&'static str, Machine)],
+) -> Result<Option<String>, &'static str> {
+    let mut scene = scene.clone();
+    scene.read = (0..scene.attachments.len()).collect();
+    Plan::new(&scene, 0)?;
+    let due = drawn(PreparedScene::new(scene.clone(), Faithful));
+    for (name, machine) in machines {
+        let plan = Plan::new(&scene, 0)?;
+        let frame = drawn(TiledScene::new(scene.clone(), plan, *machine));
+        if frame != due {
+            return Ok(Some(format!(
+                "{name}, {}: {}",
+                machine.threads,
+                difference(&frame, &due)
+            )));
+        }
+    }
+    Ok(None)
+}
+
+fn difference(frame: &Frame, due: &Frame) -> String {
+    if frame.counters != due.counters {
+        return format!("counters {:?} for {:?}", frame.counters, due.counters);
+    }
+    for (image, due) in frame.images.iter().zip(&due.images) {
+        let mut codes = image.codes.iter().zip(&due.codes);
+        if let Some(at) = codes.position(|(a, b)| a != b) {
+            let channels = image.channels.len();
+            let texel = at / channels / image.samples as usize;
+            let (x, y) = (
+                texel % image.size[0] as usize,
+                texel / image.size[0] as usize,
+            );
+            return format!(
+                "{} {:?} {x},{y} sample {} channel {}: {} for {}",
+                image.attachment,
+                image.aspect,
+                at / channels % image.samples as usize,
+                at % channels,
+                image.codes[at],
+                due.codes[at]
+            );
+        }
+    }
+    "shapes".to_owned()
+}
+
+/// Every level, each with one of three numbers of threads.
+fn machines(turn: usize) -> Vec<(&'static str, Machine)> {
+    let all = levels().into_iter().enumerate();
+    all.map(|(i, (name, level))| {
+        let threads = 1 + (turn + i) % 3;
+        (name, Machine { level, threads })
+    })
+    .collect()
+}
+
+/// One level with one number of threads; all pairs of them in turn.
+fn machine(turn: usize) -> Vec<(&'static str, Machine)> {
+    let levels = levels();
+    let (name, level) = levels[turn % levels.len()];
+    let threads = 1 + turn / levels.len() % 3;
+    vec![(name, Machine { level, threads })]
+}
+
+/// The scenes of which a test compares the pictures.
+type Scenes = Vec<(String, Scene)>;
+
+/// Compares the pictures of scenes, on two threads. Returns the number of scenes with kernels.
+fn compare_all(
+    count: usize,
+    scenes: impl Fn(usize) -> Scenes + Sync,
+    machines: impl Fn(usize) -> Vec<(&'static str, Machine)> + Sync,
+) -> usize {
+    let names: Vec<_> = levels().into_iter().map(|(name, _)| name).collect();
+    println!("levels: {}", names.join(", "));
+    let (next, found) = (AtomicUsize::new(0), Mutex::new(Found::default()));
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                loop {
+                    let turn = next.fetch_add(1, Ordering::Relaxed);
+                    if turn >= count {
+                        return;
+                    }
+                    for (name, scene) in scenes(turn) {
+                        let outcome = compare(&scene, &machines(turn));
+                        let mut found = found.lock().expect("no panic");
+                        match outcome {
+                            Err(reason) => *found.reasons.entry(reason).or_default() += 1,
+                            Ok(None) => found.equal += 1,
+                            Ok(Some(different)) => {
+                                found.different.push(format!("{name}: {different}"))
+                            }
+                        }
+                    }
+                }
+            });
+        }
+    });
+    let found = found.into_inner().expect("no panic");
+    println!(
+        "{} scenes have kernels; the others: {:?}",
+        found.equal, found.reasons
+    );
+    let some = found.different.iter().take(20).cloned().collect::<Vec<_>>();
+    assert!(
+        some.is_empty(),
+        "{} differ:\n{}",
+        found.different.len(),
+        some.join("\n")
+    );
+    found.equal
+}
+
+#[derive(Default)]
+struct Found {
+    equal: usize,
+    different: Vec<String>,
+    reasons: BTreeMap<&'static str, usize>,
+}
+
+/// Returns a scene with all sizes multiplied; `None` if it has texels of its own.
+fn enlarged(mut scene: Scene, by: u32) -> Option<Scene> {
+    for attachment in &mut scene.attachments {
+        if matches!(attachment.contents, Contents::Texels(_)) {
+            return None;
+        }
+        attachment.size = attachment.size.map(|s| s * by);
+    }
+    for pass in &mut scene.passes {
+        for draw in &mut pass.draws {
+            draw.viewport.rect = draw.viewport.rect.map(|v| v * by as f32);
+            draw.scissor = draw.scissor.map(|s| s.map(|v| v * by));
+        }
+    }
+    Some(scene)
+}
+
+/// Returns a scene whose formats and shaders have kernels, in turn.
+fn adapted(mut scene: Scene, turn: usize) -> Scene {
+    use etalon_frame::TextureFormat::{
+        Bgra8Unorm, R8Unorm, Rgba8Snorm, Rgba8Unorm, Rgba8UnormSrgb,
+    };
+    let formats = [
+        Rgba8Unorm,
+        Rgba8UnormSrgb,
+        Rgba8Unorm,
+        Rgba8Snorm,
+        Bgra8Unorm,
+        R8Unorm,
+    ];
+    let shaders = [Shader::FlatColor, Shader::UniformColor, Shader::FrontFacing];
+    let unused: Vec<usize> = (0..scene.attachments.len())
+        .filter(|i| {
+            !scene
+                .passes
+                .iter()
+                .any(|p| p.color.contains(i) || p.depth_stencil == Some(*i))
+        })
+        .collect();
+    for (i, attachment) in scene.attachments.iter_mut().enumerate() {
+        if attachment.format.is_color() {
+            attachment.format = formats[turn % formats.len()];
+        }
+        if unused.contains(&i) {
+            attachment.contents = Contents::Color([0.25; 4]);
+        }
+    }
+    for (i, draw) in scene
+        .passes
+        .iter_mut()
+        .flat_map(|p| &mut p.draws)
+        .enumerate()
+    {
+        let number = turn * 7 + i * 3;
+        draw.shader = shaders[number % shaders.len()];
+        draw.textures.clear();
+        draw.depth_bounds = None;
+        draw.counters.clear();
+        let value = |c: usize| ((number * 37 + c * 101) % 257) as f32 / 200.0 - 0.1;
+        draw.params.color = std::array::from_fn(value);
+        draw.params.back_color = std::array::from_fn(|c| value(c + 5));
+        for (v, vertex) in draw.mesh.vertices.iter_mut().enumerate() {
+            vertex.color = std::array::from_fn(|c| value(c + v / 3));
+        }
+    }
+    scene
+}
+
+#[test]
+fn kernels_draw_built_in_cases_as_spans_do() {
+    let library = Library::built_in().expect("built-in files parse");
+    let quick: Vec<_> = library.cases(Profile::Quick).collect();
+    let scenes = |i: usize| vec![(quick[i].id(), quick[i].build().expect("builds").scene)];
+    let equal = compare_all(quick.len(), scenes, machines);
+    assert!(equal > 1000, "{equal} quick cases have kernels");
+    let full: Vec<_> = library.cases(Profile::Full).collect();
+    let scenes = |i: usize| {
+        let id = full[i].id();
+        // Large pictures of the quick profile stand for larger ones.
+        match id.contains("1280x720") || id.contains("1920x1080") {
+            true => Vec::new(),
+            false => vec![(id, full[i].build().expect("builds").scene)],
+        }
+    };
+    let equal = compare_all(full.len(), scenes, machine);
+    assert!(equal > 10_000, "{equal} cases have kernels");
+}
+
+#[test]
+fn kernels_draw_random_scenes_in_many_tiles_as_spans_do() {
+    let count = 300;
+    let files = ["common", "extended", "multisample"].map(|flavor| {
+        let text = format!(
+            r#"{{"about":"t","spec":["t"],"axes":{{"seed":{{"from":5000,"count":{count}}}}},
+            "random":{{"flavor":"{flavor}","seed":"$seed"}}}}"#
+        );
+        CaseFile::parse("random.json", &text).expect("parses")
+    });
+    let cases: Vec<_> = files
+        .iter()
+        .map(|f| f.cases(Profile::Full).collect::<Vec<_>>())
+        .collect();
+    let scenes = |i: usize| {
+        let case = &cases[i % 3][i / 3];
+        let scene = adapted(case.build().expect("builds").scene, i);
+        let large = enlarged(scene.clone(), 9);
+        let name = case.id();
+        let large = large.map(|scene| (format!("{name}, enlarged"), scene));
+        large.into_iter().chain([(name.clone(), scene)]).collect()
+    };
+    let equal = compare_all(3 * count, scenes, machine);
+    assert!(equal > 900, "{equal} scenes have kernels");
+}

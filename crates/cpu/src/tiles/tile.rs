@@ -1,0 +1,388 @@
+//! A tile: all its triangles in the order of drawing, while its texels are near the processor.
+
+use super::TILE;
+use super::depth::Depths;
+use super::depth_stencil::{
+    ANY, Decided, always_passes, compared, decided, operate, stencil_passes,
+};
+use super::edges::{Edges, Number};
+use super::image::{AREA, Texel};
+use super::lanes::{ALL, Lane, and, and_not, any, select, select_bytes};
+use super::paint::Paint;
+use super::plan::{DrawPlan, PassPlan, Shading};
+use super::resolve::resolve;
+use super::setup::{Input, Part, Triangle, tile_texels};
+use crate::lanes::{Codes, LANES};
+use etalon_pipeline::shader::cost;
+use etalon_scene::{StencilFace, StencilOperation};
+use std::hint::black_box;
+
+/// One aspect of a tile: its planes, sample by sample; empty if the pass lacks the aspect.
+#[derive(Debug)]
+pub(crate) struct Layer<'a, T> {
+    pub(crate) planes: &'a mut [T],
+    /// The value of all texels, as long as it is not in memory.
+    pub(crate) clear: Option<T>,
+}
+
+impl<T: Copy> Layer<'_, T> {
+    /// Writes the clear value, to the first plane alone if that stands for all.
+    #[inline(always)]
+    fn touch(&mut self, same: bool) {
+        if let Some(value) = self.clear.take() {
+            let end = if same { AREA } else { self.planes.len() };
+            self.planes[..end].fill(value);
+        }
+    }
+
+    /// Copies the first plane to the others.
+    #[inline(always)]
+    fn expand(&mut self) {
+        if self.clear.is_none() && !self.planes.is_empty() {
+            let (first, rest) = self.planes.split_at_mut(AREA);
+            rest.chunks_exact_mut(AREA)
+                .for_each(|plane| plane.copy_from_slice(first));
+        }
+    }
+
+    /// Returns the lanes that start at a place.
+    #[inline(always)]
+    fn lanes(&mut self, at: usize) -> &mut [T; LANES] {
+        let (lanes, _) = self.planes[at..at + LANES].as_chunks_mut();
+        &mut lanes[0]
+    }
+}
+
+/// A tile of a pass's attachments.
+#[derive(Debug)]
+pub(crate) struct Tile<'a> {
+    /// Its column and row.
+    pub(crate) at: [usize; 2],
+    pub(crate) color: Layer<'a, Texel>,
+    /// The tile of the attachment that colour is resolved to.
+    pub(crate) resolved: &'a mut [Texel],
+    pub(crate) depth: Layer<'a, u32>,
+    pub(crate) stencil: Layer<'a, u8>,
+}
+
+/// What the kernels read of a triangle in a tile.
+struct Work<'a> {
+    triangle: &'a Triangle,
+    plan: &'a DrawPlan,
+    face: Option<StencilFace>,
+    paint: &'a Paint,
+    /// The depths, unless the triangle is flat or none are tested.
+    depths: Option<Depths>,
+}
+
+/// A tile being drawn.
+struct Drawing<'t, 'a> {
+    pass: &'t PassPlan,
+    tile: Tile<'a>,
+    /// Left, top, right and bottom of its texels.
+    texels: [i32; 4],
+    /// True if the first plane stands for all.
+    same: bool,
+    /// The least and the greatest depth code, or a range around them.
+    range: [u32; 2],
+}
+
+/// Draws a tile.
+#[inline(always)]
+pub(crate) fn draw(tile: Tile<'_>, pass: &PassPlan, inputs: &[Input<'_>], parts: &[Part]) {
+    let samples = pass.positions.len();
+    let across = pass.size[0].div_ceil(TILE);
+    let index = tile.at[1] * across + tile.at[0];
+    let cleared = (tile.color.planes.is_empty() || tile.color.clear.is_some())
+        && (tile.depth.planes.is_empty() || tile.depth.clear.is_some())
+        && (tile.stencil.planes.is_empty() || tile.stencil.clear.is_some());
+    let mut drawing = Drawing {
+        pass,
+        texels: tile_texels(pass, tile.at),
+        same: samples == 1 || cleared,
+        range: tile.depth.clear.map_or(ANY, |code| [code; 2]),
+        tile,
+    };
+    for part in parts {
+        for entry in &part.bins[index] {
+            let triangle = &part.triangles[entry.triangle()];
+            let input = &inputs[triangle.draw as usize];
+            let paint = &part.paints[triangle.paint as usize];
+            drawing.triangle(triangle, input, paint, entry.is_whole());
+        }
+    }
+    drawing.finish();
+}
+
+impl Drawing<'_, '_> {
+    #[inline(always)]
+    fn triangle(&mut self, triangle: &Triangle, input: &Input<'_>, paint: &Paint, whole: bool) {
+        let plan = input.plan;
+        let face = plan
+            .stencil
+            .map(|s| if triangle.front { s.front } else { s.back });
+        let answer = match plan.depth {
+            None => Some(Decided::Pass),
+            Some(depth) if triangle.flat => decided(depth.compare, triangle.code, self.range),
+            Some(_) => None,
+        };
+        if (answer == Some(Decided::Fail) && face.is_none()) || paint.samples == 0 {
+            return;
+        }
+        let depths = match (plan.depth, self.pass.depth) {
+            (Some(_), Some(encoding)) if !triangle.flat => {
+                Some(Depths::new(input.draw, triangle, encoding))
+            }
+            _ => None,
+        };
+        let work = Work {
+            triangle,
+            plan,
+            face,
+            paint,
+            depths,
+        };
+        if !paint.kernel.keeps() {
+            self.tile.color.touch(self.same);
+        }
+        if plan.depth.is_some() {
+            self.tile.depth.touch(self.same);
+        }
+        if face.is_some() {
+            self.tile.stencil.touch(self.same);
+        }
+        let all = u32::MAX >> (32 - self.pass.positions.len());
+        if self.same && !(whole && paint.samples & all == all) {
+            self.expand();
+        }
+        if whole {
+            self.whole(&work, answer);
+        } else {
+            self.partly(&work);
+        }
+        self.widen(&work, whole, answer);
+    }
+
+    /// Keeps the range of depths around what a triangle may have written.
+    #[inline(always)]
+    fn widen(&mut self, work: &Work<'_>, whole: bool, answer: Option<Decided>) {
+        if !work.plan.depth.is_some_and(|d| d.write) {
+            return;
+        }
+        let code = work.triangle.code;
+        self.range = match work.triangle.flat {
+            true if whole && self.same && work.face.is_none() && answer == Some(Decided::Pass) => {
+                [code; 2]
+            }
+            true => [self.range[0].min(code), self.range[1].max(code)],
+            false => ANY,
+        };
+    }
+
+    /// Makes planes of their own for all samples.
+    #[inline(always)]
+    fn expand(&mut self) {
+        if self.pass.positions.len() > 1 {
+            self.tile.color.expand();
+            self.tile.depth.expand();
+            self.tile.stencil.expand();
+            self.same = false;
+        }
+    }
+
+    /// Draws a triangle that covers all of the tile.
+    #[inline(always)]
+    fn whole(&mut self, work: &Work<'_>, answer: Option<Decided>) {
+        let planes = if self.same {
+            1
+        } else {
+            self.pass.positions.len()
+        };
+        for sample in 0..planes {
+            if !self.same && work.paint.samples & (1 << sample) == 0 {
+                continue;
+            }
+            let stencil = work.face.as_ref().is_none_or(always_passes);
+            match answer {
+                Some(answer) if stencil => self.decided(work, sample, answer),
+                _ => {
+                    let [left, top, right, bottom] = self.texels;
+                    for y in top..bottom {
+                        for x in (left..right).step_by(LANES) {
+                            self.fragments(work, sample, [x, y], ALL);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Draws all texels of a sample, whose tests have one answer.
+    #[inline(always)]
+    fn decided(&mut self, work: &Work<'_>, sample: usize, answer: Decided) {
+        let [left, top, right, bottom] = self.texels;
+        let start = sample * AREA;
+        let range = start..start + (bottom - top) as usize * TILE;
+        if let Some(face) = &work.face {
+            let operation = match answer {
+                Decided::Pass => face.pass_op,
+                Decided::Fail => face.depth_fail_op,
+            };
+            operate(
+                face,
+                operation,
+                &mut self.tile.stencil.planes[range.clone()],
+            );
+        }
+        if answer == Decided::Fail {
+            return;
+        }
+        if work.plan.depth.is_some_and(|d| d.write) {
+            self.tile.depth.planes[range.clone()].fill(work.triangle.code);
+        }
+        if let Shading::Expensive(steps) = work.plan.shading {
+            for y in top..bottom {
+                for x in (left..right).step_by(LANES) {
+                    work_off(steps, [x, y]);
+                }
+            }
+        }
+        if !work.paint.kernel.keeps() {
+            work.paint.kernel.whole(&mut self.tile.color.planes[range]);
+        }
+    }
+
+    /// Draws a triangle that covers a part of the tile.
+    #[inline(always)]
+    fn partly(&mut self, work: &Work<'_>) {
+        for sample in 0..self.pass.positions.len() {
+            if work.paint.samples & (1 << sample) == 0 {
+                continue;
+            }
+            if work.triangle.small {
+                self.scan::<i32>(work, sample);
+            } else {
+                self.scan::<i64>(work, sample);
+            }
+        }
+    }
+
+    /// Draws the texels of one sample that a triangle covers.
+    #[inline(always)]
+    fn scan<N: Number>(&mut self, work: &Work<'_>, sample: usize) {
+        let triangle = work.triangle;
+        let [left, top, right, bottom] = self.texels;
+        let around = triangle.around.map(i32::from);
+        let lanes = LANES as i32;
+        let first = around[0].max(left) / lanes * lanes;
+        let (y_first, y_last) = (around[1].max(top), around[3].min(bottom - 1));
+        let last = around[2].min(right - 1);
+        let edges = Edges::<N>::new(triangle);
+        let mut rows = edges.rows(first, y_first, self.pass.positions[sample]);
+        let rect = &work.plan.rects[sample];
+        for y in y_first..=y_last {
+            for x in (first..=last).step_by(LANES) {
+                let mut mask = rows.covered((x - first) / lanes);
+                if triangle.cut {
+                    if y < rect[1] || y >= rect[3] {
+                        continue;
+                    }
+                    for (lane, covered) in mask.iter_mut().enumerate() {
+                        let x = x + lane as i32;
+                        *covered &= -Lane::from(x >= rect[0] && x < rect[2]);
+                    }
+                }
+                if any(&mask) {
+                    self.fragments(work, sample, [x, y], mask);
+                }
+            }
+            rows.next();
+        }
+    }
+
+    /// Tests, blends and stores the fragments of one sample of neighbouring texels.
+    #[inline(always)]
+    fn fragments(&mut self, work: &Work<'_>, sample: usize, at: [i32; 2], mask: [Lane; LANES]) {
+        let [x, y] = at;
+        let [left, top, ..] = self.texels;
+        let place = sample * AREA + (y - top) as usize * TILE + (x - left) as usize;
+        let mut passed = mask;
+        if let Some(face) = &work.face {
+            passed = and(
+                &passed,
+                &stencil_passes(face, self.tile.stencil.lanes(place)),
+            );
+        }
+        let tested = passed;
+        if let Some(state) = &work.plan.depth {
+            let codes: Codes = match &work.depths {
+                None => [work.triangle.code; LANES],
+                Some(depths) => depths.codes(x, y, self.pass.positions[sample]),
+            };
+            let stored = self.tile.depth.lanes(place);
+            passed = and(&passed, &compared(state.compare, &codes, stored));
+            if state.write {
+                select(stored, &passed, &codes);
+            }
+        }
+        if let Some(face) = &work.face {
+            let stored = self.tile.stencil.lanes(place);
+            let old = *stored;
+            let mut update = |operation: StencilOperation, mask: &[Lane; LANES]| {
+                if operation != StencilOperation::Keep {
+                    let mut new = old;
+                    operate(face, operation, &mut new);
+                    select_bytes(stored, mask, &new);
+                }
+            };
+            update(face.fail_op, &and_not(&mask, &tested));
+            update(face.depth_fail_op, &and_not(&tested, &passed));
+            update(face.pass_op, &passed);
+        }
+        if let Shading::Expensive(steps) = work.plan.shading
+            && any(&passed)
+        {
+            work_off(steps, at);
+        }
+        if !work.paint.kernel.keeps() {
+            work.paint
+                .kernel
+                .masked(self.tile.color.lanes(place), &passed);
+        }
+    }
+
+    /// Writes what is only noted so far, and resolves colour.
+    #[inline(always)]
+    fn finish(&mut self) {
+        let Tile {
+            color,
+            resolved,
+            depth,
+            stencil,
+            ..
+        } = &mut self.tile;
+        color.touch(self.same);
+        depth.touch(self.same);
+        stencil.touch(self.same);
+        if !resolved.is_empty() {
+            let samples = self.pass.positions.len();
+            resolve(
+                self.pass.channels,
+                color.planes,
+                samples,
+                self.same,
+                resolved,
+            );
+        }
+        if self.same {
+            self.expand();
+        }
+    }
+}
+
+/// Does an expensive shader's work for neighbouring texels. It adds 0 to their colours.
+#[inline(always)]
+fn work_off(steps: f32, [x, y]: [i32; 2]) {
+    let columns: [u32; LANES] = std::array::from_fn(|lane| x as u32 + lane as u32);
+    black_box(cost(columns, y as u32, steps));
+}
