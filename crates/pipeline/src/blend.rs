@@ -26,6 +26,7 @@ enum Factor<R> {
 }
 
 /// Blends one colour. `encodings` are those of the destination's four channels.
+#[inline(always)]
 pub fn blend<A: Arithmetic>(
     a: &mut A,
     state: &BlendState,
@@ -46,6 +47,7 @@ pub fn blend<A: Arithmetic>(
     })
 }
 
+#[inline(always)]
 fn channel<A: Arithmetic>(
     a: &mut A,
     component: &BlendComponent,
@@ -71,6 +73,7 @@ fn channel<A: Arithmetic>(
     }
 }
 
+#[inline(always)]
 fn side<A: Arithmetic>(
     a: &mut A,
     encoding: ChannelEncoding,
@@ -84,6 +87,7 @@ fn side<A: Arithmetic>(
     }
 }
 
+#[inline(always)]
 fn factor<A: Arithmetic>(
     a: &mut A,
     factor: BlendFactor,

@@ -88,9 +88,15 @@ impl<N: Number> Edges<N> {
         edges
     }
 
+    /// Returns the growth of the three functions per unit to the right and down.
+    #[inline(always)]
+    pub(crate) fn growth(&self) -> [[N; 3]; 2] {
+        [self.across, self.down]
+    }
+
     /// Returns the three values at a point.
     #[inline(always)]
-    fn at(&self, [x, y]: [i32; 2]) -> [N; 3] {
+    pub(crate) fn at(&self, [x, y]: [i32; 2]) -> [N; 3] {
         std::array::from_fn(|i| {
             let [px, py] = self.from[i];
             self.across[i] * N::from(x - px) + self.down[i] * N::from(y - py) + self.bias[i]

@@ -6,7 +6,7 @@ use crate::surface::depth_encoding;
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_scene::{Attachment, Contents};
 
-/// The codes of a texel's colour channels; those that the format lacks are 0.
+/// The codes of a texel's colour channels; those that the format lacks are 0. In memory they are the bytes of a word.
 pub(crate) type Texel = [u8; 4];
 
 /// The texels of a tile.
@@ -21,7 +21,7 @@ pub(crate) struct Image {
     /// Tiles side by side.
     pub(crate) across: usize,
     pub(crate) samples: usize,
-    pub(crate) color: Vec<Texel>,
+    pub(crate) color: Vec<u32>,
     pub(crate) depth: Vec<u32>,
     pub(crate) stencil: Vec<u8>,
     /// The values that all of an aspect has, as long as they are not in memory.
@@ -31,7 +31,7 @@ pub(crate) struct Image {
 /// The values of aspects that were cleared and not written since.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Clears {
-    pub(crate) color: Option<Texel>,
+    pub(crate) color: Option<u32>,
     pub(crate) depth: Option<u32>,
     pub(crate) stencil: Option<u8>,
 }
@@ -48,6 +48,12 @@ pub(crate) fn texel(
     texel
 }
 
+/// Returns the word that a texel is in memory.
+#[inline(always)]
+pub(crate) fn word(texel: Texel) -> u32 {
+    u32::from_ne_bytes(texel)
+}
+
 impl Image {
     /// Returns memory for an attachment, without its contents.
     pub(crate) fn new(attachment: &Attachment) -> Self {
@@ -62,7 +68,7 @@ impl Image {
             height,
             across,
             samples,
-            color: vec![[0; 4]; count(format.is_color())],
+            color: vec![0; count(format.is_color())],
             depth: vec![0; count(format.has_depth())],
             stencil: vec![0; count(format.has_stencil())],
             clear: Clears::default(),
@@ -76,7 +82,7 @@ impl Image {
         match &attachment.contents {
             Contents::Color(value) => {
                 let code = |c: usize, encoding| Faithful.clear_code(encoding, value[c]);
-                self.clear.color = Some(texel(encodings, code));
+                self.clear.color = Some(word(texel(encodings, code)));
             }
             Contents::DepthStencil { depth, stencil } => {
                 let encoding = depth_encoding(attachment.format);
@@ -86,7 +92,7 @@ impl Image {
             Contents::Texels(codes) => {
                 for (i, codes) in codes.chunks_exact(encodings.len()).enumerate() {
                     let at = self.place(i % self.width, i / self.width, 0);
-                    self.color[at] = texel(encodings, |c, _| codes[c]);
+                    self.color[at] = word(texel(encodings, |c, _| codes[c]));
                 }
             }
         }
@@ -121,7 +127,8 @@ impl Image {
                     let at = self.place(x, y, s);
                     match aspect {
                         Aspect::Color => {
-                            codes.extend(self.color[at][..channels].iter().map(|c| u32::from(*c)));
+                            let texel = self.color[at].to_ne_bytes();
+                            codes.extend(texel[..channels].iter().map(|c| u32::from(*c)));
                         }
                         Aspect::Depth => codes.push(self.depth[at]),
                         Aspect::Stencil => codes.push(u32::from(self.stencil[at])),

@@ -12,11 +12,13 @@ mod depth_stencil;
 mod edges;
 mod image;
 mod lanes;
+mod opaque;
 mod paint;
 mod plan;
 mod resolve;
 mod scene;
 mod setup;
+mod texture;
 mod tile;
 
 pub(crate) use plan::Plan;

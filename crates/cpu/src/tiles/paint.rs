@@ -4,7 +4,7 @@
 //! function is made by the pipeline's plain arithmetic, over all codes; a linear one is used where it is equal to
 //! the function for every one of them.
 
-use super::image::Texel;
+use super::image::{Texel, word};
 use super::lanes::{Lane, select_texels};
 use crate::lanes::LANES;
 use crate::steps::{Faithful, Steps};
@@ -70,6 +70,7 @@ pub(crate) struct Blending {
 
 impl Paint {
     /// Returns the paint of a source; with a function of any kind where no other is to be made.
+    #[inline(always)]
     pub(crate) fn new(
         draw: &Draw,
         source: [f32; 4],
@@ -108,6 +109,7 @@ impl Paint {
 }
 
 impl Blending {
+    #[inline(always)]
     fn kernel(self, quick: bool) -> Kernel {
         let written = |c: usize| self.target.write_mask & (1 << c) != 0;
         let count = self.channels.len();
@@ -127,7 +129,10 @@ impl Blending {
         }
         let mut table = Box::new([[0; CODES]; 4]);
         for first in (0..CODES).step_by(LANES) {
-            let codes = std::array::from_fn(|i| [(first + i) as u8; 4]);
+            let mut codes = [[0; 4]; LANES];
+            for (i, texel) in codes.iter_mut().enumerate() {
+                *texel = [(first + i) as u8; 4];
+            }
             for (i, texel) in self.applied(&codes).into_iter().enumerate() {
                 for (table, code) in table.iter_mut().zip(texel) {
                     table[first + i] = code;
@@ -157,6 +162,7 @@ impl Blending {
     }
 
     /// Returns the linear function that is equal to a table, if one was found.
+    #[inline(always)]
     fn linear(&self, table: &[[u8; CODES]; 4]) -> Option<Linear> {
         let blended = |code: u8| self.values(&[[code; 4]; LANES]).map(|v| v[0]);
         let (low, high) = (blended(0), blended(255));
@@ -190,15 +196,12 @@ impl Blending {
         };
         let encodings = self.encodings();
         let missing = Faithful.missing_alpha(state);
-        let dst = std::array::from_fn(|c| {
-            if c < self.channels.len() {
-                Faithful.color_value(encodings[c], codes(texels, c))
-            } else if c == 3 {
-                [missing; LANES]
-            } else {
-                [0.0; LANES]
-            }
-        });
+        // Loops, since closures of arrays would not be inlined.
+        let mut dst = [[0.0; LANES]; 4];
+        dst[3] = [missing; LANES];
+        for (c, dst) in dst.iter_mut().enumerate().take(self.channels.len()) {
+            *dst = Faithful.color_value(encodings[c], codes(texels, c));
+        }
         let mut src1 = [[0.0; LANES]; 4];
         if self.second_alpha {
             src1[3] = [1.0; LANES];
@@ -242,11 +245,16 @@ impl Blending {
 /// Returns the codes of one channel.
 #[inline(always)]
 fn codes(texels: &[Texel; LANES], channel: usize) -> [u32; LANES] {
-    std::array::from_fn(|i| u32::from(texels[i][channel]))
+    let mut codes = [0; LANES];
+    for (code, texel) in codes.iter_mut().zip(texels) {
+        *code = u32::from(texel[channel]);
+    }
+    codes
 }
 
 /// Returns factor, summand and subtrahend of a linear function that is equal to a table in all codes, if there is
 /// one near a slope.
+#[inline(always)]
 fn fitted(table: &[u8; CODES], slope: f32) -> Option<(u16, u16, u16)> {
     let near = (f64::from(slope) * 65536.0).round();
     if !(0.0..=65537.0).contains(&near) {
@@ -300,7 +308,8 @@ impl Linear {
 impl Kernel {
     /// Applies the function to the texels that a mask holds.
     #[inline(always)]
-    pub(crate) fn masked(&self, texels: &mut [Texel; LANES], mask: &[Lane; LANES]) {
+    pub(crate) fn masked(&self, words: &mut [u32; LANES], mask: &[Lane; LANES]) {
+        let texels: &mut [Texel; LANES] = bytemuck::cast_mut(words);
         match self {
             Self::Keep => {}
             Self::Store(value) => select_texels(texels, mask, &[*value; LANES]),
@@ -331,10 +340,14 @@ impl Kernel {
 
     /// Applies the function to all of some texels, whose number is a multiple of [`LANES`].
     #[inline(always)]
-    pub(crate) fn whole(&self, texels: &mut [Texel]) {
+    pub(crate) fn whole(&self, words: &mut [u32]) {
+        if let Self::Store(value) = self {
+            words.fill(word(*value));
+            return;
+        }
+        let texels: &mut [Texel] = bytemuck::cast_slice_mut(words);
         match self {
-            Self::Keep => {}
-            Self::Store(value) => texels.fill(*value),
+            Self::Keep | Self::Store(_) => {}
             Self::Masked { value, keep } => {
                 for chunk in texels.as_chunks_mut::<LANES>().0 {
                     *chunk = masked(chunk, *value, *keep);

@@ -1,13 +1,16 @@
 //! The choice of kernels: once per draw, when a scene is prepared.
 
+use crate::lanes::LANES;
 use crate::linear::UNITS;
 use crate::raster::bounds;
+use crate::steps::{Faithful, Steps};
 use crate::surface::depth_encoding;
 use etalon_frame::{ChannelEncoding, TextureFormat, standard_sample_positions};
-use etalon_pipeline::{Plain, takes_logic, window_position};
+use etalon_pipeline::shader::Kept;
+use etalon_pipeline::{Arithmetic, Plain, takes_logic, window_position};
 use etalon_scene::{
-    DepthState, Draw, Pass, PolygonMode, PrimitiveTopology, ProvokingVertex, RESTART, Scene,
-    Shader, StencilState,
+    AddressMode, ColorTarget, DepthState, Draw, EarlyTests, FilterMode, Multisample, Pass,
+    PolygonMode, PrimitiveTopology, ProvokingVertex, RESTART, Scene, Shader, StencilState,
 };
 
 /// The farthest that a vertex may lie from the window's corner, in texels: beyond it the kernels' integers overflow.
@@ -69,6 +72,14 @@ pub(crate) enum Shading {
     Uniform,
     /// None: zeros.
     Nothing,
+    /// The nearest texels of a texture, of the format that is drawn to.
+    Texture {
+        /// The texture's attachment.
+        index: usize,
+        address: [AddressMode; 2],
+        /// Bit `i` of the words is set if alpha `i` is discarded.
+        discarded: [u32; 8],
+    },
 }
 
 /// The reason why a scene has no kernels.
@@ -138,7 +149,7 @@ impl PassPlan {
         let stencil = depth_stencil.is_some_and(|i| format(i).has_stencil());
         for (index, draw) in pass.draws.iter().enumerate() {
             if !draw.rasterizer_discard {
-                let draw = DrawPlan::new(draw, index, size, &plan, stencil)?;
+                let draw = DrawPlan::new(scene, draw, index, size, &plan, stencil)?;
                 plan.draws.push(draw);
             }
         }
@@ -148,6 +159,7 @@ impl PassPlan {
 
 impl DrawPlan {
     fn new(
+        scene: &Scene,
         draw: &Draw,
         index: usize,
         size: [u32; 2],
@@ -162,6 +174,7 @@ impl DrawPlan {
             Shader::FrontFacing => Shading::Facing,
             Shader::UniformColor | Shader::UintColor => Shading::Uniform,
             Shader::VertexOnly => Shading::Nothing,
+            Shader::SampledColor | Shader::SampledDiscard => texture(scene, draw, pass)?,
             _ => return Err("a shader"),
         };
         use PrimitiveTopology::{TriangleFan, TriangleList, TriangleStrip};
@@ -185,8 +198,9 @@ impl DrawPlan {
         let inside = draw.mesh.vertices.iter().all(|v| {
             let [[x], [y], [z]] = window_position(&mut Plain::<1>, v.position, &draw.viewport);
             let clip = v.position[2] / v.position[3];
+            let texture = v.uv.iter().all(|c| c.is_finite());
             let clips = !draw.depth_clamp && !(0.0..=1.0).contains(&clip);
-            x.abs() <= FARTHEST && y.abs() <= FARTHEST && z.is_finite() && !clips
+            x.abs() <= FARTHEST && y.abs() <= FARTHEST && z.is_finite() && texture && !clips
         });
         if !inside {
             return Err("clipped by the near or the far plane, or far outside");
@@ -222,6 +236,39 @@ impl DrawPlan {
                 && draw.provoking != Some(ProvokingVertex::Last),
         })
     }
+}
+
+/// Returns the shading by a texture, whose codes are stored as they are.
+fn texture(scene: &Scene, draw: &Draw, pass: &PassPlan) -> Result<Shading, Reason> {
+    let (Some(index), Some(sampler)) = (draw.textures.first(), draw.sampler) else {
+        return Err("a shader without its texture");
+    };
+    let plain = draw.targets.iter().all(|t| *t == ColorTarget::default());
+    let texels = scene.attachments[*index].format.color_channels();
+    let same = texels == pass.channels && texels == [ChannelEncoding::Unorm(8); 4];
+    if sampler.filter != FilterMode::Nearest
+        || draw.early_tests != EarlyTests::Implicit
+        || draw.multisample != Multisample::default()
+        || pass.positions.len() > 1
+        || draw.logic.is_some()
+        || !plain
+        || !same
+    {
+        return Err("a texture that is filtered, blended or converted");
+    }
+    let mut discarded = [0; 8];
+    for code in (0..256_usize).filter(|_| draw.shader.discards()) {
+        let [alpha] = Plain::<1>.decode(ChannelEncoding::Unorm(8), [code as u32]);
+        let kept = Kept::unless_below([alpha; LANES], [draw.params.color[3]; LANES]);
+        if !Faithful.kept(&kept)[0] {
+            discarded[code / 32] |= 1 << (code % 32);
+        }
+    }
+    Ok(Shading::Texture {
+        index: *index,
+        address: sampler.address,
+        discarded,
+    })
 }
 
 /// Returns the texels of a rectangle whose sample at a position lies in the viewport.

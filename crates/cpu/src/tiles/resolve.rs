@@ -5,25 +5,48 @@ use crate::lanes::LANES;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
 
+/// Returns true if the average of equal samples is their code, for all codes.
+fn averages_are_codes(channels: &[ChannelEncoding], samples: usize) -> bool {
+    let share = 1.0 / samples as f32;
+    let unorm = channels.iter().all(|e| *e == ChannelEncoding::Unorm(8));
+    unorm
+        && (0..=255).all(|code| {
+            let encoding = ChannelEncoding::Unorm(8);
+            let [value] = Plain::<1>.decode(encoding, [code]);
+            let sum = (1..samples).fold(value, |sum, _| sum + value);
+            Plain::<1>.encode(encoding, [sum * share]) == [code]
+        })
+}
+
 /// Resolves the planes of a tile. With `same` the first stands for all.
 #[inline(always)]
 pub(crate) fn resolve(
     channels: &[ChannelEncoding],
-    planes: &[Texel],
+    planes: &[u32],
     samples: usize,
     same: bool,
-    resolved: &mut [Texel],
+    resolved: &mut [u32],
 ) {
     let share = 1.0 / samples as f32;
+    let known = averages_are_codes(channels, samples);
     let plane = |sample: usize| &planes[if same { 0 } else { sample * AREA }..][..AREA];
     let (targets, _) = resolved.as_chunks_mut::<LANES>();
     for (at, target) in targets.iter_mut().enumerate() {
         let texels = |sample: usize| &plane(sample)[at * LANES..][..LANES];
+        let differ = (1..samples).fold(0, |bits, sample| {
+            let pairs = texels(0).iter().zip(texels(sample));
+            pairs.fold(bits, |bits, (a, b)| bits | (a ^ b))
+        });
+        if known && differ == 0 {
+            target.copy_from_slice(texels(0));
+            continue;
+        }
+        let target: &mut [Texel; LANES] = bytemuck::cast_mut(target);
         for (c, encoding) in channels.iter().enumerate() {
             let codes = |sample: usize| {
                 let mut codes = [0; LANES];
                 for (code, texel) in codes.iter_mut().zip(texels(sample)) {
-                    *code = u32::from(texel[c]);
+                    *code = u32::from(texel.to_ne_bytes()[c]);
                 }
                 codes
             };

@@ -1,7 +1,7 @@
 //! A scene that is drawn in tiles.
 
 use super::TILE;
-use super::image::{AREA, Image, texel};
+use super::image::{AREA, Image, texel, word};
 use super::plan::{PassPlan, Plan};
 use super::setup::{Input, Part, Placed, place};
 use super::tile::{self, Layer, Tile};
@@ -18,6 +18,9 @@ use std::time::Instant;
 
 /// The least vertices or primitives that are shared between threads.
 const SHARED: usize = 4096;
+
+/// The least draws whose triangles are shared between threads.
+const DRAWS: usize = 64;
 
 /// The vector instructions and the threads that kernels use.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +72,7 @@ impl TiledScene {
             if let LoadOperation::Clear(value) = pass.color_operations(location).load {
                 let encodings = self.scene.attachments[*index].format.color_channels();
                 let code = |c: usize, encoding| Faithful.clear_code(encoding, value[c]);
-                self.images[*index].clear.color = Some(texel(encodings, code));
+                self.images[*index].clear.color = Some(word(texel(encodings, code)));
             }
         }
         let Some(index) = pass.depth_stencil else {
@@ -96,7 +99,8 @@ impl TiledScene {
             let clear = &mut self.images[index].clear;
             match aspect {
                 Aspect::Color => {
-                    clear.color = Some(texel(format.color_channels(), |_, e| code(e)));
+                    let texel = texel(format.color_channels(), |_, e| code(e));
+                    clear.color = Some(word(texel));
                 }
                 Aspect::Depth => clear.depth = depth_encoding(format).map(code),
                 Aspect::Stencil => clear.stencil = format.has_stencil().then_some(0x99),
@@ -108,7 +112,7 @@ impl TiledScene {
     fn pass(&mut self, number: usize) {
         let plan = &self.plan.passes[number];
         let pass = &self.scene.passes[number];
-        let inputs = inputs(pass, plan);
+        let inputs = inputs(pass, plan, &self.images);
         transform(self.machine, &inputs, &mut self.placed);
         let parts = set_up(self.machine, plan, &inputs, &self.placed, &mut self.parts);
         let color = plan
@@ -174,12 +178,12 @@ fn chunks<T>(memory: Option<&mut [T]>, samples: usize) -> std::slice::ChunksExac
 }
 
 /// Returns the vertices and primitives of a pass's draws.
-fn inputs<'a>(pass: &'a Pass, plan: &'a PassPlan) -> Vec<Input<'a>> {
+fn inputs<'a>(pass: &'a Pass, plan: &'a PassPlan, images: &[Image]) -> Vec<Input<'a>> {
     let (mut base, mut first) = (0, 0);
     let mut all = Vec::with_capacity(plan.draws.len());
     for draw_plan in &plan.draws {
         let draw = &pass.draws[draw_plan.index];
-        let input = Input::new(draw, draw_plan, base, first);
+        let input = Input::new(draw, draw_plan, images, base, first);
         base += draw.mesh.vertices.len();
         first += input.count;
         all.push(input);
@@ -220,7 +224,9 @@ fn set_up<'p>(
 ) -> &'p [Part] {
     let tiles = pass.size.map(|s| s.div_ceil(TILE)).iter().product();
     let count = inputs.last().map_or(0, |i| i.first + i.count);
-    let used = if count < SHARED { 1 } else { parts.len() };
+    // A draw costs more than a triangle: its functions of codes are made.
+    let shared = count >= SHARED || inputs.len() >= DRAWS;
+    let used = if shared { parts.len() } else { 1 };
     let each = count.div_ceil(used);
     let jobs: Vec<_> = parts[..used].iter_mut().enumerate().collect();
     on_threads(jobs, |(number, part)| {
@@ -244,7 +250,7 @@ fn draw_tiles(
     let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
     on_threads((0..threads).collect(), |_| {
         while let Some(tile) = next() {
-            dispatch!(machine.level, _ => tile::draw(tile, pass, inputs, parts));
+            dispatch!(machine.level, simd => tile::draw(simd, tile, pass, inputs, parts));
         }
     });
 }

@@ -2,8 +2,10 @@
 
 use super::TILE;
 use super::edges::{Edges, Touch};
+use super::image::Image;
 use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, PassPlan, Shading};
+use super::texture::Texture;
 use crate::lanes::LANES;
 use crate::linear::UNITS;
 use crate::raster::depth_bias;
@@ -29,6 +31,8 @@ pub(crate) struct Triangle {
     /// In the order of the primitive, which the depth's plane depends on.
     pub(crate) corners: [Placed; 3],
     pub(crate) bias: f64,
+    /// The place of its vertices in its part, if its colour is a texture's.
+    pub(crate) vertices: u32,
     /// The code of all its depths, if it is flat.
     pub(crate) code: u32,
     /// The place of its draw among the pass's kernels.
@@ -46,11 +50,15 @@ pub(crate) struct Triangle {
     pub(crate) cut: bool,
 }
 
-/// The triangles of a range of a pass's primitives.
+/// The triangles of a range of a pass's primitives. Neighbours are filled by different threads, so that none may share
+/// a cache line.
 #[derive(Debug, Default)]
+#[repr(align(128))]
 pub(crate) struct Part {
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) paints: Vec<Paint>,
+    /// The vertices of triangles with textures.
+    pub(crate) vertices: Vec<[u32; 3]>,
     /// The entries of each tile, in the order of drawing.
     pub(crate) bins: Vec<Vec<Entry>>,
 }
@@ -87,11 +95,19 @@ pub(crate) struct Input<'a> {
     pub(crate) count: usize,
     /// Vertices and provoking vertex of each primitive, unless the draw is a list.
     pub(crate) primitives: Vec<([usize; 3], usize)>,
+    /// The texture that the draw's shader samples.
+    pub(crate) texture: Option<Texture>,
 }
 
 impl<'a> Input<'a> {
     /// Returns the input of a draw whose vertices and primitives stand behind others.
-    pub(crate) fn new(draw: &'a Draw, plan: &'a DrawPlan, base: usize, first: usize) -> Self {
+    pub(crate) fn new(
+        draw: &'a Draw,
+        plan: &'a DrawPlan,
+        images: &[Image],
+        base: usize,
+        first: usize,
+    ) -> Self {
         let listed = || {
             let order = draw.mesh.indices.as_ref();
             order.map_or(draw.mesh.vertices.len(), Vec::len) / 3
@@ -118,6 +134,10 @@ impl<'a> Input<'a> {
             first,
             count,
             primitives,
+            texture: match plan.shading {
+                Shading::Texture { index, .. } => Some(Texture::new(&images[index])),
+                _ => None,
+            },
         }
     }
 
@@ -158,6 +178,7 @@ impl Part {
     pub(crate) fn clear(&mut self, tiles: usize) {
         self.triangles.clear();
         self.paints.clear();
+        self.vertices.clear();
         self.bins.iter_mut().for_each(Vec::clear);
         self.bins.resize_with(tiles, Vec::new);
     }
@@ -177,7 +198,11 @@ impl Part {
             let mut draw = SetUp::new(pass, input, number, self);
             for primitive in start..end {
                 let (triangle, provoking) = input.primitive(primitive - input.first);
-                draw.triangle(triangle.map(|i| placed[input.base + i]), provoking);
+                draw.triangle(
+                    triangle,
+                    triangle.map(|i| placed[input.base + i]),
+                    provoking,
+                );
             }
         }
     }
@@ -219,7 +244,7 @@ impl<'a> SetUp<'a> {
     }
 
     #[inline(always)]
-    fn triangle(&mut self, corners: [Placed; 3], provoking: usize) {
+    fn triangle(&mut self, vertices: [usize; 3], corners: [Placed; 3], provoking: usize) {
         let [a, b, c] = corners.map(|v| v.at);
         // The extents of small triangles, and of most others, are small enough for the product.
         let area = (i64::from(b[1]) - i64::from(a[1])) * (i64::from(c[0]) - i64::from(a[0]))
@@ -267,9 +292,14 @@ impl<'a> SetUp<'a> {
             || top <= bounds[1] + 1
             || right >= bounds[2] - 2
             || bottom >= bounds[3] - 2;
+        let side = self.part.vertices.len() as u32;
+        if let Shading::Texture { .. } = self.plan.shading {
+            self.part.vertices.push(vertices.map(|i| i as u32));
+        }
         let triangle = Triangle {
             corners,
             bias,
+            vertices: side,
             code: match (flat, self.pass.depth) {
                 (true, Some(encoding)) => {
                     let depth = super::depth::held(self.draw, corners[0].z, bias);
@@ -315,7 +345,7 @@ impl<'a> SetUp<'a> {
             Shading::Vertex | Shading::Expensive(_) => self.draw.mesh.vertices[provoking].color,
             Shading::Facing if !front => params.back_color,
             Shading::Facing | Shading::Uniform => params.color,
-            Shading::Nothing => [0.0; 4],
+            Shading::Nothing | Shading::Texture { .. } => [0.0; 4],
         };
         let bits = color.map(f32::to_bits);
         match self.last {
@@ -324,7 +354,7 @@ impl<'a> SetUp<'a> {
         }
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn new_paint(&mut self, color: [f32; 4]) -> u32 {
         let quick = self.part.paints.len() - self.first > FUNCTIONS;
         let paint = Paint::new(

@@ -6,15 +6,18 @@ use super::depth_stencil::{
     ANY, Decided, always_passes, compared, decided, operate, stencil_passes,
 };
 use super::edges::{Edges, Number};
-use super::image::{AREA, Texel};
+use super::image::{AREA, word};
 use super::lanes::{ALL, Lane, and, and_not, any, select, select_bytes};
-use super::paint::Paint;
+use super::opaque::Opaque;
+use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, PassPlan, Shading};
 use super::resolve::resolve;
 use super::setup::{Input, Part, Triangle, tile_texels};
+use super::texture::{Coordinates, Texture};
 use crate::lanes::{Codes, LANES};
 use etalon_pipeline::shader::cost;
 use etalon_scene::{StencilFace, StencilOperation};
+use fearless_simd::Simd;
 use std::hint::black_box;
 
 /// One aspect of a tile: its planes, sample by sample; empty if the pass lacks the aspect.
@@ -58,21 +61,22 @@ impl<T: Copy> Layer<'_, T> {
 pub(crate) struct Tile<'a> {
     /// Its column and row.
     pub(crate) at: [usize; 2],
-    pub(crate) color: Layer<'a, Texel>,
+    pub(crate) color: Layer<'a, u32>,
     /// The tile of the attachment that colour is resolved to.
-    pub(crate) resolved: &'a mut [Texel],
+    pub(crate) resolved: &'a mut [u32],
     pub(crate) depth: Layer<'a, u32>,
     pub(crate) stencil: Layer<'a, u8>,
 }
 
 /// What the kernels read of a triangle in a tile.
-struct Work<'a> {
-    triangle: &'a Triangle,
-    plan: &'a DrawPlan,
+pub(crate) struct Work<'a> {
+    pub(crate) triangle: &'a Triangle,
+    pub(crate) plan: &'a DrawPlan,
     face: Option<StencilFace>,
     paint: &'a Paint,
     /// The depths, unless the triangle is flat or none are tested.
-    depths: Option<Depths>,
+    pub(crate) depths: Option<Depths>,
+    texture: Option<(&'a Texture, Coordinates)>,
 }
 
 /// A tile being drawn.
@@ -89,7 +93,13 @@ struct Drawing<'t, 'a> {
 
 /// Draws a tile.
 #[inline(always)]
-pub(crate) fn draw(tile: Tile<'_>, pass: &PassPlan, inputs: &[Input<'_>], parts: &[Part]) {
+pub(crate) fn draw<S: Simd>(
+    simd: S,
+    tile: Tile<'_>,
+    pass: &PassPlan,
+    inputs: &[Input<'_>],
+    parts: &[Part],
+) {
     let samples = pass.positions.len();
     let across = pass.size[0].div_ceil(TILE);
     let index = tile.at[1] * across + tile.at[0];
@@ -107,8 +117,7 @@ pub(crate) fn draw(tile: Tile<'_>, pass: &PassPlan, inputs: &[Input<'_>], parts:
         for entry in &part.bins[index] {
             let triangle = &part.triangles[entry.triangle()];
             let input = &inputs[triangle.draw as usize];
-            let paint = &part.paints[triangle.paint as usize];
-            drawing.triangle(triangle, input, paint, entry.is_whole());
+            drawing.triangle(simd, triangle, input, part, entry.is_whole());
         }
     }
     drawing.finish();
@@ -116,7 +125,15 @@ pub(crate) fn draw(tile: Tile<'_>, pass: &PassPlan, inputs: &[Input<'_>], parts:
 
 impl Drawing<'_, '_> {
     #[inline(always)]
-    fn triangle(&mut self, triangle: &Triangle, input: &Input<'_>, paint: &Paint, whole: bool) {
+    fn triangle<S: Simd>(
+        &mut self,
+        simd: S,
+        triangle: &Triangle,
+        input: &Input<'_>,
+        part: &Part,
+        whole: bool,
+    ) {
+        let paint = &part.paints[triangle.paint as usize];
         let plan = input.plan;
         let face = plan
             .stencil
@@ -141,6 +158,16 @@ impl Drawing<'_, '_> {
             face,
             paint,
             depths,
+            texture: input.texture.as_ref().map(|texture| {
+                (
+                    texture,
+                    Coordinates::new(
+                        input.draw,
+                        triangle,
+                        &part.vertices[triangle.vertices as usize],
+                    ),
+                )
+            }),
         };
         if !paint.kernel.keeps() {
             self.tile.color.touch(self.same);
@@ -157,7 +184,7 @@ impl Drawing<'_, '_> {
         }
         if whole {
             self.whole(&work, answer);
-        } else {
+        } else if !self.opaque(simd, &work) {
             self.partly(&work);
         }
         self.widen(&work, whole, answer);
@@ -170,10 +197,13 @@ impl Drawing<'_, '_> {
             return;
         }
         let code = work.triangle.code;
+        let all = whole
+            && self.same
+            && work.face.is_none()
+            && work.texture.is_none()
+            && answer == Some(Decided::Pass);
         self.range = match work.triangle.flat {
-            true if whole && self.same && work.face.is_none() && answer == Some(Decided::Pass) => {
-                [code; 2]
-            }
+            true if all => [code; 2],
             true => [self.range[0].min(code), self.range[1].max(code)],
             false => ANY,
         };
@@ -202,7 +232,7 @@ impl Drawing<'_, '_> {
             if !self.same && work.paint.samples & (1 << sample) == 0 {
                 continue;
             }
-            let stencil = work.face.as_ref().is_none_or(always_passes);
+            let stencil = work.face.as_ref().is_none_or(always_passes) && work.texture.is_none();
             match answer {
                 Some(answer) if stencil => self.decided(work, sample, answer),
                 _ => {
@@ -252,6 +282,41 @@ impl Drawing<'_, '_> {
         }
     }
 
+    /// Draws a small triangle that replaces colour, depth or both under a depth test. Returns false if it is another.
+    #[inline(always)]
+    fn opaque<S: Simd>(&mut self, simd: S, work: &Work<'_>) -> bool {
+        let color = match work.paint.kernel {
+            Kernel::Keep => None,
+            Kernel::Store(value) => Some(word(value)),
+            _ => return false,
+        };
+        let plain = work.face.is_none()
+            && !matches!(
+                work.plan.shading,
+                Shading::Expensive(_) | Shading::Texture { .. }
+            );
+        if !plain || !work.triangle.small {
+            return false;
+        }
+        let opaque = Opaque::new(work, self.texels, color);
+        for (sample, position) in self.pass.positions.iter().enumerate() {
+            if work.paint.samples & (1 << sample) == 0 {
+                continue;
+            }
+            let plane = sample * AREA..(sample + 1) * AREA;
+            let colors = match color {
+                Some(_) => &mut self.tile.color.planes[plane.clone()],
+                None => &mut [],
+            };
+            let depths = match work.plan.depth {
+                Some(_) => &mut self.tile.depth.planes[plane],
+                None => &mut [],
+            };
+            opaque.draw(simd, *position, &work.plan.rects[sample], colors, depths);
+        }
+        true
+    }
+
     /// Draws a triangle that covers a part of the tile.
     #[inline(always)]
     fn partly(&mut self, work: &Work<'_>) {
@@ -281,8 +346,9 @@ impl Drawing<'_, '_> {
         let mut rows = edges.rows(first, y_first, self.pass.positions[sample]);
         let rect = &work.plan.rects[sample];
         for y in y_first..=y_last {
-            for x in (first..=last).step_by(LANES) {
-                let mut mask = rows.covered((x - first) / lanes);
+            for chunk in 0..=(last - first) / lanes {
+                let x = first + chunk * lanes;
+                let mut mask = rows.covered(chunk);
                 if triangle.cut {
                     if y < rect[1] || y >= rect[3] {
                         continue;
@@ -302,10 +368,25 @@ impl Drawing<'_, '_> {
 
     /// Tests, blends and stores the fragments of one sample of neighbouring texels.
     #[inline(always)]
-    fn fragments(&mut self, work: &Work<'_>, sample: usize, at: [i32; 2], mask: [Lane; LANES]) {
+    fn fragments(&mut self, work: &Work<'_>, sample: usize, at: [i32; 2], mut mask: [Lane; LANES]) {
         let [x, y] = at;
         let [left, top, ..] = self.texels;
         let place = sample * AREA + (y - top) as usize * TILE + (x - left) as usize;
+        let mut texels: Codes = [0; LANES];
+        if let (
+            Some((texture, coordinates)),
+            Shading::Texture {
+                address, discarded, ..
+            },
+        ) = (&work.texture, &work.plan.shading)
+        {
+            texels = texture.nearest(*address, coordinates.at(x, y));
+            for (lane, texel) in mask.iter_mut().zip(texels) {
+                let [.., alpha] = texel.to_ne_bytes();
+                let bit = discarded[usize::from(alpha >> 5)] >> (alpha & 31) & 1;
+                *lane &= bit as Lane - 1;
+            }
+        }
         let mut passed = mask;
         if let Some(face) = &work.face {
             passed = and(
@@ -344,10 +425,11 @@ impl Drawing<'_, '_> {
         {
             work_off(steps, at);
         }
-        if !work.paint.kernel.keeps() {
-            work.paint
-                .kernel
-                .masked(self.tile.color.lanes(place), &passed);
+        if work.texture.is_some() {
+            select(self.tile.color.lanes(place), &passed, &texels);
+        } else if !work.paint.kernel.keeps() {
+            let stored = self.tile.color.lanes(place);
+            work.paint.kernel.masked(stored, &passed);
         }
     }
 

@@ -1,0 +1,106 @@
+//! Textures: their nearest texels, as they are stored.
+
+use super::image::Image;
+use super::setup::{Triangle, point};
+use crate::lanes::{Codes, LANES, Real};
+use crate::linear::{CENTER, UNITS};
+use etalon_pipeline::{DepthPlane, texel_position};
+use etalon_scene::{AddressMode, Draw};
+
+/// A texture's texels, row by row.
+#[derive(Debug)]
+pub(crate) struct Texture {
+    width: usize,
+    height: usize,
+    texels: Vec<u32>,
+}
+
+impl Texture {
+    /// Returns the texels of an image of one sample.
+    pub(crate) fn new(image: &Image) -> Self {
+        let (width, height) = (image.width, image.height);
+        let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let texel = |(x, y)| match image.clear.color {
+            Some(value) => value,
+            None => image.color[image.place(x, y, 0)],
+        };
+        Self {
+            width,
+            height,
+            texels: places.map(texel).collect(),
+        }
+    }
+
+    /// Returns the texels at one coordinate per lane.
+    #[inline(always)]
+    pub(crate) fn nearest(&self, address: [AddressMode; 2], [u, v]: [Real; 2]) -> Codes {
+        let columns = positions(address[0], u, self.width);
+        let rows = positions(address[1], v, self.height);
+        let mut result = [0; LANES];
+        for ((texel, x), y) in result.iter_mut().zip(columns).zip(rows) {
+            *texel = self.texels[y as usize * self.width + x as usize];
+        }
+        result
+    }
+}
+
+/// Returns the texels of an axis at one coordinate per lane.
+#[inline(always)]
+fn positions(mode: AddressMode, coordinate: Real, size: usize) -> Codes {
+    let mut result = [0; LANES];
+    let scaled = |c: f32| (c * size as f32).floor();
+    // Beyond it 32 bits do not hold a position.
+    let small = coordinate.iter().all(|c| scaled(*c).abs() < 1e9);
+    if mode == AddressMode::Repeat && size.is_power_of_two() && small {
+        for (place, c) in result.iter_mut().zip(coordinate) {
+            *place = (scaled(c) as i32 as u32) & (size as u32 - 1);
+        }
+    } else {
+        for (place, c) in result.iter_mut().zip(coordinate) {
+            *place = texel_position(mode, scaled(c) as i64, size as u32) as u32;
+        }
+    }
+    result
+}
+
+/// The texture coordinates of a triangle over the window.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Coordinates {
+    origin: [i32; 2],
+    /// Value at the origin, growth per unit to the right and down, axis by axis.
+    axes: [[f64; 3]; 2],
+}
+
+impl Coordinates {
+    #[inline(always)]
+    pub(crate) fn new(draw: &Draw, triangle: &Triangle, vertices: &[u32; 3]) -> Self {
+        let points = triangle.corners.map(|v| point(v.at));
+        let uv = vertices.map(|i| draw.mesh.vertices[i as usize].uv);
+        let axis = |axis: usize| {
+            let values = uv.map(|uv| f64::from(uv[axis]));
+            let plane = DepthPlane::new(points, values);
+            [values[0], plane.dx, plane.dy]
+        };
+        Self {
+            origin: triangle.corners[0].at,
+            axes: [axis(0), axis(1)],
+        }
+    }
+
+    /// Returns the coordinates at the centres of neighbouring texels.
+    #[inline(always)]
+    pub(crate) fn at(&self, x: i32, y: i32) -> [Real; 2] {
+        let units = UNITS as i32;
+        let first = x * units + CENTER.x as i32 - self.origin[0];
+        let down = f64::from(y * units + CENTER.y as i32 - self.origin[1]);
+        let mut result = [[0.0; LANES]; 2];
+        for (values, [start, growth, growth_down]) in result.iter_mut().zip(self.axes) {
+            let down = down * growth_down;
+            for (lane, value) in values.iter_mut().enumerate() {
+                let across = f64::from(first + lane as i32 * units) * growth;
+                *value = (start + across + down) as f32;
+            }
+        }
+        result
+    }
+}
