@@ -39,7 +39,7 @@ pub(crate) struct Group {
     keys: [usize; 2],
     /// True if it fails by itself, in a new process; before that was tried, if its reduction was one.
     steady: bool,
-    /// What is left of its first scene, until it is drawn in a new process.
+    /// The rest of its first scene, until it is drawn in a new process.
     unconfirmed: Option<Case>,
     file: PathBuf,
     /// The traits that tell it from other groups.
