@@ -454,3 +454,26 @@ fn a_bias_that_is_no_normal_number_may_be_nothing() {
     assert!(sample.allows(&[0]) && sample.allows(&[255]));
     assert!(!sample.allows(&[i64::from(f32::MIN_POSITIVE.to_bits())]));
 }
+
+#[test]
+fn samples_of_minus_one_are_read_as_either_code() {
+    // A logic operation alone stores the least code, which no API copies out of several samples.
+    let of = |samples: u32| {
+        let scene = case(&format!(
+            r#"{{"about":"t","spec":["t"],"scene":{{
+               "attachments":{{"c":{{"format":"rgba8snorm","size":[1,1],"samples":{samples}}}}},
+               "passes":[{{"color":["c"],"draws":[{{"mesh":{{"kind":"cover"}},"shader":"uniform_color",
+                   "params":{{"color":[1,0,1,1]}},"logic":"equivalent"}}]}}],"read":["c"]}}}}"#
+        ))
+        .scene;
+        let limits = limits(Api::Vulkan);
+        judge(&scene, &limits, &Rules::of(&limits))
+    };
+    let allows = |samples: u32| {
+        let set = of(samples);
+        let sample = set.groups[0].sample(0, 0, 0);
+        [-128, -127, -126].map(|code| sample.allows(&[code, -1, code, code]))
+    };
+    assert_eq!(allows(1), [true, false, false]);
+    assert_eq!(allows(4), [true, true, false]);
+}
