@@ -56,6 +56,19 @@ pub(crate) fn depth_bias(
     }
 }
 
+/// Returns the interval that a bias adds where depths of vertices may be held to 0 and 1 with it, before fragments
+/// take theirs between them: what is left to the farthest depth at the one end, and to the nearest at the other.
+/// Clipping makes vertices of any depth of the primitive.
+pub(crate) fn clamped_at_vertices(bias: Interval, z: [Interval; 3]) -> Interval {
+    let held = |z: f64| z.clamp(0.0, 1.0);
+    let farthest = held(z.iter().map(|z| z.high).fold(f64::MIN, f64::max));
+    let nearest = held(z.iter().map(|z| z.low).fold(f64::MAX, f64::min));
+    bias.hull(Interval {
+        low: held(farthest + bias.low) - farthest,
+        high: held(nearest + bias.high) - nearest,
+    })
+}
+
 /// Returns a unit that may be 0 where it is too small for a normal number: texts promise a relative accuracy, and no
 /// denormalized numbers (OpenGL 4.6 and OpenGL ES 3.2, 2.3.4.1; Vulkan, Floating-Point Computation).
 fn flushed(unit: Interval) -> Interval {
