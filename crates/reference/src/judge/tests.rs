@@ -510,3 +510,27 @@ fn opengl_3_may_clamp_biased_depths_at_vertices() {
         assert!(!allows(version, 0.6), "{version}");
     }
 }
+
+#[test]
+fn the_step_of_a_float_bias_is_that_of_what_clipping_leaves() {
+    let of = |positions: &str, depth: f32| {
+        let scene = case(&format!(
+            r#"{{"about":"t","spec":["t"],"scene":{{
+               "attachments":{{"d":{{"format":"depth32float","size":[1,1]}}}},
+               "passes":[{{"depth_stencil":"d","draws":[{{"depth":{{"compare":"always","write":true}},
+                   "depth_bias":{{"constant":1000000}},"shader":"uniform_color",
+                   "mesh":{{"kind":"vertices","positions":[{positions}]}}}}]}}],"read":["d"]}}}}"#
+        ))
+        .scene;
+        let limits = limits(Api::Vulkan);
+        let set = judge(&scene, &limits, &Rules::of(&limits));
+        let sample = set.groups[0].sample(0, 0, 0);
+        sample.allows(&[i64::from(depth.to_bits())])
+    };
+    // The depth of 0.55 lies far outside, and what is drawn lies below 0.5.
+    let beyond = "[-1,-1,0.45],[-1,6,0.45],[18,-1,0.55]";
+    assert!(of(beyond, 0.485_065_46) && of(beyond, 0.514_867_8));
+    assert!(!of(beyond, 0.6));
+    let within = "[-1,-1,0.45],[-1,1,0.45],[1,-1,0.55]";
+    assert!(!of(within, 0.529_8) && of(within, 0.559_6));
+}
