@@ -18,6 +18,7 @@ pub mod codes;
 mod halves;
 mod read_fault;
 mod recording;
+mod tree;
 
 pub use call_fault::CallFault;
 pub use halves::halves;
@@ -26,6 +27,7 @@ pub use recording::{
     Argument, Call, Constant, CounterPart, Form, Member, Phase, Plane, RecordedContext,
     RecordedCounter, RecordedImage, Recording, VulkanNeeds,
 };
+pub use tree::Tree;
 
 use etalon_frame::{Frame, Limits, Requirement};
 use etalon_scene::Scene;

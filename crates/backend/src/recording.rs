@@ -1,5 +1,6 @@
 //! The calls that a backend made to draw and read one scene, as data.
 
+use crate::tree::Tree;
 use etalon_frame::{Aspect, ChannelEncoding};
 use serde::{Deserialize, Serialize};
 
@@ -36,12 +37,19 @@ pub enum RecordedContext {
         device: String,
         /// The version of Vulkan that the instance asks for.
         version: u32,
-        /// What the device must have besides features and extensions.
+        /// The abilities that the device must have besides features and extensions.
         needs: VulkanNeeds,
+    },
+    /// A device of wgpu.
+    Wgpu {
+        /// The backend of wgpu: `vulkan` or `gl`.
+        api: String,
+        /// The adapter's name.
+        device: String,
     },
 }
 
-/// What a scene needs of a device of Vulkan that no feature or extension stands for.
+/// The abilities of a device of Vulkan that a scene needs and that no feature or extension stands for.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct VulkanNeeds {
     /// The formats that are blended into, as `VkFormat`.
@@ -113,6 +121,8 @@ pub enum Argument {
     Offset(u64),
     /// No address.
     Null,
+    /// A descriptor.
+    Tree(Tree),
     /// Memory of the program that the driver writes to, by its number in [`Recording`], and its size in bytes.
     Output(u32, u64),
     /// Values in place, all of one kind.
@@ -172,11 +182,11 @@ pub struct Plane {
     pub texel: u32,
     /// Of each channel, the first bit in the texel, a little-endian number, and the number of bits.
     pub channels: Vec<[u32; 2]>,
-    /// How the numbers there become the channels' codes.
+    /// The form of the numbers there.
     pub form: Form,
 }
 
-/// How a number that came back becomes a code.
+/// The form of a number that came back, of which a code is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Form {
     /// It is the code.

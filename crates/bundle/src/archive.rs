@@ -12,7 +12,7 @@ use thiserror::Error;
 pub struct File {
     /// Its name.
     pub name: String,
-    /// What it is, for the report.
+    /// A description for the report.
     pub about: String,
     /// Its content.
     pub content: Vec<u8>,
@@ -43,7 +43,7 @@ pub struct Written {
     pub archive: PathBuf,
 }
 
-/// Why a bundle could not be written.
+/// The error of a bundle that could not be written.
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// There is one of the same name.

@@ -30,6 +30,13 @@ pub(crate) fn lines(text: &str, indent: &str) -> String {
     }
 }
 
+/// True if a name may stand in C as it is.
+pub(crate) fn is_identifier(name: &str) -> bool {
+    let first = name.chars().next();
+    first.is_some_and(|c| c.is_ascii_alphabetic() || c == '_')
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
 /// Returns a text that may stand in a comment: it ends none, starts none, and continues no line.
 pub(crate) fn comment(text: &str) -> String {
     let printable = |c: char| match c {

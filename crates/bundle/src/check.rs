@@ -1,13 +1,13 @@
 //! The comparison of what came back with what is allowed, as C.
 
 use crate::c;
-use crate::due::{Due, DueChannel, DueTexel};
+use crate::due::Due;
 use crate::error::BundleError;
-use etalon_backend::{Form, Recording};
-use etalon_frame::ChannelEncoding;
+use crate::table::{self, Order};
+use etalon_backend::Recording;
 use std::fmt::Write;
 
-/// How a number is put in order.
+/// The types and functions of the table, as C.
 const TYPES: &str = r#"
 /* How the bits of a channel are compared: as a number, a signed number, a float of 16 bits (by its sign and magnitude),
  * a float of 32 bits, or a byte that a shorter code was widened to. */
@@ -124,38 +124,40 @@ pub(crate) fn check(recording: &Recording, due: &Due) -> Result<String, BundleEr
         text.push_str(TYPES);
     }
     let mut texels = String::new();
-    for (number, texel) in due.texels.iter().enumerate() {
+    for (number, texel) in table::texels(recording, due)?.iter().enumerate() {
         let _ = write!(
             text,
             "\nstatic const struct channel channels_{number}[] = {{\n"
         );
         for channel in &texel.channels {
-            text.push_str(&place(recording, texel, channel)?);
+            let _ = writeln!(
+                text,
+                "    {{ {}, memory_{} + {}, {}, {}, {}, {} }},",
+                c::string(&channel.name),
+                channel.output,
+                channel.at,
+                channel.bit,
+                channel.bits,
+                order(channel.order),
+                channel.width,
+            );
         }
         let _ = write!(
             text,
             "}};\nstatic const struct range allowed_{number}[] = {{\n"
         );
         for outcome in &texel.allowed {
-            let ranges: Vec<String> = outcome
-                .iter()
-                .zip(&texel.channels)
-                .map(|(range, channel)| {
-                    let [least, most] = bounds(*range, channel.encoding, form(recording, channel));
-                    format!("{{ {}, {} }}", c::double(least), c::double(most))
-                })
-                .collect();
+            let range = |[least, most]: &[f64; 2]| {
+                format!("{{ {}, {} }}", c::double(*least), c::double(*most))
+            };
+            let ranges: Vec<String> = outcome.iter().map(range).collect();
             let _ = writeln!(text, "    {},", ranges.join(", "));
         }
         text.push_str("};\n");
-        let at = match texel.sample {
-            0 => format!("texel {},{}", texel.x, texel.y),
-            sample => format!("sample {sample} of texel {},{}", texel.x, texel.y),
-        };
         let _ = writeln!(
             texels,
             "        {{ {}, {}, {}, channels_{number}, allowed_{number} }},",
-            c::string(&at),
+            c::string(&texel.place),
             texel.channels.len(),
             texel.allowed.len(),
         );
@@ -175,109 +177,20 @@ pub(crate) fn check(recording: &Recording, due: &Due) -> Result<String, BundleEr
     Ok(text)
 }
 
-fn unread(channel: &DueChannel) -> BundleError {
-    BundleError::Unread(channel.name())
-}
-
-/// Returns the form in which a channel came back.
-fn form(recording: &Recording, channel: &DueChannel) -> Form {
-    let image = recording
-        .images
-        .iter()
-        .find(|i| i.attachment == channel.attachment && i.aspect == channel.aspect);
-    image
-        .and_then(|i| i.planes.first())
-        .map_or(Form::Code, |plane| plane.form)
-}
-
-/// Returns the row of a channel in the table.
-fn place(
-    recording: &Recording,
-    texel: &DueTexel,
-    channel: &DueChannel,
-) -> Result<String, BundleError> {
-    let of = |i: &&etalon_backend::RecordedImage| {
-        i.attachment == channel.attachment && i.aspect == channel.aspect
-    };
-    let image = recording
-        .images
-        .iter()
-        .find(of)
-        .ok_or_else(|| unread(channel))?;
-    let plane = image
-        .planes
-        .get(texel.sample as usize)
-        .ok_or_else(|| unread(channel))?;
-    let [bit, bits] = plane
-        .channels
-        .get(channel.channel)
-        .ok_or_else(|| unread(channel))?;
-    let at = (u64::from(texel.y) * u64::from(image.size[0]) + u64::from(texel.x))
-        * u64::from(plane.texel);
-    let (order, width) = match (plane.form, channel.encoding) {
-        (Form::Float | Form::Fraction, _) => ("VALUE", 32),
-        (Form::Byte, encoding) => match width(encoding) {
-            8 => ("UNSIGNED", 8),
-            width => ("WIDENED", width),
-        },
-        (Form::Code, ChannelEncoding::Snorm(bits)) => ("SIGNED", u32::from(bits)),
-        (Form::Code, ChannelEncoding::Float16) => ("HALF", 16),
-        (Form::Code, ChannelEncoding::Float32) => ("SINGLE", 32),
-        (Form::Code, encoding) => ("UNSIGNED", width(encoding)),
-    };
-    Ok(format!(
-        "    {{ {}, memory_{} + {at}, {bit}, {bits}, {order}, {width} }},\n",
-        c::string(&channel.name()),
-        plane.output,
-    ))
-}
-
-/// Returns the width of a code in bits.
-fn width(encoding: ChannelEncoding) -> u32 {
-    match encoding {
-        ChannelEncoding::Unorm(bits)
-        | ChannelEncoding::Snorm(bits)
-        | ChannelEncoding::Uint(bits) => u32::from(bits),
-        ChannelEncoding::Srgb8 => 8,
-        ChannelEncoding::Float16 => 16,
-        ChannelEncoding::Float32 => 32,
-        ChannelEncoding::Ufloat(mantissa) => u32::from(mantissa) + 5,
+fn order(order: Order) -> &'static str {
+    match order {
+        Order::Unsigned => "UNSIGNED",
+        Order::Signed => "SIGNED",
+        Order::Half => "HALF",
+        Order::Single => "SINGLE",
+        Order::Value => "VALUE",
+        Order::Widened => "WIDENED",
     }
-}
-
-/// Returns the bounds of a range of orders, as the numbers that the program compares. Of a value that came back as a
-/// float the bounds lie half way to the next code.
-fn bounds([least, most]: [i64; 2], encoding: ChannelEncoding, form: Form) -> [f64; 2] {
-    let encoding = match (form, encoding) {
-        (Form::Fraction, ChannelEncoding::Srgb8) => ChannelEncoding::Unorm(8),
-        _ => encoding,
-    };
-    if !matches!(form, Form::Float | Form::Fraction) {
-        return [least as f64, most as f64];
-    }
-    let value = |order: i64| encoding.value_of_order(order);
-    if encoding == ChannelEncoding::Float32 {
-        return [value(least), value(most)];
-    }
-    let below = match least > encoding.min_order() {
-        true => (value(least - 1) + value(least)) / 2.0,
-        false => f64::NEG_INFINITY,
-    };
-    let above = match most < encoding.max_order() {
-        true => (value(most) + value(most + 1)) / 2.0,
-        false => f64::INFINITY,
-    };
-    [below, above]
 }
 
 /// Returns the statements that check a counter.
 fn counted(recording: &Recording, due: &crate::due::DueCounter) -> Result<String, BundleError> {
-    let missing = || BundleError::Unread(format!("counter {}", due.name));
-    let counter = recording
-        .counters
-        .get(due.index)
-        .filter(|c| !c.parts.is_empty());
-    let counter = counter.ok_or_else(missing)?;
+    let counter = table::counter(recording, due)?;
     let mut text = String::from("    {\n        uint64_t count = 0, part;\n");
     for part in &counter.parts {
         let _ = write!(
@@ -290,22 +203,17 @@ fn counted(recording: &Recording, due: &crate::due::DueCounter) -> Result<String
             false => "        count += part;\n",
         });
     }
-    let above = match due.most {
+    let above = match due.range.high {
         Some(most) => format!(" || count > {most}u"),
         None => String::new(),
-    };
-    let allowed = match due.most {
-        Some(most) if most == due.least => format!("{most}"),
-        Some(most) => format!("{} to {most}", due.least),
-        None => format!("at least {}", due.least),
     };
     let _ = write!(
         text,
         "        if (count < {}u{above}) {{\n            printf(\"counter %s is %llu (must be %s)\\n\", {}, (unsigned long \
          long)count, {});\n            return BUG;\n        }}\n    }}\n",
-        due.least,
+        due.range.low,
         c::string(&due.name),
-        c::string(&allowed),
+        c::string(&due.range.to_string()),
     );
     Ok(text)
 }

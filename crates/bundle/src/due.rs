@@ -1,6 +1,6 @@
 //! The values that a frame must have for the bug to be absent.
 
-use etalon_frame::{Aspect, ChannelEncoding};
+use etalon_frame::{Aspect, ChannelEncoding, CountRange};
 
 /// The values that are checked.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,23 +47,17 @@ pub struct DueCounter {
     pub name: String,
     /// The place among the scene's counters.
     pub index: usize,
-    /// The least count.
-    pub least: u64,
-    /// The greatest count; `None` where there is none.
-    pub most: Option<u64>,
+    /// The counts.
+    pub range: CountRange,
 }
 
 impl DueChannel {
     /// Returns the channel's name: `red` of a colour, else the aspect's.
     pub(crate) fn name(&self) -> String {
-        let channel = match self.aspect {
-            Aspect::Color => ["red", "green", "blue", "alpha"]
-                .get(self.channel)
-                .copied()
-                .unwrap_or("color"),
-            Aspect::Depth => "depth",
-            Aspect::Stencil => "stencil",
-        };
-        format!("{channel} of {}", self.attachment)
+        format!(
+            "{} of {}",
+            self.aspect.channel(self.channel),
+            self.attachment
+        )
     }
 }

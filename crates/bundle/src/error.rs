@@ -1,8 +1,8 @@
-//! Why no program could be printed.
+//! The error of a program that cannot be printed.
 
 use thiserror::Error;
 
-/// Why no program could be printed.
+/// The error of a program that cannot be printed.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum BundleError {
     /// A call uses an object that no recorded call made.

@@ -12,18 +12,24 @@
 mod archive;
 mod c;
 mod check;
+mod declarations;
 mod due;
 mod error;
 mod gl;
 mod head;
+mod language;
 mod program;
 mod report;
+mod table;
 mod vulkan;
+mod wgpu;
+mod wrap;
 
 pub use archive::{File, WriteError, Written, free, write};
 pub use due::{Due, DueChannel, DueCounter, DueTexel};
 pub use error::BundleError;
 pub use gl::Trim;
 pub use head::Head;
-pub use program::{program, shader_test};
-pub use report::{Expected, Report, Versions};
+pub use language::Language;
+pub use program::{Program, program, shader_test};
+pub use report::{Checks, Expected, Report, Versions};

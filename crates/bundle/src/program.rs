@@ -1,11 +1,23 @@
 //! The program of a bundle, by the API whose calls were recorded.
 
+use crate::archive::File;
 use crate::due::Due;
 use crate::error::BundleError;
 use crate::gl::{self, Trim};
 use crate::head::Head;
+use crate::language::Language;
 use crate::vulkan;
+use crate::wgpu;
 use etalon_backend::{RecordedContext, Recording};
+
+/// The program of a bundle.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Program {
+    /// Its language.
+    pub language: Language,
+    /// The files that it is built from, and others that show the same.
+    pub files: Vec<File>,
+}
 
 /// Returns the program, with `trim` taken out of it.
 ///
@@ -16,8 +28,8 @@ pub fn program(
     recording: &Recording,
     due: &Due,
     trim: Trim,
-) -> Result<String, BundleError> {
-    match &recording.context {
+) -> Result<Program, BundleError> {
+    let text = match &recording.context {
         RecordedContext::Egl {
             es,
             version,
@@ -44,13 +56,24 @@ pub fn program(
             };
             vulkan::program(head, &context, recording, due)
         }
-    }
+        RecordedContext::Wgpu { api, device } => {
+            let files = wgpu::program(head, [api, device], recording, due)?;
+            return Ok(Program {
+                language: Language::Rust,
+                files,
+            });
+        }
+    };
+    Ok(Program {
+        language: Language::C,
+        files: vec![File::text("repro.c", "the program", text?)],
+    })
 }
 
 /// Returns the scene as a test for piglit's `shader_runner`; `None` if the format cannot say it.
 pub fn shader_test(recording: &Recording, due: &Due) -> Option<String> {
     match &recording.context {
         RecordedContext::Egl { es, version, .. } => gl::shader_test(*es, *version, recording, due),
-        RecordedContext::Vulkan { .. } => None,
+        RecordedContext::Vulkan { .. } | RecordedContext::Wgpu { .. } => None,
     }
 }

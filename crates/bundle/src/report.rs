@@ -1,5 +1,6 @@
 //! The report that goes with a program: what a maintainer asks first.
 
+use crate::language::Language;
 use etalon_backend::AdapterInfo;
 use std::fmt::Write;
 
@@ -8,7 +9,7 @@ use std::fmt::Write;
 pub struct Report {
     /// The bug in a line.
     pub title: String,
-    /// What is wrong at the first wrong texel or counter.
+    /// A sentence on the first wrong texel or counter.
     pub sentence: String,
     /// The clause that is violated.
     pub clause: Option<String>,
@@ -24,8 +25,10 @@ pub struct Report {
     pub states: Vec<String>,
     /// The runs that failed, and all.
     pub frequency: [u32; 2],
-    /// The messages of debug output or of the validation layer were asked for and none came.
-    pub clean: bool,
+    /// The answer of the API's own checks.
+    pub checks: Checks,
+    /// The program's language.
+    pub language: Language,
     /// The command that runs the program.
     pub run: String,
     /// The last line of the program, if it was built and run and showed the bug.
@@ -36,6 +39,17 @@ pub struct Report {
     pub story: Vec<String>,
     /// The files beside the report, each with what it is.
     pub files: Vec<(String, String)>,
+}
+
+/// The answer of an API's own checks: debug output, a validation layer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Checks {
+    /// They report nothing.
+    Clean,
+    /// There are none.
+    Absent,
+    /// The API accepts the calls. The checks of the API below it report this of what its implementation makes of them.
+    Below(String),
 }
 
 /// The releases that have a bug.
@@ -52,9 +66,9 @@ pub struct Versions {
 pub struct Expected {
     /// The place.
     pub place: String,
-    /// What it must be.
+    /// The value that is due.
     pub due: String,
-    /// What it is.
+    /// The value that came back.
     pub actual: String,
 }
 
@@ -90,15 +104,23 @@ impl Report {
             text,
             "\nIt fails in {failed} of {runs} runs, each in a process of its own. "
         );
-        text.push_str(match self.clean {
-            true => "The API's own checks (debug output) report nothing.\n",
-            false => "The API's own checks were not available.\n",
+        text.push_str(&match &self.checks {
+            Checks::Clean => {
+                "The API's own checks (debug output, validation) report nothing.\n".to_owned()
+            }
+            Checks::Absent => "The API's own checks were not available.\n".to_owned(),
+            Checks::Below(message) => format!(
+                "The API accepts the calls; below it the driver's debug output says: {}\n",
+                plain(message)
+            ),
         });
         let _ = write!(
             text,
-            "\n## Run it\n\n```sh\ncc repro.c -ldl -o repro\n{}\n```\n\n`repro.c` needs a C compiler and no header of the API. Exit \
-             status 1: the bug is there; 0: it is not; 77: the driver lacks something; 2: a call fails.\n",
-            self.run
+            "\n## Run it\n\n```sh\n{}\n{}\n```\n\n{} Exit status 1: the bug is there; 0: it is not; 77: the driver lacks \
+             something; 2: a call fails.\n",
+            self.language.build(),
+            self.run,
+            self.language.needs(),
         );
         text.push_str(&match &self.built {
             Some(line) => format!(
@@ -215,7 +237,8 @@ mod tests {
             }],
             states: vec!["cull_mode: back".to_owned()],
             frequency: [20, 20],
-            clean: true,
+            checks: Checks::Clean,
+            language: Language::C,
             run: "GALLIUM_DRIVER=softpipe ./repro".to_owned(),
             built: Some("texel 3,4 is wrong".to_owned()),
             search: vec!["facing".to_owned()],

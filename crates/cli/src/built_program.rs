@@ -2,34 +2,37 @@
 
 use crate::failure::Failure;
 use crate::output::say;
+use etalon_bundle::{File, Language, Program};
 use etalon_runner::Launch;
-use std::fs::{self, File};
+use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// The C compiler.
-const COMPILER: &str = "cc";
-/// How often a running program is looked at.
+/// The pause between looks at a running program.
 const PAUSE: Duration = Duration::from_millis(5);
+/// The lock file of the suite: the versions whose calls are recorded.
+const LOCK: &str = include_str!("../../../Cargo.lock");
 
 /// A program that was built and run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Run {
     /// The exit status; `None` if a signal or its time ended it.
     pub(crate) status: Option<i32>,
-    /// How it ended, in words.
+    /// Its end, in words.
     pub(crate) ending: String,
     /// The last line that it wrote.
     pub(crate) line: String,
+    /// Files that its building made and that belong to it.
+    pub(crate) made: Vec<File>,
 }
 
-/// Builds a C program in a folder of its own and runs it as a driver's worker is run. Returns `None`, and says why, if
+/// Builds a program in a folder of its own and runs it as a driver's worker is run. Returns `None`, and says why, if
 /// nothing can be built here or the driver is elsewhere.
 pub(crate) fn built_and_run(
-    source: &str,
+    program: &Program,
     launch: &Launch,
     timeout: Duration,
 ) -> Result<Option<Run>, Failure> {
@@ -39,38 +42,127 @@ pub(crate) fn built_and_run(
     }
     let failed = |e: io::Error| Failure::incomplete(format!("cannot build the program: {e}"));
     let folder = tempfile::tempdir().map_err(failed)?;
-    let (file, program) = (folder.path().join("repro.c"), folder.path().join("repro"));
-    fs::write(&file, source).map_err(failed)?;
-    let compiled = Command::new(COMPILER)
-        .arg(&file)
-        .args(["-ldl", "-o"])
-        .arg(&program)
-        .stdin(Stdio::null())
-        .output();
-    let output = match compiled {
-        Ok(output) => output,
-        Err(e) if e.kind() == io::ErrorKind::NotFound => {
-            say!("the program is not built here: there is no C compiler `{COMPILER}`");
-            return Ok(None);
-        }
-        Err(e) => return Err(failed(e)),
+    let folder = folder.path();
+    let made = match program.language {
+        Language::C => built_c(program, folder),
+        Language::Rust => built_rust(program, folder),
     };
-    if !output.status.success() {
-        let text = String::from_utf8_lossy(&output.stderr);
-        let line = text.lines().next().unwrap_or_default();
-        return Err(Failure::incomplete(format!(
+    match made {
+        Ok(made) => {
+            let ran = run(folder, launch, timeout).map_err(failed)?;
+            Ok(Some(Run { made, ..ran }))
+        }
+        Err(Unbuilt::Here(why)) => {
+            say!("the program is not built here: {why}");
+            Ok(None)
+        }
+        Err(Unbuilt::Wrong { line, .. }) => Err(Failure::incomplete(format!(
             "the program does not compile: {line}"
-        )));
+        ))),
+        Err(Unbuilt::Io(e)) => Err(failed(e)),
     }
-    run(&program, folder.path(), launch, timeout)
-        .map(Some)
-        .map_err(failed)
 }
 
-/// Runs a program in the environment of a driver.
-fn run(program: &Path, folder: &Path, launch: &Launch, timeout: Duration) -> io::Result<Run> {
+/// The reason why a program was not built.
+enum Unbuilt {
+    /// This machine lacks something.
+    Here(String),
+    /// The compiler refuses it.
+    Wrong {
+        /// The first line that names an error.
+        line: String,
+        /// True if only a download is missing.
+        offline: bool,
+    },
+    Io(io::Error),
+}
+
+impl From<io::Error> for Unbuilt {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+/// Builds a C program as `repro` in a folder.
+fn built_c(program: &Program, folder: &Path) -> Result<Vec<File>, Unbuilt> {
+    written(program, folder)?;
+    let mut compiler = Command::new("cc");
+    compiler.args(["repro.c", "-ldl", "-o", "repro"]);
+    compiled(compiler.current_dir(folder))?;
+    Ok(Vec::new())
+}
+
+/// Builds a package of Rust, and copies its program to `repro` in a folder. All programs are built in one place, one
+/// after the other, so that their dependencies are compiled once. Returns the lock file.
+fn built_rust(program: &Program, folder: &Path) -> Result<Vec<File>, Unbuilt> {
+    let place = place().unwrap_or_else(|| folder.to_owned());
+    let package = place.join("package");
+    fs::create_dir_all(&package)?;
+    let lock = fs::File::create(place.join("lock"))?;
+    lock.lock()?;
+    written(program, &package)?;
+    fs::write(package.join("Cargo.lock"), LOCK)?;
+    let mut cargo = Command::new("cargo");
+    cargo
+        .args(["build", "--offline", "--target-dir"])
+        .arg(place.join("target"))
+        .env("CARGO_INCREMENTAL", "0")
+        .env("CARGO_PROFILE_DEV_DEBUG", "0");
+    match compiled(cargo.current_dir(&package)) {
+        // Dependencies that are not on this machine are no fault of the program.
+        Err(Unbuilt::Wrong {
+            line,
+            offline: true,
+        }) => return Err(Unbuilt::Here(line)),
+        other => other?,
+    }
+    fs::copy(place.join("target/debug/repro"), folder.join("repro"))?;
+    let about = "the versions of its dependencies";
+    let lock = fs::read(package.join("Cargo.lock"))?;
+    Ok(vec![File::new("Cargo.lock", about, lock)])
+}
+
+fn written(program: &Program, folder: &Path) -> io::Result<()> {
+    let mut files = program.files.iter();
+    files.try_for_each(|file| fs::write(folder.join(&file.name), &file.content))
+}
+
+/// Runs a compiler.
+fn compiled(command: &mut Command) -> Result<(), Unbuilt> {
+    let name = command.get_program().display().to_string();
+    let output = match command.stdin(Stdio::null()).output() {
+        Err(e) if e.kind() == io::ErrorKind::NotFound => {
+            return Err(Unbuilt::Here(format!("there is no `{name}`")));
+        }
+        other => other?,
+    };
+    if output.status.success() {
+        return Ok(());
+    }
+    let text = String::from_utf8_lossy(&output.stderr);
+    let first = text.lines().find(|line| line.contains("error"));
+    Err(Unbuilt::Wrong {
+        line: first.unwrap_or_default().to_owned(),
+        offline: text.contains("--offline"),
+    })
+}
+
+/// Returns the folder in which packages are built: in cargo's target folder if the environment names one, else among
+/// the user's caches.
+fn place() -> Option<PathBuf> {
+    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+    if let Some(folder) = set("CARGO_TARGET_DIR") {
+        return Some(std::path::absolute(folder).ok()?.join("etalon-programs"));
+    }
+    let caches = set("XDG_CACHE_HOME").map(PathBuf::from);
+    let caches = caches.or_else(|| Some(PathBuf::from(set("HOME")?).join(".cache")))?;
+    Some(caches.join("etalon/programs"))
+}
+
+/// Runs the program of a folder in the environment of a driver.
+fn run(folder: &Path, launch: &Launch, timeout: Duration) -> io::Result<Run> {
     let out = folder.join("out");
-    let mut command = Command::new(program);
+    let mut command = Command::new(folder.join("repro"));
     for (name, value) in &launch.environment {
         match value {
             Some(value) => command.env(name, value),
@@ -80,7 +172,7 @@ fn run(program: &Path, folder: &Path, launch: &Launch, timeout: Duration) -> io:
     let mut child = command
         .current_dir(folder)
         .stdin(Stdio::null())
-        .stdout(File::create(&out)?)
+        .stdout(fs::File::create(&out)?)
         .stderr(Stdio::null())
         .spawn()?;
     let begun = Instant::now();
@@ -104,5 +196,6 @@ fn run(program: &Path, folder: &Path, launch: &Launch, timeout: Duration) -> io:
             |status: ExitStatus| status.to_string(),
         ),
         line: text.lines().last().unwrap_or_default().to_owned(),
+        made: Vec::new(),
     })
 }

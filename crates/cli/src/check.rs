@@ -293,12 +293,7 @@ fn of_cases(file: &CaseFile, cases: &[CheckedCase]) -> Vec<CaseError> {
 
 impl std::fmt::Display for Channel {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self.aspect {
-            Aspect::Color => {
-                let name = ["red", "green", "blue", "alpha"][self.channel.min(3)];
-                write!(f, "{name} of `{}`", self.attachment)
-            }
-            other => write!(f, "{other} of `{}`", self.attachment),
-        }
+        let name = self.aspect.channel(self.channel);
+        write!(f, "{name} of `{}`", self.attachment)
     }
 }

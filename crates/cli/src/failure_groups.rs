@@ -5,15 +5,17 @@
 //! scenes is a power of two: those are reduced, and show what hides behind.
 
 use crate::failure::Failure;
+use crate::known_bugs::{KnownBugs, Match};
 use crate::reduction::{DriverOracle, Shown, confirm, file_name};
+use crate::traits::Traits;
 use etalon_case::Case;
 use etalon_explore::{Candidate, Oracle, RandomScene, Signature, keys};
 use etalon_frame::Limits;
-use etalon_record::{Record, Subject, Symptom, Verdict};
+use etalon_record::{Record, Symptom, Verdict};
 use etalon_runner::{Launch, Trials, Worker};
 use serde_json::{Value, json};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
@@ -30,8 +32,9 @@ pub(crate) struct Group {
     /// The number of its first scene.
     index: u64,
     verdict: Verdict,
-    /// The symptom, in words.
+    /// The symptom, in words, and why the scene was not reduced.
     way: String,
+    traits: Traits,
     sentence: String,
     clause: Option<String>,
     states: String,
@@ -39,23 +42,34 @@ pub(crate) struct Group {
     keys: [usize; 2],
     /// True if it fails by itself, in a new process; before that was tried, if its reduction was one.
     steady: bool,
-    /// What is left of its first scene, until it is drawn in a new process.
+    /// The rest of its first scene, until it is drawn in a new process.
     unconfirmed: Option<Case>,
     file: PathBuf,
     /// The traits that tell it from other groups.
     key: (String, Option<Signature>),
     symptom: Symptom,
+    /// The finding that explains it, or that it is like.
+    known: Option<Match>,
 }
 
 /// The groups of one adapter.
 pub(crate) struct Groups {
     launch: Launch,
     limits: Limits,
-    folder: PathBuf,
+    folders: Folders,
     /// The time that a scene may take.
     timeout: Duration,
     all: Vec<Group>,
     trials: Option<Trials>,
+}
+
+/// The folders of case files.
+#[derive(Clone, Debug)]
+pub(crate) struct Folders {
+    /// Of scenes that no finding explains.
+    pub(crate) found: PathBuf,
+    /// Of the others.
+    pub(crate) known: PathBuf,
 }
 
 /// A scene that was looked at, before it is known to be new.
@@ -70,11 +84,11 @@ struct Seen {
 }
 
 impl Groups {
-    pub(crate) fn new(launch: Launch, limits: Limits, folder: PathBuf, timeout: Duration) -> Self {
+    pub(crate) fn new(launch: Launch, limits: Limits, folders: Folders, timeout: Duration) -> Self {
         Self {
             launch,
             limits,
-            folder,
+            folders,
             timeout,
             all: Vec::new(),
             trials: None,
@@ -85,10 +99,23 @@ impl Groups {
         self.all.len()
     }
 
+    /// Confirms the last groups, and compares all with the known bugs. An error leaves groups that were not compared.
+    pub(crate) fn compare(&mut self, bugs: &mut KnownBugs<'_>) -> Result<(), Failure> {
+        let found = Confirmations::of(self).confirm();
+        self.note(found);
+        for group in &mut self.all {
+            // Of a scene that was not reduced, nearly everything is left.
+            let whole = group.key.1.is_some() || !group.verdict.is_violation();
+            if whole {
+                group.known = bugs.matching(group.verdict, &group.traits, group.steady)?;
+                group.file_under(&self.folders)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Returns the groups, the commonest first.
     pub(crate) fn finish(mut self) -> Vec<Group> {
-        let found = Confirmations::of(&mut self).confirm();
-        self.note(found);
         self.all.sort_by_key(|g| std::cmp::Reverse(g.count));
         self.all
     }
@@ -172,7 +199,10 @@ impl Groups {
         let RandomScene { index, candidate } = scene;
         let keys = keys(&candidate.document["scene"]);
         let unsteady = |scene: Candidate, record: Record, why: &str| Seen {
-            key: (format!("{}, {why}", way(&symptom)), None),
+            key: (
+                format!("{}, {why}", Traits::of(&scene.document, &symptom).way),
+                None,
+            ),
             scene,
             record,
             symptom: symptom.clone(),
@@ -198,7 +228,10 @@ impl Groups {
             let reduction = oracle.reduce(candidate, &self.limits);
             let signature = Signature::of(&reduction.smallest.document);
             Seen {
-                key: (way(&oracle.symptom), Some(signature)),
+                key: (
+                    Traits::of(&reduction.smallest.document, &oracle.symptom).way,
+                    Some(signature),
+                ),
                 scene: reduction.smallest,
                 record: oracle.record.clone(),
                 symptom: oracle.symptom.clone(),
@@ -225,7 +258,8 @@ impl Groups {
             "",
         );
         let path = self
-            .folder
+            .folders
+            .found
             .join(format!("{}.json", id.trim_end_matches('.')));
         let origin = format!(
             "{} On {adapter}.",
@@ -238,7 +272,7 @@ impl Groups {
         };
         let text = serde_json::to_string_pretty(&shown.described(&origin))
             .map_err(|e| Failure::incomplete(format!("cannot write JSON: {e}")))?;
-        fs::create_dir_all(&self.folder)
+        fs::create_dir_all(&self.folders.found)
             .and_then(|()| fs::write(&path, text + "\n"))
             .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))?;
         self.all.push(Group {
@@ -248,6 +282,7 @@ impl Groups {
             index: seen.index,
             verdict: seen.record.verdict,
             way: seen.key.0.clone(),
+            traits: Traits::of(&seen.scene.document, &seen.symptom),
             sentence: shown.sentence(),
             clause: shown.clause().map(str::to_owned),
             states: shown.states(),
@@ -257,6 +292,7 @@ impl Groups {
             file: path,
             key: seen.key,
             symptom: seen.symptom,
+            known: None,
         });
         Ok(())
     }
@@ -296,19 +332,44 @@ impl Confirmations {
     }
 }
 
-/// Returns a symptom without the names of attachments and what was there before.
-fn way(symptom: &Symptom) -> String {
-    match symptom.subject {
-        Subject::Picture(aspect) => {
-            let mut operations = symptom.of_draws();
-            operations.sort_unstable();
-            format!("{} ({})", aspect.name(), operations.join(", "))
-        }
-        _ => symptom.to_string(),
-    }
-}
-
 impl Group {
+    /// The finding that explains it, or that it is like.
+    pub(crate) fn known(&self) -> Option<&Match> {
+        self.known.as_ref()
+    }
+
+    /// The number of its scenes.
+    pub(crate) fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// Says in its case file what is known, and moves one that is explained.
+    fn file_under(&mut self, folders: &Folders) -> Result<(), Failure> {
+        let Some(known) = &self.known else {
+            return Ok(());
+        };
+        let failed = |path: &Path, error: &dyn std::fmt::Display| {
+            Failure::incomplete(format!("cannot write {}: {error}", path.display()))
+        };
+        let text = fs::read_to_string(&self.file).map_err(|e| failed(&self.file, &e))?;
+        let mut document: Value =
+            serde_json::from_str(&text).map_err(|e| failed(&self.file, &e))?;
+        let about = document["about"].as_str().unwrap_or_default();
+        document["about"] = json!(format!("{about} {}", known.sentence()));
+        let text = serde_json::to_string_pretty(&document).map_err(|e| failed(&self.file, &e))?;
+        fs::write(&self.file, text + "\n").map_err(|e| failed(&self.file, &e))?;
+        if known.is_exact()
+            && let Some(name) = self.file.file_name()
+        {
+            let path = folders.known.join(name);
+            fs::create_dir_all(&folders.known)
+                .and_then(|()| fs::rename(&self.file, &path))
+                .map_err(|e| failed(&path, &e))?;
+            self.file = path;
+        }
+        Ok(())
+    }
+
     pub(crate) fn json(&self) -> Value {
         json!({
             "adapter": self.adapter,
@@ -323,6 +384,7 @@ impl Group {
             "states": self.states,
             "keys": self.keys,
             "steady": self.steady,
+            "known": self.known.as_ref().map(Match::json),
         })
     }
 
@@ -344,5 +406,19 @@ impl Group {
         }
         text.push_str(&format!("    {}\n", self.file.display()));
         text
+    }
+
+    /// The same in short, for a group below the finding that it is like.
+    pub(crate) fn short(&self) -> String {
+        let why = self.known.as_ref().map(Match::why).unwrap_or_default();
+        format!(
+            "    {} × {}: {}{}: {}\n      {why}\n      {}\n",
+            self.count,
+            self.verdict,
+            self.way,
+            if self.steady { "" } else { " (unsteady)" },
+            self.states,
+            self.file.display()
+        )
     }
 }

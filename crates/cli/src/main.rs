@@ -24,6 +24,7 @@ mod failure;
 mod failure_groups;
 mod flags;
 mod interruption;
+mod known_bugs;
 mod near;
 mod out_folder;
 mod output;
@@ -35,6 +36,7 @@ mod reduction;
 mod report_files;
 mod scene_text;
 mod shard;
+mod traits;
 mod worker;
 
 use clap::{CommandFactory, Parser};

@@ -1,14 +1,15 @@
 //! The way from a case that fails on an adapter to the smallest one that fails in the same way.
 
 use crate::adapters::{Query, discover, refuse_absent};
+use crate::cases::{find, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::interruption::listen;
-use crate::reduction::{DriverOracle, confirm};
-use etalon_case::Case;
+use crate::reduction::{DriverOracle, confirm, file_name};
+use etalon_case::{Case, build};
 use etalon_explore::{Candidate, Reduction};
 use etalon_record::{Record, Symptom, Verdict};
 use etalon_runner::{Launch, Trials, Worker};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// The processes in which a case is drawn at the start, and the drawings in each: a failure that depends on
@@ -29,6 +30,44 @@ pub(crate) struct Smallest {
     pub(crate) symptom: Symptom,
     /// The time of the reduction.
     pub(crate) seconds: f64,
+}
+
+/// A case that is to be reduced, and the adapter on which it fails.
+pub(crate) struct Failing {
+    /// The name of its file, which is also its id.
+    pub(crate) name: String,
+    pub(crate) candidate: Candidate,
+    pub(crate) launch: Launch,
+    pub(crate) worker: Worker,
+}
+
+impl Failing {
+    /// Finds a case by its id, and starts the adapter. `cases` is a folder of case files, `adapters` a file of adapters.
+    pub(crate) fn find(
+        id: &str,
+        adapter: &String,
+        cases: Option<&PathBuf>,
+        adapters: Option<&Path>,
+    ) -> Result<Self, Failure> {
+        let library = library(cases)?;
+        let document = find(&library, id)?.document().map_err(Failure::usage)?;
+        let name = file_name(id, adapter);
+        let case = build(&name, &document).map_err(|e| {
+            let message = format!("the scene of `{id}` cannot be written as a case file: {e}");
+            Failure::usage(message)
+        })?;
+        let (launch, worker) = start(adapter, adapters)?;
+        if let Some(missing) = worker.hello.limits.missing(&case.requirements()) {
+            let message = format!("{adapter} does not support {missing}");
+            return Err(Failure::usage(message));
+        }
+        Ok(Self {
+            name,
+            candidate: Candidate { document, case },
+            launch,
+            worker,
+        })
+    }
 }
 
 /// Reduces a case that fails in the same way every time. `id` is the id that the user gave.
@@ -125,7 +164,7 @@ pub(crate) fn started(query: Query<'_>) -> Result<(Launch, Worker), Failure> {
         .ok_or_else(|| Failure::usage(format!("adapter {} cannot be used", names.join(", "))))
 }
 
-/// What repeated drawings of a case show.
+/// The outcome of repeated drawings of a case.
 enum Outcome {
     /// It fails in the same way every time.
     Steady(Box<(Worker, Record, Symptom)>),

@@ -124,6 +124,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
             device,
             validate: what.validate,
             read_fault: what.read_fault,
+            record: what.record,
         };
         etalon_wgpu::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };

@@ -2,7 +2,8 @@
 //!
 //! Values are left out, since the same bug leaves other numbers and words in every scene: a driver that has one
 //! logic operation wrong mostly has all of them wrong. Only words that choose other code altogether stay, such as
-//! those of formats and shaders.
+//! those of formats and shaders. [`Signature::exact`] keeps more, for the question whether two failures are the same
+//! beyond what groups of failures ask for.
 
 use crate::document::list;
 use serde_json::Value;
@@ -22,14 +23,39 @@ const KEPT: [&str; 9] = [
     "depth_stencil_resolve",
 ];
 
+/// The keys whose numbers are values of colors and depths: most code is right from 0 to 1, and some of it beyond.
+const VALUES: [&str; 5] = ["blend_constant", "clear", "clears", "operations", "params"];
+
 /// The keys of a scene that are not at their default, some with their words.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Signature(BTreeSet<String>);
 
+/// The part of a scene that becomes a signature.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Detail {
+    /// Keys, and the words of some.
+    Keys,
+    /// Keys, all words, and whether colors and depths lie below 0 or above 1.
+    Words,
+}
+
 impl Signature {
     /// Returns the signature of a document.
     pub fn of(document: &Value) -> Self {
+        Self::with(document, Detail::Keys)
+    }
+
+    /// Returns the signature with everything but numbers: all words and truth values, numbers of samples, and
+    /// whether values of colors and depths lie below 0 or above 1.
+    pub fn exact(document: &Value) -> Self {
+        Self::with(document, Detail::Words)
+    }
+
+    fn with(document: &Value, detail: Detail) -> Self {
         let mut all = BTreeSet::new();
+        let add = |all: &mut BTreeSet<String>, path: &str, value: &Value| {
+            add(all, path, value, detail);
+        };
         let scene = &document["scene"];
         for attachment in scene["attachments"].as_object().into_iter().flatten() {
             let format = attachment.1["format"].as_str().unwrap_or_default();
@@ -37,8 +63,14 @@ impl Signature {
                 all.insert(format!("format={format}"));
             }
             for key in ["samples", "texels"] {
-                if attachment.1.get(key).is_some() {
-                    all.insert(key.to_owned());
+                match attachment.1.get(key) {
+                    Some(count) if key == "samples" && detail == Detail::Words => {
+                        all.insert(format!("{key}={count}"));
+                    }
+                    Some(_) => {
+                        all.insert(key.to_owned());
+                    }
+                    None => {}
                 }
             }
         }
@@ -57,6 +89,9 @@ impl Signature {
                 .flatten()
             {
                 match key.as_str() {
+                    "params" if detail == Detail::Words => {
+                        add_sides(&mut all, key, value);
+                    }
                     "params" | "textures" | "counters" => {}
                     // Nearly everything is drawn with these.
                     "shader" if value == "uniform_color" || value == "flat_color" => {}
@@ -82,7 +117,62 @@ impl Signature {
     /// True if a scene has all keys of this signature, and so may show the same. A signature without keys is in
     /// none: everything would show it.
     pub fn is_in(&self, document: &Value) -> bool {
-        !self.0.is_empty() && self.0.is_subset(&Self::of(document).0)
+        self.is_within(&Self::of(document))
+    }
+
+    /// True if another signature has all keys of this one; false where it has none.
+    pub fn is_within(&self, other: &Self) -> bool {
+        !self.0.is_empty() && self.0.is_subset(&other.0)
+    }
+
+    /// Returns the signature with the groups of keys in place of keys: `stencil` for all of its keys. Words stay, but
+    /// for formats of depth and stencil, of which a bug mostly needs none in particular.
+    #[must_use]
+    pub fn coarse(&self) -> Self {
+        let other = |key: &&String| {
+            let format = key.strip_prefix("format=").unwrap_or_default();
+            !format.starts_with("depth") && !format.starts_with("stencil")
+        };
+        let group = |key: &String| match (key.contains('='), key.split_once('.')) {
+            (false, Some((group, _))) => group.to_owned(),
+            _ => key.clone(),
+        };
+        Self(self.0.iter().filter(other).map(group).collect())
+    }
+
+    /// Returns the signature without what attachments are made of and hold.
+    #[must_use]
+    pub fn without_formats(&self) -> Self {
+        let kept = |key: &&String| !key.starts_with("format=") && *key != "texels";
+        Self(self.0.iter().filter(kept).cloned().collect())
+    }
+
+    /// Returns the signature without vertices, as if a mesh had them that is like others.
+    #[must_use]
+    pub fn without_vertices(&self) -> Self {
+        let kept = |key: &&String| !key.starts_with("mesh.") && *key != "mesh";
+        Self(self.0.iter().filter(kept).cloned().collect())
+    }
+
+    /// Returns the number of its keys and words.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// True if it has no keys.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Returns the number of keys and words that two signatures share.
+    pub fn shared(&self, other: &Self) -> usize {
+        self.0.intersection(&other.0).count()
+    }
+
+    /// Returns what this signature has and another one lacks.
+    #[must_use]
+    pub fn without(&self, other: &Self) -> Self {
+        Self(self.0.difference(&other.0).cloned().collect())
     }
 }
 
@@ -94,25 +184,59 @@ impl fmt::Display for Signature {
 }
 
 /// Adds the keys below a value with their words.
-fn add(all: &mut BTreeSet<String>, path: &str, value: &Value) {
+fn add(all: &mut BTreeSet<String>, path: &str, value: &Value, detail: Detail) {
+    let words = detail == Detail::Words;
     match value {
         Value::Object(map) => {
             for (key, value) in map {
-                add(all, &format!("{path}.{key}"), value);
+                add(all, &format!("{path}.{key}"), value, detail);
             }
         }
         Value::Array(list) if list.iter().any(Value::is_object) => {
             for value in list {
-                add(all, path, value);
+                add(all, path, value, detail);
             }
         }
-        Value::String(word) if KEPT.iter().any(|key| path.starts_with(key)) => {
+        Value::String(word) if words || KEPT.iter().any(|key| path.starts_with(key)) => {
             all.insert(format!("{path}={word}"));
+        }
+        Value::Bool(value) if words => {
+            all.insert(format!("{path}={value}"));
         }
         Value::Null => {}
         _ => {
             all.insert(path.to_owned());
+            for word in value.as_array().into_iter().flatten() {
+                if let (true, Some(word)) = (words, word.as_str()) {
+                    all.insert(format!("{path}={word}"));
+                }
+            }
+            if words && VALUES.iter().any(|key| path.starts_with(key)) {
+                add_sides(all, path, value);
+            }
         }
+    }
+}
+
+/// Adds whether numbers below a value lie below 0 or above 1.
+fn add_sides(all: &mut BTreeSet<String>, path: &str, value: &Value) {
+    match value {
+        // Rectangles are no values.
+        Value::Object(map) => map
+            .iter()
+            .filter(|(key, _)| *key != "rect")
+            .for_each(|(_, value)| add_sides(all, path, value)),
+        Value::Array(list) => list.iter().for_each(|value| add_sides(all, path, value)),
+        Value::Number(number) if !path.ends_with(".rect") => {
+            let number = number.as_f64().unwrap_or_default();
+            let side = match (number < 0.0, number > 1.0) {
+                (true, _) => "<0",
+                (_, true) => ">1",
+                _ => return,
+            };
+            all.insert(format!("{path}{side}"));
+        }
+        _ => {}
     }
 }
 
@@ -154,5 +278,65 @@ mod tests {
         assert!(!Signature::of(&other).is_in(&large));
         let nothing = document(json!({ "shader": "uniform_color" }));
         assert!(!Signature::of(&nothing).is_in(&large));
+    }
+
+    #[test]
+    fn the_exact_signature_has_words_and_sides_and_no_numbers() {
+        let exact = |draw: Value| Signature::exact(&document(draw));
+        let of = |logic: &str, red: f64, write: bool| {
+            exact(json!({
+                "mesh": { "kind": "full" }, "shader": "uniform_color", "logic": logic,
+                "params": { "color": [red, 0, 0, 0] }, "depth": { "compare": "less", "write": write },
+                "scissor": [0, 0, 4, 4]
+            }))
+        };
+        let one = of("xor", 0.5, true);
+        assert_eq!(one, of("xor", 0.25, true));
+        assert_ne!(one, of("nor", 0.5, true));
+        assert_ne!(one, of("xor", 0.5, false));
+        assert_ne!(one, of("xor", -0.5, true));
+        assert_eq!(of("xor", 1.5, true).without(&one).to_string(), "params>1",);
+        let sampler = json!({ "sampler": { "address": ["repeat", "mirror-repeat"] } });
+        assert_eq!(
+            exact(sampler).to_string(),
+            "sampler.address, sampler.address=mirror-repeat, sampler.address=repeat"
+        );
+        let mut cleared = document(json!({ "shader": "uniform_color" }));
+        cleared["scene"]["passes"][0]["clears"] =
+            json!([{ "before": 0, "color": 0, "value": [0, 0, -1, 0], "rect": [2, 2, 4, 4] }]);
+        assert_eq!(
+            Signature::exact(&cleared).to_string(),
+            "clears.before, clears.color, clears.rect, clears.value, clears.value<0"
+        );
+        let mut sampled = cleared.clone();
+        sampled["scene"]["attachments"]["c"]["samples"] = json!(4);
+        let more = Signature::exact(&sampled).without(&Signature::exact(&cleared));
+        assert_eq!(more.to_string(), "samples=4");
+    }
+
+    #[test]
+    fn signatures_are_compared_by_what_they_share() {
+        let of = |draw: Value| Signature::of(&document(draw));
+        let small = of(json!({ "cull": "back" }));
+        let large = of(json!({ "cull": "back", "logic": "xor" }));
+        assert!(small.is_within(&large) && !large.is_within(&small));
+        assert_eq!((small.shared(&large), large.len()), (1, 2));
+        let stencil = |key: &str| {
+            of(
+                json!({ "stencil": { "front": { "compare": "always", key: "zero" } },
+                "topology": "point-list" }),
+            )
+        };
+        let [one, other] = ["fail_op", "pass_op"].map(stencil);
+        assert!(!one.is_within(&other) && one.coarse() == other.coarse());
+        assert_eq!(one.coarse().to_string(), "stencil, topology=point-list");
+        let mut own = document(json!({ "logic": "xor", "mesh": { "kind": "vertices" } }));
+        own["scene"]["attachments"]["c"]["format"] = json!("r8unorm");
+        let own = Signature::of(&own);
+        assert_eq!(own.to_string(), "format=r8unorm, logic, mesh.kind");
+        assert_eq!(own.without_vertices().to_string(), "format=r8unorm, logic");
+        assert_eq!(own.without_formats().to_string(), "logic, mesh.kind");
+        let none = of(json!({}));
+        assert!(none.is_empty() && !none.is_within(&large));
     }
 }

@@ -157,6 +157,16 @@ state_enum! {
     }
 }
 
+impl Aspect {
+    /// Returns the name of a channel: `red` of a colour, else the aspect's.
+    pub fn channel(self, channel: usize) -> &'static str {
+        match self {
+            Self::Color => ["red", "green", "blue", "alpha"][channel.min(3)],
+            other => other.name(),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -131,9 +131,17 @@ impl Known {
         }
     }
 
+    /// The name of a finding, which is that of its file; of an entry, file and number.
+    pub fn name(&self) -> String {
+        match (self.number, self.path.file_stem()) {
+            (None, Some(stem)) => stem.to_string_lossy().into_owned(),
+            _ => self.place(),
+        }
+    }
+
     /// True if it excuses a verdict. An entry excuses its verdict alone; a finding also violations on weaker
     /// evidence, as which its bug shows in some cases; `flaky` every bad one.
-    pub(crate) fn excuses(&self, verdict: Verdict) -> bool {
+    pub fn excuses(&self, verdict: Verdict) -> bool {
         let finding = matches!(self.source, Source::Finding(_));
         self.verdict == verdict
             || self.verdict == Verdict::Flaky && verdict.is_bad()
@@ -381,6 +389,18 @@ impl Expectations {
         Ok(())
     }
 
+    /// Those that are about an adapter.
+    #[must_use]
+    pub fn about(self, adapter: &AdapterRecord) -> Self {
+        let both = self.all.into_iter().zip(self.globs);
+        let (all, globs) = both.filter(|(_, g)| g.match_adapter(adapter)).unzip();
+        Self {
+            all,
+            globs,
+            today: self.today,
+        }
+    }
+
     /// The same, as they count on a day, written as `2027-01-31`.
     #[must_use]
     pub fn on(self, today: &str) -> Self {
@@ -444,10 +464,19 @@ impl Expectations {
         self.all.get(number).is_some_and(|k| k.excuses(verdict))
     }
 
+    /// The expectations that count and name a bad verdict of a case on an adapter.
+    pub fn bad<'e, 'a>(
+        &'e self,
+        adapter: &'a AdapterRecord,
+        case: &'a str,
+    ) -> impl Iterator<Item = &'e Known> + use<'e, 'a> {
+        self.matching(adapter, case)
+            .filter(|known| known.verdict.is_bad() && !self.expired(known))
+    }
+
     /// The first expectation that counts and names a bad verdict of a case on an adapter.
     pub fn first_bad(&self, adapter: &AdapterRecord, case: &str) -> Option<&Known> {
-        self.matching(adapter, case)
-            .find(|known| known.verdict.is_bad() && !self.expired(known))
+        self.bad(adapter, case).next()
     }
 
     /// The text of a list with these entries.
@@ -667,6 +696,27 @@ mod tests {
         assert!(skip.skips(&adapter, "a/b").is_some());
         assert!(skip.skips(&adapter, "b/b").is_none());
         assert!(skip.on("2027-02-01").skips(&adapter, "a/b").is_none());
+    }
+
+    #[test]
+    fn those_about_an_adapter_have_names_and_are_found_by_case() {
+        let finding = |adapter: &str, case: &str| {
+            format!(
+                r#"{{ "title": "t", "adapters": ["{adapter}"], "driver": "*", "cases": ["{case}"],
+                    "grade": "proven", "clause": "c", "evidence": "e" }}"#
+            )
+        };
+        let texts = [("gl:x", "a/*"), ("gl:y", "a/b"), ("gl:*", "a/b")].map(|(a, c)| finding(a, c));
+        let files = ["f/one.json", "f/two.json", "f/three.json"];
+        let files: Vec<(&str, &str)> = files.into_iter().zip(texts.iter().map(|t| &**t)).collect();
+        let adapter = adapter("gl:x", "Mesa", "25");
+        let about = Expectations::of_findings(&files).unwrap().about(&adapter);
+        let names =
+            |case: &str| -> Vec<String> { about.bad(&adapter, case).map(Known::name).collect() };
+        assert_eq!(about.all().len(), 2);
+        assert_eq!(names("a/b"), ["one", "three"]);
+        assert_eq!(names("a/c"), ["one"]);
+        assert_eq!(one("", "fail").all()[0].name(), "e.json: entry 1");
     }
 
     #[test]

@@ -32,7 +32,11 @@ pub(crate) fn depth_bias(
             let exponent = |v: f64| v.max(f64::from(f32::MIN_POSITIVE)).log2().floor() as i32;
             // Vertices beyond the near and far planes may count or not.
             let inside = f64::from(draw.viewport.depth[0].min(draw.viewport.depth[1]));
-            let low = z.iter().map(|z| z.low).fold(0.0, f64::max);
+            let low = match may_be_clipped(context, draw, boxes) {
+                // What is left may hold any of its depths, and the exponent is that of the greatest.
+                true => z.iter().map(|z| z.low).fold(f64::MAX, f64::min).max(0.0),
+                false => z.iter().map(|z| z.low).fold(0.0, f64::max),
+            };
             let low = if low > 1.0 { inside } else { low };
             let high = z.iter().map(|z| z.high).fold(0.0, f64::max);
             Interval {
@@ -54,6 +58,34 @@ pub(crate) fn depth_bias(
     } else {
         sum
     }
+}
+
+/// True if a vertex lies outside of the viewport, wherever it is snapped to: at a side of the viewport the primitive may
+/// be clipped.
+fn may_be_clipped(context: &PassContext<'_>, draw: &Draw, boxes: [SnapBox; 3]) -> bool {
+    let units = units_per_texel(context.limits) as f64;
+    let [left, top, width, height] = draw.viewport.rect.map(f64::from);
+    let outside = |low: i64, high: i64, start: f64, length: f64| {
+        let ends = [start * units, (start + length) * units];
+        let (least, most) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        (high as f64) < least || (low as f64) > most
+    };
+    boxes
+        .iter()
+        .any(|b| outside(b.low.x, b.high.x, left, width) || outside(b.low.y, b.high.y, top, height))
+}
+
+/// Returns the interval that a bias adds where depths of vertices may be held to 0 and 1 with it, before fragments
+/// take theirs between them: what is left to the farthest depth at the one end, and to the nearest at the other.
+/// Clipping makes vertices of any depth of the primitive.
+pub(crate) fn clamped_at_vertices(bias: Interval, z: [Interval; 3]) -> Interval {
+    let held = |z: f64| z.clamp(0.0, 1.0);
+    let farthest = held(z.iter().map(|z| z.high).fold(f64::MIN, f64::max));
+    let nearest = held(z.iter().map(|z| z.low).fold(f64::MAX, f64::min));
+    bias.hull(Interval {
+        low: held(farthest + bias.low) - farthest,
+        high: held(nearest + bias.high) - nearest,
+    })
 }
 
 /// Returns a unit that may be 0 where it is too small for a normal number: texts promise a relative accuracy, and no

@@ -1,6 +1,6 @@
 //! Primitive setup, once per draw: snapped positions and depths.
 
-use crate::bias::depth_bias;
+use crate::bias::{clamped_at_vertices, depth_bias};
 use crate::context::PassContext;
 use crate::depth::Depth;
 use crate::distance::Distance;
@@ -144,7 +144,11 @@ fn primitive(
             let boxes = v.map(|v| v.snapped);
             let triangle = Triangle::new(boxes, v.map(|v| v.id), units);
             let window = Depth::over(boxes, v.map(|v| v.window_z), [units, grid], error);
-            bias = depth_bias(context, draw, boxes, v.map(|v| v.window_z));
+            let z = v.map(|v| v.window_z);
+            bias = depth_bias(context, draw, boxes, z);
+            if !bias.is(0.0) && !context.rules.bias_clamps_fragments.value() {
+                bias = clamped_at_vertices(bias, z);
+            }
             let shape = match draw.polygon_mode {
                 PolygonMode::Fill => Shape::Triangle(triangle),
                 PolygonMode::Line => Shape::Outline(triangle),

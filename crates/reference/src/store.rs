@@ -176,7 +176,7 @@ impl Walk<'_> {
                                 let part = if c == 3 { state.alpha } else { state.color };
                                 format!(
                                     "{}: {} × {} {} {} × {} = {}",
-                                    ["red", "green", "blue", "alpha"][c],
+                                    Aspect::Color.channel(c),
                                     color[c].hull(),
                                     part.src_factor.name(),
                                     part.operation.name(),

@@ -467,7 +467,9 @@ impl<'a> Walk<'a> {
                             let n = attachment.format.color_channels().len();
                             let encodings = attachment.format.color_channels();
                             let stored = cell.channels[..n].iter().zip(encodings);
-                            channels.extend(stored.map(|(c, e)| self.read_color(*e, *c)));
+                            channels.extend(
+                                stored.map(|(c, e)| self.read_color(attachment.samples, *e, *c)),
+                            );
                         }
                         Aspect::Depth => channels.push(self.read_depth(*index, cell.channels[0])),
                         Aspect::Stencil => {
@@ -504,7 +506,20 @@ impl<'a> Walk<'a> {
     }
 
     /// Returns a colour as it is read back.
-    fn read_color(&self, encoding: ChannelEncoding, stored: CodeInterval) -> CodeInterval {
+    fn read_color(
+        &self,
+        samples: u32,
+        encoding: ChannelEncoding,
+        stored: CodeInterval,
+    ) -> CodeInterval {
+        let least = encoding.min_order();
+        let stored = match encoding {
+            // No API copies samples: a shader reads them, to which both codes of -1 are one value.
+            ChannelEncoding::Snorm(_) if samples > 1 && stored.low == least => {
+                stored.hull(CodeInterval::exact(least + 1))
+            }
+            _ => stored,
+        };
         let one_code = !encoding.is_float() && !matches!(encoding, ChannelEncoding::Snorm(_));
         if one_code || self.rules.copies.value() == Copies::Exact {
             return stored;

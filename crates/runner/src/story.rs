@@ -5,7 +5,7 @@ use crate::judgement_cache::judged_scene;
 use crate::relation::{self, Differences, Side};
 use etalon_case::{Case, Relation};
 use etalon_frame::{
-    Aspect, Band, ChannelMismatch, CodeInterval, Frame, Limits, Story, StoryLine, WrongTexel,
+    Band, ChannelMismatch, CodeInterval, Frame, Limits, Story, StoryLine, WrongTexel,
 };
 use etalon_record::Record;
 use etalon_reference::{Rules, Sample, codes_text, explain};
@@ -180,10 +180,7 @@ fn of_differences(
 /// Returns the values on both sides: `red is 51 in the scene and 52 in variant twice`.
 fn differences(texel: &WrongTexel, names: &[String; 2]) -> String {
     let one = |m: &ChannelMismatch| {
-        let channel = match (m.aspect, m.channel) {
-            (Aspect::Color, c) => ["red", "green", "blue", "alpha"][usize::from(c.min(3))],
-            (other, _) => other.name(),
-        };
+        let channel = m.aspect.channel(m.channel.into());
         let value = |code: u32| {
             let order = m.encoding.order_of_code(code);
             codes_text(m.encoding, CodeInterval::exact(order))

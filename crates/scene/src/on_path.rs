@@ -159,8 +159,13 @@ impl Scene {
         pass.clears.splice(0..0, clears);
     }
 
-    /// Draws the first colour attachment, depth and stencil with values that no conversion changes.
+    /// Draws the first colour attachment, depth and stencil with values that no conversion changes. The shader's color is
+    /// of floats, which WebGPU refuses beside integers, whatever the write mask.
     fn draw(&mut self, pass: &mut Pass, first: &[usize], tested: Option<usize>) {
+        let integer = |index: &usize| self.attachments[*index].format.is_integer();
+        if pass.color.iter().any(integer) {
+            return;
+        }
         let color = match pass.color.first() {
             Some(index) if self.is_exact_color(*index) => self.take_color(pass, 0, first),
             _ => None,
@@ -430,6 +435,17 @@ mod tests {
         };
         assert_eq!(scene.on_path().attachments, scene.attachments);
         assert_eq!(scene.on_path().passes, scene.passes);
+    }
+
+    #[test]
+    fn nothing_is_drawn_beside_integers() {
+        let path = Path {
+            start: PathStart::Draw,
+            ..Path::default()
+        };
+        let mut scene = scene(path);
+        scene.attachments[0].format = TextureFormat::Rgba8Uint;
+        assert_eq!(scene.on_path().passes[0].draws.len(), 1);
     }
 
     #[test]

@@ -4,7 +4,10 @@ use crate::gpu::Gpu;
 use crate::limits::{Abilities, limits, used_features};
 use crate::messages;
 use crate::prepared::PreparedScene;
-use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, ReadFault, Unavailable};
+use crate::recording::Recorder;
+use etalon_backend::{
+    AdapterInfo, Backend, BackendError, Prepared, ReadFault, Recording, Unavailable,
+};
 use etalon_frame::Limits;
 use etalon_scene::Scene;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -31,11 +34,14 @@ pub struct Options {
     pub validate: bool,
     /// A fault that a test of the suite plants in the read path.
     pub read_fault: Option<ReadFault>,
+    /// Records the calls, for [`Backend::recording`]. The times of the device are not taken then.
+    pub record: bool,
 }
 
 /// An open WebGPU device.
 pub struct WgpuBackend {
     info: AdapterInfo,
+    via: Via,
     validate: bool,
     gpu: Gpu,
 }
@@ -76,7 +82,7 @@ pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
     };
     let mut info = info(options.via, &adapter);
     name.clone_into(&mut info.name);
-    let gpu = device(&adapter, options.read_fault).map_err(|reason| {
+    let gpu = device(&adapter, options).map_err(|reason| {
         Unavailable::new(
             format!("{} gives no device: {reason}", info.device),
             remedy(options.via),
@@ -84,6 +90,7 @@ pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
     })?;
     Ok(WgpuBackend {
         info,
+        via: options.via,
         validate: options.validate,
         gpu,
     })
@@ -100,6 +107,21 @@ impl Backend for WgpuBackend {
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
         Ok(Box::new(PreparedScene::new(&self.gpu, scene)?))
+    }
+
+    fn recording(&self) -> Option<Recording> {
+        let api = match self.via {
+            Via::Vulkan => "vulkan",
+            Via::Gl => "gl",
+        };
+        let recorder = self.gpu.recorder.as_ref()?;
+        match recorder.recording(api, &self.info.device) {
+            Ok(recording) => Some(recording),
+            Err(error) => {
+                log::error!("the trace of wgpu cannot be read: {error}");
+                None
+            }
+        }
     }
 
     fn messages(&self) -> Vec<String> {
@@ -139,16 +161,28 @@ fn adapters(via: Via, flags: InstanceFlags) -> Result<Vec<wgpu::Adapter>, Unavai
     Ok(found)
 }
 
-fn device(adapter: &wgpu::Adapter, read_fault: Option<ReadFault>) -> Result<Gpu, String> {
-    let features = adapter.features() & used_features();
+fn device(adapter: &wgpu::Adapter, options: &Options) -> Result<Gpu, String> {
+    let recorder = options.record.then(Recorder::new).transpose();
+    let recorder = recorder.map_err(|error| format!("its calls cannot be recorded: {error}"))?;
+    let mut features = adapter.features() & used_features();
+    let mut required_limits = adapter.limits();
+    if options.record {
+        features.remove(wgpu::Features::TIMESTAMP_QUERY);
+        // Offsets that every device takes.
+        let everywhere = wgpu::Limits::default();
+        required_limits.min_uniform_buffer_offset_alignment =
+            everywhere.min_uniform_buffer_offset_alignment;
+        required_limits.min_storage_buffer_offset_alignment =
+            everywhere.min_storage_buffer_offset_alignment;
+    }
     let descriptor = wgpu::DeviceDescriptor {
         label: None,
         required_features: features,
-        required_limits: adapter.limits(),
+        required_limits,
         experimental_features: wgpu::ExperimentalFeatures::disabled(),
         // Scenes are small, and many processes run at once.
         memory_hints: wgpu::MemoryHints::MemoryUsage,
-        trace: wgpu::Trace::Off,
+        trace: recorder.as_ref().map_or(wgpu::Trace::Off, Recorder::trace),
     };
     let request = || pollster::block_on(adapter.request_device(&descriptor));
     let (device, queue) = catch_unwind(AssertUnwindSafe(request))
@@ -156,7 +190,10 @@ fn device(adapter: &wgpu::Adapter, read_fault: Option<ReadFault>) -> Result<Gpu,
         .map_err(|error| error.to_string())?;
     let abilities = Abilities::of(adapter);
     let limits = limits(adapter, features, abilities);
-    Gpu::new(device, queue, limits, abilities, read_fault).map_err(|error| error.to_string())
+    let opened = Gpu::new(device, queue, limits, abilities, options.read_fault);
+    let mut gpu = opened.map_err(|error| error.to_string())?;
+    gpu.recorder = recorder;
+    Ok(gpu)
 }
 
 fn backends(via: Via) -> Backends {
@@ -254,6 +291,7 @@ mod tests {
             device: 0,
             validate: true,
             read_fault: None,
+            record: false,
         };
         let backend = open("wgpu", &options).expect("this test needs a driver and its validation");
         assert_eq!(backend.messages(), Vec::<String>::new());

@@ -5,6 +5,8 @@
 
 use crate::gpu::{BufferLease, Gpu};
 use crate::layout::RUNS_BYTES;
+use crate::recording::{Recorder, Rows};
+use etalon_backend::{CounterPart, RecordedCounter};
 use etalon_frame::CounterKind;
 use etalon_scene::{Draw, Scene};
 use wgpu::BufferUsages;
@@ -218,6 +220,50 @@ impl<'a> Counting<'a> {
             CounterKind::ShaderRuns | CounterKind::SamplesPassed => 0,
         };
         self.kinds.iter().enumerate().map(total).collect()
+    }
+
+    /// Notes where the counts are that were just copied to an offset of the mapped buffer.
+    pub(crate) fn recorded(&self, recorder: &Recorder, offset: u64) -> Vec<RecordedCounter> {
+        if self.bytes() == 0 {
+            let none = |kind: &CounterKind| RecordedCounter {
+                parts: Vec::new(),
+                any: *kind == CounterKind::AnySamplesPassed,
+            };
+            return self.kinds.iter().map(none).collect();
+        }
+        let output = recorder.rows(Rows {
+            offset,
+            pitch: self.bytes() as u32,
+            row: self.bytes() as u32,
+            rows: 1,
+        });
+        let part = |offset: u64, bytes: u64| CounterPart {
+            output,
+            offset: offset as u32,
+            bytes: bytes as u32,
+        };
+        let queried = |queries: Option<&Queries>, counter: usize| -> Vec<CounterPart> {
+            let Some(queries) = queries else {
+                return Vec::new();
+            };
+            let results = (0..).zip(&queries.counters);
+            let own = results.filter(|(_, of)| **of == counter);
+            own.map(|(i, _)| part(queries.offset + i * RESULT_BYTES, RESULT_BYTES))
+                .collect()
+        };
+        let counter = |(index, kind): (usize, &CounterKind)| RecordedCounter {
+            parts: match kind {
+                CounterKind::AnySamplesPassed => queried(self.occlusion.as_ref(), index),
+                CounterKind::FragmentInvocations => queried(self.statistics.as_ref(), index),
+                CounterKind::ShaderRuns if self.runs.is_some() => {
+                    let place = self.runs_start() + index as u64 * self.stride;
+                    vec![part(place, RUNS_BYTES)]
+                }
+                CounterKind::ShaderRuns | CounterKind::SamplesPassed => Vec::new(),
+            },
+            any: *kind == CounterKind::AnySamplesPassed,
+        };
+        self.kinds.iter().enumerate().map(counter).collect()
     }
 }
 

@@ -8,6 +8,7 @@ use crate::limits::{Abilities, fetched};
 use crate::path::Shape;
 use crate::pipeline::Pipelines;
 use crate::pool::{Lease, Pool};
+use crate::recording::Recorder;
 use crate::target::Target;
 use etalon_backend::{BackendError, ReadFault};
 use etalon_frame::{Limits, PathTarget, PathValue, Requirement, TextureFormat};
@@ -30,6 +31,8 @@ pub(crate) struct Gpu {
     /// The fault that a test plants in everything that is read back.
     pub(crate) read_fault: Option<ReadFault>,
     pub(crate) pipelines: Pipelines,
+    /// Keeps the calls, if they are recorded.
+    pub(crate) recorder: Option<Recorder>,
     textures: Pool<TextureKey, Rc<Target>>,
     buffers: Pool<BufferKey, wgpu::Buffer>,
 }
@@ -73,6 +76,7 @@ impl Gpu {
             clock,
             read_fault,
             pipelines,
+            recorder: None,
             textures: Pool::new(IDLE_BYTES),
             buffers: Pool::new(IDLE_BYTES),
         })

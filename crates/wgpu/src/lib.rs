@@ -29,6 +29,7 @@ mod pipeline;
 mod pool;
 mod prepared;
 mod read;
+mod recording;
 mod state;
 mod target;
 mod texel;

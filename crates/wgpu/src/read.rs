@@ -4,11 +4,12 @@ use crate::counting::Counting;
 use crate::fetch::FetchKey;
 use crate::gpu::{Gpu, TextureLease, extent};
 use crate::limits::{Abilities, read_path};
+use crate::recording::{Recorder, Rows};
 use crate::state;
 use crate::target::Target;
 use crate::texel;
 use etalon_backend::codes::code_of_fetched;
-use etalon_backend::{BackendError, ReadFault, halves};
+use etalon_backend::{BackendError, Form, Plane, ReadFault, halves};
 use etalon_frame::{
     Aspect, ChannelEncoding, Frame, Image, PathEnd, PathTarget, ReadPath, TextureFormat,
 };
@@ -112,6 +113,13 @@ pub(crate) fn frame(
         }
     };
     buffer.unmap();
+    if let Some(recorder) = &gpu.recorder {
+        recorder.begin();
+        for (plan, image) in plans.iter().zip(&frame.images) {
+            recorder.image(image, plan.planes(recorder));
+        }
+        recorder.counters(counting.recorded(recorder, size));
+    }
     Ok(frame)
 }
 
@@ -409,6 +417,48 @@ impl<'a> ReadPlan<'a> {
             channels: self.channels.clone(),
             read: self.read,
             codes,
+        }
+    }
+
+    /// Notes where the codes are that were just read.
+    fn planes(&self, recorder: &Recorder) -> Vec<Plane> {
+        let rows = |image: u64| Rows {
+            offset: self.offset + image * self.image_bytes(),
+            pitch: self.pitch,
+            row: self.source.size[0] * self.texel_bytes() as u32,
+            rows: self.source.size[1],
+        };
+        let floats = match self.channels.first() {
+            Some(ChannelEncoding::Uint(_)) => Form::Code,
+            _ => Form::Float,
+        };
+        let (texel, channels, form) = match self.method {
+            ReadMethod::FetchSamples | ReadMethod::FetchTexel => {
+                let each = (0..self.channels.len() as u32).map(|channel| [32 * channel, 32]);
+                (SAMPLE_BYTES as u32, each.collect(), floats)
+            }
+            ReadMethod::FetchDepth => (4, vec![[0, 32]], Form::Code),
+            ReadMethod::StencilBits => (1, vec![[0, 8]], Form::Code),
+            ReadMethod::Copy => {
+                let texel = self.texel_bytes() as u32;
+                let channels = match self.aspect {
+                    Aspect::Color => texel::places(self.source.format),
+                    Aspect::Depth | Aspect::Stencil => vec![[0, 8 * texel]],
+                };
+                (texel, channels, Form::Code)
+            }
+        };
+        let plane = |output| Plane {
+            output,
+            texel,
+            channels: channels.clone(),
+            form,
+        };
+        match self.method {
+            ReadMethod::StencilBits => vec![plane(recorder.bits([rows(0), rows(1)]))],
+            _ => (0..self.source.samples.into())
+                .map(|sample| plane(recorder.rows(rows(sample))))
+                .collect(),
         }
     }
 

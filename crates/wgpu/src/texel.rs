@@ -22,6 +22,14 @@ fn layout(format: TextureFormat) -> &'static TexelLayout {
     }
 }
 
+/// Returns the first bit and the width of each channel.
+pub(crate) fn places(format: TextureFormat) -> Vec<[u32; 2]> {
+    layout(format)
+        .iter()
+        .map(|(bit, bits)| [*bit, *bits])
+        .collect()
+}
+
 /// Returns the size of a colour texel.
 pub(crate) fn bytes(format: TextureFormat) -> usize {
     codes::texel_bytes(layout(format))

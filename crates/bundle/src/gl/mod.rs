@@ -4,11 +4,12 @@ mod calls;
 mod shader_test;
 mod trim;
 
-use crate::c::{comment, paragraph, string};
+use crate::c::string;
 use crate::check;
 use crate::due::Due;
 use crate::error::BundleError;
 use crate::head::Head;
+use crate::language::Language;
 use calls::Printer;
 use trim::trimmed;
 
@@ -46,31 +47,19 @@ pub(crate) fn program(
     let mut printer = Printer::default();
     let body = printer.body(&trimmed(&recording.calls, trim))?;
     let check = check::check(recording, due)?;
-    let mut text = String::from("/*\n");
-    for part in [&head.title, &head.sentence] {
-        text.push_str(&paragraph(part));
-        text.push_str(" *\n");
-    }
-    text.push_str(&format!(
-        " * Build and run:\n *   cc repro.c -ldl -o repro\n *   {}\n *\n{}{} */\n",
-        comment(&head.run),
-        paragraph(
-            "The first argument, if there is one, is the EGL library to load. Exit status: 1 if the bug is there, 0 if \
-             not, 77 if the driver lacks something, 2 if a call fails."
-        ),
-        paragraph("Needs the headers of the C library and none of the API."),
-    ));
-    text.push_str(PREAMBLE);
+    let mut text = head.beginning(Language::C.build(), "the EGL library to load", "");
+    text.push_str(TYPES);
     text.push_str(&printer.constants());
-    text.push_str(&printer.functions());
+    text.push_str(&printer.declarations.functions());
     text.push_str(HELPERS);
-    for (call, helper) in [
-        ("compiled(", COMPILED),
-        ("linked(", LINKED),
-        ("copy(", COPY),
-        ("complete(", COMPLETE),
+    let calls = &body.definitions;
+    let built = calls.contains("compiled(") || calls.contains("linked(");
+    for (used, helper) in [
+        (built, BUILT),
+        (calls.contains("copy("), COPY),
+        (calls.contains("complete("), COMPLETE),
     ] {
-        if body.contains(call) {
+        if used {
             text.push_str(helper);
         }
     }
@@ -83,14 +72,14 @@ pub(crate) fn program(
         device.map_or(-1, i64::from),
     ));
     text.push_str(CONTEXT);
-    text.push_str(&printer.load(&OWN));
-    text.push_str(&printer.variables());
-    text.push_str(&body);
+    text.push_str(&printer.declarations.load("load(void)", "function(", &OWN));
+    text.push_str(&printer.declarations.variables());
+    text.push_str(&body.definitions);
     text.push_str(&check);
     text.push_str(&format!(
         "\nint main(int count, char **arguments)\n{{\n    make_context(count > 1 ? arguments[1] : default_library);\n{}    return \
          check_values();\n}}\n",
-        printer.parts()
+        body.calls
     ));
     Ok(text)
 }
@@ -105,15 +94,8 @@ const OWN: [&str; 6] = [
     "glGetProgramInfoLog",
 ];
 
-/// The beginning of every program: types and results.
-const PREAMBLE: &str = r#"
-#include <dlfcn.h>
-#include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
+/// The types of the API.
+const TYPES: &str = r#"
 typedef unsigned int GLenum;
 typedef unsigned int GLuint;
 typedef int GLint;
@@ -122,11 +104,9 @@ typedef float GLfloat;
 typedef double GLdouble;
 typedef intptr_t GLsizeiptr;
 
-enum { BUG = 1, FAILED = 2, LACKS = 77 };
-
 "#;
 
-/// What the calls lean on.
+/// The check that follows each call.
 const HELPERS: &str = r#"
 static GLenum (*glGetError)(void);
 static const unsigned char *(*glGetString)(GLenum);
@@ -147,39 +127,28 @@ static void check(const char *call, int line)
 #define CALL(call) ((call), check(#call, __LINE__))
 "#;
 
-/// What a shader leans on.
-const COMPILED: &str = r#"
-/* Ends the program if a shader has not compiled. */
-static void compiled(GLuint shader, int line)
+/// Checks of shaders and programs.
+const BUILT: &str = r#"
+/* Ends the program if a shader has not compiled or a program has not linked. */
+static void built(void (*get)(GLuint, GLenum, GLint *), void (*get_log)(GLuint, GLint, GLint *, char *), GLuint object,
+    GLenum status, const char *failure, int line)
 {
     GLint done = 0;
     char log[2000] = "";
-    glGetShaderiv(shader, 0x8B81, &done);
+    get(object, status, &done);
     if (!done) {
-        glGetShaderInfoLog(shader, sizeof log, NULL, log);
-        printf("line %d: the shader does not compile: %s\n", line, log);
+        get_log(object, sizeof log, NULL, log);
+        printf("line %d: %s: %s\n", line, failure, log);
         exit(FAILED);
     }
 }
+#define compiled(shader, line) \
+    built(glGetShaderiv, glGetShaderInfoLog, shader, 0x8B81, "the shader does not compile", line)
+#define linked(program, line) \
+    built(glGetProgramiv, glGetProgramInfoLog, program, 0x8B82, "the program does not link", line)
 "#;
 
-/// What a linked program leans on.
-const LINKED: &str = r#"
-/* Ends the program if a program has not linked. */
-static void linked(GLuint program, int line)
-{
-    GLint done = 0;
-    char log[2000] = "";
-    glGetProgramiv(program, 0x8B82, &done);
-    if (!done) {
-        glGetProgramInfoLog(program, sizeof log, NULL, log);
-        printf("line %d: the program does not link: %s\n", line, log);
-        exit(FAILED);
-    }
-}
-"#;
-
-/// What a mapped buffer leans on.
+/// The copy of a mapped buffer.
 const COPY: &str = r#"
 /* Copies what is mapped. */
 static void copy(unsigned char *to, const void *from, size_t size, int line)
@@ -191,7 +160,7 @@ static void copy(unsigned char *to, const void *from, size_t size, int line)
 }
 "#;
 
-/// What a framebuffer leans on.
+/// The check of a framebuffer.
 const COMPLETE: &str = r#"
 /* Ends the program if the driver does not support a framebuffer. */
 static void complete(GLenum status, int line)

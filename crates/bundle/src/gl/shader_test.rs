@@ -70,7 +70,7 @@ const DITHER: u32 = 0x0BD0;
 const FRAMEBUFFER_SRGB: u32 = 0x8DB9;
 const PROGRAM_POINT_SIZE: u32 = 0x8642;
 
-/// What the calls make, as far as the format has it.
+/// The state that the calls make, as far as the format has it.
 #[derive(Default)]
 struct Scene<'a> {
     buffers: HashMap<u64, &'a [u8]>,
@@ -93,7 +93,7 @@ struct Scene<'a> {
     draws: Vec<Draw<'a>>,
 }
 
-/// Where an attribute's values lie.
+/// The layout of an attribute's values.
 #[derive(Clone, Copy)]
 struct Attribute {
     buffer: u64,

@@ -8,7 +8,7 @@
 use etalon_backend::{Argument, Call};
 use std::collections::BTreeMap;
 
-/// How much is taken out.
+/// The state that is taken out of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trim {
     /// Nothing: each call that was made.
@@ -79,7 +79,7 @@ pub(super) fn trimmed(calls: &[Call], trim: Trim) -> Vec<&Call> {
 /// A piece of state.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Key {
-    /// Whether a capability is on.
+    /// A capability, on or off.
     Capability(u32),
     /// The state of a family of functions, or what their first argument names of it.
     State(&'static str, Option<u64>),
@@ -88,7 +88,7 @@ enum Key {
 /// A call that does nothing but set state: the function and its arguments.
 type Value = (String, Vec<u64>);
 
-/// What is known of a piece of state.
+/// The known value of a piece of state.
 struct Slot {
     guards: &'static [u32],
     /// The calls that made it what the last action saw.

@@ -1,88 +1,43 @@
 //! Recorded calls of Vulkan as C: statements, and the types, functions, variables and data that they need.
 
 use crate::c;
+use crate::declarations::{Body, Declarations, Words};
 use crate::error::BundleError;
-use etalon_backend::{Argument, Call, Constant, Member, Phase};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use crate::wrap::wrapped;
+use etalon_backend::{Argument, Call, Constant, Member};
+use std::collections::{BTreeSet, HashMap};
 use std::fmt::Write;
 
-/// The declarations that the statements so far need.
-#[derive(Default)]
+/// Prints calls.
 pub(super) struct Printer {
+    pub(super) declarations: Declarations,
     /// The types of handles.
     handles: BTreeSet<String>,
     /// The structures, in the order in which each may be declared, with their declarations.
     structures: Vec<(String, String)>,
-    /// The functions: result and parameters.
-    functions: BTreeMap<String, (&'static str, Vec<String>)>,
-    /// The variables that hold objects, with their types.
-    variables: Vec<(String, String)>,
     /// The variable of an object, by kind and number.
     objects: HashMap<(String, u64), String>,
-    /// The objects of each kind so far.
-    counts: HashMap<String, u32>,
-    /// Data, as declarations.
-    data: String,
-    arrays: u32,
-    /// Memory that is read: its size by its number.
-    memories: BTreeMap<u32, u64>,
-    parts: Vec<String>,
 }
 
+/// Bytes are printed as words: no call says that they are floats.
+const WORDS: Option<Words> = None;
 /// The handles that are addresses.
 const DISPATCHABLE: [&str; 4] = ["VkPhysicalDevice", "VkDevice", "VkQueue", "VkCommandBuffer"];
 
 impl Printer {
+    /// Returns a printer that knows the physical device, which every program has.
+    pub(super) fn new() -> Self {
+        Self {
+            declarations: Declarations::default(),
+            handles: BTreeSet::from(["VkPhysicalDevice".to_owned()]),
+            structures: Vec::new(),
+            objects: HashMap::new(),
+        }
+    }
+
     /// Returns the functions that make the calls.
-    pub(super) fn body(&mut self, calls: &[Call]) -> Result<String, BundleError> {
-        let key = ("VkPhysicalDevice".to_owned(), 0);
-        self.handles.insert(key.0.clone());
-        let mut text = String::new();
-        let mut phase = None;
-        for call in calls {
-            if phase != Some(call.phase) {
-                if phase.is_some() {
-                    text.push_str("}\n");
-                }
-                phase = Some(call.phase);
-                let name = self.part(call.phase);
-                let _ = write!(text, "\nstatic void {name}(void)\n{{\n");
-            }
-            let statement = wrapped(&self.statement(call)?);
-            for line in statement.lines() {
-                let _ = writeln!(text, "    {line}");
-            }
-        }
-        if phase.is_some() {
-            text.push_str("}\n");
-        }
-        Ok(text)
-    }
-
-    /// Returns the name of the next function.
-    fn part(&mut self, phase: Phase) -> String {
-        let name = match phase {
-            Phase::Prepare => "prepare",
-            Phase::Submit => "draw",
-            Phase::Read => "read_back",
-        };
-        let before = self
-            .parts
-            .iter()
-            .filter(|part| part.trim_end_matches(char::is_numeric) == name)
-            .count();
-        let name = match before {
-            0 => name.to_owned(),
-            n => format!("{name}{}", n + 1),
-        };
-        self.parts.push(name.clone());
-        name
-    }
-
-    /// Returns the calls of the functions.
-    pub(super) fn parts(&self) -> String {
-        let calls = self.parts.iter().map(|part| format!("    {part}();\n"));
-        calls.collect()
+    pub(super) fn body(&mut self, calls: &[Call]) -> Result<Body, BundleError> {
+        Body::of(calls, |call| Ok(wrapped(&self.statement(call)?)))
     }
 
     /// Returns the types.
@@ -102,53 +57,17 @@ impl Printer {
         text
     }
 
-    /// Returns the declarations of the functions.
-    pub(super) fn functions(&self) -> String {
-        let mut text = String::from("\n");
-        for (name, (result, parameters)) in &self.functions {
-            let parameters = parameters.join(", ");
-            let _ = writeln!(text, "static {result} (*{name})({parameters});");
-        }
-        text
-    }
-
-    /// Returns the function that finds the functions.
-    pub(super) fn load(&self) -> String {
-        let mut text = String::from("\nstatic void load(void)\n{\n");
-        for name in self.functions.keys() {
-            let _ = writeln!(text, "    *(void **)&{name} = function(\"{name}\");");
-        }
-        text + "}\n"
-    }
-
-    /// Returns the declarations of objects, memory and data.
-    pub(super) fn variables(&self) -> String {
-        let mut text = String::from("\n");
-        for (kind, name) in &self.variables {
-            let _ = writeln!(text, "static {kind} {name};");
-        }
-        for (number, bytes) in &self.memories {
-            let _ = writeln!(
-                text,
-                "static unsigned char memory_{number}[{}];",
-                bytes.max(&1)
-            );
-        }
-        text.push_str(&self.data);
-        text
-    }
-
     fn statement(&mut self, call: &Call) -> Result<String, BundleError> {
         let name = call.function.as_str();
         let unknown = || BundleError::Call(name.to_owned());
-        if !is_identifier(name) {
+        if !c::is_identifier(name) {
             return Err(unknown());
         }
         let all = call.arguments.as_slice();
         match (name, all) {
             ("write", [mapped, Argument::Size(offset), Argument::Bytes(bytes)]) => {
                 let mapped = self.value(call, mapped)?;
-                let data = self.bytes(bytes);
+                let data = self.declarations.bytes(bytes, WORDS);
                 return Ok(format!(
                     "memcpy({mapped} + {offset}, {data}, {});",
                     bytes.len()
@@ -162,18 +81,16 @@ impl Printer {
                     Argument::Size(offset),
                 ],
             ) => {
-                self.memories.insert(*number, *size);
+                let memory = self.declarations.memory(*number, *size);
                 let mapped = self.value(call, mapped)?;
-                return Ok(format!(
-                    "memcpy(memory_{number}, {mapped} + {offset}, {size});"
-                ));
+                return Ok(format!("memcpy({memory}, {mapped} + {offset}, {size});"));
             }
             ("vkGetBufferMemoryRequirements" | "vkGetImageMemoryRequirements", [_, object, _]) => {
                 let object = self.value(call, object)?;
                 let device = self.value(call, &all[0])?;
                 let kind = kind_of(&all[1]);
                 let parameters = vec!["VkDevice".to_owned(), kind, "void *".to_owned()];
-                self.functions.insert(name.to_owned(), ("void", parameters));
+                self.declarations.function(name, "void", parameters);
                 return Ok(format!("{name}({device}, {object}, &needs);"));
             }
             ("vkAllocateMemory", [device, Argument::Constant(flags), _, made]) => {
@@ -217,9 +134,7 @@ impl Printer {
             true => "void",
             false => "int32_t",
         };
-        self.functions
-            .entry(name.to_owned())
-            .or_insert((result, types));
+        self.declarations.function(name, result, types);
         Ok(match void {
             true => format!("{made};"),
             false => format!("check({made}, \"{name}\", __LINE__);"),
@@ -236,9 +151,6 @@ impl Printer {
             }
             stem.extend(c.to_lowercase());
         }
-        let count = self.counts.entry(kind.to_owned()).or_default();
-        *count += 1;
-        let variable = format!("{stem}_{count}");
         let own = match kind {
             "mapped" => "unsigned char *",
             kind => kind,
@@ -246,7 +158,7 @@ impl Printer {
         if own == kind {
             self.handles.insert(kind.to_owned());
         }
-        self.variables.push((own.to_owned(), variable.clone()));
+        let variable = self.declarations.variable(own, &stem);
         self.objects
             .insert((kind.to_owned(), number), variable.clone());
         variable
@@ -278,7 +190,7 @@ impl Printer {
                 [number] => format!("&{}", self.define(kind, *number)),
                 _ => return Err(BundleError::Call(call.function.clone())),
             },
-            Argument::Bytes(bytes) => self.bytes(bytes),
+            Argument::Bytes(bytes) => self.declarations.bytes(bytes, WORDS),
             Argument::Array(all) => {
                 let kind = element_of(all);
                 let values = self.values(call, all)?;
@@ -309,10 +221,7 @@ impl Printer {
             }
             Argument::Text(text) => c::string(text),
             Argument::Offset(0) | Argument::Null => "NULL".to_owned(),
-            Argument::Output(number, bytes) => {
-                self.memories.insert(*number, *bytes);
-                format!("memory_{number}")
-            }
+            Argument::Output(number, bytes) => self.declarations.memory(*number, *bytes),
             _ => return Err(BundleError::Call(call.function.clone())),
         })
     }
@@ -327,13 +236,13 @@ impl Printer {
 
     /// Declares a structure, unless it is declared.
     fn declare(&mut self, kind: &str, size: u64, members: &[Member]) -> Result<(), BundleError> {
-        if !is_identifier(kind) || self.structures.iter().any(|(name, _)| name == kind) {
+        if !c::is_identifier(kind) || self.structures.iter().any(|(name, _)| name == kind) {
             return Ok(());
         }
         let mut text = String::from("typedef struct {\n");
         let mut nested = Vec::new();
         for member in members {
-            if !is_identifier(&member.name) {
+            if !c::is_identifier(&member.name) {
                 return Err(BundleError::Call(kind.to_owned()));
             }
             let declaration = match &member.value {
@@ -371,95 +280,6 @@ impl Printer {
         self.structures.push((kind.to_owned(), text));
         Ok(())
     }
-
-    /// Returns the name of an array of these bytes: as words, or byte by byte.
-    fn bytes(&mut self, bytes: &[u8]) -> String {
-        self.arrays += 1;
-        let name = format!("data_{}", self.arrays);
-        let words = bytes
-            .chunks_exact(4)
-            .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-        let (kind, values): (&str, Vec<String>) = if bytes.iter().all(|byte| *byte == 0) {
-            let _ = writeln!(
-                self.data,
-                "static const unsigned char {name}[{}];",
-                bytes.len().max(1)
-            );
-            return name;
-        } else if bytes.len().is_multiple_of(4) {
-            ("uint32_t", words.map(|w| format!("0x{w:08x}")).collect())
-        } else {
-            ("unsigned char", bytes.iter().map(u8::to_string).collect())
-        };
-        let _ = writeln!(
-            self.data,
-            "static const {kind} {name}[{}] = {{",
-            values.len()
-        );
-        for line in values.chunks(12) {
-            let _ = writeln!(self.data, "    {},", line.join(", "));
-        }
-        self.data.push_str("};\n");
-        name
-    }
-}
-
-/// Breaks lines that are too long, at the commas of what is in brackets there.
-fn wrapped(statement: &str) -> String {
-    const LONGEST: usize = 108;
-    let lines = statement.lines().map(|line| {
-        let indent = line.len() - line.trim_start().len();
-        if line.len() <= LONGEST || indent > 60 {
-            return line.to_owned();
-        }
-        let Some((open, close, commas)) = brackets(line) else {
-            return line.to_owned();
-        };
-        let deeper = " ".repeat(indent + 4);
-        let mut text = line[..=open].to_owned();
-        let mut start = open + 1;
-        for end in commas.into_iter().map(|comma| comma + 1).chain([close]) {
-            text.push_str(&format!(
-                "\n{}",
-                wrapped(&format!("{deeper}{}", line[start..end].trim()))
-            ));
-            start = end;
-        }
-        text + &format!("\n{}{}", " ".repeat(indent), &line[close..])
-    });
-    lines.collect::<Vec<_>>().join("\n")
-}
-
-/// Returns the places of the longest outermost pair of brackets and of the commas in it, texts and comments aside.
-fn brackets(line: &str) -> Option<(usize, usize, Vec<usize>)> {
-    let mut longest: Option<(usize, usize, Vec<usize>)> = None;
-    let (mut depth, mut open, mut commas) = (0, 0, Vec::new());
-    let (mut quoted, mut comment, mut before) = (false, false, ' ');
-    for (at, c) in line.char_indices() {
-        match c {
-            '"' if !comment && before != '\\' => quoted = !quoted,
-            '*' if before == '/' && !quoted => comment = true,
-            '/' if before == '*' => comment = false,
-            _ if quoted || comment => {}
-            '(' | '[' | '{' => {
-                if depth == 0 {
-                    (open, commas) = (at, Vec::new());
-                }
-                depth += 1;
-            }
-            ')' | ']' | '}' => {
-                depth -= 1;
-                let length = |(open, close, _): &(usize, usize, Vec<usize>)| close - open;
-                if depth == 0 && longest.as_ref().is_none_or(|l| length(l) < at - open) {
-                    longest = Some((open, at, std::mem::take(&mut commas)));
-                }
-            }
-            ',' if depth == 1 => commas.push(at),
-            _ => {}
-        }
-        before = c;
-    }
-    longest
 }
 
 /// True if a value is what C gives to what is left out.
@@ -502,7 +322,7 @@ fn kind_of(argument: &Argument) -> String {
         Argument::Unsigned(_) | Argument::Constant(_) => "uint32_t",
         Argument::Size(_) => "uint64_t",
         Argument::Float(_) => "float",
-        Argument::Object(kind, _) if is_identifier(kind) => kind,
+        Argument::Object(kind, _) if c::is_identifier(kind) => kind,
         Argument::Created(..) | Argument::Output(..) => "void *",
         _ => "const void *",
     }
@@ -512,16 +332,9 @@ fn kind_of(argument: &Argument) -> String {
 /// Returns the type of the values of an array.
 fn element_of(all: &[Argument]) -> String {
     match all.first() {
-        Some(Argument::Struct { kind, .. }) if is_identifier(kind) => kind.clone(),
+        Some(Argument::Struct { kind, .. }) if c::is_identifier(kind) => kind.clone(),
         Some(Argument::Text(_)) => "char *const".to_owned(),
         Some(value) => kind_of(value),
         None => "char".to_owned(),
     }
-}
-
-/// True if a name may stand in C as it is.
-fn is_identifier(name: &str) -> bool {
-    let first = name.chars().next();
-    first.is_some_and(|c| c.is_ascii_alphabetic())
-        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }

@@ -2,11 +2,12 @@
 
 mod calls;
 
-use crate::c::{comment, paragraph, string};
+use crate::c::string;
 use crate::check;
 use crate::due::Due;
 use crate::error::BundleError;
 use crate::head::Head;
+use crate::language::Language;
 use calls::Printer;
 use etalon_backend::{Recording, VulkanNeeds};
 
@@ -16,7 +17,7 @@ pub(crate) struct Context<'a> {
     pub(crate) device: &'a str,
     /// The version of Vulkan.
     pub(crate) version: u32,
-    /// What the device must have.
+    /// The abilities that the device must have.
     pub(crate) needs: &'a VulkanNeeds,
 }
 
@@ -32,30 +33,17 @@ pub(crate) fn program(
         version,
         needs,
     } = *context;
-    let mut printer = Printer::default();
+    let mut printer = Printer::new();
     let body = printer.body(&recording.calls)?;
     let check = check::check(recording, due)?;
-    let mut text = String::from("/*\n");
-    for part in [&head.title, &head.sentence] {
-        text.push_str(&paragraph(part));
-        text.push_str(" *\n");
-    }
-    text.push_str(&format!(
-        " * Build and run:\n *   cc repro.c -ldl -o repro\n *   {}\n *\n{}{} */\n",
-        comment(&head.run),
-        paragraph(
-            "The first argument, if there is one, is the index of the device; otherwise it is the one whose name is that \
-             below, or the first. Exit status: 1 if the bug is there, 0 if not, 77 if the driver lacks something, 2 if \
-             a call fails."
-        ),
-        paragraph(
-            "Needs the headers of the C library and none of the API. Structures and functions have the names of the \
-             specification; the names of values are comments."
-        ),
-    ));
-    text.push_str(PREAMBLE);
+    let mut text = head.beginning(
+        Language::C.build(),
+        "the index of the device; otherwise it is the one whose name is that below, or the first",
+        "Structures and functions have the names of the specification; the names of values are comments.",
+    );
+    text.push('\n');
     text.push_str(&printer.types());
-    text.push_str(&printer.functions());
+    text.push_str(&printer.declarations.functions());
     text.push_str(&format!(
         "\nstatic const char *const wanted = {};\nstatic const uint32_t version = 0x{version:x};\n\
          /* Formats that are blended into; modes in which depth and stencil are resolved. */\n\
@@ -69,38 +57,19 @@ pub(crate) fn program(
         u32::from(needs.independent_resolve_none),
     ));
     text.push_str(HELPERS);
-    text.push_str(
-        &printer
-            .load()
-            .replace(
-                "static void load(void)",
-                "static void load_device(VkDevice device)",
-            )
-            .replace("= function(", "= device_function(device, "),
-    );
-    text.push_str(&printer.variables());
-    text.push_str(&body);
+    let head = "load_device(VkDevice device)";
+    let find = "device_function(device, ";
+    text.push_str(&printer.declarations.load(head, find, &[]));
+    text.push_str(&printer.declarations.variables());
+    text.push_str(&body.definitions);
     text.push_str(&check);
     text.push_str(&format!(
         "\nint main(int count, char **arguments)\n{{\n    choose_device(count > 1 ? atoi(arguments[1]) : -1);\n{}    return \
          check_values();\n}}\n",
-        printer.parts()
+        body.calls
     ));
     Ok(text)
 }
-
-/// The beginning of every program: types and results.
-const PREAMBLE: &str = r#"
-#include <dlfcn.h>
-#include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-enum { BUG = 1, FAILED = 2, LACKS = 77 };
-
-"#;
 
 /// The instance, the device and its memory.
 const HELPERS: &str = r#"

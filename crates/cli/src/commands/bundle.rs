@@ -2,25 +2,24 @@
 
 use crate::adapters::{Query, discover, releases_of};
 use crate::built_program::{Run, built_and_run};
-use crate::cases::{find, library};
 use crate::expectations;
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, Format, parse_timeout};
 use crate::output::{say, summarize, summarize_json};
 use crate::provenance;
-use crate::reducing::{smallest, start, started};
-use crate::reduction::{Shown, TIMEOUT, file_name};
+use crate::reducing::{Failing, smallest, started};
+use crate::reduction::{Shown, TIMEOUT};
 use clap::Args;
 use etalon_bundle::{
-    Due, DueChannel, DueCounter, DueTexel, Expected, File, Head, Report, Trim, Versions,
-    shader_test,
+    Checks, Due, DueChannel, DueCounter, DueTexel, Expected, File, Head, Program, Report, Trim,
+    Versions, shader_test,
 };
-use etalon_case::{Case, build};
-use etalon_explore::{Candidate, states};
+use etalon_case::Case;
+use etalon_explore::states;
 use etalon_frame::{ChannelMismatch, Frame, Limits, WrongTexel};
 use etalon_record::{AdapterRecord, Finding, Record, Source, Subject, Symptom};
-use etalon_runner::{Judge, Launch, Recorded, Worker, judge_texel};
-use serde_json::{Value, json};
+use etalon_runner::{Judge, Judged, Launch, Recorded, Worker, judge_texel};
+use serde_json::json;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -63,54 +62,39 @@ pub(crate) struct Arguments {
 
 /// Reduces a failing case, and writes a program that shows the bug without the suite, and a report.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let library = library(arguments.cases.as_ref())?;
-    let found = find(&library, &arguments.case)?;
-    let document = found.document().map_err(Failure::usage)?;
-    let name = file_name(&arguments.case, &arguments.adapter);
-    let case = build(&name, &document).map_err(|e| {
-        let id = &arguments.case;
-        Failure::usage(format!(
-            "the scene of `{id}` cannot be written as a case file: {e}"
-        ))
-    })?;
     let file = arguments.file.adapter_file.as_deref();
-    let (launch, worker) = start(&arguments.adapter, file)?;
-    let limits = worker.hello.limits.clone();
-    if let Some(missing) = limits.missing(&case.requirements()) {
-        let adapter = &arguments.adapter;
-        return Err(Failure::usage(format!(
-            "{adapter} does not support {missing}"
-        )));
-    }
+    let cases = arguments.cases.as_ref();
+    let Failing {
+        name,
+        candidate,
+        launch,
+        worker,
+    } = Failing::find(&arguments.case, &arguments.adapter, cases, file)?;
+    let hello = worker.hello.clone();
     etalon_bundle::free(&arguments.out, &name, arguments.force).map_err(Failure::usage)?;
     let adapter = AdapterRecord::from(&worker);
     let timeout = Duration::from_secs_f64(arguments.timeout);
-    let failing = Candidate { document, case };
-    let smallest = smallest(&arguments.case, failing, &launch, worker, timeout)?;
-    let (Subject::Picture(_) | Subject::Counter(_)) = smallest.symptom.subject else {
-        return Err(refused(
-            arguments,
-            "it is no wrong value of one picture",
-            &smallest.symptom,
-        ));
+    let smallest = smallest(&arguments.case, candidate, &launch, worker, timeout)?;
+    let symptom = &smallest.symptom;
+    let refused = |why: &str| refused(arguments, why, symptom);
+    let (Subject::Picture(_) | Subject::Counter(_)) = symptom.subject else {
+        return Err(refused("it is no wrong value of one picture"));
     };
+    let document = &smallest.reduction.smallest.document;
     let reduced = Reduced {
-        document: &smallest.reduction.smallest.document,
         case: &alone(smallest.reduction.smallest.case.clone()),
-        record: &smallest.record,
-        symptom: &smallest.symptom,
-        limits: &limits,
+        symptom,
+        limits: &hello.limits,
     };
-    let clean = reduced.is_clean(arguments)?;
+    let checks = reduced.checks(arguments, &hello.info.backend)?;
     let recorded = reduced.recorded(arguments)?;
-    let (due, judged) = reduced.due(&recorded.frame)?;
+    let judged = reduced.judged(&recorded.frame)?;
+    let due = reduced.due(&recorded.frame, &judged.record)?;
     let Some(recording) = &recorded.recording else {
-        let backend = &adapter.backend;
-        return Err(refused(
-            arguments,
-            &format!("calls of backend {backend} are not recorded"),
-            &smallest.symptom,
-        ));
+        let backend = &hello.info.backend;
+        return Err(refused(&format!(
+            "calls of backend {backend} are not recorded"
+        )));
     };
     let frequency = reduced.frequency(&launch, timeout)?;
     let finding = finding(&adapter, &arguments.case)?;
@@ -119,13 +103,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         None => None,
     };
     let shown = Shown {
-        document: reduced.document,
-        record: &judged,
-        symptom: reduced.symptom,
+        document,
+        record: &judged.record,
+        symptom,
     };
     let title = match &finding {
         Some(finding) => finding.title.clone(),
-        None => format!("{}: wrong {}", adapter.device, smallest.symptom),
+        None => format!("{}: wrong {symptom}", adapter.device),
     };
     let run = run_command(&launch);
     let head = Head {
@@ -135,38 +119,35 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     let (program, built) = shortest(
         |trim| {
-            etalon_bundle::program(&head, recording, &due, trim).map_err(|e| {
-                let message = format!("no program can be printed: {e}");
-                refused(arguments, &message, &smallest.symptom)
-            })
+            etalon_bundle::program(&head, recording, &due, trim)
+                .map_err(|e| refused(&format!("no program can be printed: {e}")))
         },
         |program| built_and_run(program, &launch, timeout),
     )?;
     if let Some(run) = built.as_ref().filter(|run| run.status != Some(BUG)) {
-        return Err(refused(
-            arguments,
-            &format!(
-                "the program made of its calls does not show the bug: {}, {}",
-                run.ending, run.line
-            ),
-            &smallest.symptom,
-        ));
+        return Err(refused(&format!(
+            "the program made of its calls does not show the bug: {}, {}",
+            run.ending, run.line
+        )));
     }
     let described = shown.described(&format!(
         "Reduced from {} on {}.",
         arguments.case, arguments.adapter
     ));
-    let mut files = vec![
-        File::text("repro.c", "the program", program),
-        File::text(
-            "case.json",
-            "the scene as a case file of etalon",
-            format!(
-                "{}\n",
-                serde_json::to_string_pretty(&described).map_err(Failure::incomplete)?
-            ),
+    let language = program.language;
+    let mut files = program.files;
+    let line = built.map(|run| {
+        files.extend(run.made);
+        run.line
+    });
+    files.push(File::text(
+        "case.json",
+        "the scene as a case file of etalon",
+        format!(
+            "{}\n",
+            serde_json::to_string_pretty(&described).map_err(Failure::incomplete)?
         ),
-    ];
+    ));
     if let Some(test) = shader_test(recording, &due) {
         files.push(File::text(
             "repro.shader_test",
@@ -174,7 +155,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             test,
         ));
     }
-    files.extend(reduced.pictures(&recorded.frame));
+    files.extend(pictures(&judged));
     let report = Report {
         title,
         sentence: shown.sentence(),
@@ -183,29 +164,22 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             .map(|f| f.clause.clone())
             .filter(|c| !c.is_empty())
             .or_else(|| shown.clause().map(str::to_owned)),
-        device: etalon_backend::AdapterInfo {
-            name: adapter.name.clone(),
-            backend: adapter.backend.clone(),
-            device: adapter.device.clone(),
-            driver: adapter.driver.clone(),
-            driver_version: adapter.driver_version.clone(),
-            driver_id: adapter.driver_id.clone(),
-            api_version: adapter.api_version.clone(),
-            software: adapter.software,
-        },
+        device: hello.info.clone(),
         machine: {
             let machine = provenance::machine();
             format!("{}, {}", machine.os, machine.cpu)
         },
         versions: versions(finding.as_ref(), newest),
-        expected: expected(&judged),
-        states: states(&reduced.document["scene"]),
+        expected: expected(&judged.record),
+        states: states(&document["scene"]),
         frequency,
-        clean,
+        checks,
+        language,
         run,
-        built: built.map(|run| run.line),
-        search: search(&adapter, reduced.symptom),
+        built: line,
+        search: search(&adapter, symptom),
         story: judged
+            .record
             .story
             .iter()
             .flat_map(|s| s.to_string().lines().map(str::to_owned).collect::<Vec<_>>())
@@ -220,13 +194,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         .map_err(Failure::incomplete)?;
     match arguments.format {
         Format::Text => summarize(&format!(
-            "{} on {}\n  {}\n  {}\n  fails in {} of {} processes\n  build and run: cc repro.c -ldl -o repro && {}\nBundle: {}\nArchive: {}\n",
+            "{} on {}\n  {}\n  {}\n  fails in {} of {} processes\n  build and run: {} && {}\nBundle: {}\nArchive: {}\n",
             arguments.case,
             arguments.adapter,
             report.title,
             report.sentence,
             frequency[0],
             frequency[1],
+            language.build(),
             report.run,
             written.folder.display(),
             written.archive.display(),
@@ -239,7 +214,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "clause": report.clause,
             "failed": frequency[0],
             "runs": frequency[1],
-            "clean": clean,
+            "clean": report.checks != Checks::Absent,
             "folder": written.folder,
             "archive": written.archive,
         }))?,
@@ -250,17 +225,24 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 /// Returns the shortest program that shows the bug when it is built and run, with that run; the whole one if none does,
 /// or if none is run here.
 fn shortest(
-    program: impl Fn(Trim) -> Result<String, Failure>,
-    run: impl Fn(&str) -> Result<Option<Run>, Failure>,
-) -> Result<(String, Option<Run>), Failure> {
+    program: impl Fn(Trim) -> Result<Program, Failure>,
+    run: impl Fn(&Program) -> Result<Option<Run>, Failure>,
+) -> Result<(Program, Option<Run>), Failure> {
+    let whole = program(Trim::Nothing)?;
     for trim in Trim::ALL {
-        let text = program(trim)?;
-        let Some(ran) = run(&text)? else { break };
-        if ran.status == Some(BUG) || trim == Trim::Nothing {
-            return Ok((text, Some(ran)));
+        let shorter = program(trim)?;
+        if shorter != whole || trim == Trim::Nothing {
+            let ran = run(&shorter)?;
+            let shows = ran.as_ref().is_some_and(|ran| ran.status == Some(BUG));
+            if shows || trim == Trim::Nothing {
+                return Ok((shorter, ran));
+            }
+            if ran.is_none() {
+                break;
+            }
         }
     }
-    Ok((program(Trim::Nothing)?, None))
+    Ok((whole, None))
 }
 
 /// The reason why there is no bundle.
@@ -282,16 +264,14 @@ fn alone(mut case: Case) -> Case {
 
 /// The smallest case.
 struct Reduced<'a> {
-    document: &'a Value,
     case: &'a Case,
-    record: &'a Record,
     symptom: &'a Symptom,
     limits: &'a Limits,
 }
 
 impl Reduced<'_> {
-    /// Draws the case where the API checks each call. Returns false if the driver cannot do so.
-    fn is_clean(&self, arguments: &Arguments) -> Result<bool, Failure> {
+    /// Draws the case where the API checks each call.
+    fn checks(&self, arguments: &Arguments, backend: &str) -> Result<Checks, Failure> {
         let opened = started(Query {
             names: std::slice::from_ref(&arguments.adapter),
             file: arguments.file.adapter_file.as_deref(),
@@ -303,13 +283,15 @@ impl Reduced<'_> {
                 "{} has no debug output or validation layer: the calls are not checked",
                 arguments.adapter
             );
-            return Ok(false);
+            return Ok(Checks::Absent);
         };
         let recorded = worker
             .recorded(&self.case.scene)
             .map_err(Failure::incomplete)?;
-        match recorded.messages.first() {
-            None => Ok(true),
+        match recorded.messages.into_iter().next() {
+            None => Ok(Checks::Clean),
+            // wgpu refuses what breaks its own rules; these are of the calls that it makes.
+            Some(message) if backend == "wgpu" => Ok(Checks::Below(message)),
             Some(message) => Err(refused(
                 arguments,
                 &format!("the case does not keep to the rules of the API: {message}"),
@@ -331,21 +313,24 @@ impl Reduced<'_> {
             .map_err(Failure::incomplete)
     }
 
-    /// Returns what the recorded frame must hold where it is wrong, and its record.
-    fn due(&self, frame: &Frame) -> Result<(Due, Record), Failure> {
+    /// Judges the recorded frame, which must fail as the case does.
+    fn judged(&self, frame: &Frame) -> Result<Judged, Failure> {
         let frames = std::slice::from_ref(frame);
-        let record = Judge::default()
-            .judge(0, self.case, "", self.limits, frames)
-            .record;
-        if !self.symptom.covers(&Symptom::of(&record)) {
-            return Err(Failure {
+        let judged = Judge::default().judge(0, self.case, "", self.limits, frames);
+        match self.symptom.covers(&Symptom::of(&judged.record)) {
+            true => Ok(judged),
+            false => Err(Failure {
                 code: UNEXPECTED,
                 message: format!(
                     "the reduced case does not fail while its calls are recorded: it is {}",
-                    record.verdict
+                    judged.record.verdict
                 ),
-            });
+            }),
         }
+    }
+
+    /// Returns what the frame must hold where it is wrong.
+    fn due(&self, frame: &Frame, record: &Record) -> Result<Due, Failure> {
         let wrong = record
             .wrong
             .iter()
@@ -355,17 +340,16 @@ impl Reduced<'_> {
             due.texels.extend(self.texel(frame, wrong)?);
         }
         for (index, counter) in record.counters.iter().enumerate() {
-            let above = counter.high.is_some_and(|high| counter.actual > high);
-            if counter.actual < counter.low || above {
+            let range = counter.range();
+            if !range.contains(counter.actual) {
                 due.counters.push(DueCounter {
                     name: counter.name.clone(),
                     index,
-                    least: counter.low,
-                    most: counter.high,
+                    range,
                 });
             }
         }
-        Ok((due, record))
+        Ok(due)
     }
 
     /// Returns what a sample must hold in all attachments of its shape.
@@ -448,49 +432,38 @@ impl Reduced<'_> {
         let (record, _) = worker.record(self.case, timeout);
         Ok((release.version, record.verdict.is_violation()))
     }
+}
 
-    /// Returns the pictures: allowed, actual, difference.
-    fn pictures(&self, frame: &Frame) -> Vec<File> {
-        let frames = std::slice::from_ref(frame);
-        let judged = Judge::default().judge(0, self.case, "", self.limits, frames);
-        let first = self.record.wrong.first();
-        let (Some(file), Some(wrong)) = (judged.frame, first) else {
-            return Vec::new();
-        };
-        let Some(mismatch) = wrong.channels.first() else {
-            return Vec::new();
-        };
-        let image = file
-            .images
-            .iter()
-            .find(|i| i.attachment == mismatch.attachment && i.aspect == mismatch.aspect);
-        let at = [wrong.x, wrong.y, wrong.sample];
-        let Some(ringed) = image.and_then(|i| etalon_report::ringed_pictures(i, at)) else {
-            return Vec::new();
-        };
-        let [due, actual, difference] = ringed.pictures;
-        let shown = match ringed.alpha {
-            true => ": alpha as grey, since nothing else differs",
-            false => "",
-        };
-        vec![
-            File::new(
-                "expected.png",
-                &format!("the picture that is allowed; its least values, where several are{shown}"),
-                due,
-            ),
-            File::new(
-                "actual.png",
-                &format!("the picture that came back{shown}"),
-                actual,
-            ),
-            File::new(
-                "difference.png",
-                "wrong texels in orange, the first with a ring",
-                difference,
-            ),
-        ]
-    }
+/// Returns the pictures: allowed, actual, difference.
+fn pictures(judged: &Judged) -> Vec<File> {
+    let (Some(file), Some(wrong)) = (&judged.frame, judged.record.wrong.first()) else {
+        return Vec::new();
+    };
+    let Some(mismatch) = wrong.channels.first() else {
+        return Vec::new();
+    };
+    let image = file
+        .images
+        .iter()
+        .find(|i| i.attachment == mismatch.attachment && i.aspect == mismatch.aspect);
+    let at = [wrong.x, wrong.y, wrong.sample];
+    let Some(ringed) = image.and_then(|i| etalon_report::ringed_pictures(i, at)) else {
+        return Vec::new();
+    };
+    let [due, actual, difference] = ringed.pictures;
+    let shown = match ringed.alpha {
+        true => ": alpha as grey, since nothing else differs",
+        false => "",
+    };
+    let allowed =
+        format!("the picture that is allowed; its least values, where several are{shown}");
+    let back = format!("the picture that came back{shown}");
+    let about = "wrong texels in orange, the first with a ring";
+    vec![
+        File::new("expected.png", &allowed, due),
+        File::new("actual.png", &back, actual),
+        File::new("difference.png", about, difference),
+    ]
 }
 
 /// Returns the finding that names a case on an adapter.
@@ -528,12 +501,7 @@ fn expected(record: &Record) -> Vec<Expected> {
                     false => format!("{code} ({value:.4})"),
                 }
             };
-            let channel = match m.aspect {
-                etalon_frame::Aspect::Color => {
-                    ["red", "green", "blue", "alpha"][usize::from(m.channel).min(3)]
-                }
-                aspect => aspect.name(),
-            };
+            let channel = m.aspect.channel(m.channel.into());
             let sample = match wrong.sample {
                 0 => String::new(),
                 n => format!(", sample {n}"),
@@ -552,15 +520,10 @@ fn expected(record: &Record) -> Vec<Expected> {
         }
     }
     for counter in &record.counters {
-        let above = counter.high.is_some_and(|high| counter.actual > high);
-        if counter.actual < counter.low || above {
+        if !counter.range().contains(counter.actual) {
             all.push(Expected {
                 place: format!("counter {}", counter.name),
-                due: match counter.high {
-                    Some(high) if high == counter.low => high.to_string(),
-                    Some(high) => format!("{} to {high}", counter.low),
-                    None => format!("at least {}", counter.low),
-                },
+                due: counter.range().to_string(),
                 actual: counter.actual.to_string(),
             });
         }

@@ -4,20 +4,23 @@
 //! so that the groups do not depend on the number of workers.
 
 use crate::adapters::{Query, discover, refuse_absent};
+use crate::cases::library;
+use crate::expectations::{self, today};
 use crate::failure::{Failure, INCOMPLETE, UNEXPECTED};
-use crate::failure_groups::{Group, Groups};
+use crate::failure_groups::{Folders, Group, Groups};
 use crate::flags::{AdapterFileArguments, Format, parse_timeout};
 use crate::interruption::listen;
+use crate::known_bugs::{KnownBugs, Match};
 use crate::output::{say, summarize, summarize_json};
 use crate::processors::processors;
 use crate::progress::progress;
 use crate::provenance;
 use crate::reduction::TIMEOUT;
 use clap::Args;
-use etalon_case::Case;
+use etalon_case::{Case, Library};
 use etalon_explore::{Fuzzer, RandomScene, Space};
 use etalon_frame::Limits;
-use etalon_record::{FolderLock, Verdict};
+use etalon_record::{AdapterRecord, Expectations, FolderLock, Verdict};
 use etalon_runner::{Batches, Launch, Worker};
 use serde_json::{Value, json};
 use std::fs;
@@ -34,6 +37,8 @@ const COUNT: u64 = 1000;
 const GROUPS: &str = "fuzz.jsonl";
 /// The folder of the scenes that fail.
 const FOUND: &str = "found";
+/// The folder of those that a finding explains.
+const KNOWN: &str = "known";
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -48,15 +53,18 @@ pub(crate) struct Arguments {
     /// Number of scenes for each adapter [default: 1000, without --time]
     #[arg(long, value_name = "N", conflicts_with = "time")]
     pub(crate) count: Option<u64>,
-    /// Time for each adapter, in seconds or as `10m` or `2h`
+    /// Time for each adapter, in seconds or as `10m` or `2h`; comparing what was found with the findings comes on top
     #[arg(long, value_name = "T", value_parser = parse_time)]
     pub(crate) time: Option<Duration>,
-    /// Folder for fuzz.jsonl and the scenes that fail, in `found`; `--cases` takes it
+    /// Folder for fuzz.jsonl and the scenes that fail, in `found`, those of known bugs in `known`; `--cases` takes both
     #[arg(long, value_name = "DIR", default_value = "reports/fuzz")]
     pub(crate) out: PathBuf,
     /// Replace the results in the folder
     #[arg(long)]
     pub(crate) force: bool,
+    /// Compare with these expectations instead of the built-in findings: a list, a finding, or a folder of findings
+    #[arg(long, value_name = "PATH")]
+    pub(crate) expect: Option<PathBuf>,
     /// Number of workers that draw at the same time. Default: one per processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) jobs: Option<u16>,
@@ -95,11 +103,23 @@ struct Tally {
     pairs: usize,
     states: usize,
     seconds: f64,
+    /// The time of the comparison with findings, in seconds.
+    comparing: f64,
     groups: Vec<Group>,
+}
+
+impl Tally {
+    /// The groups that no finding explains.
+    fn unexplained(&self) -> impl Iterator<Item = &Group> {
+        let explained = |g: &&Group| g.known().is_some_and(Match::is_exact);
+        self.groups.iter().filter(move |g| !explained(g))
+    }
 }
 
 /// Draws random scenes and keeps one of each way to fail.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let expectations = expectations::read(arguments.expect.as_deref())?.on(&today());
+    let library = library(None)?;
     fs::create_dir_all(&arguments.out)
         .map_err(|e| Failure::usage(format!("cannot make {}: {e}", arguments.out.display())))?;
     let _lock = FolderLock::acquire(&arguments.out).map_err(Failure::usage)?;
@@ -119,7 +139,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         if stop.load(Ordering::Relaxed) {
             break;
         }
-        all.push(fuzz(arguments, launch, worker, stop)?);
+        all.push(fuzz(
+            arguments,
+            launch,
+            worker,
+            &expectations,
+            &library,
+            stop,
+        )?);
         // What was found is kept, whatever happens to the next adapter.
         write(arguments, &all, stop)?;
     }
@@ -146,7 +173,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         say!("interrupted: what was found is kept");
         return Ok(INCOMPLETE);
     }
-    Ok(match all.iter().all(|t| t.groups.is_empty()) {
+    Ok(match all.iter().all(|t| t.unexplained().next().is_none()) {
         true => 0,
         false => UNEXPECTED,
     })
@@ -154,8 +181,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 
 /// Refuses to replace what a folder holds without `--force`, with which it is removed.
 fn free(arguments: &Arguments) -> Result<(), Failure> {
-    let (file, found) = (arguments.out.join(GROUPS), arguments.out.join(FOUND));
-    if !file.exists() && !found.exists() {
+    let file = arguments.out.join(GROUPS);
+    let folders = [FOUND, KNOWN].map(|name| arguments.out.join(name));
+    if !file.exists() && !folders.iter().any(|f| f.exists()) {
         return Ok(());
     }
     if !arguments.force {
@@ -171,8 +199,8 @@ fn free(arguments: &Arguments) -> Result<(), Failure> {
     if file.exists() {
         fs::remove_file(&file).map_err(failed(&file))?;
     }
-    if found.exists() {
-        fs::remove_dir_all(&found).map_err(failed(&found))?;
+    for folder in folders.iter().filter(|f| f.exists()) {
+        fs::remove_dir_all(folder).map_err(failed(folder))?;
     }
     Ok(())
 }
@@ -182,8 +210,11 @@ fn fuzz(
     arguments: &Arguments,
     launch: Launch,
     worker: Worker,
+    expectations: &Expectations,
+    library: &Library,
     stop: &AtomicBool,
 ) -> Result<Tally, Failure> {
+    let adapter = AdapterRecord::from(&worker);
     let name = launch.adapter.clone();
     let limits = worker.hello.limits.clone();
     let jobs = arguments.jobs.map_or_else(processors, usize::from);
@@ -195,8 +226,11 @@ fn fuzz(
     let mut fuzzer = Fuzzer::new(arguments.seed, Space::of([&limits]));
     let timeout = Duration::from_secs_f64(arguments.timeout);
     let mut batches = Batches::new(launch.clone(), worker, jobs, timeout);
-    let folder = arguments.out.join(FOUND);
-    let mut groups = Groups::new(launch, limits.clone(), folder, timeout);
+    let folders = Folders {
+        found: arguments.out.join(FOUND),
+        known: arguments.out.join(KNOWN),
+    };
+    let mut groups = Groups::new(launch.clone(), limits.clone(), folders, timeout);
     let bar = progress(if count == u64::MAX { 0 } else { count });
     bar.set_message(name.clone());
     let mut tally = Tally {
@@ -207,6 +241,7 @@ fn fuzz(
         pairs: 0,
         states: 0,
         seconds: 0.0,
+        comparing: 0.0,
         groups: Vec::new(),
     };
     let mut left = count;
@@ -245,8 +280,21 @@ fn fuzz(
         bar.set_message(format!("{}: {} groups", tally.adapter, groups.len()));
     }
     groups.add(failing, stop)?;
-    bar.finish_and_clear();
     tally.seconds = begun.elapsed().as_secs_f64();
+    if groups.len() > 0 && !stop.load(Ordering::Relaxed) {
+        bar.set_message(format!("{}: comparing with findings", tally.adapter));
+        let mut bugs = KnownBugs::new(expectations, &adapter, library, launch, timeout, stop);
+        let compared = groups.compare(&mut bugs);
+        if let Err(failure) = compared {
+            say!(
+                "{}: not all groups were compared with findings: {}",
+                tally.adapter,
+                failure.message
+            );
+        }
+        tally.comparing = begun.elapsed().as_secs_f64() - tally.seconds;
+    }
+    bar.finish_and_clear();
     tally.groups = groups.finish();
     Ok(tally)
 }
@@ -289,21 +337,35 @@ fn write(arguments: &Arguments, all: &[Tally], stop: &AtomicBool) -> Result<(), 
 
 impl Tally {
     fn json(&self) -> Value {
+        let [new, alike, known] = self.counts();
         json!({
             "adapter": self.adapter,
             "scenes": self.scenes,
             "failing": self.failing,
             "not_supported": self.not_supported,
             "groups": self.groups.len(),
+            "new": new,
+            "alike": alike,
+            "known": known,
             "states": self.states,
             "pairs": self.pairs,
             "seconds": self.seconds,
+            "comparing": self.comparing,
         })
     }
 
+    /// Returns the numbers of groups that are new, that look like a finding, and that a finding explains.
+    fn counts(&self) -> [usize; 3] {
+        let alike = |g: &&Group| g.known().is_some();
+        let unexplained = self.unexplained().count();
+        let alike = self.unexplained().filter(alike).count();
+        [unexplained - alike, alike, self.groups.len() - unexplained]
+    }
+
     fn text(&self) -> String {
+        let [new, alike, known] = self.counts();
         let mut text = format!(
-            "{}: {} scenes in {:.1} s ({:.0} a second), {} fail, in {} groups; {} states and {} pairs of them met\n",
+            "{}: {} scenes in {:.1} s ({:.0} a second), {} fail, in {} groups ({new} new, {alike} like a finding, {known} known); {} states and {} pairs of them met\n",
             self.adapter,
             self.scenes,
             self.seconds,
@@ -313,11 +375,56 @@ impl Tally {
             self.states,
             self.pairs
         );
-        for group in &self.groups {
+        for group in self.groups.iter().filter(|g| g.known().is_none()) {
             text.push_str(&group.text());
+        }
+        for (known, groups) in self.by_finding(false) {
+            text.push_str(&headed("looks like", known, &groups));
+            let each = groups.iter().map(|group| group.short());
+            text.extend(each);
+        }
+        for (known, groups) in self.by_finding(true) {
+            text.push_str(&headed("known", known, &groups));
+            text.push_str(&format!("    {}\n", known.why()));
         }
         text
     }
+
+    /// Returns the groups of each finding, which explains them or not, those of most scenes first.
+    fn by_finding(&self, explained: bool) -> Vec<(&Match, Vec<&Group>)> {
+        let mut all: Vec<(&Match, Vec<&Group>)> = Vec::new();
+        for group in &self.groups {
+            let Some(known) = group.known().filter(|k| k.is_exact() == explained) else {
+                continue;
+            };
+            match all.iter_mut().find(|(k, _)| k.finding == known.finding) {
+                Some((_, groups)) => groups.push(group),
+                None => all.push((known, vec![group])),
+            }
+        }
+        all.sort_by_key(|(_, groups)| std::cmp::Reverse(scenes(groups)));
+        all
+    }
+}
+
+/// Returns the number of scenes in groups.
+fn scenes(groups: &[&Group]) -> u64 {
+    groups.iter().map(|g| g.count()).sum()
+}
+
+/// Returns the line on the groups of a finding.
+fn headed(word: &str, known: &Match, groups: &[&Group]) -> String {
+    let plural = |count: u64, noun: &str| match count {
+        1 => format!("1 {noun}"),
+        count => format!("{count} {noun}s"),
+    };
+    format!(
+        "\n  {word}: {}: {}: {} in {}\n",
+        known.finding,
+        known.title,
+        plural(scenes(groups), "scene"),
+        plural(groups.len() as u64, "group"),
+    )
 }
 
 #[cfg(test)]

@@ -1,14 +1,12 @@
 //! `etalon reduce`.
 
-use crate::cases::{find, library};
 use crate::failure::Failure;
 use crate::flags::{AdapterFileArguments, Format, parse_timeout};
 use crate::output::{summarize, summarize_json};
-use crate::reducing::{smallest, start};
-use crate::reduction::{Shown, TIMEOUT, file_name};
+use crate::reducing::{Failing, smallest};
+use crate::reduction::{Shown, TIMEOUT};
 use clap::Args;
-use etalon_case::build;
-use etalon_explore::{Candidate, Reduction, keys, leaves, states};
+use etalon_explore::{Reduction, keys, leaves, states};
 use etalon_record::{Record, Symptom};
 use serde_json::{Value, json};
 use std::fs;
@@ -41,29 +39,17 @@ pub(crate) struct Arguments {
 
 /// Reduces a case that fails on an adapter, and writes what is left as a case file.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let library = library(arguments.cases.as_ref())?;
-    let found = find(&library, &arguments.case)?;
-    let document = found.document().map_err(Failure::usage)?;
-    let id = file_name(&arguments.case, &arguments.adapter);
-    let case = build(&id, &document).map_err(|e| {
-        let message = format!(
-            "the scene of `{}` cannot be written as a case file: {e}",
-            arguments.case
-        );
-        Failure::usage(message)
-    })?;
-    let (launch, worker) = start(&arguments.adapter, arguments.file.adapter_file.as_deref())?;
-    let limits = &worker.hello.limits;
-    if let Some(missing) = limits.missing(&case.requirements()) {
-        let name = &arguments.adapter;
-        return Err(Failure::usage(format!("{name} does not support {missing}")));
-    }
-    let failing = Candidate {
-        document: document.clone(),
-        case,
-    };
+    let file = arguments.file.adapter_file.as_deref();
+    let cases = arguments.cases.as_ref();
+    let Failing {
+        name,
+        candidate,
+        launch,
+        worker,
+    } = Failing::find(&arguments.case, &arguments.adapter, cases, file)?;
+    let document = candidate.document.clone();
     let timeout = Duration::from_secs_f64(arguments.timeout);
-    let smallest = smallest(&arguments.case, failing, &launch, worker, timeout)?;
+    let smallest = smallest(&arguments.case, candidate, &launch, worker, timeout)?;
     let told = Told {
         arguments,
         before: &document["scene"],
@@ -73,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         symptom: &smallest.symptom,
         seconds: smallest.seconds,
     };
-    let path = arguments.out.join(format!("{id}.json"));
+    let path = arguments.out.join(format!("{name}.json"));
     let text = serde_json::to_string_pretty(&told.document())
         .map_err(|e| Failure::incomplete(format!("cannot write JSON: {e}")))?;
     fs::create_dir_all(&arguments.out)

@@ -32,7 +32,7 @@ fn fuzz(adapter: &str, out: &Path, more: &[&str]) -> (i32, Value, String) {
 
 /// The case files of a search, by name.
 fn found(out: &Path) -> BTreeMap<String, String> {
-    let files = fs::read_dir(out.join("found")).unwrap();
+    let files = fs::read_dir(out.join("found")).into_iter().flatten();
     let each = files.map(|file| {
         let path = file.unwrap().path();
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
@@ -60,12 +60,18 @@ fn what_fails_is_kept_once_and_fails_again_whatever_the_number_of_workers() {
     let folder = TempDir::new().unwrap();
     let [one, other] = ["one", "three"].map(|name| folder.path().join(name));
     let adapter = "gl:softpipe";
-    let (code, summary, error) = fuzz(adapter, &one, &["--count", "120", "--jobs", "1"]);
+    // Without findings, all groups are new.
+    let none = nothing_known(folder.path());
+    let search = |out: &Path, jobs: &str| {
+        let more = ["--count", "120", "--jobs", jobs, "--expect", &none];
+        fuzz(adapter, out, &more)
+    };
+    let (code, summary, error) = search(&one, "1");
     assert_eq!(code, 1, "{error}");
     let adapters = summary["adapters"].as_array().unwrap();
     assert_eq!(adapters[0]["scenes"], 120);
     assert!(adapters[0]["pairs"].as_u64().unwrap() > 10_000, "{summary}");
-    let (code, _, error) = fuzz(adapter, &other, &["--count", "120", "--jobs", "3"]);
+    let (code, _, error) = search(&other, "3");
     assert_eq!(code, 1, "{error}");
     assert_eq!(groups(&one), groups(&other));
     assert_eq!(found(&one), found(&other));
@@ -101,6 +107,100 @@ fn what_fails_is_kept_once_and_fails_again_whatever_the_number_of_workers() {
         checked += 1;
     }
     assert!(checked > 2, "{groups:#?}");
+}
+
+/// Writes expectations that expect nothing.
+fn nothing_known(folder: &Path) -> String {
+    let path = folder.join("none.json");
+    fs::write(&path, "[]").unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn known_bugs_are_named_by_their_findings() {
+    let folder = TempDir::new().unwrap();
+    let out = folder.path().join("out");
+    let adapter = "gl:softpipe";
+    let search = |count: &str, more: &[&str]| {
+        let own = ["--seed", "27", "--count", count, "--force"];
+        fuzz(adapter, &out, &[&own, more].concat())
+    };
+    // The third scene shows that points take back stencil state, as cases of the finding do.
+    let (code, summary, error) = search("4", &[]);
+    assert_eq!(code, 0, "{error}\n{summary}");
+    let counts = |summary: &Value| {
+        let of = |key: &str| summary["adapters"][0][key].as_u64().unwrap();
+        ["new", "alike", "known"].map(of)
+    };
+    assert_eq!(counts(&summary), [0, 0, 1]);
+    let group = &summary["groups"][0];
+    let known = &group["known"];
+    assert_eq!(known["finding"], "softpipe-stencil-points", "{known}");
+    assert_eq!(known["match"], "exact");
+    let case = known["case"].as_str().unwrap();
+    assert!(case.starts_with("cull/stencil-faces-points/"), "{known}");
+    assert_eq!(groups(&out)[0]["known"], *known);
+    let file = group["file"].as_str().unwrap();
+    assert!(file.contains("/known/") && found(&out).is_empty());
+    let document: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
+    let about = document["about"].as_str().unwrap();
+    assert!(
+        about.contains("Known: softpipe-stencil-points ("),
+        "{about}"
+    );
+
+    // Another one has a state more than a finding shows: it is not excused.
+    let (code, summary, error) = search("8", &[]);
+    assert_eq!(
+        (code, counts(&summary)),
+        (1, [0, 1, 1]),
+        "{error}\n{summary}"
+    );
+    let groups = summary["groups"].as_array().unwrap();
+    let alike = groups.iter().find(|g| g["known"]["match"] == "alike");
+    let file = alike.unwrap()["file"].as_str().unwrap();
+    assert!(file.contains("/found/"), "{file}");
+    assert!(fs::read_to_string(file).unwrap().contains("Looks like: "));
+
+    // Without findings both are new, and with a finding on other cases too.
+    let none = nothing_known(folder.path());
+    let finding = folder.path().join("other.json");
+    let text = r#"{ "title": "t", "adapters": ["*"], "driver": "*", "cases": ["depth/compare/*"],
+        "grade": "proven", "clause": "c", "evidence": "e" }"#;
+    fs::write(&finding, text).unwrap();
+    for expect in [&none, finding.to_str().unwrap()] {
+        let (code, summary, error) = search("8", &["--expect", expect]);
+        assert_eq!(
+            (code, counts(&summary)),
+            (1, [2, 0, 0]),
+            "{error}\n{summary}"
+        );
+        let groups = summary["groups"].as_array().unwrap();
+        assert!(groups.iter().all(|g| g["known"].is_null()), "{groups:?}");
+    }
+
+    let own = [
+        "fuzz",
+        "--adapter",
+        adapter,
+        "--seed",
+        "27",
+        "--count",
+        "8",
+        "--force",
+    ];
+    let out = ["--out", out.to_str().unwrap()];
+    let output = etalon(&[&own[..], &out].concat()).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    for due in [
+        "in 2 groups (0 new, 1 like a finding, 1 known)",
+        "\n  known: softpipe-stencil-points: softpipe takes back stencil state for points: 1 scene in 1 group\n",
+        "\n  looks like: softpipe-depth-clamp",
+    ] {
+        assert!(text.contains(due), "{text}");
+    }
+    let places = ["\n  looks like: ", "\n  known: "].map(|word| text.find(word));
+    assert!(places.is_sorted(), "{text}");
 }
 
 #[test]
@@ -202,6 +302,10 @@ fn earlier_results_and_wrong_flags_are_refused() {
     );
     assert_eq!(fuzz("cpu", out, &["--count", "3", "--time", "9"]).0, 64);
     assert_eq!(fuzz("cpu", out, &["--time", "soon"]).0, 64);
+    assert_eq!(
+        fuzz("cpu", out, &["--force", "--expect", "none.json"]).0,
+        64
+    );
 }
 
 #[test]

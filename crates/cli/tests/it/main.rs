@@ -4,7 +4,9 @@
 mod adapters;
 mod bench;
 mod bisect;
-mod bundle;
+mod bundle_c;
+mod bundle_wgpu;
+mod bundling;
 mod call_faults;
 mod check;
 mod ci_files;

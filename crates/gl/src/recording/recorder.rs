@@ -1,4 +1,4 @@
-//! What is kept of the calls.
+//! The recorder of the calls of a thread.
 
 use etalon_backend::{
     Argument, Call, CounterPart, Form, Phase, Plane, RecordedContext, RecordedCounter,

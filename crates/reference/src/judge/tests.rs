@@ -2,7 +2,7 @@ use super::{Sample, explain, judge};
 use crate::rules::Rules;
 use crate::test_limits::limits;
 use etalon_case::{Case, CaseFile, Profile};
-use etalon_frame::Api;
+use etalon_frame::{Api, ApiVersion, Limits};
 use etalon_scene::Scene;
 
 fn case(text: &str) -> Case {
@@ -453,4 +453,84 @@ fn a_bias_that_is_no_normal_number_may_be_nothing() {
     let sample = set.groups[0].sample(0, 0, 0);
     assert!(sample.allows(&[0]) && sample.allows(&[255]));
     assert!(!sample.allows(&[i64::from(f32::MIN_POSITIVE.to_bits())]));
+}
+
+#[test]
+fn samples_of_minus_one_are_read_as_either_code() {
+    // A logic operation alone stores the least code, which no API copies out of several samples.
+    let of = |samples: u32| {
+        let scene = case(&format!(
+            r#"{{"about":"t","spec":["t"],"scene":{{
+               "attachments":{{"c":{{"format":"rgba8snorm","size":[1,1],"samples":{samples}}}}},
+               "passes":[{{"color":["c"],"draws":[{{"mesh":{{"kind":"cover"}},"shader":"uniform_color",
+                   "params":{{"color":[1,0,1,1]}},"logic":"equivalent"}}]}}],"read":["c"]}}}}"#
+        ))
+        .scene;
+        let limits = limits(Api::Vulkan);
+        judge(&scene, &limits, &Rules::of(&limits))
+    };
+    let allows = |samples: u32| {
+        let set = of(samples);
+        let sample = set.groups[0].sample(0, 0, 0);
+        [-128, -127, -126].map(|code| sample.allows(&[code, -1, code, code]))
+    };
+    assert_eq!(allows(1), [true, false, false]);
+    assert_eq!(allows(4), [true, true, false]);
+}
+
+#[test]
+fn opengl_3_may_clamp_biased_depths_at_vertices() {
+    let scene = case(
+        r#"{"about":"t","spec":["t"],"scene":{
+           "attachments":{"d":{"format":"depth32float","size":[1,1]}},
+           "passes":[{"depth_stencil":"d","draws":[{"depth":{"compare":"always","write":true},
+               "depth_bias":{"slope":1.0},"shader":"uniform_color","mesh":{"kind":"vertices","units":"texels",
+               "positions":[[0.5,1.75,0.0],[-0.75,0.5,0.57],[2.5,0.0,0.97]]}}]}],"read":["d"]}}"#,
+    )
+    .scene;
+    let allows = |version: ApiVersion, depth: f32| {
+        let limits = Limits {
+            version,
+            ..limits(Api::OpenGl)
+        };
+        let set = judge(&scene, &limits, &Rules::of(&limits));
+        let sample = set.groups[0].sample(0, 0, 0);
+        sample.allows(&[i64::from(depth.to_bits())])
+    };
+    // The depth of 0.63 at the texel and a slope of 0.5 make more than 1; of the vertices, the nearest stays below.
+    for (version, at_vertices) in [
+        ((3, 3), true),
+        ((4, 1), true),
+        ((4, 2), false),
+        ((4, 6), false),
+    ] {
+        let version = ApiVersion::new(version.0, version.1);
+        assert!(allows(version, 1.0), "{version}");
+        assert_eq!(allows(version, 0.954_791_67), at_vertices, "{version}");
+        assert!(!allows(version, 0.6), "{version}");
+    }
+}
+
+#[test]
+fn the_step_of_a_float_bias_is_that_of_what_clipping_leaves() {
+    let of = |positions: &str, depth: f32| {
+        let scene = case(&format!(
+            r#"{{"about":"t","spec":["t"],"scene":{{
+               "attachments":{{"d":{{"format":"depth32float","size":[1,1]}}}},
+               "passes":[{{"depth_stencil":"d","draws":[{{"depth":{{"compare":"always","write":true}},
+                   "depth_bias":{{"constant":1000000}},"shader":"uniform_color",
+                   "mesh":{{"kind":"vertices","positions":[{positions}]}}}}]}}],"read":["d"]}}}}"#
+        ))
+        .scene;
+        let limits = limits(Api::Vulkan);
+        let set = judge(&scene, &limits, &Rules::of(&limits));
+        let sample = set.groups[0].sample(0, 0, 0);
+        sample.allows(&[i64::from(depth.to_bits())])
+    };
+    // The depth of 0.55 lies far outside, and what is drawn lies below 0.5.
+    let beyond = "[-1,-1,0.45],[-1,6,0.45],[18,-1,0.55]";
+    assert!(of(beyond, 0.485_065_46) && of(beyond, 0.514_867_8));
+    assert!(!of(beyond, 0.6));
+    let within = "[-1,-1,0.45],[-1,1,0.45],[1,-1,0.55]";
+    assert!(!of(within, 0.529_8) && of(within, 0.559_6));
 }

@@ -200,6 +200,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
             ]),
         ),
+        bias_clamps_fragments: permit(
+            !old,
+            text.cite([
+                "OpenGL 3.3: 3.6.4 Depth Offset, last paragraph: clamped after the offset is added, or at the vertices",
+                "OpenGL 4.5: 14.6.5 Depth Offset, last paragraph: clamped after the offset is added",
+                "OpenGL 4.6: 14.6.5 Depth Offset, last paragraph: clamped after the offset is added",
+            ]),
+        ),
         depth_range: permit(
             DepthRange::Unit,
             text.cite([

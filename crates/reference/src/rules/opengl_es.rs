@@ -148,6 +148,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 13.7.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
             ]),
         ),
+        bias_clamps_fragments: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: 3.6.2 Depth Offset, last paragraph: clamped after the offset is added",
+                "OpenGL ES 3.1: 13.5.2 Depth Offset, last paragraph: clamped after the offset is added",
+                "OpenGL ES 3.2: 13.7.2 Depth Offset, last paragraph: clamped after the offset is added",
+            ]),
+        ),
         depth_range: permit(
             DepthRange::Unit,
             text.cite([

@@ -403,6 +403,8 @@ rules! {
     depth_order: DepthOrder,
     /// The unit of a constant depth bias.
     depth_bias_unit: BiasUnit,
+    /// True if biased depths are clamped at fragments; otherwise there or at vertices.
+    bias_clamps_fragments: bool,
     /// Depths outside of the viewport's range.
     depth_range: DepthRange,
     /// Blend factors beyond a normalized format's range.

@@ -113,6 +113,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             },
             "Vulkan: Depth Bias Computation: for fixed point one r for the whole attachment, at most 2 * 2^-n; for floats 2^(e-n), n the bits of the mantissa, 23 (where fixed-point steps stand in for floats, the text takes one bit more than the mantissa's)",
         ),
+        bias_clamps_fragments: permit(
+            true,
+            "Vulkan: Depth Bias, Depth Clamping and Range Adjustment: fragments are biased, and clamped behind",
+        ),
         depth_range: permit(
             DepthRange::Undefined,
             "Vulkan: Depth Clamping and Range Adjustment: outside of the range of minDepth and maxDepth it is undefined",

@@ -96,6 +96,10 @@ pub(super) fn rules() -> Rules {
             Grade::Disputed,
             "WebGPU: GPUDepthStencilState, biased fragment depth: r is the least positive value of a unorm format; which one depth24plus is, is not told, so as Vulkan has it; of floats 2^(e-23), or 2^e as the text says by its letter (gpuweb#6350)",
         ),
+        bias_clamps_fragments: permit(
+            true,
+            "WebGPU: 23.2.5 Rasterization: the bias is added to the depth of fragments; Vulkan and OpenGL 4.6: clamped behind",
+        ),
         depth_range: permit(
             DepthRange::ViewportIfWritten,
             "WebGPU: 23.2.6 Fragment Processing, 23.2.7 Output Merging: held to the viewport's depth range, a biased depth before or after the test",

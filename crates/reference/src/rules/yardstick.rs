@@ -68,6 +68,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             },
             "Direct3D 11.3: 15.10 Depth Bias: 1/2^n, for floats 2^(e-23)",
         ),
+        bias_clamps_fragments: permit(
+            true,
+            "Yardstick: clamped behind the bias, as Direct3D 11.3 has it (15.10)",
+        ),
         depth_range: permit(
             DepthRange::Either,
             "Direct3D 11.3: 16.9 Depth Clamp: held to the viewport; OpenGL: to 0 and 1",

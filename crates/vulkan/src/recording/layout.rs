@@ -1,4 +1,4 @@
-//! How structures of the API are taken apart.
+//! The layouts by which structures of the API are taken apart.
 
 use super::recorder::fail;
 use ash::vk;

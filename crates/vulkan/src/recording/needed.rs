@@ -7,7 +7,7 @@ use etalon_backend::{Argument, Call, VulkanNeeds};
 use etalon_frame::{Feature, PathState, PathViewport, Requirement, TextureFormat};
 use etalon_scene::Scene;
 
-/// What the device of a scene's program enables.
+/// The features and extensions that a scene's device needs.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Needed {
     /// Members of `VkPhysicalDeviceFeatures`.

@@ -42,6 +42,7 @@ fn opened(name: &str, via: Via, validate: bool) -> WgpuBackend {
         device,
         validate,
         read_fault: None,
+        record: false,
     };
     let backend = open(name, &options).unwrap_or_else(|e| panic!("{name} does not open: {e}"));
     assert_eq!(backend.adapter().name, name);

@@ -1,6 +1,7 @@
 //! `etalon bundle`: the programs that it writes are built and run as a maintainer would, and none shows what is not there.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
+use crate::bundling::{bundle, last_line, run_as_told};
 use crate::etalon::etalon;
 use crate::sample;
 use serde_json::{Value, json};
@@ -8,25 +9,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use tempfile::TempDir;
-
-/// Bundles a case. Returns the exit code, the summary and the error output.
-fn bundle(case: &str, adapter: &str, out: &Path, more: &[&str]) -> (i32, Value, String) {
-    let out = out.to_str().unwrap();
-    let own = [
-        "bundle",
-        case,
-        "--adapter",
-        adapter,
-        "--format",
-        "json",
-        "--out",
-        out,
-    ];
-    let output = etalon(&[&own, more].concat()).output().unwrap();
-    let summary = serde_json::from_slice(&output.stdout).unwrap_or(Value::Null);
-    let error = String::from_utf8(output.stderr).unwrap();
-    (output.status.code().unwrap(), summary, error)
-}
 
 /// Builds a program in an empty folder, without a warning.
 fn built(folder: &Path, empty: &Path) -> PathBuf {
@@ -53,20 +35,6 @@ fn run_on(driver: &str, program: &Path) -> Output {
         .env("XDG_RUNTIME_DIR", "/tmp")
         .output()
         .unwrap()
-}
-
-fn last_line(output: &Output) -> String {
-    let text = String::from_utf8_lossy(&output.stdout);
-    text.lines().last().unwrap_or_default().to_owned()
-}
-
-/// Runs the command that a report gives, in the folder of the program.
-fn run_as_told(report: &str, folder: &Path) -> Output {
-    let mut lines = report.lines();
-    let line = lines.find(|line| line.ends_with("./repro")).unwrap();
-    let shell = ["-c", line];
-    let mut command = Command::new("sh");
-    command.args(shell).current_dir(folder).output().unwrap()
 }
 
 /// Cases that a driver fails, and a driver that passes them or lacks something of them. One for each finding that is the
@@ -422,6 +390,26 @@ fn a_fault_of_the_suite_becomes_no_bundle() {
         assert!(error.contains(words), "{adapter}: {error}");
         assert_eq!(fs::read_dir(out.path()).unwrap().count(), 0);
     }
+}
+
+#[test]
+fn a_case_that_the_layer_objects_to_has_no_bundle() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("adapters.json");
+    // The layer warns of an extension that the backend enables.
+    let adapters = json!([{
+        "name": "vulkan:strict", "backend": "vulkan", "answers": "llvmpipe",
+        "environment": { "VK_LAYER_ENABLES": "VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT" },
+    }]);
+    fs::write(&file, adapters.to_string()).unwrap();
+    let out = folder.path().join("out");
+    let more = ["--adapters", file.to_str().unwrap()];
+    let case = "found/reduced/bug=indexed-indirect";
+    let (code, _, error) = bundle(case, "vulkan:strict", &out, &more);
+    assert_eq!(code, 1, "{error}");
+    let words = "does not keep to the rules of the API: Validation Warning";
+    assert!(error.contains(words), "{error}");
+    assert!(!out.exists());
 }
 
 /// Text that would leave a C string, a comment, a shell's word or Markdown.

@@ -1,0 +1,185 @@
+//! The declarations and functions of a C program, whatever its API.
+
+use crate::error::BundleError;
+use etalon_backend::{Call, Phase};
+use std::collections::{BTreeMap, HashMap};
+use std::fmt::Write;
+
+/// The functions that make the recorded calls.
+pub(crate) struct Body {
+    /// Their definitions.
+    pub(crate) definitions: String,
+    /// The statements that call them in order.
+    pub(crate) calls: String,
+}
+
+impl Body {
+    /// Returns a function for each run of calls of one phase. `statement` prints a call, in one line or several.
+    pub(crate) fn of<'a>(
+        calls: impl IntoIterator<Item = &'a Call>,
+        mut statement: impl FnMut(&Call) -> Result<String, BundleError>,
+    ) -> Result<Self, BundleError> {
+        let mut body = Self {
+            definitions: String::new(),
+            calls: String::new(),
+        };
+        let mut counts = HashMap::new();
+        let mut phase = None;
+        for call in calls {
+            if phase != Some(call.phase) {
+                body.end(phase);
+                phase = Some(call.phase);
+                let count = counts.entry(name_of(call.phase)).or_insert(0_u32);
+                *count += 1;
+                let name = match *count {
+                    1 => name_of(call.phase).to_owned(),
+                    n => format!("{}_{n}", name_of(call.phase)),
+                };
+                let _ = write!(body.definitions, "\nstatic void {name}(void)\n{{\n");
+                let _ = writeln!(body.calls, "    {name}();");
+            }
+            for line in statement(call)?.lines() {
+                let _ = writeln!(body.definitions, "    {line}");
+            }
+        }
+        body.end(phase);
+        Ok(body)
+    }
+
+    fn end(&mut self, phase: Option<Phase>) {
+        if phase.is_some() {
+            self.definitions.push_str("}\n");
+        }
+    }
+}
+
+/// Returns the name of the function that makes the calls of a phase.
+fn name_of(phase: Phase) -> &'static str {
+    match phase {
+        Phase::Prepare => "prepare",
+        Phase::Submit => "draw",
+        Phase::Read => "read_back",
+    }
+}
+
+/// A type, and the function that prints a word of data as a value of it; `None` of a word that is no such value.
+pub(crate) type Words = (&'static str, fn(u32) -> Option<String>);
+
+/// The functions, variables and data that the statements so far need.
+#[derive(Default)]
+pub(crate) struct Declarations {
+    /// The functions: result and parameters.
+    functions: BTreeMap<String, (&'static str, Vec<String>)>,
+    /// The variables, with their types.
+    variables: Vec<(String, String)>,
+    /// The variables of each stem so far.
+    counts: HashMap<String, u32>,
+    /// Arrays, as declarations.
+    data: String,
+    arrays: u32,
+    /// The memory that the driver writes to: its size by its number.
+    memories: BTreeMap<u32, u64>,
+}
+
+impl Declarations {
+    /// Declares a function of the API.
+    pub(crate) fn function(&mut self, name: &str, result: &'static str, parameters: Vec<String>) {
+        self.functions
+            .entry(name.to_owned())
+            .or_insert((result, parameters));
+    }
+
+    /// Returns a new variable.
+    pub(crate) fn variable(&mut self, kind: &str, stem: &str) -> String {
+        let count = self.counts.entry(stem.to_owned()).or_default();
+        *count += 1;
+        let variable = format!("{stem}_{count}");
+        self.variables.push((kind.to_owned(), variable.clone()));
+        variable
+    }
+
+    /// Returns the name of memory that the driver writes to.
+    pub(crate) fn memory(&mut self, number: u32, bytes: u64) -> String {
+        self.memories.insert(number, bytes);
+        format!("memory_{number}")
+    }
+
+    /// Returns the name of a new text. `literals` are its string literals.
+    pub(crate) fn text(&mut self, literals: &str) -> String {
+        self.arrays += 1;
+        let name = format!("source_{}", self.arrays);
+        let _ = write!(
+            self.data,
+            "static const char *const {name} =\n    {literals};\n"
+        );
+        name
+    }
+
+    /// Returns the name of a new array of `bytes`: zeros, values that `print` makes of all words, words, or single bytes.
+    pub(crate) fn bytes(&mut self, bytes: &[u8], print: Option<Words>) -> String {
+        self.arrays += 1;
+        let name = format!("data_{}", self.arrays);
+        if bytes.iter().all(|byte| *byte == 0) {
+            let size = bytes.len().max(1);
+            let _ = writeln!(self.data, "static const unsigned char {name}[{size}];");
+            return name;
+        }
+        let whole = bytes.len().is_multiple_of(4);
+        let words = || {
+            let each = bytes.chunks_exact(4);
+            each.map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+        };
+        let printed = print
+            .filter(|_| whole)
+            .and_then(|(kind, print)| Some((kind, words().map(print).collect::<Option<_>>()?)));
+        let (kind, values): (&str, Vec<String>) = match printed {
+            Some(printed) => printed,
+            None if whole => ("uint32_t", words().map(|w| format!("0x{w:08x}")).collect()),
+            None => ("unsigned char", bytes.iter().map(u8::to_string).collect()),
+        };
+        let count = values.len();
+        let _ = writeln!(self.data, "static const {kind} {name}[{count}] = {{");
+        for line in values.chunks(12) {
+            let _ = writeln!(self.data, "    {},", line.join(", "));
+        }
+        self.data.push_str("};\n");
+        name
+    }
+
+    /// Returns the declarations of the functions.
+    pub(crate) fn functions(&self) -> String {
+        let mut text = String::from("\n");
+        for (name, (result, parameters)) in &self.functions {
+            let parameters = match parameters.is_empty() {
+                true => "void".to_owned(),
+                false => parameters.join(", "),
+            };
+            let _ = writeln!(text, "static {result} (*{name})({parameters});");
+        }
+        text
+    }
+
+    /// Returns a definition of `head`, which finds the functions and those of `own`: `find` is what a name is appended to.
+    pub(crate) fn load(&self, head: &str, find: &str, own: &[&str]) -> String {
+        let mut text = format!("\nstatic void {head}\n{{\n");
+        let called = self.functions.keys().map(String::as_str);
+        for name in own.iter().copied().chain(called) {
+            let _ = writeln!(text, "    *(void **)&{name} = {find}\"{name}\");");
+        }
+        text + "}\n"
+    }
+
+    /// Returns the declarations of variables, memory and data.
+    pub(crate) fn variables(&self) -> String {
+        let mut text = String::from("\n");
+        for (kind, name) in &self.variables {
+            let _ = writeln!(text, "static {kind} {name};");
+        }
+        for (number, bytes) in &self.memories {
+            let size = bytes.max(&1);
+            let _ = writeln!(text, "static unsigned char memory_{number}[{size}];");
+        }
+        text.push_str(&self.data);
+        text
+    }
+}

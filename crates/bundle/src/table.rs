@@ -1,0 +1,182 @@
+//! The comparison of what came back with what is allowed, as a table that each language prints.
+
+use crate::due::{Due, DueChannel, DueCounter, DueTexel};
+use crate::error::BundleError;
+use etalon_backend::{Form, RecordedCounter, Recording};
+use etalon_frame::ChannelEncoding;
+
+/// The order in which the bits of a channel are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Order {
+    /// As a number.
+    Unsigned,
+    /// As a number with a sign.
+    Signed,
+    /// As a float of 16 bits, by its sign and magnitude.
+    Half,
+    /// As a float of 32 bits, by its sign and magnitude.
+    Single,
+    /// As the value of a float of 32 bits.
+    Value,
+    /// As a byte that a shorter code was widened to.
+    Widened,
+}
+
+/// A sample that is checked.
+pub(crate) struct Texel {
+    /// The place in words.
+    pub(crate) place: String,
+    /// The channels.
+    pub(crate) channels: Vec<Channel>,
+    /// The permitted outcomes: the least and the greatest number of each channel.
+    pub(crate) allowed: Vec<Vec<[f64; 2]>>,
+}
+
+/// A channel that is checked.
+pub(crate) struct Channel {
+    /// The name.
+    pub(crate) name: String,
+    /// The number of the memory.
+    pub(crate) output: u32,
+    /// The first byte of the texel.
+    pub(crate) at: u64,
+    /// The first bit there.
+    pub(crate) bit: u32,
+    /// The number of bits.
+    pub(crate) bits: u32,
+    /// The order in which they are compared.
+    pub(crate) order: Order,
+    /// The width of the code in bits.
+    pub(crate) width: u32,
+}
+
+/// Returns the samples that are checked.
+pub(crate) fn texels(recording: &Recording, due: &Due) -> Result<Vec<Texel>, BundleError> {
+    let texel = |texel: &DueTexel| {
+        let channels = texel.channels.iter().map(|c| place(recording, texel, c));
+        let range = |(range, channel): (&[i64; 2], &DueChannel)| {
+            bounds(*range, channel.encoding, form(recording, channel))
+        };
+        let outcome =
+            |ranges: &Vec<[i64; 2]>| ranges.iter().zip(&texel.channels).map(range).collect();
+        Ok(Texel {
+            place: match texel.sample {
+                0 => format!("texel {},{}", texel.x, texel.y),
+                sample => format!("sample {sample} of texel {},{}", texel.x, texel.y),
+            },
+            channels: channels.collect::<Result<_, _>>()?,
+            allowed: texel.allowed.iter().map(outcome).collect(),
+        })
+    };
+    due.texels.iter().map(texel).collect()
+}
+
+/// Returns where a counter that is checked came back.
+pub(crate) fn counter<'a>(
+    recording: &'a Recording,
+    due: &DueCounter,
+) -> Result<&'a RecordedCounter, BundleError> {
+    let counter = recording.counters.get(due.index);
+    counter
+        .filter(|c| !c.parts.is_empty())
+        .ok_or_else(|| BundleError::Unread(format!("counter {}", due.name)))
+}
+
+fn unread(channel: &DueChannel) -> BundleError {
+    BundleError::Unread(channel.name())
+}
+
+/// Returns the form in which a channel came back.
+fn form(recording: &Recording, channel: &DueChannel) -> Form {
+    let image = recording
+        .images
+        .iter()
+        .find(|i| i.attachment == channel.attachment && i.aspect == channel.aspect);
+    image
+        .and_then(|i| i.planes.first())
+        .map_or(Form::Code, |plane| plane.form)
+}
+
+/// Returns where a channel came back.
+fn place(
+    recording: &Recording,
+    texel: &DueTexel,
+    channel: &DueChannel,
+) -> Result<Channel, BundleError> {
+    let of = |i: &&etalon_backend::RecordedImage| {
+        i.attachment == channel.attachment && i.aspect == channel.aspect
+    };
+    let image = recording
+        .images
+        .iter()
+        .find(of)
+        .ok_or_else(|| unread(channel))?;
+    let plane = image
+        .planes
+        .get(texel.sample as usize)
+        .ok_or_else(|| unread(channel))?;
+    let [bit, bits] = plane
+        .channels
+        .get(channel.channel)
+        .ok_or_else(|| unread(channel))?;
+    let at = (u64::from(texel.y) * u64::from(image.size[0]) + u64::from(texel.x))
+        * u64::from(plane.texel);
+    let (order, width) = match (plane.form, channel.encoding) {
+        (Form::Float | Form::Fraction, _) => (Order::Value, 32),
+        (Form::Byte, encoding) => match width(encoding) {
+            8 => (Order::Unsigned, 8),
+            width => (Order::Widened, width),
+        },
+        (Form::Code, ChannelEncoding::Snorm(bits)) => (Order::Signed, u32::from(bits)),
+        (Form::Code, ChannelEncoding::Float16) => (Order::Half, 16),
+        (Form::Code, ChannelEncoding::Float32) => (Order::Single, 32),
+        (Form::Code, encoding) => (Order::Unsigned, width(encoding)),
+    };
+    Ok(Channel {
+        name: channel.name(),
+        output: plane.output,
+        at,
+        bit: *bit,
+        bits: *bits,
+        order,
+        width,
+    })
+}
+
+/// Returns the width of a code in bits.
+fn width(encoding: ChannelEncoding) -> u32 {
+    match encoding {
+        ChannelEncoding::Unorm(bits)
+        | ChannelEncoding::Snorm(bits)
+        | ChannelEncoding::Uint(bits) => u32::from(bits),
+        ChannelEncoding::Srgb8 => 8,
+        ChannelEncoding::Float16 => 16,
+        ChannelEncoding::Float32 => 32,
+        ChannelEncoding::Ufloat(mantissa) => u32::from(mantissa) + 5,
+    }
+}
+
+/// Returns the bounds of a range of orders, as the numbers that the program compares. Of a value that came back as a
+/// float the bounds lie half way to the next code.
+fn bounds([least, most]: [i64; 2], encoding: ChannelEncoding, form: Form) -> [f64; 2] {
+    let encoding = match (form, encoding) {
+        (Form::Fraction, ChannelEncoding::Srgb8) => ChannelEncoding::Unorm(8),
+        _ => encoding,
+    };
+    if !matches!(form, Form::Float | Form::Fraction) {
+        return [least as f64, most as f64];
+    }
+    let value = |order: i64| encoding.value_of_order(order);
+    if encoding == ChannelEncoding::Float32 {
+        return [value(least), value(most)];
+    }
+    let below = match least > encoding.min_order() {
+        true => (value(least - 1) + value(least)) / 2.0,
+        false => f64::NEG_INFINITY,
+    };
+    let above = match most < encoding.max_order() {
+        true => (value(most) + value(most + 1)) / 2.0,
+        false => f64::INFINITY,
+    };
+    [below, above]
+}

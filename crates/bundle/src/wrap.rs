@@ -1,0 +1,59 @@
+//! Long lines of printed programs.
+
+/// Breaks lines that are too long, at the commas of what is in brackets there.
+pub(crate) fn wrapped(statement: &str) -> String {
+    const LONGEST: usize = 108;
+    let lines = statement.lines().map(|line| {
+        let indent = line.len() - line.trim_start().len();
+        if line.len() <= LONGEST || indent > 60 {
+            return line.to_owned();
+        }
+        let Some((open, close, commas)) = brackets(line) else {
+            return line.to_owned();
+        };
+        let deeper = " ".repeat(indent + 4);
+        let mut text = line[..=open].to_owned();
+        let mut start = open + 1;
+        for end in commas.into_iter().map(|comma| comma + 1).chain([close]) {
+            text.push_str(&format!(
+                "\n{}",
+                wrapped(&format!("{deeper}{}", line[start..end].trim()))
+            ));
+            start = end;
+        }
+        text + &format!("\n{}{}", " ".repeat(indent), &line[close..])
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Returns the places of the longest outermost pair of brackets and of the commas in it, texts and comments aside.
+fn brackets(line: &str) -> Option<(usize, usize, Vec<usize>)> {
+    let mut longest: Option<(usize, usize, Vec<usize>)> = None;
+    let (mut depth, mut open, mut commas) = (0, 0, Vec::new());
+    let (mut quoted, mut comment, mut before) = (false, false, ' ');
+    for (at, c) in line.char_indices() {
+        match c {
+            '"' if !comment && before != '\\' => quoted = !quoted,
+            '*' if before == '/' && !quoted => comment = true,
+            '/' if before == '*' => comment = false,
+            _ if quoted || comment => {}
+            '(' | '[' | '{' => {
+                if depth == 0 {
+                    (open, commas) = (at, Vec::new());
+                }
+                depth += 1;
+            }
+            ')' | ']' | '}' => {
+                depth -= 1;
+                let length = |(open, close, _): &(usize, usize, Vec<usize>)| close - open;
+                if depth == 0 && longest.as_ref().is_none_or(|l| length(l) < at - open) {
+                    longest = Some((open, at, std::mem::take(&mut commas)));
+                }
+            }
+            ',' if depth == 1 => commas.push(at),
+            _ => {}
+        }
+        before = c;
+    }
+    longest
+}

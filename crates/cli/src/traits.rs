@@ -1,0 +1,186 @@
+//! Traits: what tells one failing scene from another, and how two of them are compared.
+//!
+//! Scenes with the same states and the same violation are one group of a search. Those states leave out words, since a
+//! bug shows in many; to say that a failure is one that is known asks for more: the same words, and values on the same
+//! side of 0 and 1.
+
+use etalon_explore::Signature;
+use etalon_frame::Aspect;
+use etalon_record::{Subject, Symptom};
+use serde_json::Value;
+
+/// The traits of a failing scene.
+#[derive(Clone, Debug)]
+pub(crate) struct Traits {
+    /// The violation, without names of attachments and what was there before.
+    pub(crate) way: String,
+    subject: Subject,
+    operations: Vec<String>,
+    /// Its states.
+    pub(crate) states: Signature,
+    /// Its states with their words.
+    pub(crate) words: Signature,
+}
+
+/// The likeness of a failure to one that is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Likeness {
+    /// The same violation, states and words.
+    Same,
+    /// All groups of states that the known one has, and its violation, possibly with more.
+    Alike,
+    /// The same in another violation: of the groups of states there are several.
+    Elsewhere,
+}
+
+impl Traits {
+    /// Returns the traits of a document that fails with a symptom.
+    pub(crate) fn of(document: &Value, symptom: &Symptom) -> Self {
+        let mut operations: Vec<String> = match symptom.subject {
+            Subject::Picture(_) => symptom.of_draws().into_iter().map(str::to_owned).collect(),
+            _ => Vec::new(),
+        };
+        operations.sort_unstable();
+        let way = match symptom.subject {
+            Subject::Picture(aspect) => format!("{} ({})", aspect.name(), operations.join(", ")),
+            _ => symptom.to_string(),
+        };
+        Self {
+            way,
+            subject: symptom.subject.clone(),
+            operations,
+            states: Signature::of(document),
+            words: Signature::exact(document),
+        }
+    }
+
+    /// Returns how much this failure is like a known one; `None` if it lacks something of it.
+    pub(crate) fn likeness(&self, known: &Self) -> Option<Likeness> {
+        // A failure that needs no vertices of its own is not about those of the known one.
+        let own_vertices = self.words != self.words.without_vertices();
+        let as_here = |signature: &Signature| match own_vertices {
+            true => signature.clone(),
+            false => signature.without_vertices(),
+        };
+        if self.way == known.way && self.words == as_here(&known.words) {
+            return Some(Likeness::Same);
+        }
+        let mut states = as_here(&known.states).coarse();
+        let several = states.without_formats().without_vertices().len() > 1;
+        // Of one state a bug may have the format that it was seen in; several tell enough.
+        if several {
+            states = states.without_formats();
+        }
+        if !states.is_within(&self.states.coarse()) {
+            return None;
+        }
+        let has = known.operations.iter().all(|o| self.operations.contains(o));
+        let picture = matches!(self.subject, Subject::Picture(_));
+        let same = match picture {
+            true => self.subject == known.subject && has,
+            false => self.way == known.way,
+        };
+        let pictures = picture && matches!(known.subject, Subject::Picture(_));
+        match same {
+            true => Some(Likeness::Alike),
+            false => {
+                (pictures && states.without_formats().len() > 1).then_some(Likeness::Elsewhere)
+            }
+        }
+    }
+
+    /// The aspect of a picture that is wrong.
+    pub(crate) fn aspect(&self) -> Option<Aspect> {
+        match self.subject {
+            Subject::Picture(aspect) => Some(aspect),
+            _ => None,
+        }
+    }
+
+    /// True if a failure with these traits may be what is left of one with others when it is reduced.
+    pub(crate) fn may_be_left_of(&self, larger: &Self) -> bool {
+        let has = |o: &String| larger.operations.contains(o);
+        self.subject == larger.subject && self.operations.iter().all(has)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_record::Verdict;
+    use serde_json::json;
+
+    fn traits(aspect: Aspect, operations: &[&str], draw: Value) -> Traits {
+        let symptom = Symptom {
+            verdict: Verdict::Fail,
+            subject: Subject::Picture(aspect),
+            attachment: Some("target".to_owned()),
+            operations: operations.iter().map(|o| (*o).to_owned()).collect(),
+            last: String::new(),
+            direction: None,
+        };
+        let document = json!({ "scene": {
+            "attachments": { "target": { "format": "rgba8unorm", "size": [1, 1] } },
+            "passes": [{ "color": ["target"], "draws": [draw] }], "read": ["target"]
+        } });
+        Traits::of(&document, &symptom)
+    }
+
+    fn logic(operation: &str) -> Value {
+        json!({ "mesh": { "kind": "full" }, "shader": "uniform_color", "logic": operation })
+    }
+
+    #[test]
+    fn the_same_words_and_violation_are_the_same() {
+        let logics = ["logic operation", "store color"];
+        let one = traits(Aspect::Color, &logics, logic("xor"));
+        assert_eq!(one.way, "color (logic operation, store color)");
+        assert_eq!(one.likeness(&one), Some(Likeness::Same));
+        let other = traits(Aspect::Color, &logics, logic("nor"));
+        assert_eq!(one.likeness(&other), Some(Likeness::Alike));
+    }
+
+    #[test]
+    fn another_violation_is_alike_where_several_states_are() {
+        let of = |aspect, operations: &[&str], points: bool| {
+            let mut draw = logic("xor");
+            if points {
+                draw["topology"] = json!("point-list");
+            }
+            traits(aspect, operations, draw)
+        };
+        let one = |points| of(Aspect::Color, &["logic operation"], points);
+        for (aspect, operation) in [(Aspect::Color, "clear"), (Aspect::Depth, "store depth")] {
+            let other = |points| of(aspect, &[operation], points);
+            assert_eq!(other(false).likeness(&one(false)), None);
+            let likeness = other(true).likeness(&one(true));
+            assert_eq!(likeness, Some(Likeness::Elsewhere));
+        }
+    }
+
+    #[test]
+    fn vertices_count_where_the_failure_needs_its_own() {
+        let mut draw = logic("xor");
+        let simple = traits(Aspect::Color, &["store color"], draw.clone());
+        draw["mesh"] = json!({ "kind": "vertices", "positions": [[0.5, 0.5, 0]] });
+        let own = traits(Aspect::Color, &["store color"], draw);
+        assert_eq!(simple.likeness(&own), Some(Likeness::Same));
+        assert_eq!(own.likeness(&simple), Some(Likeness::Alike));
+    }
+
+    #[test]
+    fn more_states_are_alike_and_fewer_are_not() {
+        let known = traits(Aspect::Color, &["store color"], logic("xor"));
+        let mut draw = logic("nor");
+        draw["cull"] = json!("back");
+        let more = traits(Aspect::Color, &["stencil test", "store color"], draw);
+        assert_eq!(more.likeness(&known), Some(Likeness::Alike));
+        assert_eq!(known.likeness(&more), None);
+        assert!(known.may_be_left_of(&more) && !more.may_be_left_of(&known));
+        // Everything would be like a failure without states.
+        let bare = json!({ "mesh": { "kind": "full" }, "shader": "uniform_color" });
+        let bare = traits(Aspect::Color, &["store color"], bare);
+        assert_eq!(more.likeness(&bare), None);
+        assert_eq!(bare.likeness(&bare), Some(Likeness::Same));
+    }
+}

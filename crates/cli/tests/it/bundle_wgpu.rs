@@ -1,0 +1,302 @@
+//! `etalon bundle` on wgpu: the packages are built from what is on this machine and run, the pages run in Chromium.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+use crate::bundling::{PROGRAMS, bundle, last_line, run_as_told};
+use crate::sample;
+use serde_json::Value;
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+/// The longest time that a page may take.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// The answer of a page in Chromium over SwiftShader.
+#[derive(Clone, Copy, Debug)]
+enum Page {
+    /// WebGPU lacks something.
+    Absent,
+    Right,
+    Wrong,
+}
+
+/// Cases that an adapter fails, the other driver of Vulkan if the bug is the driver's own, and what the page shows.
+const FAILING: [(&str, &str, Option<&str>, Page); 16] = [
+    (
+        "scissor/clip-distances/samples/planes=row/samples=4",
+        "wgpu:vulkan:swiftshader",
+        Some("llvmpipe"),
+        Page::Wrong,
+    ),
+    (
+        "scissor/samples/mask=all/rect=row/samples=4",
+        "wgpu:vulkan:lavapipe",
+        Some("SwiftShader"),
+        Page::Right,
+    ),
+    (
+        "paths/discard/commands=secondary/draws=direct/state=dynamic",
+        "wgpu:vulkan:lavapipe",
+        None,
+        Page::Right,
+    ),
+    (
+        "order/repeat-multisample/compare=less/depth=depth24plus",
+        "wgpu:vulkan:swiftshader",
+        Some("llvmpipe"),
+        Page::Wrong,
+    ),
+    (
+        "scissor/clip-distances/early-tests/counter=any-samples-passed/early_tests=forced/planes=row",
+        "wgpu:vulkan:swiftshader",
+        Some("llvmpipe"),
+        Page::Absent,
+    ),
+    (
+        "paths/resolve-away/pass=dynamic-rendering/target=cube-face",
+        "wgpu:vulkan:lavapipe",
+        Some("SwiftShader"),
+        Page::Right,
+    ),
+    (
+        // lavapipe resolves to a wrong face.
+        "paths/resolve-away/pass=dynamic-rendering/target=cube-face",
+        "wgpu:vulkan:swiftshader",
+        None,
+        Page::Wrong,
+    ),
+    (
+        "stencil/masks-zero/compare=less/format=stencil8",
+        "wgpu:vulkan:lavapipe",
+        None,
+        Page::Right,
+    ),
+    (
+        "depth/bias-linear/format=depth16unorm",
+        "wgpu:vulkan:lavapipe",
+        None,
+        // SwiftShader adds 258 units for 255.
+        Page::Wrong,
+    ),
+    (
+        "scissor/clip-distances/samples/planes=row/samples=4",
+        "wgpu:gl:llvmpipe",
+        None,
+        Page::Right,
+    ),
+    (
+        "paths/srgb/end=copy/start=transfer/target=cube-face",
+        "wgpu:gl:llvmpipe",
+        None,
+        Page::Right,
+    ),
+    (
+        "cull/provoking/clipped/mesh=left/provoking=first",
+        "wgpu:gl:llvmpipe",
+        None,
+        Page::Right,
+    ),
+    (
+        "paths/depth-stencil/area=full/start=draw/target=array-layer",
+        "wgpu:gl:llvmpipe",
+        None,
+        Page::Right,
+    ),
+    (
+        "sequence/again/resolves/samples=4",
+        "wgpu:gl:llvmpipe",
+        None,
+        Page::Right,
+    ),
+    (
+        "paths/strip/commands=one/draws=restart/pass=dynamic-rendering",
+        "wgpu:gl:llvmpipe",
+        None,
+        Page::Right,
+    ),
+    (
+        "capabilities/round-trip/format=rgba8snorm",
+        "wgpu:gl:llvmpipe",
+        None,
+        Page::Right,
+    ),
+];
+
+#[test]
+fn a_package_shows_the_bug_and_a_page_starts() {
+    let count = sample::count("failing cases of adapters of wgpu", 3, FAILING.len());
+    for (case, adapter, other, shown) in FAILING[..count].iter().copied() {
+        let (out, empty) = (TempDir::new().unwrap(), TempDir::new().unwrap());
+        let (code, summary, error) = bundle(case, adapter, out.path(), &[]);
+        assert_eq!(code, 0, "{case} on {adapter}: {error}");
+        let folder = Path::new(summary["folder"].as_str().unwrap());
+        built(folder, empty.path());
+        let report = fs::read_to_string(folder.join("report.md")).unwrap();
+        let accused = run_as_told(&report, empty.path());
+        let line = last_line(&accused);
+        assert_eq!(
+            accused.status.code(),
+            Some(1),
+            "{case} on {adapter}: {line}"
+        );
+        let told = report.contains(&format!("ends with 1: `{line}`"));
+        assert!(told, "{line}: {report}");
+        if let Some(other) = other {
+            let sound = Command::new(empty.path().join("repro"))
+                .arg(other)
+                .env("XDG_RUNTIME_DIR", "/tmp")
+                .env("VK_DRIVER_FILES", drivers())
+                .env("VK_ICD_FILENAMES", drivers())
+                .output()
+                .unwrap();
+            let line = last_line(&sound);
+            assert_eq!(sound.status.code(), Some(0), "{case} on {other}: {line}");
+        }
+        let page = folder.join("repro.html");
+        match shown {
+            Page::Absent => assert!(!page.exists(), "{case}"),
+            Page::Right => assert_eq!(answer(&page), "right", "{case} on {adapter}"),
+            Page::Wrong => {
+                let answer = answer(&page);
+                assert!(answer.contains("is wrong: "), "{case}: {answer}");
+            }
+        }
+    }
+}
+
+/// Builds the package in an empty folder, in the versions of its lock file.
+fn built(folder: &Path, empty: &Path) {
+    for file in ["main.rs", "Cargo.toml", "Cargo.lock"] {
+        fs::copy(folder.join(file), empty.join(file)).unwrap();
+    }
+    let target = Path::new(PROGRAMS).join("etalon-programs/target");
+    let output = Command::new("cargo")
+        .args(["build", "--offline", "--locked", "--target-dir"])
+        .arg(&target)
+        .env("CARGO_INCREMENTAL", "0")
+        .env("CARGO_PROFILE_DEV_DEBUG", "0")
+        .current_dir(empty)
+        .output()
+        .unwrap();
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{}: {errors}", folder.display());
+    assert!(!errors.contains("warning"), "{errors}");
+    fs::copy(target.join("debug/repro"), empty.join("repro")).unwrap();
+}
+
+/// The drivers of Vulkan: lavapipe and SwiftShader.
+fn drivers() -> String {
+    let folder = Path::new("/usr/share/vulkan/icd.d");
+    let files = fs::read_dir(folder).unwrap();
+    let lavapipe = files
+        .map(|file| file.unwrap().path())
+        .find(|path| path.display().to_string().contains("lvp_icd"));
+    format!(
+        "{}:/usr/lib/chromium/vk_swiftshader_icd.json",
+        lavapipe.unwrap().display()
+    )
+}
+
+/// Opens a page in Chromium. Returns what becomes its title.
+fn answer(page: &Path) -> String {
+    let profile = TempDir::new().unwrap();
+    let mut browser = Browser::start(page, profile.path());
+    let begun = Instant::now();
+    while begun.elapsed() < PATIENCE {
+        let titles = browser.titles();
+        let is_answer = |title: &&String| {
+            let words = ["right", "not supported: ", "a call fails: "];
+            title.contains(" is wrong: ") || words.iter().any(|word| title.starts_with(word))
+        };
+        if let Some(title) = titles.iter().find(is_answer) {
+            return title.clone();
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    browser.stop();
+    panic!("{} does not answer", page.display())
+}
+
+/// A headless Chromium with WebGPU over SwiftShader.
+struct Browser {
+    process: Child,
+    /// The address at which it tells of its pages.
+    address: String,
+}
+
+impl Browser {
+    fn start(page: &Path, profile: &Path) -> Self {
+        let executable = std::env::var_os("CHROMIUM").map_or("chromium".into(), PathBuf::from);
+        let mut process = Command::new(executable)
+            .args([
+                "--headless",
+                "--no-sandbox",
+                "--disable-dev-shm-usage",
+                "--disable-background-networking",
+                "--no-first-run",
+                "--enable-unsafe-webgpu",
+                "--use-webgpu-adapter=swiftshader",
+                "--remote-debugging-port=0",
+            ])
+            .arg(format!("--user-data-dir={}", profile.display()))
+            .arg(format!("file://{}", page.display()))
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("this test needs Chromium: install Debian's package `chromium`, or set CHROMIUM to its path");
+        let mut lines = BufReader::new(process.stderr.take().unwrap()).lines();
+        let address = lines
+            .by_ref()
+            .map_while(Result::ok)
+            .find_map(|line| Some(line.split_once("DevTools listening on ws://")?.1.to_owned()))
+            .expect("Chromium says where it listens");
+        // A full pipe would stop the browser.
+        std::thread::spawn(move || lines.for_each(drop));
+        let address = address.split_once('/').unwrap().0.to_owned();
+        Self { process, address }
+    }
+
+    /// Returns the titles of its pages.
+    fn titles(&self) -> Vec<String> {
+        let mut stream = TcpStream::connect(&self.address).unwrap();
+        stream.set_read_timeout(Some(PATIENCE)).unwrap();
+        let request = format!("GET /json/list HTTP/1.1\r\nHost: {}\r\n\r\n", self.address);
+        stream.write_all(request.as_bytes()).unwrap();
+        // The connection stays open.
+        let mut reader = BufReader::new(stream);
+        let mut length = 0;
+        loop {
+            let mut line = String::new();
+            reader.read_line(&mut line).unwrap();
+            match line.trim().split_once(':') {
+                Some(("Content-Length", value)) => length = value.trim().parse().unwrap(),
+                None if line.trim().is_empty() => break,
+                _ => {}
+            }
+        }
+        let mut body = vec![0; length];
+        reader.read_exact(&mut body).unwrap();
+        let pages: Value = serde_json::from_slice(&body).unwrap();
+        let pages = pages.as_array().cloned().unwrap_or_default();
+        pages
+            .iter()
+            .filter_map(|page| page["title"].as_str().map(str::to_owned))
+            .collect()
+    }
+
+    fn stop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
