@@ -41,10 +41,13 @@ pub fn blend<A: Arithmetic>(
         operands.dst[c] = a.blend_operand(encoding, input.dst[c]);
         operands.constant[c] = a.blend_operand(encoding, input.constant[c]);
     }
-    std::array::from_fn(|c| {
+    // A loop, since closures of arrays are not always inlined.
+    let mut result = operands.src;
+    for (c, encoding) in encodings.into_iter().enumerate() {
         let component = if c == 3 { &state.alpha } else { &state.color };
-        channel(a, component, encodings[c], &operands, c)
-    })
+        result[c] = channel(a, component, encoding, &operands, c);
+    }
+    result
 }
 
 #[inline(always)]

@@ -103,7 +103,11 @@ impl<const N: usize> Arithmetic for Plain<N> {
         less: [f32; N],
         otherwise: [f32; N],
     ) -> [f32; N] {
-        std::array::from_fn(|i| if a[i] < b[i] { less[i] } else { otherwise[i] })
+        let mut result = otherwise;
+        for i in 0..N {
+            result[i] = if a[i] < b[i] { less[i] } else { otherwise[i] };
+        }
+        result
     }
 
     #[inline(always)]
@@ -155,8 +159,8 @@ impl<const N: usize> Arithmetic for Plain<N> {
             // the nearest code is found to within 0.51 codes; a test compares with `nearest_order`.
             ChannelEncoding::Unorm(bits) if bits <= 16 => {
                 let scale = encoding.max_order() as f32;
-                // `as` maps NaN to 0 and saturates.
-                each(value, |v| (v.clamp(0.0, 1.0) * scale + 0.5) as u32)
+                // `as` maps NaN to 0. Vectors have conversions to signed numbers.
+                each(value, |v| (v.clamp(0.0, 1.0) * scale + 0.5) as i32 as u32)
             }
             ChannelEncoding::Unorm(_) => {
                 let scale = encoding.max_order() as f64;
@@ -256,13 +260,15 @@ impl<const N: usize> Arithmetic for Plain<N> {
         at_most: [f32; N],
         otherwise: [f32; N],
     ) -> [f32; N] {
-        std::array::from_fn(|i| {
-            if a[i] <= b[i] {
+        let mut result = otherwise;
+        for i in 0..N {
+            result[i] = if a[i] <= b[i] {
                 at_most[i]
             } else {
                 otherwise[i]
-            }
-        })
+            };
+        }
+        result
     }
 
     #[inline(always)]
@@ -273,7 +279,11 @@ impl<const N: usize> Arithmetic for Plain<N> {
         src: [u32; N],
         dst: [u32; N],
     ) -> [u32; N] {
-        std::array::from_fn(|i| logic_operation(encoding, operation, src[i], dst[i]))
+        let mut result = src;
+        for (result, dst) in result.iter_mut().zip(dst) {
+            *result = logic_operation(encoding, operation, *result, dst);
+        }
+        result
     }
 }
 

@@ -49,6 +49,44 @@ impl Depths {
         }
     }
 
+    /// True if [`floats`](Self::floats) gives the codes: those of floats without a bias, within all ranges.
+    #[inline(always)]
+    pub(crate) fn are_floats(&self) -> bool {
+        let [low, high] = [self.range[0].max(0.0), self.range[1].min(1.0)];
+        self.encoding == ChannelEncoding::Float32
+            && self.bias == 0.0
+            && self.ends[0] >= low
+            && self.ends[1] <= high
+    }
+
+    /// Returns the depths in the row of the origin at the columns from one on.
+    #[inline(always)]
+    pub(crate) fn columns(&self, x: i32, sample: [i32; 2]) -> [f64; LANES] {
+        let units = UNITS as i32;
+        let first = x * units + sample[0] - self.origin[0];
+        let mut columns = [0.0; LANES];
+        for (lane, column) in columns.iter_mut().enumerate() {
+            *column = self.z + f64::from(first + lane as i32 * units) * self.across;
+        }
+        columns
+    }
+
+    /// Returns the codes in a row of float depths that are in the range of all corners' depths.
+    #[inline(always)]
+    pub(crate) fn floats(&self, columns: &[f64; LANES], y: i32, sample: [i32; 2]) -> Codes {
+        let down = f64::from(y * UNITS as i32 + sample[1] - self.origin[1]) * self.down;
+        let [low, high] = self.ends;
+        let mut codes = [0; LANES];
+        for (code, column) in codes.iter_mut().zip(columns) {
+            let depth = (column + down) as f32;
+            let depth = if depth < low { low } else { depth };
+            let depth = if depth > high { high } else { depth };
+            // Adding 0 removes the sign of a negative zero.
+            *code = (depth + 0.0).to_bits();
+        }
+        codes
+    }
+
     /// Returns the codes at one point of the texels from one on.
     #[inline(always)]
     pub(crate) fn codes(&self, x: i32, y: i32, sample: [i32; 2]) -> Codes {

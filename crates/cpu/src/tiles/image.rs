@@ -6,14 +6,18 @@ use crate::surface::depth_encoding;
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_scene::{Attachment, Contents};
 
-/// The codes of a texel's colour channels; those that the format lacks are 0. In memory they are the bytes of a word.
+/// The codes of a texel's colour channels of 8 bits; those that the format lacks are 0. In memory they are the bytes
+/// of a word.
 pub(crate) type Texel = [u8; 4];
+
+/// The words of a texel of colour: one of bytes, or the codes of all channels.
+pub(crate) type Words = [u32; 4];
 
 /// The texels of a tile.
 pub(crate) const AREA: usize = TILE * TILE;
 
 /// An attachment. Each aspect holds tile after tile, in rows of tiles; a tile holds plane after plane, one for each
-/// sample; a plane holds its rows. What lies beyond the attachment's edges has no meaning.
+/// word of each sample; a plane holds its rows. What lies beyond the attachment's edges has no meaning.
 #[derive(Debug, Default)]
 pub(crate) struct Image {
     pub(crate) width: usize,
@@ -21,6 +25,10 @@ pub(crate) struct Image {
     /// Tiles side by side.
     pub(crate) across: usize,
     pub(crate) samples: usize,
+    /// The words of a texel of colour.
+    pub(crate) words: usize,
+    /// True if a word holds the bytes of all channels.
+    bytes: bool,
     pub(crate) color: Vec<u32>,
     pub(crate) depth: Vec<u32>,
     pub(crate) stencil: Vec<u8>,
@@ -31,27 +39,50 @@ pub(crate) struct Image {
 /// The values of aspects that were cleared and not written since.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Clears {
-    pub(crate) color: Option<u32>,
+    pub(crate) color: Option<Words>,
     pub(crate) depth: Option<u32>,
     pub(crate) stencil: Option<u8>,
+}
+
+/// True if each of these channels has 8 bits.
+pub(crate) fn are_bytes(encodings: &[ChannelEncoding]) -> bool {
+    use ChannelEncoding::{Snorm, Srgb8, Uint, Unorm};
+    let byte = |e: &ChannelEncoding| matches!(e, Unorm(8) | Snorm(8) | Uint(8) | Srgb8);
+    encodings.iter().all(byte)
+}
+
+/// Returns the number of words of a texel of these channels: one if each has 8 bits.
+pub(crate) fn words(encodings: &[ChannelEncoding]) -> usize {
+    match are_bytes(encodings) {
+        true => 1,
+        false => encodings.len(),
+    }
 }
 
 /// Returns the texel of these channels whose codes a function gives.
 pub(crate) fn texel(
     encodings: &[ChannelEncoding],
     code: impl Fn(usize, ChannelEncoding) -> u32,
-) -> Texel {
-    let mut texel = [0; 4];
-    for (c, (slot, encoding)) in texel.iter_mut().zip(encodings).enumerate() {
-        *slot = code(c, *encoding) as u8;
+) -> Words {
+    let mut codes = [0; 4];
+    for (c, (slot, encoding)) in codes.iter_mut().zip(encodings).enumerate() {
+        *slot = code(c, *encoding);
     }
-    texel
+    match are_bytes(encodings) {
+        true => [word(codes.map(|c| c as u8)), 0, 0, 0],
+        false => codes,
+    }
 }
 
 /// Returns the word that a texel is in memory.
 #[inline(always)]
 pub(crate) fn word(texel: Texel) -> u32 {
     u32::from_ne_bytes(texel)
+}
+
+/// Returns the words of a texel again and again.
+pub(crate) fn cycle(texel: Words, words: usize) -> impl Iterator<Item = u32> {
+    (0..words).cycle().map(move |word| texel[word])
 }
 
 impl Image {
@@ -62,13 +93,16 @@ impl Image {
         let samples = attachment.samples as usize;
         let texels = across * down * samples * AREA;
         let format = attachment.format;
+        let words = words(format.color_channels());
         let count = |has: bool| if has { texels } else { 0 };
         Self {
             width,
             height,
             across,
             samples,
-            color: vec![0; count(format.is_color())],
+            words,
+            bytes: are_bytes(format.color_channels()),
+            color: vec![0; words * count(format.is_color())],
             depth: vec![0; count(format.has_depth())],
             stencil: vec![0; count(format.has_stencil())],
             clear: Clears::default(),
@@ -82,7 +116,7 @@ impl Image {
         match &attachment.contents {
             Contents::Color(value) => {
                 let code = |c: usize, encoding| Faithful.clear_code(encoding, value[c]);
-                self.clear.color = Some(word(texel(encodings, code)));
+                self.clear.color = Some(texel(encodings, code));
             }
             Contents::DepthStencil { depth, stencil } => {
                 let encoding = depth_encoding(attachment.format);
@@ -91,8 +125,12 @@ impl Image {
             }
             Contents::Texels(codes) => {
                 for (i, codes) in codes.chunks_exact(encodings.len()).enumerate() {
-                    let at = self.place(i % self.width, i / self.width, 0);
-                    self.color[at] = word(texel(encodings, |c, _| codes[c]));
+                    let (x, y) = (i % self.width, i / self.width);
+                    let texel = texel(encodings, |c, _| codes[c]);
+                    for (word, value) in texel.into_iter().enumerate().take(self.words) {
+                        let at = self.color_place(x, y, 0, word);
+                        self.color[at] = value;
+                    }
                 }
             }
         }
@@ -102,7 +140,13 @@ impl Image {
     pub(crate) fn finish(&mut self) {
         let clear = std::mem::take(&mut self.clear);
         if let Some(value) = clear.color {
-            self.color.fill(value);
+            for (plane, value) in self
+                .color
+                .chunks_exact_mut(AREA)
+                .zip(cycle(value, self.words))
+            {
+                plane.fill(value);
+            }
         }
         if let Some(value) = clear.depth {
             self.depth.fill(value);
@@ -112,7 +156,14 @@ impl Image {
         }
     }
 
-    /// Returns the place of a texel's sample in an aspect's memory.
+    /// Returns the place of a word of a texel's sample in colour's memory.
+    pub(crate) fn color_place(&self, x: usize, y: usize, sample: usize, word: usize) -> usize {
+        let tile = y / TILE * self.across + x / TILE;
+        let plane = (tile * self.samples + sample) * self.words + word;
+        plane * AREA + y % TILE * TILE + x % TILE
+    }
+
+    /// Returns the place of a texel's sample in the memory of depth or stencil.
     pub(crate) fn place(&self, x: usize, y: usize, sample: usize) -> usize {
         let tile = y / TILE * self.across + x / TILE;
         (tile * self.samples + sample) * AREA + y % TILE * TILE + x % TILE
@@ -126,6 +177,9 @@ impl Image {
                 for s in 0..self.samples {
                     let at = self.place(x, y, s);
                     match aspect {
+                        Aspect::Color if !self.bytes => codes.extend(
+                            (0..channels).map(|word| self.color[self.color_place(x, y, s, word)]),
+                        ),
                         Aspect::Color => {
                             let texel = self.color[at].to_ne_bytes();
                             codes.extend(texel[..channels].iter().map(|c| u32::from(*c)));

@@ -4,9 +4,9 @@
 //! function is made by the pipeline's plain arithmetic, over all codes; a linear one is used where it is equal to
 //! the function for every one of them.
 
-use super::image::{Texel, word};
-use super::lanes::{Lane, select_texels};
-use crate::lanes::LANES;
+use super::image::{AREA, Texel, Words, are_bytes, word};
+use super::lanes::{ALL, Lane, select, select_texels};
+use crate::lanes::{Codes, LANES, Real};
 use crate::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, BlendInput, Plain};
@@ -16,6 +16,12 @@ use etalon_scene::{
 
 /// The number of codes of a channel.
 const CODES: usize = 256;
+
+/// The encodings of four channels, and how many of them there are.
+type Channels = ([ChannelEncoding; 4], usize);
+
+/// The commonest channels.
+const UNORM: Channels = ([ChannelEncoding::Unorm(8); 4], 4);
 
 /// The bytes of so many texels as there are lanes.
 const BYTES: usize = 4 * LANES;
@@ -43,6 +49,20 @@ pub(crate) enum Kernel {
     Table(Box<[[u8; CODES]; 4]>),
     /// Any function.
     Lanes(Box<Blending>),
+    /// Replaces words of texels that have several.
+    Replace(Stored),
+    /// Any function of texels that have several words.
+    Wide(Box<Blending>),
+}
+
+/// The words that replace a texel's.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stored {
+    pub(crate) values: Words,
+    /// The number of words.
+    pub(crate) words: usize,
+    /// Bit `i` is set if word `i` is replaced.
+    pub(crate) written: u8,
 }
 
 /// Multiplies codes by 16-bit fractions, adds, subtracts, both saturating, and keeps the upper byte; byte by byte
@@ -116,7 +136,22 @@ impl Blending {
         if !(0..count).any(written) {
             return Kernel::Keep;
         }
-        if self.target.blend.is_none() && (self.logic.is_none() || !self.obeys) {
+        let replaces = self.target.blend.is_none() && (self.logic.is_none() || !self.obeys);
+        if !are_bytes(self.channels) {
+            if !replaces {
+                return Kernel::Wide(Box::new(self));
+            }
+            let mut values = [0; 4];
+            for (c, codes) in self.codes(&[[0; LANES]; 4]).into_iter().enumerate() {
+                values[c] = codes[0];
+            }
+            return Kernel::Replace(Stored {
+                values,
+                words: self.channels.len(),
+                written: self.target.write_mask,
+            });
+        }
+        if replaces {
             let [value, ..] = self.applied(&[[0; 4]; LANES]);
             let keep = std::array::from_fn(|c| if c < count && !written(c) { 0xff } else { 0 });
             return match keep {
@@ -164,7 +199,10 @@ impl Blending {
     /// Returns the linear function that is equal to a table, if one was found.
     #[inline(always)]
     fn linear(&self, table: &[[u8; CODES]; 4]) -> Option<Linear> {
-        let blended = |code: u8| self.values(&[[code; 4]; LANES]).map(|v| v[0]);
+        let blended = |code: u32| {
+            self.values(self.channels(), &[[code; LANES]; 4])
+                .map(|v| v[0])
+        };
         let (low, high) = (blended(0), blended(255));
         let mut found = [(0, 0, 0); 4];
         for (c, found) in found.iter_mut().enumerate() {
@@ -183,9 +221,9 @@ impl Blending {
         })
     }
 
-    /// Returns blended colours before they are stored.
+    /// Returns blended colours before they are stored, of the destination's codes channel by channel.
     #[inline(always)]
-    fn values(&self, texels: &[Texel; LANES]) -> [[f32; LANES]; 4] {
+    fn values(&self, (encodings, count): Channels, codes: &[Codes; 4]) -> [Real; 4] {
         let mut color = self.source;
         if self.alpha_to_one {
             color[3] = 1.0;
@@ -194,13 +232,12 @@ impl Blending {
         let Some(state) = &self.target.blend else {
             return color;
         };
-        let encodings = self.encodings();
         let missing = Faithful.missing_alpha(state);
         // Loops, since closures of arrays would not be inlined.
         let mut dst = [[0.0; LANES]; 4];
         dst[3] = [missing; LANES];
-        for (c, dst) in dst.iter_mut().enumerate().take(self.channels.len()) {
-            *dst = Faithful.color_value(encodings[c], codes(texels, c));
+        for (c, dst) in dst.iter_mut().enumerate().take(count) {
+            *dst = Faithful.color_value(encodings[c], codes[c]);
         }
         let mut src1 = [[0.0; LANES]; 4];
         if self.second_alpha {
@@ -216,40 +253,79 @@ impl Blending {
     }
 
     #[inline(always)]
-    fn encodings(&self) -> [ChannelEncoding; 4] {
-        let last = self.channels.len() - 1;
-        std::array::from_fn(|c| self.channels[c.min(last)])
+    fn channels(&self) -> Channels {
+        let count = self.channels.len();
+        let mut all = [self.channels[count - 1]; 4];
+        all[..count].copy_from_slice(self.channels);
+        (all, count)
     }
 
-    /// Returns texels after the function.
+    /// Returns the codes after the function, channel by channel.
     #[inline(always)]
-    fn applied(&self, texels: &[Texel; LANES]) -> [Texel; LANES] {
-        let value = self.values(texels);
-        let mut result = *texels;
-        for (c, encoding) in self.channels.iter().enumerate() {
+    fn codes(&self, old: &[Codes; 4]) -> [Codes; 4] {
+        // The same for all channels, and known to the compiler.
+        if *self.channels == UNORM.0 {
+            self.codes_of(UNORM, old)
+        } else {
+            self.codes_of(self.channels(), old)
+        }
+    }
+
+    #[inline(always)]
+    fn codes_of(&self, (encodings, count): Channels, old: &[Codes; 4]) -> [Codes; 4] {
+        let value = self.values((encodings, count), old);
+        let mut result = *old;
+        for c in 0..count {
             if self.target.write_mask & (1 << c) == 0 {
                 continue;
             }
-            let mut new = Faithful.color_codes(*encoding, value[c]);
+            let mut new = Faithful.color_codes(encodings[c], value[c]);
             if let Some(operation) = self.logic.filter(|_| self.obeys) {
-                new = Plain::<LANES>.logic(*encoding, operation, new, codes(texels, c));
+                new = Plain::<LANES>.logic(encodings[c], operation, new, old[c]);
             }
-            for (texel, code) in result.iter_mut().zip(new) {
-                texel[c] = code as u8;
-            }
+            result[c] = new;
         }
         result
     }
+
+    /// Returns texels of bytes after the function.
+    #[inline(always)]
+    fn applied(&self, texels: &[Texel; LANES]) -> [Texel; LANES] {
+        let mut old = [[0; LANES]; 4];
+        for (lane, texel) in texels.iter().enumerate() {
+            let texel = u32::from_le_bytes(*texel);
+            for (c, codes) in old.iter_mut().enumerate() {
+                codes[lane] = texel >> (8 * c) & 0xff;
+            }
+        }
+        let new = self.codes(&old);
+        let mut result = *texels;
+        for (lane, texel) in result.iter_mut().enumerate() {
+            let word = new[0][lane] | new[1][lane] << 8 | new[2][lane] << 16 | new[3][lane] << 24;
+            *texel = word.to_le_bytes();
+        }
+        result
+    }
+
+    /// Applies the function to lanes of a sample's planes, where a mask holds.
+    #[inline(always)]
+    fn wide(&self, planes: &mut [u32], at: usize, mask: &[Lane; LANES]) {
+        let mut old = [[0; LANES]; 4];
+        for (c, codes) in old.iter_mut().enumerate().take(self.channels.len()) {
+            *codes = *lanes(planes, c * AREA + at);
+        }
+        let new = self.codes(&old);
+        for (c, codes) in new.iter().enumerate().take(self.channels.len()) {
+            select(lanes(planes, c * AREA + at), mask, codes);
+        }
+    }
 }
 
-/// Returns the codes of one channel.
+/// Returns the lanes at a place of planes.
 #[inline(always)]
-fn codes(texels: &[Texel; LANES], channel: usize) -> [u32; LANES] {
-    let mut codes = [0; LANES];
-    for (code, texel) in codes.iter_mut().zip(texels) {
-        *code = u32::from(texel[channel]);
-    }
-    codes
+fn lanes(planes: &mut [u32], at: usize) -> &mut [u32; LANES] {
+    let (lanes, _) = planes[at..at + LANES].as_chunks_mut();
+    &mut lanes[0]
 }
 
 /// Returns factor, summand and subtrahend of a linear function that is equal to a table in all codes, if there is
@@ -260,25 +336,28 @@ fn fitted(table: &[u8; CODES], slope: f32) -> Option<(u16, u16, u16)> {
     if !(0.0..=65537.0).contains(&near) {
         return None;
     }
-    [0, -1, 1, -2, 2, -4, 4, -8, 8].into_iter().find_map(|off| {
+    for off in [0, -1, 1, -2, 2, -4, 4, -8, 8] {
         let factor = (near as i64 + off).clamp(0, 65535) as u16;
         let (mut least, mut most) = (-65535, 65535);
         for (code, due) in table.iter().enumerate() {
             let (product, due) = (i32::from(product(code as u8, factor)), i32::from(*due));
-            if due > 0 {
-                least = least.max(256 * due - product);
-            }
-            if due < 255 {
-                most = most.min(256 * due + 255 - product);
-            }
+            let low = 256 * due - product;
+            least = least.max(if due > 0 { low } else { -65535 });
+            most = most.min(if due < 255 { low + 255 } else { 65535 });
         }
         let sum = (least + most).div_euclid(2);
         let plus = sum.clamp(0, 65535) as u16;
         let minus = (-sum).clamp(0, 65535) as u16;
-        let mut all = (0..=255).zip(table);
-        let equal = all.all(|(code, due)| linear(code, factor, plus, minus) == *due);
-        equal.then_some((factor, plus, minus))
-    })
+        // Without an early end, in vectors.
+        let mut different = 0;
+        for (code, due) in table.iter().enumerate() {
+            different |= linear(code as u8, factor, plus, minus) ^ due;
+        }
+        if different == 0 {
+            return Some((factor, plus, minus));
+        }
+    }
+    None
 }
 
 /// Returns 256 times a code times a 16-bit fraction.
@@ -306,12 +385,23 @@ impl Linear {
 }
 
 impl Kernel {
-    /// Applies the function to the texels that a mask holds.
+    /// Applies the function to the texels that a mask holds, at a place of a sample's planes.
     #[inline(always)]
-    pub(crate) fn masked(&self, words: &mut [u32; LANES], mask: &[Lane; LANES]) {
-        let texels: &mut [Texel; LANES] = bytemuck::cast_mut(words);
+    pub(crate) fn masked(&self, planes: &mut [u32], at: usize, mask: &[Lane; LANES]) {
         match self {
-            Self::Keep => {}
+            Self::Replace(stored) => {
+                for word in (0..stored.words).filter(|w| stored.written & (1 << w) != 0) {
+                    let plane = lanes(planes, word * AREA + at);
+                    select(plane, mask, &[stored.values[word]; LANES]);
+                }
+                return;
+            }
+            Self::Wide(blending) => return blending.wide(planes, at, mask),
+            _ => {}
+        }
+        let texels: &mut [Texel; LANES] = bytemuck::cast_mut(lanes(planes, at));
+        match self {
+            Self::Keep | Self::Replace(_) | Self::Wide(_) => {}
             Self::Store(value) => select_texels(texels, mask, &[*value; LANES]),
             Self::Masked { value, keep } => {
                 let new = masked(texels, *value, *keep);
@@ -338,16 +428,28 @@ impl Kernel {
         }
     }
 
-    /// Applies the function to all of some texels, whose number is a multiple of [`LANES`].
+    /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`].
     #[inline(always)]
-    pub(crate) fn whole(&self, words: &mut [u32]) {
-        if let Self::Store(value) = self {
-            words.fill(word(*value));
-            return;
-        }
-        let texels: &mut [Texel] = bytemuck::cast_slice_mut(words);
+    pub(crate) fn whole(&self, planes: &mut [u32], count: usize) {
         match self {
-            Self::Keep | Self::Store(_) => {}
+            Self::Store(value) => return planes[..count].fill(word(*value)),
+            Self::Replace(stored) => {
+                for word in (0..stored.words).filter(|w| stored.written & (1 << w) != 0) {
+                    planes[word * AREA..][..count].fill(stored.values[word]);
+                }
+                return;
+            }
+            Self::Wide(blending) => {
+                for at in (0..count).step_by(LANES) {
+                    blending.wide(planes, at, &ALL);
+                }
+                return;
+            }
+            _ => {}
+        }
+        let texels: &mut [Texel] = bytemuck::cast_slice_mut(&mut planes[..count]);
+        match self {
+            Self::Keep | Self::Store(_) | Self::Replace(_) | Self::Wide(_) => {}
             Self::Masked { value, keep } => {
                 for chunk in texels.as_chunks_mut::<LANES>().0 {
                     *chunk = masked(chunk, *value, *keep);

@@ -5,7 +5,7 @@ use crate::linear::UNITS;
 use crate::raster::bounds;
 use crate::steps::{Faithful, Steps};
 use crate::surface::depth_encoding;
-use etalon_frame::{ChannelEncoding, TextureFormat, standard_sample_positions};
+use etalon_frame::{ChannelEncoding, standard_sample_positions};
 use etalon_pipeline::shader::Kept;
 use etalon_pipeline::{Arithmetic, Plain, takes_logic, window_position};
 use etalon_scene::{
@@ -91,11 +91,6 @@ impl Plan {
         if scene.pool.is_some() {
             return Err("a pool");
         }
-        for attachment in &scene.attachments {
-            if !has_kernels(attachment.format) {
-                return Err("a format");
-            }
-        }
         let largest = scene.attachments.iter().map(|a| a.size[0] * a.size[1]);
         if (largest.max().unwrap_or(0) as usize) < least {
             return Err("a small picture");
@@ -105,15 +100,6 @@ impl Plan {
             passes: passes.collect::<Result<_, _>>()?,
         })
     }
-}
-
-/// True if images of a format can be drawn to in tiles.
-fn has_kernels(format: TextureFormat) -> bool {
-    let byte = |e: &ChannelEncoding| {
-        use ChannelEncoding::{Snorm, Srgb8, Uint, Unorm};
-        matches!(e, Unorm(8) | Snorm(8) | Uint(8) | Srgb8)
-    };
-    format.color_channels().iter().all(byte)
 }
 
 impl PassPlan {

@@ -1,7 +1,7 @@
 //! The resolve of colours: the average of a texel's samples.
 
-use super::image::{AREA, Texel};
-use crate::lanes::LANES;
+use super::image::{AREA, Texel, are_bytes};
+use crate::lanes::{Codes, LANES};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
 
@@ -18,7 +18,24 @@ fn averages_are_codes(channels: &[ChannelEncoding], samples: usize) -> bool {
         })
 }
 
-/// Resolves the planes of a tile. With `same` the first stands for all.
+/// Returns the average of the samples of one channel, whose codes a function gives.
+#[inline(always)]
+fn average(encoding: ChannelEncoding, samples: usize, codes: impl Fn(usize) -> Codes) -> Codes {
+    // Integers resolve to one sample.
+    if let ChannelEncoding::Uint(_) = encoding {
+        return codes(0);
+    }
+    let mut sum = Plain::<LANES>.decode(encoding, codes(0));
+    for sample in 1..samples {
+        let value = Plain::<LANES>.decode(encoding, codes(sample));
+        sum = Plain::<LANES>.add(sum, value);
+    }
+    let share = 1.0 / samples as f32;
+    let average = Plain::<LANES>.mul(sum, [share; LANES]);
+    Plain::<LANES>.encode(encoding, average)
+}
+
+/// Resolves the planes of a tile. With `same` the first sample stands for all.
 #[inline(always)]
 pub(crate) fn resolve(
     channels: &[ChannelEncoding],
@@ -27,7 +44,26 @@ pub(crate) fn resolve(
     same: bool,
     resolved: &mut [u32],
 ) {
-    let share = 1.0 / samples as f32;
+    let bytes = are_bytes(channels);
+    if !bytes {
+        let words = channels.len();
+        for (word, (encoding, target)) in channels
+            .iter()
+            .zip(resolved.chunks_exact_mut(AREA))
+            .enumerate()
+        {
+            for at in (0..AREA).step_by(LANES) {
+                let codes = |sample: usize| {
+                    let plane = word + if same { 0 } else { sample * words };
+                    let mut codes = [0; LANES];
+                    codes.copy_from_slice(&planes[plane * AREA + at..][..LANES]);
+                    codes
+                };
+                target[at..at + LANES].copy_from_slice(&average(*encoding, samples, codes));
+            }
+        }
+        return;
+    }
     let known = averages_are_codes(channels, samples);
     let plane = |sample: usize| &planes[if same { 0 } else { sample * AREA }..][..AREA];
     let (targets, _) = resolved.as_chunks_mut::<LANES>();
@@ -50,19 +86,7 @@ pub(crate) fn resolve(
                 }
                 codes
             };
-            let new = match encoding {
-                // Integers resolve to one sample.
-                ChannelEncoding::Uint(_) => codes(0),
-                _ => {
-                    let mut sum = Plain::<LANES>.decode(*encoding, codes(0));
-                    for sample in 1..samples {
-                        let value = Plain::<LANES>.decode(*encoding, codes(sample));
-                        sum = Plain::<LANES>.add(sum, value);
-                    }
-                    let average = Plain::<LANES>.mul(sum, [share; LANES]);
-                    Plain::<LANES>.encode(*encoding, average)
-                }
-            };
+            let new = average(*encoding, samples, codes);
             for (texel, code) in target.iter_mut().zip(new) {
                 texel[c] = code as u8;
             }

@@ -1,7 +1,7 @@
 //! A scene that is drawn in tiles.
 
 use super::TILE;
-use super::image::{AREA, Image, texel, word};
+use super::image::{AREA, Image, texel, words};
 use super::plan::{PassPlan, Plan};
 use super::setup::{Input, Part, Placed, place};
 use super::tile::{self, Layer, Tile};
@@ -72,7 +72,7 @@ impl TiledScene {
             if let LoadOperation::Clear(value) = pass.color_operations(location).load {
                 let encodings = self.scene.attachments[*index].format.color_channels();
                 let code = |c: usize, encoding| Faithful.clear_code(encoding, value[c]);
-                self.images[*index].clear.color = Some(word(texel(encodings, code)));
+                self.images[*index].clear.color = Some(texel(encodings, code));
             }
         }
         let Some(index) = pass.depth_stencil else {
@@ -99,8 +99,7 @@ impl TiledScene {
             let clear = &mut self.images[index].clear;
             match aspect {
                 Aspect::Color => {
-                    let texel = texel(format.color_channels(), |_, e| code(e));
-                    clear.color = Some(word(texel));
+                    clear.color = Some(texel(format.color_channels(), |_, e| code(e)));
                 }
                 Aspect::Depth => clear.depth = depth_encoding(format).map(code),
                 Aspect::Stencil => clear.stencil = format.has_stencil().then_some(0x99),
@@ -135,8 +134,9 @@ impl TiledScene {
                 Some((_, depth, stencil)) => (depth.as_mut_slice(), stencil.as_mut_slice()),
                 None => (&mut [][..], &mut [][..]),
             };
-            let mut colors = chunks(color.as_mut().map(|c| c.1.as_mut_slice()), samples);
-            let mut targets = chunks(resolved.as_mut().map(|c| c.1.as_mut_slice()), 1);
+            let words = words(plan.channels);
+            let mut colors = chunks(color.as_mut().map(|c| c.1.as_mut_slice()), samples * words);
+            let mut targets = chunks(resolved.as_mut().map(|c| c.1.as_mut_slice()), words);
             let mut depths = chunks(Some(depths), samples);
             let mut stencils = chunks(Some(stencils), samples);
             let (clear, depth_clear) = (cleared(plan.color), cleared(plan.depth_stencil));
@@ -145,16 +145,19 @@ impl TiledScene {
                     at: [i % across, i / across],
                     color: Layer {
                         planes: colors.next().unwrap_or_default(),
+                        words,
                         clear: clear.color,
                     },
                     resolved: targets.next().unwrap_or_default(),
                     depth: Layer {
                         planes: depths.next().unwrap_or_default(),
-                        clear: depth_clear.depth,
+                        words: 1,
+                        clear: depth_clear.depth.map(|v| [v; 4]),
                     },
                     stencil: Layer {
                         planes: stencils.next().unwrap_or_default(),
-                        clear: depth_clear.stencil,
+                        words: 1,
+                        clear: depth_clear.stencil.map(|v| [v; 4]),
                     },
                 })
                 .collect();
@@ -172,9 +175,11 @@ impl TiledScene {
     }
 }
 
-/// Returns an aspect's memory tile by tile.
-fn chunks<T>(memory: Option<&mut [T]>, samples: usize) -> std::slice::ChunksExactMut<'_, T> {
-    memory.unwrap_or_default().chunks_exact_mut(samples * AREA)
+/// Returns an aspect's memory tile by tile, of so many planes each.
+fn chunks<T>(memory: Option<&mut [T]>, planes: usize) -> std::slice::ChunksExactMut<'_, T> {
+    memory
+        .unwrap_or_default()
+        .chunks_exact_mut(planes.max(1) * AREA)
 }
 
 /// Returns the vertices and primitives of a pass's draws.
@@ -208,7 +213,7 @@ fn transform(machine: Machine, inputs: &[Input<'_>], placed: &mut Vec<Placed>) {
             false => vertices.len().div_ceil(machine.threads),
         };
         let jobs: Vec<_> = vertices.chunks(each).zip(own.chunks_mut(each)).collect();
-        on_threads(jobs, |(vertices, placed)| {
+        on_threads(jobs, &|(vertices, placed)| {
             dispatch!(machine.level, _ => place(input.draw, vertices, placed));
         });
     }
@@ -229,7 +234,7 @@ fn set_up<'p>(
     let used = if shared { parts.len() } else { 1 };
     let each = count.div_ceil(used);
     let jobs: Vec<_> = parts[..used].iter_mut().enumerate().collect();
-    on_threads(jobs, |(number, part)| {
+    on_threads(jobs, &|(number, part)| {
         part.clear(tiles);
         let range = (number * each).min(count)..((number + 1) * each).min(count);
         dispatch!(machine.level, _ => part.set_up(pass, inputs, placed, range));
@@ -248,7 +253,7 @@ fn draw_tiles(
     let threads = machine.threads.min(tiles.len()).max(1);
     let queue = Mutex::new(tiles.into_iter());
     let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-    on_threads((0..threads).collect(), |_| {
+    on_threads((0..threads).collect(), &|_: usize| {
         while let Some(tile) = next() {
             dispatch!(machine.level, simd => tile::draw(simd, tile, pass, inputs, parts));
         }
@@ -256,12 +261,13 @@ fn draw_tiles(
 }
 
 /// Does each job on a thread of its own, the first on this one.
-fn on_threads<J: Send>(jobs: Vec<J>, run: impl Fn(J) + Sync) {
+///
+/// `run` is called through a pointer, so that kernels are compiled once for the first job and the others.
+fn on_threads<J: Send>(jobs: Vec<J>, run: &(dyn Fn(J) + Sync)) {
     let mut jobs = jobs.into_iter();
     let first = jobs.next();
     thread::scope(|scope| {
         for job in jobs {
-            let run = &run;
             scope.spawn(move || run(job));
         }
         if let Some(job) = first {

@@ -11,11 +11,14 @@ use crate::linear::UNITS;
 use crate::raster::depth_bias;
 use crate::steps::{Faithful, Steps};
 use etalon_pipeline::{Plain, Point, front_facing, is_culled, signed_area, window_position};
-use etalon_scene::{Draw, PrimitiveVertices, Vertex};
+use etalon_scene::{ColorTarget, Draw, LogicOperation, Multisample, PrimitiveVertices, Vertex};
 use std::ops::Range;
 
 /// The distinct colours of a blending draw for each of which a function of codes is made.
 const FUNCTIONS: usize = 64;
+
+/// The paints that are known to later draws of a pass.
+const KNOWN: usize = 64;
 
 /// A vertex in the window.
 #[derive(Clone, Copy, Debug, Default)]
@@ -57,6 +60,8 @@ pub(crate) struct Triangle {
 pub(crate) struct Part {
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) paints: Vec<Paint>,
+    /// The first paints of draws, with all that they depend on.
+    known: Vec<(Ingredients, u32)>,
     /// The vertices of triangles with textures.
     pub(crate) vertices: Vec<[u32; 3]>,
     /// The entries of each tile, in the order of drawing.
@@ -178,6 +183,7 @@ impl Part {
     pub(crate) fn clear(&mut self, tiles: usize) {
         self.triangles.clear();
         self.paints.clear();
+        self.known.clear();
         self.vertices.clear();
         self.bins.iter_mut().for_each(Vec::clear);
         self.bins.resize_with(tiles, Vec::new);
@@ -204,6 +210,32 @@ impl Part {
                     provoking,
                 );
             }
+        }
+    }
+}
+
+/// What a paint is made of, within a pass.
+#[derive(Debug, PartialEq)]
+struct Ingredients {
+    color: [u32; 4],
+    target: Option<ColorTarget>,
+    constant: [u32; 4],
+    logic: Option<LogicOperation>,
+    multisample: Multisample,
+    alpha_to_coverage: bool,
+    alpha_to_one: bool,
+}
+
+impl Ingredients {
+    fn new(draw: &Draw, color: [u32; 4]) -> Self {
+        Self {
+            color,
+            target: draw.targets.first().copied(),
+            constant: draw.blend_constant.map(f32::to_bits),
+            logic: draw.logic,
+            multisample: draw.multisample,
+            alpha_to_coverage: draw.alpha_to_coverage(),
+            alpha_to_one: draw.alpha_to_one(),
         }
     }
 }
@@ -356,6 +388,17 @@ impl<'a> SetUp<'a> {
 
     #[inline(always)]
     fn new_paint(&mut self, color: [f32; 4]) -> u32 {
+        let bits = color.map(f32::to_bits);
+        // Draws mostly have one colour, and one of few states.
+        let first = self.last.is_none();
+        let ingredients = Ingredients::new(self.draw, bits);
+        if first {
+            let mut known = self.part.known.iter();
+            if let Some((_, paint)) = known.find(|(i, _)| *i == ingredients) {
+                self.last = Some((bits, *paint));
+                return *paint;
+            }
+        }
         let quick = self.part.paints.len() - self.first > FUNCTIONS;
         let paint = Paint::new(
             self.draw,
@@ -367,7 +410,10 @@ impl<'a> SetUp<'a> {
         );
         let place = self.part.paints.len() as u32;
         self.part.paints.push(paint);
-        self.last = Some((color.map(f32::to_bits), place));
+        if first && self.part.known.len() < KNOWN {
+            self.part.known.push((ingredients, place));
+        }
+        self.last = Some((bits, place));
         place
     }
 

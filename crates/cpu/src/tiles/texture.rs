@@ -7,6 +7,9 @@ use crate::linear::{CENTER, UNITS};
 use etalon_pipeline::{DepthPlane, texel_position};
 use etalon_scene::{AddressMode, Draw};
 
+/// The whole numbers below it have 22 bits, which a float keeps beside twice to four times as much.
+const WHOLE: f32 = 4_194_304.0;
+
 /// A texture's texels, row by row.
 #[derive(Debug)]
 pub(crate) struct Texture {
@@ -16,12 +19,12 @@ pub(crate) struct Texture {
 }
 
 impl Texture {
-    /// Returns the texels of an image of one sample.
+    /// Returns the texels of an image of one sample and one word.
     pub(crate) fn new(image: &Image) -> Self {
         let (width, height) = (image.width, image.height);
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         let texel = |(x, y)| match image.clear.color {
-            Some(value) => value,
+            Some([value, ..]) => value,
             None => image.color[image.place(x, y, 0)],
         };
         Self {
@@ -47,17 +50,20 @@ impl Texture {
 /// Returns the texels of an axis at one coordinate per lane.
 #[inline(always)]
 fn positions(mode: AddressMode, coordinate: Real, size: usize) -> Codes {
+    let mut scaled = [0.0; LANES];
+    for (scaled, c) in scaled.iter_mut().zip(coordinate) {
+        *scaled = (c * size as f32).floor();
+    }
+    let small = scaled.iter().fold(true, |all, v| all & (v.abs() < WHOLE));
     let mut result = [0; LANES];
-    let scaled = |c: f32| (c * size as f32).floor();
-    // Beyond it 32 bits do not hold a position.
-    let small = coordinate.iter().all(|c| scaled(*c).abs() < 1e9);
     if mode == AddressMode::Repeat && size.is_power_of_two() && small {
-        for (place, c) in result.iter_mut().zip(coordinate) {
-            *place = (scaled(c) as i32 as u32) & (size as u32 - 1);
+        for (place, v) in result.iter_mut().zip(scaled) {
+            // The sum's low bits are those of the whole number.
+            *place = (v + 3.0 * WHOLE).to_bits() & (size as u32 - 1);
         }
     } else {
-        for (place, c) in result.iter_mut().zip(coordinate) {
-            *place = texel_position(mode, scaled(c) as i64, size as u32) as u32;
+        for (place, v) in result.iter_mut().zip(scaled) {
+            *place = texel_position(mode, v as i64, size as u32) as u32;
         }
     }
     result

@@ -5,10 +5,10 @@ use super::depth::Depths;
 use super::depth_stencil::{
     ANY, Decided, always_passes, compared, decided, operate, stencil_passes,
 };
-use super::edges::{Edges, Number};
+use super::edges::Edges;
 use super::image::{AREA, word};
 use super::lanes::{ALL, Lane, and, and_not, any, select, select_bytes};
-use super::opaque::Opaque;
+use super::opaque::{Opaque, Planes};
 use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, PassPlan, Shading};
 use super::resolve::resolve;
@@ -24,31 +24,46 @@ use std::hint::black_box;
 #[derive(Debug)]
 pub(crate) struct Layer<'a, T> {
     pub(crate) planes: &'a mut [T],
-    /// The value of all texels, as long as it is not in memory.
-    pub(crate) clear: Option<T>,
+    /// The planes of a sample.
+    pub(crate) words: usize,
+    /// The value of all texels in each plane of a sample, as long as it is not in memory.
+    pub(crate) clear: Option<[T; 4]>,
 }
 
 impl<T: Copy> Layer<'_, T> {
-    /// Writes the clear value, to the first plane alone if that stands for all.
+    /// Writes the clear value, to the first sample alone if that stands for all.
     #[inline(always)]
     fn touch(&mut self, same: bool) {
         if let Some(value) = self.clear.take() {
-            let end = if same { AREA } else { self.planes.len() };
-            self.planes[..end].fill(value);
+            let one = self.words * AREA;
+            let end = if same { one } else { self.planes.len() };
+            let end = end.min(self.planes.len());
+            for sample in self.planes[..end].chunks_exact_mut(one) {
+                for (plane, value) in sample.chunks_exact_mut(AREA).zip(value) {
+                    plane.fill(value);
+                }
+            }
         }
     }
 
-    /// Copies the first plane to the others.
+    /// Copies the first sample to the others.
     #[inline(always)]
     fn expand(&mut self) {
         if self.clear.is_none() && !self.planes.is_empty() {
-            let (first, rest) = self.planes.split_at_mut(AREA);
-            rest.chunks_exact_mut(AREA)
-                .for_each(|plane| plane.copy_from_slice(first));
+            let (first, rest) = self.planes.split_at_mut(self.words * AREA);
+            rest.chunks_exact_mut(self.words * AREA)
+                .for_each(|sample| sample.copy_from_slice(first));
         }
     }
 
-    /// Returns the lanes that start at a place.
+    /// Returns the planes of a sample.
+    #[inline(always)]
+    fn sample(&mut self, sample: usize) -> &mut [T] {
+        let one = self.words * AREA;
+        &mut self.planes[sample * one..(sample + 1) * one]
+    }
+
+    /// Returns the lanes that start at a place, of one plane for each sample.
     #[inline(always)]
     fn lanes(&mut self, at: usize) -> &mut [T; LANES] {
         let (lanes, _) = self.planes[at..at + LANES].as_chunks_mut();
@@ -110,7 +125,7 @@ pub(crate) fn draw<S: Simd>(
         pass,
         texels: tile_texels(pass, tile.at),
         same: samples == 1 || cleared,
-        range: tile.depth.clear.map_or(ANY, |code| [code; 2]),
+        range: tile.depth.clear.map_or(ANY, |[code, ..]| [code; 2]),
         tile,
     };
     for part in parts {
@@ -182,10 +197,8 @@ impl Drawing<'_, '_> {
         if self.same && !(whole && paint.samples & all == all) {
             self.expand();
         }
-        if whole {
-            self.whole(&work, answer);
-        } else if !self.opaque(simd, &work) {
-            self.partly(&work);
+        if whole || !self.opaque(simd, &work) {
+            self.samples(&work, whole, answer);
         }
         self.widen(&work, whole, answer);
     }
@@ -220,29 +233,25 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Draws a triangle that covers all of the tile.
+    /// Draws a triangle sample by sample.
     #[inline(always)]
-    fn whole(&mut self, work: &Work<'_>, answer: Option<Decided>) {
+    fn samples(&mut self, work: &Work<'_>, whole: bool, answer: Option<Decided>) {
+        // All samples were made different before a part of a tile is drawn.
         let planes = if self.same {
             1
         } else {
             self.pass.positions.len()
         };
+        let decided = answer.filter(|_| {
+            whole && work.texture.is_none() && work.face.as_ref().is_none_or(always_passes)
+        });
         for sample in 0..planes {
             if !self.same && work.paint.samples & (1 << sample) == 0 {
                 continue;
             }
-            let stencil = work.face.as_ref().is_none_or(always_passes) && work.texture.is_none();
-            match answer {
-                Some(answer) if stencil => self.decided(work, sample, answer),
-                _ => {
-                    let [left, top, right, bottom] = self.texels;
-                    for y in top..bottom {
-                        for x in (left..right).step_by(LANES) {
-                            self.fragments(work, sample, [x, y], ALL);
-                        }
-                    }
-                }
+            match decided {
+                Some(answer) => self.decided(work, sample, answer),
+                None => self.scan(work, sample, whole),
             }
         }
     }
@@ -278,16 +287,19 @@ impl Drawing<'_, '_> {
             }
         }
         if !work.paint.kernel.keeps() {
-            work.paint.kernel.whole(&mut self.tile.color.planes[range]);
+            let texels = range.len();
+            let colors = self.tile.color.sample(sample);
+            work.paint.kernel.whole(colors, texels);
         }
     }
 
     /// Draws a small triangle that replaces colour, depth or both under a depth test. Returns false if it is another.
     #[inline(always)]
     fn opaque<S: Simd>(&mut self, simd: S, work: &Work<'_>) -> bool {
-        let color = match work.paint.kernel {
+        let color = match &work.paint.kernel {
             Kernel::Keep => None,
-            Kernel::Store(value) => Some(word(value)),
+            Kernel::Store(value) => Some(word(*value)),
+            Kernel::Replace(stored) if stored.words == 1 => Some(stored.values[0]),
             _ => return false,
         };
         let plain = work.face.is_none()
@@ -304,52 +316,45 @@ impl Drawing<'_, '_> {
                 continue;
             }
             let plane = sample * AREA..(sample + 1) * AREA;
-            let colors = match color {
-                Some(_) => &mut self.tile.color.planes[plane.clone()],
-                None => &mut [],
+            let planes = Planes {
+                position: *position,
+                rect: work.plan.rects[sample],
+                colors: match color {
+                    Some(_) => self.tile.color.sample(sample),
+                    None => &mut [],
+                },
+                depths: match work.plan.depth {
+                    Some(_) => &mut self.tile.depth.planes[plane],
+                    None => &mut [],
+                },
             };
-            let depths = match work.plan.depth {
-                Some(_) => &mut self.tile.depth.planes[plane],
-                None => &mut [],
-            };
-            opaque.draw(simd, *position, &work.plan.rects[sample], colors, depths);
+            opaque.draw(simd, planes);
         }
         true
     }
 
-    /// Draws a triangle that covers a part of the tile.
+    /// Draws the texels of one sample that a triangle covers: all of them if it covers the whole tile.
     #[inline(always)]
-    fn partly(&mut self, work: &Work<'_>) {
-        for sample in 0..self.pass.positions.len() {
-            if work.paint.samples & (1 << sample) == 0 {
-                continue;
-            }
-            if work.triangle.small {
-                self.scan::<i32>(work, sample);
-            } else {
-                self.scan::<i64>(work, sample);
-            }
-        }
-    }
-
-    /// Draws the texels of one sample that a triangle covers.
-    #[inline(always)]
-    fn scan<N: Number>(&mut self, work: &Work<'_>, sample: usize) {
+    fn scan(&mut self, work: &Work<'_>, sample: usize, whole: bool) {
         let triangle = work.triangle;
         let [left, top, right, bottom] = self.texels;
-        let around = triangle.around.map(i32::from);
+        let around = match whole {
+            true => [left, top, right - 1, bottom - 1],
+            false => triangle.around.map(i32::from),
+        };
         let lanes = LANES as i32;
         let first = around[0].max(left) / lanes * lanes;
         let (y_first, y_last) = (around[1].max(top), around[3].min(bottom - 1));
         let last = around[2].min(right - 1);
-        let edges = Edges::<N>::new(triangle);
+        let edges = Edges::<i64>::new(triangle);
         let mut rows = edges.rows(first, y_first, self.pass.positions[sample]);
         let rect = &work.plan.rects[sample];
+        let cut = triangle.cut && !whole;
         for y in y_first..=y_last {
             for chunk in 0..=(last - first) / lanes {
                 let x = first + chunk * lanes;
-                let mut mask = rows.covered(chunk);
-                if triangle.cut {
+                let mut mask = if whole { ALL } else { rows.covered(chunk) };
+                if cut {
                     if y < rect[1] || y >= rect[3] {
                         continue;
                     }
@@ -428,8 +433,8 @@ impl Drawing<'_, '_> {
         if work.texture.is_some() {
             select(self.tile.color.lanes(place), &passed, &texels);
         } else if !work.paint.kernel.keeps() {
-            let stored = self.tile.color.lanes(place);
-            work.paint.kernel.masked(stored, &passed);
+            let colors = self.tile.color.sample(sample);
+            work.paint.kernel.masked(colors, place % AREA, &passed);
         }
     }
 

@@ -7,6 +7,7 @@ pub(super) use super::flat_color::fragment;
 
 /// Returns the value that the shader adds to its colour, for texels of a row by their columns: 0, after
 /// `steps` steps for each. The compiler cannot leave out the steps as long as the result is used.
+#[inline(always)]
 pub fn cost<const N: usize>(columns: [u32; N], row: u32, steps: f32) -> [f32; N] {
     let mut hashes = columns.map(|x| x.wrapping_mul(747_796_405).wrapping_add(row));
     // `as` saturates, and maps NaN to 0.
