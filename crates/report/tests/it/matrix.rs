@@ -78,7 +78,7 @@ fn round(case: &str, adapter: &str, number: u32, time: f64) -> BenchLine {
 }
 
 /// A bench with every cell of [`CELLS`], and one that the second adapter does not have.
-fn write(folder: &Path) -> Bench {
+pub(crate) fn write(folder: &Path) -> Bench {
     let header = matrix_header();
     let mut writer = BenchWriter::create(folder, &header).unwrap();
     let mut add = |line: BenchLine| writer.append(&line).unwrap();
