@@ -173,6 +173,7 @@ pub fn bench(
             bench.finish(number, &mut pairs)?;
             bench.round(number, &mut pairs)?;
         }
+        bench.finish(bench.rounds, &mut pairs)?;
         Ok(())
     };
     run(&mut bench).map_err(BenchError::Write)?;
@@ -185,6 +186,13 @@ struct Adapter {
     supervisor: Supervisor,
     /// The time that its rounds took.
     spent: Duration,
+}
+
+impl Adapter {
+    /// True if its rounds took as long as they may.
+    fn is_spent(&self, limit: Option<Duration>) -> bool {
+        limit.is_some_and(|limit| self.spent >= limit)
+    }
 }
 
 /// A case on an adapter whose picture is right: its numbers, and the fingerprint of the picture.
@@ -363,7 +371,10 @@ impl Bench<'_, '_> {
             .iter()
             .map(|pair| {
                 let adapter = &self.adapters[pair.adapter];
-                if self.limit.is_some_and(|limit| adapter.spent >= limit) {
+                if pair.rounds() >= self.rounds {
+                    return None;
+                }
+                if adapter.is_spent(self.limit) {
                     return Some(Enough::Limit);
                 }
                 let narrow = |share| is_narrow(pair, pairs, adapter.record.software, share);
@@ -411,7 +422,9 @@ impl Bench<'_, '_> {
         let mut kept = Vec::new();
         let mut before = ruler::measure();
         for mut pair in pairs.drain(..) {
-            if number < pair.rounds() {
+            // The first round is whole, so that every case has one.
+            let spent = number > 0 && self.adapters[pair.adapter].is_spent(self.limit);
+            if number < pair.rounds() || spent {
                 kept.push(pair);
                 continue;
             }

@@ -55,7 +55,7 @@ pub(crate) struct Arguments {
     /// a cell's rate, else that of the time
     #[arg(long, value_name = "SHARE", value_parser = parse_share)]
     pub(crate) within: Option<f64>,
-    /// Begin no further round on an adapter when its rounds have taken this many seconds
+    /// Time nothing more on an adapter when its rounds have taken this many seconds, but for the first round
     #[arg(long, value_name = "S", value_parser = parse_timeout)]
     pub(crate) limit: Option<f64>,
     /// Disable the drivers' shader caches on disk: the first frame of each round compiles every shader
