@@ -26,6 +26,7 @@ mod property;
 mod samples;
 mod story;
 mod version;
+mod work;
 
 pub use accuracy::Accuracy;
 pub use api::Api;
@@ -52,3 +53,4 @@ pub use property::Property;
 pub use samples::standard_sample_positions;
 pub use story::{Story, StoryLine};
 pub use version::ApiVersion;
+pub use work::Work;

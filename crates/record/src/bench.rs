@@ -6,6 +6,7 @@
 //! still holds the same number of rounds of each, within one. Nothing is summarised and no sample but the
 //! warm-up, which is counted, is discarded: comparing two benches needs the samples.
 
+mod cell;
 mod header;
 mod line;
 mod read;
@@ -13,8 +14,9 @@ mod record;
 mod time;
 mod write;
 
+pub use cell::{CellRate, Measure, cell};
 pub use header::{BENCH_FORMAT, BenchHeader, BenchSettings};
-pub use line::{BenchLine, Ended, Picture, Round};
+pub use line::{BenchLine, Done, Ended, Enough, Picture, Round};
 pub use read::Bench;
 pub use record::BenchRecord;
 pub use time::Time;

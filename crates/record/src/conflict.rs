@@ -78,6 +78,11 @@ pub(crate) fn bench_conflict(there: &BenchHeader, here: &BenchHeader) -> Option<
             .seconds
             .map_or("unknown".to_owned(), |s| s.to_string())
     };
+    let within = |h: &BenchHeader| {
+        h.settings
+            .within
+            .map_or("none".to_owned(), |share| share.to_string())
+    };
     let commit = |h: &BenchHeader| h.commit.clone().unwrap_or_default();
     let names =
         |h: &BenchHeader| -> Vec<String> { h.adapters.iter().map(|a| a.name.clone()).collect() };
@@ -96,6 +101,7 @@ pub(crate) fn bench_conflict(there: &BenchHeader, here: &BenchHeader) -> Option<
             )
         })
         .or_else(|| differ("--seconds", &seconds(there), &seconds(here)))
+        .or_else(|| differ("--within", &within(there), &within(here)))
         .or_else(|| {
             differ(
                 "the shader cache",

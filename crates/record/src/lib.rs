@@ -50,8 +50,8 @@ mod writer;
 
 pub use adapter::{AbsentAdapter, AdapterRecord, Release};
 pub use bench::{
-    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchSettings, BenchWriter, Ended,
-    Picture, Round, Time,
+    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchSettings, BenchWriter, CellRate,
+    Done, Ended, Enough, Measure, Picture, Round, Time, cell,
 };
 pub use bless::Blessing;
 pub use clear::clear;

@@ -19,6 +19,7 @@ mod error;
 mod export;
 mod files;
 mod hunt;
+mod matrix;
 mod methods;
 mod numbers;
 mod page;
@@ -38,6 +39,7 @@ pub use diff::benches::{BenchDiff, BenchFacts, TimeChange, Untimed, diff, diff_t
 pub use diff::runs;
 pub use error::ReportError;
 pub use hunt::{WrittenHunt, hunt_table, write_hunt};
+pub use matrix::matrix_table;
 pub use picture::{Ringed, ringed_pictures};
 pub use run::{RUN_FILES, RUN_FOLDERS, Written, dead_lines, table, write, write_run};
 pub use site::{SITE_FILE, WrittenSite, write_site};

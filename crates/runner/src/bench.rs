@@ -5,6 +5,7 @@
 //! each case is timed on one adapter after the other, so that drift of the machine affects all alike. All
 //! adapters' workers are running during a round, and one works at a time.
 
+mod clock;
 mod round;
 mod ruler;
 
@@ -18,11 +19,12 @@ use crate::worker::Worker;
 use etalon_case::Case;
 use etalon_frame::{Limits, WrongTexel};
 use etalon_record::{
-    AdapterRecord, BenchHeader, BenchLine, BenchRecord, BenchWriter, Ended, Expectations, Picture,
-    Record, RecordError, ReportFiles, Round, Verdict,
+    AdapterRecord, BenchHeader, BenchLine, BenchRecord, BenchWriter, CellRate, Done, Ended, Enough,
+    Expectations, Picture, Record, RecordError, ReportFiles, Round, Time, Verdict, cell,
 };
 use etalon_reference::Rules;
 use etalon_scene::Invariance;
+use etalon_stats::{MIN_ROUNDS, is_within, median_interval, quantile};
 use round::{fingerprint, seconds};
 use std::collections::HashMap;
 use std::path::Path;
@@ -71,6 +73,13 @@ pub enum BenchEvent {
         case: String,
         /// The adapter.
         adapter: String,
+    },
+    /// A case needs no more rounds on an adapter.
+    Done {
+        /// The case and the adapter, with the reason.
+        done: Done,
+        /// The number of rounds that it does not need.
+        spared: u32,
     },
     /// A case has no more rounds on an adapter, although some are missing.
     Ended {
@@ -137,6 +146,7 @@ pub fn bench(
         .adapters
         .into_iter()
         .map(|(launch, worker)| Adapter {
+            spent: Duration::ZERO,
             record: AdapterRecord::from(&worker),
             supervisor: Supervisor::new(launch, None, FailedStarts::default(), Some(worker)),
         })
@@ -153,13 +163,17 @@ pub fn bench(
         start: Instant::now(),
         timeout: plan.timeout,
         rounds: plan.header.rounds,
+        within: plan.header.settings.within,
+        limit: plan.header.settings.limit.map(Duration::from_secs_f64),
         budget: plan.budget,
     };
     let run = |bench: &mut Bench<'_, '_>| -> Result<(), RecordError> {
         let mut pairs = bench.judge()?;
         for number in 0..bench.rounds {
+            bench.finish(number, &mut pairs)?;
             bench.round(number, &mut pairs)?;
         }
+        bench.finish(bench.rounds, &mut pairs)?;
         Ok(())
     };
     run(&mut bench).map_err(BenchError::Write)?;
@@ -170,6 +184,15 @@ pub fn bench(
 struct Adapter {
     record: AdapterRecord,
     supervisor: Supervisor,
+    /// The time that its rounds took.
+    spent: Duration,
+}
+
+impl Adapter {
+    /// True if its rounds took as long as they may.
+    fn is_spent(&self, limit: Option<Duration>) -> bool {
+        limit.is_some_and(|limit| self.spent >= limit)
+    }
 }
 
 /// A case on an adapter whose picture is right: its numbers, and the fingerprint of the picture.
@@ -177,8 +200,16 @@ struct Pair {
     case: usize,
     adapter: usize,
     picture: u64,
-    /// The rounds that it has already.
-    rounds: u32,
+    /// The rounds that it has already, and what is known of it.
+    record: BenchRecord,
+    /// The name of its cell of the matrix.
+    cell: Option<String>,
+}
+
+impl Pair {
+    fn rounds(&self) -> u32 {
+        self.record.rounds.len() as u32
+    }
 }
 
 struct Bench<'a, 'e> {
@@ -195,6 +226,8 @@ struct Bench<'a, 'e> {
     start: Instant,
     timeout: Duration,
     rounds: u32,
+    within: Option<f64>,
+    limit: Option<Duration>,
     budget: Duration,
 }
 
@@ -223,6 +256,7 @@ impl Bench<'_, '_> {
                     verdict: record.verdict,
                     asserted: asserted as f64 / channels.max(1) as f64,
                     message: message(&record),
+                    work: cell(&case.id).map(|_| case.scene.work()),
                 };
                 let rounds = known.as_ref().map_or(0, |k| k.rounds.len() as u32);
                 if known.is_none() {
@@ -240,7 +274,13 @@ impl Bench<'_, '_> {
                         case: number,
                         adapter: index,
                         picture,
-                        rounds,
+                        cell: cell(&case.id),
+                        record: known.unwrap_or_else(|| BenchRecord {
+                            picture: judged.clone(),
+                            rounds: Vec::new(),
+                            ended: None,
+                            enough: None,
+                        }),
                     });
                 }
                 (self.events)(BenchEvent::Judged {
@@ -255,8 +295,7 @@ impl Bench<'_, '_> {
 
     /// True if a case on an adapter is not complete.
     fn lacks_rounds(&self, known: &BenchRecord) -> bool {
-        let due = known.picture.may_be_timed() && known.ended.is_none();
-        due && known.rounds.len() < self.rounds as usize
+        known.is_open() && known.rounds.len() < self.rounds as usize
     }
 
     /// Counts a case on an adapter of which nothing is missing.
@@ -324,6 +363,48 @@ impl Bench<'_, '_> {
         }
     }
 
+    /// Removes the pairs that need no further round: all of an adapter whose time is spent, and those whose
+    /// intervals are narrow enough.
+    fn finish(&mut self, number: u32, pairs: &mut Vec<Pair>) -> Result<(), RecordError> {
+        let within = self.within.filter(|_| number as usize >= MIN_ROUNDS);
+        let enough: Vec<Option<Enough>> = pairs
+            .iter()
+            .map(|pair| {
+                let adapter = &self.adapters[pair.adapter];
+                if pair.rounds() >= self.rounds {
+                    return None;
+                }
+                if adapter.is_spent(self.limit) {
+                    return Some(Enough::Limit);
+                }
+                let narrow = |share| is_narrow(pair, pairs, adapter.record.software, share);
+                within
+                    .filter(|share| narrow(*share))
+                    .map(|_| Enough::Within)
+            })
+            .collect();
+        let mut enough = enough.into_iter();
+        let mut done = Vec::new();
+        pairs.retain(|pair| match enough.next().flatten() {
+            None => true,
+            Some(enough) => {
+                let line = Done {
+                    case: pair.record.picture.case.clone(),
+                    adapter: pair.record.picture.adapter.clone(),
+                    enough,
+                };
+                done.push((line, pair.rounds()));
+                false
+            }
+        });
+        for (done, had) in done {
+            self.writer.append(&BenchLine::Done(done.clone()))?;
+            let spared = self.rounds.saturating_sub(had);
+            (self.events)(BenchEvent::Done { done, spared });
+        }
+        Ok(())
+    }
+
     /// Times one round of all cases that still have rounds, and removes those that fail.
     fn round(&mut self, number: u32, pairs: &mut Vec<Pair>) -> Result<(), RecordError> {
         for adapter in &mut self.adapters {
@@ -332,7 +413,7 @@ impl Bench<'_, '_> {
         for index in 0..self.adapters.len() {
             if pairs
                 .iter()
-                .any(|p| p.adapter == index && p.rounds <= number)
+                .any(|p| p.adapter == index && p.rounds() <= number)
             {
                 // A start that fails is reported by the adapter's first case.
                 let _ = self.adapters[index].supervisor.worker();
@@ -340,11 +421,15 @@ impl Bench<'_, '_> {
         }
         let mut kept = Vec::new();
         let mut before = ruler::measure();
-        for pair in pairs.drain(..) {
-            if number < pair.rounds {
+        for mut pair in pairs.drain(..) {
+            // The first round is whole, so that every case has one.
+            let spent = number > 0 && self.adapters[pair.adapter].is_spent(self.limit);
+            if number < pair.rounds() || spent {
                 kept.push(pair);
                 continue;
             }
+            let clock = clock::measure();
+            let began = Instant::now();
             let at = self.offset + self.start.elapsed().as_secs_f64();
             let case = &self.cases[pair.case];
             let adapter = &mut self.adapters[pair.adapter];
@@ -353,6 +438,8 @@ impl Bench<'_, '_> {
                 Ok(worker) => worker.round(&case.scene, self.budget, self.timeout),
                 Err(loss) => Err(Failure::Lost(loss)),
             };
+            adapter.spent += began.elapsed();
+            let clock = clock.zip(clock::measure()).map(|(a, b)| [a, b]);
             let after = ruler::measure();
             let mut ended = match measured {
                 Ok(measured) => {
@@ -374,9 +461,11 @@ impl Bench<'_, '_> {
                         wall: measured.frames.iter().map(|f| seconds(f.wall)).collect(),
                         cpu: measured.frames.iter().map(|f| seconds(f.cpu)).collect(),
                         gpu: if all_timed { gpu } else { Vec::new() },
+                        clock,
                         read_back: measured.read_back,
                     };
-                    self.writer.append(&BenchLine::Round(line))?;
+                    self.writer.append(&BenchLine::Round(line.clone()))?;
+                    pair.record.rounds.push(line);
                     (self.events)(BenchEvent::Timed {
                         case: case.id.clone(),
                         adapter: name.clone(),
@@ -414,6 +503,33 @@ impl Bench<'_, '_> {
         *pairs = kept;
         Ok(())
     }
+}
+
+/// True if the interval of a pair lies within a share: of a cell that of its rate, else that of its wall time.
+fn is_narrow(pair: &Pair, pairs: &[Pair], software: bool, share: f64) -> bool {
+    if let Some(cell) = &pair.cell {
+        let other = pairs.iter().find(|other| {
+            let same = other.cell.as_ref() == Some(cell) && other.adapter == pair.adapter;
+            same && other.case != pair.case
+        });
+        let rate = other.and_then(|other| CellRate::new(&pair.record, &other.record, software));
+        return rate.is_some_and(|rate| rate.slope.is_within(share));
+    }
+    let mut medians: Vec<f64> = pair
+        .record
+        .samples(Time::Wall)
+        .into_iter()
+        .map(middle)
+        .collect();
+    medians.sort_unstable_by(f64::total_cmp);
+    let both = quantile(&medians, 0.5).zip(median_interval(&medians));
+    both.is_some_and(|(median, interval)| is_within(median, interval, share))
+}
+
+fn middle(times: &[f64]) -> f64 {
+    let mut sorted = times.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    quantile(&sorted, 0.5).unwrap_or(f64::NAN)
 }
 
 /// The message about a frame that differs from the judged one; `None` where the API permits that.

@@ -27,6 +27,7 @@ mod sampler;
 mod scene;
 mod shader;
 mod tessellation;
+mod work;
 
 pub use attachment::{Attachment, Contents};
 pub use blend::{

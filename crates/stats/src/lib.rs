@@ -8,7 +8,8 @@
 //! [`summarize`] describes one bench. [`compare()`] holds two against each other, with the interval
 //! of the Wilcoxon–Mann–Whitney test turned around (Hodges and Lehmann 1963): it assumes nothing of
 //! the shape of the noise, its level is exact for any number of rounds, and single disturbed rounds
-//! hardly move it. [`smallest_visible`] tells which change that comparison would find.
+//! hardly move it. [`smallest_visible`] tells which change that comparison would find. [`Slope`] is the rate of
+//! work of which two amounts were timed.
 
 #![cfg_attr(
     test,
@@ -17,12 +18,14 @@
 
 mod compare;
 mod rank;
+mod rate;
 mod samples;
 mod summary;
 mod visible;
 
 pub use compare::{BEYOND_RULER, Comparison, Conclusion, LEVEL, MINIMUM, Ratio, Why, compare};
 pub use rank::MIN_ROUNDS;
+pub use rate::{Pair, RATE_CONFIDENCE, Slope, is_within, median_interval};
 pub use samples::{SampleError, Samples, quantile};
 pub use summary::{CONFIDENCE, Summary, summarize};
 pub use visible::{POWER, smallest_visible};

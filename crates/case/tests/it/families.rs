@@ -11,6 +11,7 @@ use etalon_scene::{
 use std::collections::{BTreeMap, BTreeSet};
 
 mod breadth;
+mod matrix;
 mod methods;
 mod simulation;
 use simulation::{

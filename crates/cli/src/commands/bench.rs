@@ -9,13 +9,14 @@ use crate::output::{say, summarize, summarize_json, table_options};
 use crate::progress::progress;
 use crate::{expectations, provenance, report_files, shard};
 use clap::Args;
+use etalon_case::Case;
 use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, FolderLock, ShaderCache, Shard,
-    selection_digest, shard_of,
+    cell, selection_digest, shard_of,
 };
 use etalon_runner::{BenchError, BenchEvent, BenchPlan};
 use serde_json::json;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -50,6 +51,13 @@ pub(crate) struct Arguments {
     /// Approximate time in seconds that the frames of a case take on an adapter in each round
     #[arg(long, value_name = "S", default_value = "0.1", value_parser = parse_seconds)]
     pub(crate) seconds: f64,
+    /// Take no more rounds of a case, from the seventh on, when its interval lies within this share, such as 3%: that of
+    /// a cell's rate, else that of the time
+    #[arg(long, value_name = "SHARE", value_parser = parse_share)]
+    pub(crate) within: Option<f64>,
+    /// Time nothing more on an adapter when its rounds have taken this many seconds, but for the first round
+    #[arg(long, value_name = "S", value_parser = parse_timeout)]
+    pub(crate) limit: Option<f64>,
     /// Disable the drivers' shader caches on disk: the first frame of each round compiles every shader
     #[arg(long)]
     pub(crate) cold: bool,
@@ -61,16 +69,22 @@ pub(crate) struct Arguments {
 /// The folder that each bench without `--out` replaces.
 const LATEST: &str = "reports/bench-latest";
 
-/// The cases that are measured by default.
+/// The cases that are measured by default, all but those of [`MATRIX`].
 const DEFAULT: &str = "perf/*";
+
+/// The cells of the performance matrix, which are measured where they are named.
+const MATRIX: &str = "perf/matrix/";
 
 /// Judges the pictures of the selected cases, measures the correct ones, writes samples and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut selection = arguments.selection.clone();
-    if selection.globs.is_empty() {
+    let by_default = selection.globs.is_empty();
+    if by_default {
         selection.globs.push(DEFAULT.to_owned());
     }
     let mut cases = chosen(&selection)?;
+    cases.retain(|case| !by_default || !case.id.starts_with(MATRIX));
+    beside_each_other(&mut cases);
     let all: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
     let shard = shard::chosen(arguments.shard)?;
     if let Some(shard) = shard {
@@ -129,6 +143,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             shard,
             seconds: Some(arguments.seconds),
             timeout: Some(arguments.timeout),
+            within: arguments.within,
+            limit: arguments.limit,
         },
         adapters: adapters.ready.iter().map(|(_, w)| w.into()).collect(),
         absent: adapters.absent,
@@ -172,6 +188,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             bar.set_message(format!("timing {adapter}"));
             bar.inc(1);
         }
+        BenchEvent::Done { spared, .. } => bar.inc(u64::from(spared)),
         BenchEvent::Ended { ended, missing } => {
             bar.inc(u64::from(missing));
             let (verdict, adapter) = (ended.verdict, &ended.adapter);
@@ -194,18 +211,47 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "report": written.html,
             "bencher": written.bencher,
             "action": written.action,
+            "matrix": written.matrix,
         }))?;
     } else {
         let bench = Bench::read(&arguments.out).map_err(Failure::incomplete)?;
         let options = table_options();
         summarize(&etalon_report::bench_table(&bench, options));
+        summarize(&etalon_report::matrix_table(&bench, options));
         summarize(&format!("\nReport: {}\n", written.html.display()));
+        for path in written.matrix.iter().flatten() {
+            summarize(&format!("Matrix: {}\n", path.display()));
+        }
     }
     Ok(if outcome.unexpected > 0 {
         UNEXPECTED
     } else {
         0
     })
+}
+
+/// Moves the cases of each cell of the matrix together, so that they are timed one right after the other.
+fn beside_each_other(cases: &mut [Case]) {
+    let mut places = HashMap::new();
+    for (place, case) in cases.iter().enumerate() {
+        places.entry(group(case)).or_insert(place);
+    }
+    cases.sort_by_key(|case| places.get(&group(case)).copied());
+}
+
+/// Returns the name of a case's cell, or its own.
+fn group(case: &Case) -> String {
+    cell(&case.id).unwrap_or_else(|| case.id.clone())
+}
+
+fn parse_share(text: &str) -> Result<f64, String> {
+    let number = text.strip_suffix('%').unwrap_or_default().trim();
+    let percent: f64 = number.parse().unwrap_or(f64::NAN);
+    if (0.1..=100.0).contains(&percent) {
+        Ok(percent / 100.0)
+    } else {
+        Err("expected a share from 0.1% to 100%, such as 3%".to_owned())
+    }
 }
 
 fn parse_seconds(text: &str) -> Result<f64, String> {

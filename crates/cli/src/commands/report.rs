@@ -60,7 +60,12 @@ fn bench(folder: &Path, options: TableOptions) -> Result<u8, Failure> {
     let bench = Bench::read(folder).map_err(Failure::usage)?;
     let written = etalon_report::write_bench(folder).map_err(Failure::usage)?;
     summarize(&etalon_report::bench_table(&bench, options));
-    for path in [written.html, written.bencher, written.action] {
+    summarize(&etalon_report::matrix_table(&bench, options));
+    let matrix = written.matrix.into_iter().flatten();
+    for path in [written.html, written.bencher, written.action]
+        .into_iter()
+        .chain(matrix)
+    {
         summarize(&format!("{}\n", path.display()));
     }
     let adapters = bench.header.adapters.len() as u64;

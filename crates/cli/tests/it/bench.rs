@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
-use etalon_record::{Bench, FolderKind, ShaderCache, Verdict};
+use etalon_record::{Bench, Enough, FolderKind, ShaderCache, Verdict};
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty};
 use serde_json::{Value, json};
@@ -274,4 +274,126 @@ fn a_bench_waits_no_longer_than_its_time_limit() {
         .filter(|r| r.picture.verdict == Verdict::Timeout)
         .count();
     assert!((1..20).contains(&timeouts), "{timeouts}");
+}
+
+#[test]
+fn cells_of_the_matrix_are_measured_where_they_are_named() {
+    let out = tempfile::tempdir().unwrap();
+    let named = [
+        "bench",
+        "perf/matrix/clear/format=rgba8unorm*",
+        "perf/matrix/read-back/format=rgba8unorm*",
+        "--adapter",
+        "cpu",
+        "--seconds",
+        "0.001",
+        "--rounds",
+        "2",
+        "--within",
+        "3%",
+        "--format",
+        "json",
+        "--out",
+    ];
+    let output = etalon(&named)
+        .arg(out.path())
+        .assert()
+        .code(0)
+        .get_output()
+        .clone();
+    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(
+        summary["matrix"]
+            .as_array()
+            .is_some_and(|files| files.len() == 2),
+        "{summary}"
+    );
+    let bench = Bench::read(out.path()).unwrap();
+    assert_eq!((bench.header.cases, bench.missing()), (4, 0));
+    assert_eq!(bench.header.settings.within, Some(0.03));
+    // The two cases of a cell stand one after the other.
+    let layers: Vec<&str> = bench
+        .records
+        .iter()
+        .filter_map(|r| r.picture.case.split('/').find(|p| p.starts_with("layers=")))
+        .collect();
+    assert_eq!(layers, ["layers=4", "layers=12", "layers=1", "layers=3"]);
+    assert!(
+        bench
+            .records
+            .iter()
+            .all(|r| r.picture.work.is_some_and(|w| w.read > 0))
+    );
+    let csv = fs::read_to_string(out.path().join("matrix.csv")).unwrap();
+    let cell = "cpu,perf/matrix/clear/format=rgba8unorm/size=512x512,";
+    assert!(csv.contains(cell), "{csv}");
+    assert_eq!(csv.lines().count(), 3);
+    fs::remove_file(out.path().join("matrix.html")).unwrap();
+    let mut report = etalon(&["report"]);
+    report
+        .arg(out.path())
+        .assert()
+        .code(0)
+        .stdout(contains("matrix.csv").and(contains("Gpix/s")));
+    assert!(out.path().join("matrix.html").exists());
+    // Another bench in the folder leaves no report of this one.
+    let cases = cases();
+    bench_of(cases.path(), out.path());
+    assert!(!out.path().join("matrix.html").exists() && !out.path().join("matrix.csv").exists());
+}
+
+/// Replaces the bench in a folder by one of the cases in another, which has cells and does not name them.
+fn bench_of(cases: &Path, out: &Path) {
+    let matrix = cases.join("perf/matrix");
+    fs::create_dir(&matrix).unwrap();
+    let text = fs::read_to_string(cases.join("perf/right.json")).unwrap();
+    let mut file: Value = serde_json::from_str(&text).unwrap();
+    file["axes"] = json!({ "layers": [1, 2] });
+    file["scene"]["attachments"]["color"]["size"] = json!([8, "$layers"]);
+    fs::write(matrix.join("fill.json"), file.to_string()).unwrap();
+    bench(cases, out, &["--adapter", "cpu", "--force"]).code(0);
+    let ids: Vec<String> = Bench::read(out)
+        .unwrap()
+        .records
+        .into_iter()
+        .map(|r| r.picture.case)
+        .collect();
+    assert_eq!(ids, ["perf/right", "perf/wrong"]);
+}
+
+#[test]
+fn rounds_end_when_they_are_enough() {
+    let cases = cases();
+    for (flags, reason) in [
+        (["--within", "100%"], Enough::Within),
+        (["--limit", "0.1"], Enough::Limit),
+    ] {
+        let out = tempfile::tempdir().unwrap();
+        let mut command = etalon(&[
+            "bench",
+            "perf/right",
+            "--adapter",
+            "cpu",
+            "--seconds",
+            "0.001",
+        ]);
+        command
+            .args(["--rounds", "300"])
+            .args(flags)
+            .arg("--cases")
+            .arg(cases.path());
+        command.arg("--out").arg(out.path()).assert().code(0);
+        let bench = Bench::read(out.path()).unwrap();
+        let record = bench.record("perf/right", "cpu").unwrap();
+        assert_eq!((record.enough, bench.missing()), (Some(reason), 0));
+        let rounds = record.rounds.len();
+        assert!(rounds < 300, "{rounds}");
+        assert!(reason == Enough::Limit || rounds >= 7, "{rounds}");
+    }
+    let out = tempfile::tempdir().unwrap();
+    for wrong in ["3", "0%", "101%", "x%"] {
+        bench(cases.path(), out.path(), &["--within", wrong])
+            .code(64)
+            .stderr(contains("such as 3%"));
+    }
 }

@@ -50,6 +50,7 @@ fn bench(folder: &Path, seconds: f64) {
         verdict: Verdict::Pass,
         asserted: 1.0,
         message: String::new(),
+        work: None,
     };
     writer.append(&BenchLine::Picture(picture)).unwrap();
     for round in 0..9 {
@@ -66,6 +67,7 @@ fn bench(folder: &Path, seconds: f64) {
             wall: vec![seconds * jitter; 3],
             cpu: vec![seconds * jitter; 3],
             gpu: Vec::new(),
+            clock: None,
             read_back: Vec::new(),
         });
         writer.append(&line).unwrap();

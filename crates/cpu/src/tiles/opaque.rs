@@ -195,7 +195,7 @@ impl<'a> Opaque<'a> {
                     let old = u32x16::load_array_ref(simd, stored);
                     let below = codes.simd_lt(old) & less;
                     let same = codes.simd_eq(old) & equal;
-                    covered = covered & (greater ^ below ^ same);
+                    covered &= greater ^ below ^ same;
                     if write {
                         covered.select(codes, old).store_array(stored);
                     }

@@ -46,7 +46,7 @@ pub struct BenchHeader {
     pub absent: Vec<AbsentAdapter>,
 }
 
-/// The settings of a bench. They must be the same when it is resumed, but for the time limit.
+/// The settings of a bench. They must be the same when it is resumed, but for the time limits.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BenchSettings {
@@ -62,6 +62,13 @@ pub struct BenchSettings {
     /// Seconds that one answer of a worker may take.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timeout: Option<f64>,
+    /// The share of the rate or time within which an interval is narrow enough to take no further rounds; all
+    /// rounds are taken where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub within: Option<f64>,
+    /// Seconds that the rounds of an adapter may take, all together.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limit: Option<f64>,
 }
 
 impl BenchHeader {

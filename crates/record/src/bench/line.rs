@@ -2,6 +2,8 @@
 
 use super::time::Time;
 use crate::verdict::Verdict;
+use etalon_frame::{Work, state_enum};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::slice;
 
@@ -15,6 +17,8 @@ pub enum BenchLine {
     Round(Round),
     /// The reason why a case has no more rounds on an adapter.
     Ended(Ended),
+    /// The reason why a case needs no more rounds on an adapter.
+    Done(Done),
 }
 
 /// The verdict of a case's picture on an adapter. It comes once, before the case's rounds.
@@ -32,6 +36,9 @@ pub struct Picture {
     /// The missing requirement, the error, or the first wrong texel.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub message: String,
+    /// The work of a frame, of cells of the performance matrix.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub work: Option<Work>,
 }
 
 impl Picture {
@@ -72,6 +79,9 @@ pub struct Round {
     /// The same frames, between GPU timestamps; empty where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub gpu: Vec<f64>,
+    /// The mean clock of the processors in MHz right before and right after the round, where the system tells.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clock: Option<[f64; 2]>,
     /// Reading the frame back, if that was timed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub read_back: Vec<f64>,
@@ -109,4 +119,26 @@ pub struct Ended {
     pub verdict: Verdict,
     /// The cause.
     pub message: String,
+}
+
+state_enum! {
+    /// The reason why a case needs no more rounds.
+    Enough {
+        /// Its interval is narrow enough.
+        Within = "within",
+        /// The adapter's time is spent.
+        Limit = "limit",
+    }
+}
+
+/// The end of a case's rounds on an adapter, with which it is complete.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Done {
+    /// The case's id.
+    pub case: String,
+    /// The adapter's name.
+    pub adapter: String,
+    /// The reason.
+    pub enough: Enough,
 }

@@ -1,7 +1,7 @@
 //! Reading a bench folder.
 
 use super::header::{BENCH_FORMAT, BenchHeader};
-use super::line::{BenchLine, Ended, Picture, Round};
+use super::line::{BenchLine, Done, Ended, Picture, Round};
 use super::record::BenchRecord;
 use crate::error::RecordError;
 use crate::folder::BENCH_FILE;
@@ -74,7 +74,7 @@ impl Bench {
     }
 
     /// The number of rounds that a complete bench has and this one lacks. A case whose picture may not be
-    /// timed, or whose rounds ended with a reason, lacks none.
+    /// timed, whose rounds ended with a reason or are enough, lacks none.
     pub fn missing(&self) -> u64 {
         let rounds = u64::from(self.header.rounds);
         let pairs = self
@@ -83,8 +83,7 @@ impl Bench {
             .saturating_mul(self.header.adapters.len() as u64);
         let unseen = pairs.saturating_sub(self.records.len() as u64);
         let short = |r: &BenchRecord| {
-            let due = r.picture.may_be_timed() && r.ended.is_none();
-            if due {
+            if r.is_open() {
                 rounds.saturating_sub(r.rounds.len() as u64)
             } else {
                 0
@@ -110,6 +109,7 @@ impl Assembly {
             BenchLine::Picture(picture) => self.picture(picture),
             BenchLine::Round(round) => self.round(round),
             BenchLine::Ended(ended) => self.ended(ended),
+            BenchLine::Done(done) => self.done(done),
         }
     }
 
@@ -131,6 +131,7 @@ impl Assembly {
             picture,
             rounds: Vec::new(),
             ended: None,
+            enough: None,
         });
         Ok(())
     }
@@ -149,7 +150,7 @@ impl Assembly {
                 "{case:?} on {adapter:?} has the verdict {verdict} and so no frame times"
             ));
         }
-        if record.ended.is_some() {
+        if record.ended.is_some() || record.enough.is_some() {
             return Err(format!("{case:?} on {adapter:?} had ended before this"));
         }
         Ok(record)
@@ -169,6 +170,12 @@ impl Assembly {
     fn ended(&mut self, ended: Ended) -> Result<(), String> {
         let record = self.open(&ended.case, &ended.adapter)?;
         record.ended = Some(ended);
+        Ok(())
+    }
+
+    fn done(&mut self, done: Done) -> Result<(), String> {
+        let record = self.open(&done.case, &done.adapter)?;
+        record.enough = Some(done.enough);
         Ok(())
     }
 }
@@ -197,6 +204,9 @@ fn check(round: &Round) -> Result<(), String> {
         .chain(&round.ruler);
     if let Some(wrong) = all.find(|t| !fine(t)) {
         return Err(format!("a time of {wrong} s"));
+    }
+    if let Some(wrong) = round.clock.iter().flatten().find(|c| !fine(c)) {
+        return Err(format!("a clock of {wrong} MHz"));
     }
     if !round.at.is_finite() || round.at < 0.0 {
         return Err(format!("a round that began at {} s", round.at));

@@ -1,6 +1,6 @@
 //! The part of a bench about one case on one adapter.
 
-use super::line::{Ended, Picture, Round};
+use super::line::{Ended, Enough, Picture, Round};
 use super::time::Time;
 
 /// The picture and the rounds of one case on one adapter.
@@ -12,9 +12,17 @@ pub struct BenchRecord {
     pub rounds: Vec<Round>,
     /// The reason for having fewer rounds than others.
     pub ended: Option<Ended>,
+    /// The reason for needing no more rounds than it has.
+    pub enough: Option<Enough>,
 }
 
 impl BenchRecord {
+    /// True if further rounds are due until it has all: its picture is right, and neither did they end nor are
+    /// they enough.
+    pub fn is_open(&self) -> bool {
+        self.picture.may_be_timed() && self.ended.is_none() && self.enough.is_none()
+    }
+
     /// The samples of one time, round by round; rounds without any are left out.
     pub fn samples(&self, time: Time) -> Vec<&[f64]> {
         let all = self.rounds.iter().map(|r| r.samples(time));

@@ -1,8 +1,8 @@
 //! Bench folders as they are written, cut off and damaged.
 
 use etalon_record::{
-    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Ended, FolderKind, Machine, Picture,
-    RecordError, ReportFiles, Round, ShaderCache, Time, Verdict,
+    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Done, Ended, Enough, FolderKind,
+    Machine, Picture, RecordError, ReportFiles, Round, ShaderCache, Time, Verdict,
 };
 use serde_json::{Value, json};
 use std::fs;
@@ -40,6 +40,7 @@ fn picture(verdict: Verdict) -> BenchLine {
         verdict,
         asserted: 1.0,
         message: String::new(),
+        work: None,
     })
 }
 
@@ -56,6 +57,7 @@ fn round(number: u32) -> Round {
         wall: vec![0.1, 0.2],
         cpu: vec![0.05, 0.06],
         gpu: Vec::new(),
+        clock: None,
         read_back: Vec::new(),
     }
 }
@@ -64,6 +66,29 @@ fn written(folder: &Path, lines: &[BenchLine]) -> Result<Bench, RecordError> {
     let mut writer = BenchWriter::create(folder, &header()).unwrap();
     lines.iter().for_each(|l| writer.append(l).unwrap());
     Bench::read(folder)
+}
+
+#[test]
+fn rounds_that_are_enough_are_not_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let done = |enough| {
+        BenchLine::Done(Done {
+            case: "perf/a".to_owned(),
+            adapter: "cpu".to_owned(),
+            enough,
+        })
+    };
+    let first = [picture(Verdict::Pass), BenchLine::Round(round(0))];
+    let open = written(folder.path(), &first).unwrap();
+    assert!(open.missing() > 0 && open.records[0].is_open());
+    for enough in [Enough::Within, Enough::Limit] {
+        let lines = [first.as_slice(), &[done(enough)]].concat();
+        let bench = written(folder.path(), &lines).unwrap();
+        assert_eq!(bench.records[0].enough, Some(enough));
+        assert_eq!((bench.missing(), bench.records[0].is_open()), (0, false));
+        let more = [lines.as_slice(), &[BenchLine::Round(round(1))]].concat();
+        assert!(written(folder.path(), &more).is_err());
+    }
 }
 
 #[test]

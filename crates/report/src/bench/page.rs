@@ -4,12 +4,12 @@ use super::figures::{CaseFigures, Figures, Timed};
 use super::kind::KINDS;
 use super::ruler::drift;
 use super::spread::{Times, strip};
-use crate::numbers::{change, count, duration, percent};
+use crate::numbers::{change, count, duration, percent, round_duration};
 use crate::page::Page;
 use crate::page::adapter::{breakable, details};
 use crate::page::origin::Origin;
 use crate::words;
-use etalon_record::{Bench, BenchRecord, Time, Verdict};
+use etalon_record::{Bench, BenchRecord, Time, Verdict, cell};
 use etalon_stats::{CONFIDENCE, MIN_ROUNDS, POWER, Summary};
 use maud::{Markup, html};
 
@@ -82,6 +82,15 @@ fn head(bench: &Bench, figures: &Figures<'_>) -> Markup {
                 }
                 dt { "Shader caches" } dd { (h.shader_cache.name()) }
                 dt { "Ruler" } dd { (h.ruler) }
+                @if let Some(share) = h.settings.within {
+                    dt { "Enough" } dd { "intervals within " (percent(share, 1)) }
+                }
+                @if let Some(limit) = h.settings.limit {
+                    dt { "Time limit" } dd { (round_duration(limit)) " of rounds on each adapter" }
+                }
+            }
+            @if figures.cases.iter().any(|c| cell(c.case).is_some()) {
+                nav { a href="matrix.html" { "Performance matrix" } }
             }
         }
     }

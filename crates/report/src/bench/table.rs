@@ -5,10 +5,10 @@ use super::kind::KINDS;
 use crate::numbers::{change, count, duration};
 use crate::terminal::{self, TableOptions, wrapped};
 use crate::words::plain;
-use etalon_record::{Bench, Time};
+use etalon_record::{Bench, Time, cell};
 use tabled::builder::Builder;
 
-/// A table per kind of adapter with a row per case and adapter, fastest first; then what was not
+/// The cases outside the performance matrix: a table per kind of adapter with a row per case and adapter, fastest first; then what was not
 /// timed, and why. Always ends in a newline.
 pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
     let figures = Figures::new(bench);
@@ -19,7 +19,7 @@ pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
             "case", "#", "adapter", "median", "interval", "p95", "cpu", "gpu", "n", "visible",
         ]);
         let mut rows = 0;
-        for case in &figures.cases {
+        for case in figures.cases.iter().filter(|c| cell(c.case).is_none()) {
             for (i, timed) in case.of_kind(kind).iter().enumerate() {
                 let name = if i == 0 { case.case } else { "" };
                 builder.push_record(row(name, timed));
@@ -33,7 +33,12 @@ pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
             text.push_str(&format!("{title}\n{table}\n\n"));
         }
     }
-    let untimed: Vec<_> = figures.cases.iter().flat_map(|c| &c.untimed).collect();
+    let untimed: Vec<_> = figures
+        .cases
+        .iter()
+        .filter(|c| cell(c.case).is_none())
+        .flat_map(|c| &c.untimed)
+        .collect();
     if !untimed.is_empty() {
         text.push_str("Not timed\n");
         for record in untimed {

@@ -5,14 +5,17 @@ use super::page;
 use crate::error::ReportError;
 use crate::export::dashboards;
 use crate::files::replace;
+use crate::matrix::{self, Matrix};
 use etalon_record::Bench;
 use std::path::{Path, PathBuf};
 
 /// The files that [`write_bench`] writes.
-pub const BENCH_FILES: [&str; 3] = [HTML, BENCHER, ACTION];
+pub const BENCH_FILES: [&str; 5] = [HTML, BENCHER, ACTION, MATRIX, MATRIX_CSV];
 const HTML: &str = "index.html";
 const BENCHER: &str = "bencher.json";
 const ACTION: &str = "benchmark-action.json";
+const MATRIX: &str = "matrix.html";
+const MATRIX_CSV: &str = "matrix.csv";
 
 /// The files that [`write_bench`] made.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,9 +26,12 @@ pub struct WrittenBench {
     pub bencher: PathBuf,
     /// Wall times for github-action-benchmark, tool `customSmallerIsBetter`.
     pub action: PathBuf,
+    /// The page of the performance matrix and its cells as CSV, of a bench that has cells.
+    pub matrix: Option<[PathBuf; 2]>,
 }
 
-/// Writes `index.html`, `bencher.json` and `benchmark-action.json` into a bench folder. Each is
+/// Writes `index.html`, `bencher.json` and `benchmark-action.json` into a bench folder, and `matrix.html` and
+/// `matrix.csv` where it has cells of the performance matrix. Each is
 /// written beside its place and then renamed, so that a reader never sees half a report.
 ///
 /// # Errors
@@ -34,11 +40,19 @@ pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
     let bench = Bench::read(folder)?;
     let figures = Figures::new(&bench);
     let html = page::page(&bench, &figures);
+    let matrix = Matrix::new(&bench);
     let bencher = dashboards::bencher(&figures)?;
     let action = dashboards::action(&figures)?;
     Ok(WrittenBench {
         html: replace(folder, HTML, html.as_bytes())?,
         bencher: replace(folder, BENCHER, &bencher)?,
         action: replace(folder, ACTION, &action)?,
+        matrix: match matrix.cells.is_empty() {
+            true => None,
+            false => Some([
+                replace(folder, MATRIX, matrix::page(&matrix).as_bytes())?,
+                replace(folder, MATRIX_CSV, matrix::csv(&matrix).as_bytes())?,
+            ]),
+        },
     })
 }

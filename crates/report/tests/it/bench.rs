@@ -52,6 +52,7 @@ fn picture(case: &str, adapter: &str, verdict: Verdict, message: &str) -> BenchL
         verdict,
         asserted: 0.995,
         message: message.to_owned(),
+        work: None,
     })
 }
 
@@ -74,6 +75,7 @@ fn round(case: &str, adapter: &str, number: u32, median: f64, gpu: bool) -> Benc
         } else {
             Vec::new()
         },
+        clock: None,
         read_back: Vec::new(),
         wall,
     })

@@ -7,6 +7,7 @@ mod hostile;
 mod index;
 mod large;
 pub(crate) mod made;
+mod matrix;
 mod methods;
 mod site;
 mod unscripted;
@@ -36,6 +37,9 @@ fn pages_work_in_a_browser() {
     });
     check("site", &|| {
         site::a_site_leads_to_reports_cases_and_documents(&chromium, &path);
+    });
+    check("performance matrix", &|| {
+        matrix::two_adapters_are_compared_and_samples_open(&chromium);
     });
     check("large run", &|| {
         large::eighty_thousand_records_open_and_are_searched(&chromium);

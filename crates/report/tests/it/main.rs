@@ -9,6 +9,7 @@ mod damage;
 mod deqp;
 mod formats;
 mod markdown;
+mod matrix;
 mod printed;
 mod report;
 mod runs_diff;

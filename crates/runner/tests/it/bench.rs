@@ -127,6 +127,9 @@ fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchSummary, Vec<String>) 
                 format!("judged {} {}", picture.adapter, picture.case)
             }
             BenchEvent::Timed { case, adapter } => format!("timed {adapter} {case}"),
+            BenchEvent::Done { done, spared } => {
+                format!("done {} {} {spared}", done.adapter, done.case)
+            }
             BenchEvent::Ended { ended, missing } => {
                 format!("ended {} {} {missing}", ended.adapter, ended.case)
             }

@@ -1,0 +1,168 @@
+//! Cells of the performance matrix: two cases that differ in their number of layers alone.
+//!
+//! A cell has no time of its own. Its rate is the slope between the times of its two cases, over the work that
+//! one has and the other has not, which the pictures tell.
+
+use super::record::BenchRecord;
+use super::time::Time;
+use etalon_frame::{Work, state_enum};
+use etalon_stats::{Pair, Slope, quantile};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The cases that form cells.
+const AREA: &str = "perf/matrix/";
+/// The axis in which the cases of a cell differ.
+const LAYERS: &str = "layers=";
+/// The most texels of a triangle that is counted as a triangle: larger ones take their time from their texels.
+const LARGEST: u64 = 1024;
+
+/// Returns the name of the cell that a case belongs to: its id without the number of layers. `None` outside the
+/// matrix.
+pub fn cell(case: &str) -> Option<String> {
+    let rest = case.strip_prefix(AREA)?;
+    let parts = || rest.split('/');
+    parts().find(|part| part.starts_with(LAYERS))?;
+    let kept: Vec<&str> = parts().filter(|part| !part.starts_with(LAYERS)).collect();
+    Some(format!("{AREA}{}", kept.join("/")))
+}
+
+state_enum! {
+    /// The unit of work of a cell.
+    Measure {
+        /// Texels that triangles cover.
+        Texels = "texels",
+        /// Triangles.
+        Triangles = "triangles",
+        /// Texels that are cleared.
+        Cleared = "cleared",
+        /// Texels that are resolved to.
+        Resolved = "resolved",
+        /// Texels that are read back.
+        Read = "read",
+    }
+}
+
+impl Measure {
+    /// The unit of work in which two works differ, and by how much; `None` if `more` is not the larger one.
+    pub fn between(less: Work, more: Work) -> Option<(Self, u64)> {
+        let of = |f: fn(Work) -> u64| f(more).checked_sub(f(less));
+        let passes = [
+            (Self::Read, of(|w| w.read)?),
+            (Self::Cleared, of(|w| w.cleared)?),
+            (Self::Resolved, of(|w| w.resolved)?),
+        ];
+        let (texels, triangles) = (of(|w| w.texels)?, of(|w| w.triangles)?);
+        let draws = match texels <= LARGEST.saturating_mul(triangles) {
+            true => (Self::Triangles, triangles),
+            false => (Self::Texels, texels),
+        };
+        // What passes do to whole attachments outweighs the few texels that they draw.
+        let found = passes.into_iter().find(|(_, amount)| *amount > 0);
+        found.or((draws.1 > 0).then_some(draws))
+    }
+}
+
+/// The rate of a cell on an adapter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellRate {
+    /// The unit of work.
+    pub measure: Measure,
+    /// The work between the two cases.
+    pub work: u64,
+    /// The time that was taken.
+    pub time: Time,
+    /// The slope between the two.
+    pub slope: Slope,
+    /// The median time of each round, of the case with less work and of the one with more.
+    pub medians: [Vec<f64>; 2],
+}
+
+impl CellRate {
+    /// Computes the rate from the records of a cell's cases in either order; `None` without a round of both, or
+    /// without a difference of their work. Timestamps of a device count where all rounds have them and the
+    /// adapter is not the processor itself, else wall time; reading back has a time of its own.
+    pub fn new(one: &BenchRecord, other: &BenchRecord, software: bool) -> Option<Self> {
+        let works = (one.picture.work?, other.picture.work?);
+        let (less, more, (measure, work)) = match Measure::between(works.0, works.1) {
+            Some(found) => (one, other, found),
+            None => (other, one, Measure::between(works.1, works.0)?),
+        };
+        let both = || less.rounds.iter().zip(&more.rounds);
+        let stamped = both().all(|(a, b)| !a.gpu.is_empty() && !b.gpu.is_empty());
+        let time = match measure {
+            Measure::Read => Time::ReadBack,
+            _ if stamped && !software => Time::Gpu,
+            _ => Time::Wall,
+        };
+        let pairs: Vec<Pair<'_>> = both()
+            .map(|(less, more)| Pair {
+                less: less.samples(time),
+                more: more.samples(time),
+            })
+            .collect();
+        let medians =
+            |times: fn(&Pair<'_>) -> Option<f64>| pairs.iter().filter_map(times).collect();
+        Some(Self {
+            measure,
+            work,
+            time,
+            slope: Slope::new(&pairs, work)?,
+            medians: [medians(|p| median(p.less)), medians(|p| median(p.more))],
+        })
+    }
+}
+
+fn median(times: &[f64]) -> Option<f64> {
+    let mut sorted = times.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    quantile(&sorted, 0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_is_its_cases_without_the_layers() {
+        let name = "perf/matrix/fill/blend=over/format=r8unorm/samples=1";
+        let case = "perf/matrix/fill/blend=over/format=r8unorm/layers=12/samples=1";
+        assert_eq!(cell(case).as_deref(), Some(name));
+        for other in [
+            "perf/quad/size=1",
+            name,
+            "methods/a/layers=4",
+            "perf/matrix",
+        ] {
+            assert_eq!(cell(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn the_unit_is_what_differs() {
+        let work = |triangles, texels, cleared, resolved, read| Work {
+            triangles,
+            texels,
+            cleared,
+            resolved,
+            read,
+        };
+        let between = |a, b| Measure::between(a, b);
+        let none = work(4, 4000, 10, 0, 10);
+        for (more, due) in [
+            (
+                work(12, 4_000_000, 10, 0, 10),
+                Some((Measure::Texels, 3_996_000)),
+            ),
+            (work(12, 4016, 10, 0, 10), Some((Measure::Triangles, 8))),
+            (work(12, 4000, 10, 0, 10), Some((Measure::Triangles, 8))),
+            (work(6, 4128, 90, 0, 10), Some((Measure::Cleared, 80))),
+            (work(6, 4128, 10, 70, 10), Some((Measure::Resolved, 70))),
+            (work(4, 4000, 10, 0, 30), Some((Measure::Read, 20))),
+            (none, None),
+            (work(4, 3999, 10, 0, 10), None),
+        ] {
+            assert_eq!(between(none, more), due, "{more:?}");
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The matrix as CSV (RFC 4180): a line per cell and adapter.
+
+use super::data::{Matrix, Outcome, unit};
+use crate::words::plain;
+use etalon_record::CellRate;
+
+const HEAD: &str =
+    "adapter,cell,unit,rate,low,high,of_base,of_clear,work,time,rounds,state,message";
+
+/// The lines, the names of the columns first. Rates are in the unit, shares are of 1.
+pub(crate) fn csv(matrix: &Matrix<'_>) -> String {
+    let mut text = format!("{HEAD}\r\n");
+    for adapter in &matrix.adapters {
+        for cell in &matrix.cells {
+            let Some(entry) = cell.results.get(*adapter) else {
+                continue;
+            };
+            let (state, message) = state(&entry.outcome);
+            let mut fields = vec![field(adapter), field(&cell.name)];
+            fields.extend(figures(entry.outcome.times()));
+            let shares = [entry.of_base, entry.of_clear].map(number);
+            fields.splice(6..6, shares);
+            fields.push(state);
+            fields.push(field(&message));
+            text.push_str(&fields.join(","));
+            text.push_str("\r\n");
+        }
+    }
+    text
+}
+
+/// Unit, rate, ends of the interval, work, time and rounds.
+fn figures(times: Option<&CellRate>) -> [String; 7] {
+    let Some(times) = times else {
+        return Default::default();
+    };
+    let (unit, divisor) = unit(times.measure);
+    let ends = times.slope.rate_interval();
+    let scaled = |value: Option<f64>| number(value.map(|v| v / divisor));
+    [
+        unit.to_owned(),
+        scaled(times.slope.rate()),
+        scaled(ends.map(|e| e[0])),
+        scaled(ends.map(|e| e[1])),
+        times.work.to_string(),
+        times.time.name().to_owned(),
+        times.slope.rounds.len().to_string(),
+    ]
+}
+
+/// The state of a cell in a word, and a message.
+pub(super) fn state(outcome: &Outcome) -> (String, String) {
+    match outcome {
+        Outcome::Rate(_) => ("measured".to_owned(), String::new()),
+        Outcome::Below(_) => ("below-resolution".to_owned(), String::new()),
+        Outcome::Untimed(verdict, message) => (verdict.to_string(), message.clone()),
+        Outcome::Incomplete => ("incomplete".to_owned(), String::new()),
+    }
+}
+
+/// All digits of a number, so that what is read is what was written; empty for none.
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |v| v.to_string())
+}
+
+/// A field on one line, in quotes where it needs them.
+fn field(text: &str) -> String {
+    let text = plain(text, 1000);
+    match text.contains([',', '"']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text,
+    }
+}

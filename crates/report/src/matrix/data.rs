@@ -1,0 +1,229 @@
+//! The cells of a bench: their rates, and what they are held against.
+
+use crate::bench::kind::software;
+use etalon_record::{Bench, BenchRecord, CellRate, Measure, Verdict, cell};
+use std::collections::BTreeMap;
+
+/// The cells of a bench.
+pub(crate) struct Matrix<'a> {
+    pub(crate) bench: &'a Bench,
+    /// In the order of the bench.
+    pub(crate) cells: Vec<Cell>,
+    /// The adapters that have one, in the order of the bench.
+    pub(crate) adapters: Vec<&'a str>,
+}
+
+/// A cell on all adapters.
+pub(crate) struct Cell {
+    /// The id of its cases without the layers.
+    pub(crate) name: String,
+    /// The name of its case file.
+    pub(crate) group: String,
+    /// Axes and their values, but for the size.
+    pub(crate) axes: BTreeMap<String, String>,
+    /// The size of its attachments.
+    pub(crate) size: String,
+    /// By adapter.
+    pub(crate) results: BTreeMap<String, Entry>,
+}
+
+/// A cell on one adapter.
+pub(crate) struct Entry {
+    pub(crate) outcome: Outcome,
+    /// Its rate as a share of the base cell's, where both count texels.
+    pub(crate) of_base: Option<f64>,
+    /// Its rate as a share of the rate of clearing.
+    pub(crate) of_clear: Option<f64>,
+}
+
+/// The rate of a cell on an adapter, or why it has none.
+pub(crate) enum Outcome {
+    /// It was measured.
+    Rate(CellRate),
+    /// The work takes less time than times scatter.
+    Below(CellRate),
+    /// One of its pictures may not be timed.
+    Untimed(Verdict, String),
+    /// There is no round of both cases, or only one of the cases was drawn.
+    Incomplete,
+}
+
+impl Outcome {
+    /// The rate in units per second.
+    pub(crate) fn rate(&self) -> Option<f64> {
+        match self {
+            Self::Rate(rate) => rate.slope.rate(),
+            _ => None,
+        }
+    }
+
+    /// The times, whether they give a rate or not.
+    pub(crate) fn times(&self) -> Option<&CellRate> {
+        match self {
+            Self::Rate(rate) | Self::Below(rate) => Some(rate),
+            _ => None,
+        }
+    }
+
+    fn new(records: &[&BenchRecord], software: bool) -> Self {
+        let wrong = records.iter().find(|r| {
+            let ended = r.ended.as_ref().is_some_and(|e| e.verdict.is_bad());
+            ended || !r.picture.may_be_timed()
+        });
+        if let Some(record) = wrong {
+            let picture = (record.picture.verdict, &record.picture.message);
+            let ended = record.ended.as_ref().map(|e| (e.verdict, &e.message));
+            let (verdict, message) = ended.unwrap_or(picture);
+            return Self::Untimed(verdict, message.clone());
+        }
+        let [one, other] = records else {
+            return Self::Incomplete;
+        };
+        match CellRate::new(one, other, software) {
+            Some(rate) if rate.slope.below_resolution => Self::Below(rate),
+            Some(rate) => Self::Rate(rate),
+            None => Self::Incomplete,
+        }
+    }
+}
+
+/// The cell that others are held against: an opaque fill of the commonest format with all tests off.
+const BASE: (&str, &[(&str, &str)]) = (
+    "fill",
+    &[
+        ("blend", "none"),
+        ("format", "rgba8unorm"),
+        ("samples", "1"),
+    ],
+);
+/// The cell of clearing.
+const CLEAR: (&str, &[(&str, &str)]) = ("clear", &[("format", "rgba8unorm")]);
+
+impl<'a> Matrix<'a> {
+    pub(crate) fn new(bench: &'a Bench) -> Self {
+        let mut found: Vec<(String, BTreeMap<&'a str, Vec<&'a BenchRecord>>)> = Vec::new();
+        let mut places: BTreeMap<String, usize> = BTreeMap::new();
+        let mut adapters: Vec<&str> = Vec::new();
+        for record in &bench.records {
+            let picture = &record.picture;
+            let Some(name) = cell(&picture.case) else {
+                continue;
+            };
+            if !adapters.contains(&picture.adapter.as_str()) {
+                adapters.push(&picture.adapter);
+            }
+            let place = *places.entry(name.clone()).or_insert_with(|| {
+                found.push((name, BTreeMap::new()));
+                found.len() - 1
+            });
+            let all = found[place].1.entry(&picture.adapter).or_default();
+            all.push(record);
+        }
+        let mut cells: Vec<Cell> = found
+            .into_iter()
+            .map(|(name, records)| Cell::new(bench, name, &records))
+            .collect();
+        hold_against(&mut cells, &adapters);
+        Self {
+            bench,
+            cells,
+            adapters,
+        }
+    }
+
+    /// The sizes of attachments, in the order of the bench.
+    pub(crate) fn sizes(&self) -> Vec<&str> {
+        distinct(self.cells.iter().map(|c| c.size.as_str()))
+    }
+}
+
+impl Cell {
+    fn new(bench: &Bench, name: String, records: &BTreeMap<&str, Vec<&BenchRecord>>) -> Self {
+        let mut parts = name.split('/').skip(2);
+        let group = parts.next().unwrap_or_default().to_owned();
+        let axis = |part: &str| {
+            let (axis, value) = part.split_once('=')?;
+            Some((axis.to_owned(), value.to_owned()))
+        };
+        let mut axes: BTreeMap<String, String> = parts.filter_map(axis).collect();
+        let size = axes.remove("size").unwrap_or_default();
+        let results = records.iter().map(|(adapter, records)| {
+            let entry = Entry {
+                outcome: Outcome::new(records, software(bench.header.adapter(adapter))),
+                of_base: None,
+                of_clear: None,
+            };
+            ((*adapter).to_owned(), entry)
+        });
+        Self {
+            group,
+            axes,
+            size,
+            results: results.collect(),
+            name,
+        }
+    }
+
+    /// The value of an axis.
+    pub(crate) fn axis(&self, name: &str) -> Option<&str> {
+        self.axes.get(name).map(String::as_str)
+    }
+
+    /// The name without the area and the size.
+    pub(crate) fn short(&self) -> String {
+        let axes = self
+            .axes
+            .iter()
+            .map(|(axis, value)| format!(" {axis}={value}"));
+        format!("{}{}", self.group, axes.collect::<String>())
+    }
+
+    fn is(&self, (group, axes): (&str, &[(&str, &str)]), size: &str) -> bool {
+        let same = |(axis, value): &(&str, &str)| self.axis(axis) == Some(*value);
+        self.group == group && self.size == size && axes.iter().all(same)
+    }
+}
+
+/// Computes the shares of base cell and clear.
+fn hold_against(cells: &mut [Cell], adapters: &[&str]) {
+    let sizes = distinct(cells.iter().map(|c| c.size.as_str()));
+    let sizes: Vec<String> = sizes.into_iter().map(str::to_owned).collect();
+    for size in &sizes {
+        for adapter in adapters {
+            let of = |which| {
+                let cell = cells.iter().find(|c| c.is(which, size))?;
+                cell.results.get(*adapter)?.outcome.rate()
+            };
+            let (base, clear) = (of(BASE), of(CLEAR));
+            let same_size = cells.iter_mut().filter(|c| c.size == *size);
+            for entry in same_size.filter_map(|c| c.results.get_mut(*adapter)) {
+                let texels = entry
+                    .outcome
+                    .times()
+                    .is_some_and(|t| t.measure != Measure::Triangles);
+                let rate = entry.outcome.rate().filter(|_| texels);
+                entry.of_base = rate.zip(base).map(|(rate, base)| rate / base);
+                entry.of_clear = rate.zip(clear).map(|(rate, clear)| rate / clear);
+            }
+        }
+    }
+}
+
+/// Values without those that stand before.
+pub(crate) fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
+    let mut all = Vec::new();
+    for value in values {
+        if !all.contains(&value) {
+            all.push(value);
+        }
+    }
+    all
+}
+
+/// The unit of a rate, and by how much a rate in units per second is divided.
+pub(crate) fn unit(measure: Measure) -> (&'static str, f64) {
+    match measure {
+        Measure::Triangles => ("Mtri/s", 1e6),
+        Measure::Texels | Measure::Cleared | Measure::Resolved | Measure::Read => ("Gpix/s", 1e9),
+    }
+}

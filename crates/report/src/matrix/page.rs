@@ -1,0 +1,345 @@
+//! `matrix.html`: heat maps of the performance matrix.
+//!
+//! Every adapter has tables of the same shape, so that a script can hold two of them against each other, place
+//! by place. Without it the page lacks that comparison and nothing else.
+
+use super::csv::state;
+use super::data::{Cell, Entry, Matrix, Outcome, unit};
+use super::heat::Heat;
+use super::table::half_width;
+use crate::numbers::{count, digits, duration, percent, round_duration};
+use crate::page::adapter::breakable;
+use crate::page::origin::Origin;
+use crate::page::{Page, script};
+use etalon_record::{CellRate, Measure, Time};
+use etalon_stats::{RATE_CONFIDENCE, quantile};
+use maud::{Markup, html};
+
+const OWN_STYLE: &str = include_str!("page/matrix.css");
+const SCRIPT: &str = include_str!("page/matrix.js");
+
+/// The page.
+pub(crate) fn page(matrix: &Matrix<'_>) -> String {
+    let main = html! {
+        (head(matrix))
+        (explanation())
+        section id="compare" hidden {
+            h2 { "Two adapters" }
+            p {
+                label { "Rates of " select id="one" {} } " "
+                label { "over those of " select id="other" {} }
+            }
+            div id="ratios" {}
+        }
+        @for (i, adapter) in matrix.adapters.iter().enumerate() { (of_adapter(matrix, i, adapter)) }
+        section id="samples" {
+            h2 { "Samples" }
+            @for (i, adapter) in matrix.adapters.iter().enumerate() {
+                h3 { (breakable(adapter)) }
+                @for (place, cell) in matrix.cells.iter().enumerate() { (samples(cell, adapter, &id(i, place))) }
+            }
+        }
+        (script(SCRIPT))
+    };
+    Page {
+        title: &format!("etalon matrix {}", matrix.bench.header.started),
+        styles: &[OWN_STYLE],
+        script: Some(SCRIPT),
+        beside: false,
+        main,
+        source: "bench.jsonl in this folder",
+    }
+    .html()
+}
+
+fn head(matrix: &Matrix<'_>) -> Markup {
+    let h = &matrix.bench.header;
+    let origin = Origin {
+        started: &h.started,
+        command: &h.command,
+        machine: &h.machine,
+        etalon: &h.etalon,
+        commit: h.commit.as_deref(),
+    };
+    let entries = || matrix.cells.iter().flat_map(|c| c.results.values());
+    let below = entries()
+        .filter(|e| matches!(e.outcome, Outcome::Below(_)))
+        .count() as u64;
+    let missing = matrix.bench.missing();
+    html! {
+        header {
+            h1 { "Performance matrix" }
+            p.lead { "Rates of fixed-function work, of pictures that were judged right." }
+            @if matrix.bench.truncated || missing > 0 {
+                p.state.bad { b { "! Incomplete. " } (count(missing, "round")) " missing." }
+            }
+            dl.facts {
+                (origin.facts())
+                dt { "Scope" } dd {
+                    (count(matrix.cells.len() as u64, "cell")) " (" (h.profile) ") on "
+                    (count(matrix.adapters.len() as u64, "adapter")) ", up to " (count(u64::from(h.rounds), "round")) " each"
+                }
+                @if let Some(share) = h.settings.within { dt { "Enough" } dd { "intervals within " (percent(share, 1)) } }
+                @if let Some(limit) = h.settings.limit { dt { "Time limit" } dd { (round_duration(limit)) " of rounds on each adapter" } }
+                dt { "Below resolution" } dd { (below) " of " (entries().count()) }
+                @if let Some(clock) = clock(matrix) { dt { "Clock" } dd { (clock) } }
+            }
+            nav {
+                @for (i, adapter) in matrix.adapters.iter().enumerate() { a href={ "#adapter-" (i) } { (adapter) } }
+                a href="#samples" { "Samples" }
+                a href="index.html" { "Frame times" }
+                a href="matrix.csv" { "CSV" }
+            }
+        }
+    }
+}
+
+/// The range of the processors' clock around the rounds.
+fn clock(matrix: &Matrix<'_>) -> Option<String> {
+    let rounds = matrix.bench.records.iter().flat_map(|r| &r.rounds);
+    let mut all: Vec<f64> = rounds.filter_map(|r| r.clock).flatten().collect();
+    all.sort_by(f64::total_cmp);
+    let megahertz = |q| Some(digits(quantile(&all, q)?.round(), 4));
+    Some(format!(
+        "{} to {} MHz around the rounds, median {} MHz",
+        megahertz(0.0)?,
+        megahertz(1.0)?,
+        megahertz(0.5)?
+    ))
+}
+
+fn explanation() -> Markup {
+    html! {
+        details {
+            summary { "Reading this page" }
+            p {
+                "A cell is drawn with two numbers of layers. Its rate is the work between them over the time between "
+                "them, so that what a frame costs beside its layers cancels. Each round gives one rate; the cell shows their "
+                "median, and its samples an interval of order statistics with a confidence of at least "
+                (RATE_CONFIDENCE * 100.0) " %."
+            }
+            p {
+                b { "Gpix/s" } " are texels that triangles cover, that are cleared, resolved or read back: once each, "
+                "whatever the samples and attachments; those that a test or the shader rejects count too. "
+                b { "Mtri/s" } " are triangles of 1,024 texels or fewer. "
+                "The second number of a cell is its share of the base cell: rgba8unorm filled without blending and tests."
+            }
+            p {
+                b { "Below" } ": the work between takes less time than single times scatter, or the interval holds none at "
+                "all, so there is no rate. Many layers that no one sees may cost nothing."
+            }
+        }
+    }
+}
+
+fn id(adapter: usize, cell: usize) -> String {
+    format!("s-{adapter}-{cell}")
+}
+
+fn of_adapter(matrix: &Matrix<'_>, number: usize, adapter: &str) -> Markup {
+    let link = |cell: &Cell| {
+        let place = matrix.cells.iter().position(|c| c.name == cell.name);
+        id(number, place.unwrap_or(0))
+    };
+    html! {
+        section.adapter id={ "adapter-" (number) } data-adapter=(adapter) {
+            h2 { (breakable(adapter)) }
+            @for size in matrix.sizes() {
+                @let cells: Vec<&Cell> = matrix.cells.iter().filter(|c| c.size == size).collect();
+                h3 { (size) }
+                @for heat in Heat::all(&cells) { (map(&heat, adapter, &link)) }
+                div.groups {
+                    @for (group, cells) in Heat::rest(&cells) { (listed(group, &cells, adapter, &link)) }
+                }
+            }
+        }
+    }
+}
+
+fn map(heat: &Heat<'_>, adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup {
+    html! {
+        div.wide { table.heat {
+            caption { (heat.title) ", Gpix/s and share of the base cell" }
+            thead {
+                tr {
+                    @for axis in heat.row_axes { th scope="col" rowspan="2" { (axis.replace('_', " ")) } }
+                    @for (tests, width) in heat.heads() { th scope="colgroup" colspan=(width) { (tests) } }
+                }
+                tr { @for (_, samples) in &heat.columns { th scope="col" { (samples) "×" } } }
+            }
+            tbody { @for row in &heat.rows { tr {
+                @for value in row { th scope="row" { (value) } }
+                @for column in &heat.columns {
+                    @match heat.cell(row, column) {
+                        Some(cell) => (figure(cell, adapter, link)),
+                        None => td.none { },
+                    }
+                }
+            } } }
+        } }
+    }
+}
+
+/// A cell of a heat map.
+fn figure(cell: &Cell, adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup {
+    let Some(entry) = cell.results.get(adapter) else {
+        return html! { td.soft { "–" } };
+    };
+    html! {
+        td.num style=[entry.of_base.map(shade)] data-rate=[entry.outcome.rate()] title=(words(cell, entry)) {
+            a href={ "#" (link(cell)) } { (value(entry)) }
+            @if let Some(share) = entry.of_base { br; small { (share_of(share)) } }
+        }
+    }
+}
+
+/// The cell with the interval of its rate.
+fn words(cell: &Cell, entry: &Entry) -> String {
+    let times = entry.outcome.times();
+    let interval = times.and_then(|t| Some((unit(t.measure), t.slope.rate_interval()?)));
+    match interval {
+        None => cell.short(),
+        Some(((unit, divisor), ends)) => {
+            let [low, high] = ends.map(|end| digits(end / divisor, 3));
+            format!("{}: {low} to {high} {unit}", cell.short())
+        }
+    }
+}
+
+/// The background of a share of the base cell: full at twice its rate, none at a thirty-second.
+fn shade(share: f64) -> String {
+    let place = ((share.log2() + 5.0) / 6.0).clamp(0.0, 1.0);
+    format!("--h:{:.0}%", place * 60.0)
+}
+
+fn share_of(share: f64) -> String {
+    format!("{} %", digits(share * 100.0, 3))
+}
+
+fn value(entry: &Entry) -> String {
+    match (&entry.outcome, entry.outcome.rate()) {
+        (Outcome::Rate(times), Some(rate)) => digits(rate / unit(times.measure).1, 3),
+        (Outcome::Below(_), _) => "below".to_owned(),
+        (outcome, _) => state(outcome).0,
+    }
+}
+
+/// The cells of a group that is no heat map.
+fn listed(group: &str, cells: &[&Cell], adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup {
+    let measure = cells
+        .iter()
+        .find_map(|c| c.results.get(adapter)?.outcome.times());
+    let unit = measure.map_or("rate", |t| unit(t.measure).0);
+    html! {
+        div.wide { table.list {
+            caption { (group.replace('-', " ")) }
+            thead { tr {
+                th scope="col" { "cell" } th scope="col" { (unit) } th scope="col" { "±" } th scope="col" { "of base" }
+                th scope="col" { "of clear" }
+            } }
+            tbody { @for cell in cells { (row(cell, adapter, link)) } }
+        } }
+    }
+}
+
+fn row(cell: &Cell, adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup {
+    let axes: Vec<String> = cell
+        .axes
+        .iter()
+        .map(|(axis, value)| format!("{} {value}", axis.replace('_', " ")))
+        .collect();
+    let entry = cell.results.get(adapter);
+    let share = |share: Option<f64>| share.map_or("–".to_owned(), share_of);
+    html! {
+        tr {
+            th scope="row" { (axes.join(", ")) }
+            @match entry {
+                None => { td.soft { "–" } td {} td {} td {} },
+                Some(entry) => {
+                    td.num data-rate=[entry.outcome.rate()] { a href={ "#" (link(cell)) } { (value(entry)) } }
+                    td.num { (half(entry)) }
+                    td.num { (share(entry.of_base)) }
+                    td.num { (share(entry.of_clear)) }
+                }
+            }
+        }
+    }
+}
+
+fn half(entry: &Entry) -> String {
+    let times = entry
+        .outcome
+        .times()
+        .and_then(|t| Some((t, t.slope.rate()?)));
+    let share = times.and_then(|(t, rate)| half_width(t.slope.rate_interval(), rate));
+    share.map_or("–".to_owned(), |s| format!("{} %", digits(s * 100.0, 2)))
+}
+
+/// The samples of a cell on an adapter, or why there are none.
+fn samples(cell: &Cell, adapter: &str, id: &str) -> Markup {
+    let Some(entry) = cell.results.get(adapter) else {
+        return html! {};
+    };
+    let (state, message) = state(&entry.outcome);
+    html! {
+        details.samples {
+            summary { (cell.short()) ", " (cell.size) ": " (value(entry)) }
+            div.body id=(id) {
+                @match entry.outcome.times() {
+                    None => p { (state) @if !message.is_empty() { ": " (message) } },
+                    Some(times) => (rounds(times, entry)),
+                }
+            }
+        }
+    }
+}
+
+fn rounds(times: &CellRate, entry: &Entry) -> Markup {
+    let (unit, divisor) = unit(times.measure);
+    let scaled = |rate: f64| digits(rate / divisor, 4);
+    let each: Vec<String> = times.slope.rounds.iter().map(|s| scaled(1.0 / s)).collect();
+    let list = |times: &[f64]| {
+        times
+            .iter()
+            .map(|t| duration(*t))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    html! {
+        dl.facts {
+            dt { "Rate" } dd { @match times.slope.rate() {
+                Some(rate) => { (scaled(rate)) " " (unit) },
+                None => "below the resolution of the times",
+            } }
+            dt { "Interval" } dd { @match times.slope.rate_interval() {
+                Some([low, high]) => { (scaled(low)) " to " (scaled(high)) " " (unit) },
+                None => "none",
+            } }
+            @if let Some(share) = entry.of_base { dt { "Of base" } dd { (share_of(share)) } }
+            @if let Some(share) = entry.of_clear { dt { "Of clear" } dd { (share_of(share)) } }
+            dt { "Work between" } dd { (times.work) " " (noun(times.measure)) }
+            dt { "Rounds" } dd { (each.join(", ")) " " (unit) }
+            dt { "Fewer layers" } dd { (list(&times.medians[0])) }
+            dt { "More layers" } dd { (list(&times.medians[1])) }
+            dt { "Time" } dd { (time(times.time)) }
+        }
+    }
+}
+
+fn noun(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Triangles => "triangles",
+        Measure::Texels => "texels covered",
+        Measure::Cleared => "texels cleared",
+        Measure::Resolved => "texels resolved",
+        Measure::Read => "texels read back",
+    }
+}
+
+fn time(time: Time) -> &'static str {
+    match time {
+        Time::Gpu => "between timestamps of the device",
+        Time::ReadBack => "of reading back",
+        _ => "until the device was done",
+    }
+}

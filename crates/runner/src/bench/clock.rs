@@ -1,0 +1,31 @@
+//! The clock of the processors, where the system tells it.
+
+use std::fs;
+
+/// The mean clock of all processors in MHz; `None` where `/proc/cpuinfo` does not tell.
+pub(crate) fn measure() -> Option<f64> {
+    mean(&fs::read_to_string("/proc/cpuinfo").ok()?)
+}
+
+fn mean(text: &str) -> Option<f64> {
+    let value = |line: &str| -> Option<f64> {
+        let (key, value) = line.split_once(':')?;
+        let value: f64 = value.trim().parse().ok()?;
+        (key.trim() == "cpu MHz" && value > 0.0 && value.is_finite()).then_some(value)
+    };
+    let all: Vec<f64> = text.lines().filter_map(value).collect();
+    (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clocks_are_averaged_where_they_are_told() {
+        let text = "processor\t: 0\ncpu MHz\t\t: 2000.000\n\nprocessor\t: 1\ncpu MHz\t\t: 3000.5\n";
+        assert_eq!(mean(text), Some(2500.25));
+        assert_eq!(mean("processor : 0\nBogoMIPS : 50.00\n"), None);
+        assert_eq!(mean("cpu MHz : nan\ncpu MHz : 0\n"), None);
+    }
+}
