@@ -5,7 +5,7 @@ use crate::prepared::PreparedScene;
 use crate::raster::SAMPLES;
 use crate::steps::Faithful;
 use crate::surface::depth_encoding;
-use crate::tiles::{Machine, Plan, TiledScene};
+use crate::tiles::{Machine, Plan, TiledScene, lines};
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
 use etalon_frame::{
     Api, ApiVersion, Feature, FormatSupport, Limits, PathValue, Property, ReadPath, TextureFormat,
@@ -82,6 +82,12 @@ impl CpuBackend {
             tiles: None,
         }
     }
+}
+
+/// Returns how a scene is drawn, in words: a line with the kernels of each draw, or the reason why the scene is left to
+/// the span code.
+pub fn kernels(scene: &Scene) -> Vec<String> {
+    lines(scene, LEAST_TEXELS)
 }
 
 impl Backend for CpuBackend {

@@ -17,7 +17,7 @@ pub mod steps;
 mod surface;
 mod tiles;
 
-pub use backend::CpuBackend;
+pub use backend::{CpuBackend, kernels};
 pub use prepared::PreparedScene;
 pub use surface::Surface;
 

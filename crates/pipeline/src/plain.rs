@@ -27,6 +27,24 @@ fn each<const N: usize, T: Copy, U: Copy + Default>(values: [T; N], f: impl Fn(T
     result
 }
 
+/// Returns a number held to 0 and 1; 0 for NaN.
+#[inline(always)]
+fn unit(v: f32) -> f32 {
+    let v = if v > 0.0 { v } else { 0.0 };
+    if v < 1.0 { v } else { 1.0 }
+}
+
+/// Returns the whole part of a number from 0 to below 2²². `as` is not turned into vector instructions, since it
+/// saturates.
+#[inline(always)]
+fn whole(v: f32) -> u32 {
+    // From here on floats are whole numbers, so that the sum is rounded to one, and its low bits are that number.
+    const WHOLE: f32 = 8_388_608.0;
+    let sum = v + WHOLE;
+    let up = sum - WHOLE > v;
+    (sum.to_bits() & 0x007f_ffff) - u32::from(up)
+}
+
 #[inline(always)]
 fn zip<const N: usize>(a: [f32; N], b: [f32; N], f: impl Fn(f32, f32) -> f32) -> [f32; N] {
     let mut result = a;
@@ -159,8 +177,7 @@ impl<const N: usize> Arithmetic for Plain<N> {
             // the nearest code is found to within 0.51 codes; a test compares with `nearest_order`.
             ChannelEncoding::Unorm(bits) if bits <= 16 => {
                 let scale = encoding.max_order() as f32;
-                // `as` maps NaN to 0. Vectors have conversions to signed numbers.
-                each(value, |v| (v.clamp(0.0, 1.0) * scale + 0.5) as i32 as u32)
+                each(value, |v| whole(unit(v) * scale + 0.5))
             }
             ChannelEncoding::Unorm(_) => {
                 let scale = encoding.max_order() as f64;
@@ -290,6 +307,20 @@ impl<const N: usize> Arithmetic for Plain<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn whole_parts_are_those_of_conversions() {
+        for i in 0..2_000_000_u32 {
+            // Halves, their neighbours, and what lies between.
+            let v = i as f32 / 2.0;
+            for v in [v, v.next_up(), v.next_down().max(0.0), v * 0.37] {
+                assert_eq!(whole(v), v as u32, "{v}");
+            }
+        }
+        let values = [-1.0, -0.0, 0.25, 1.0, 2.0, f32::INFINITY, f32::NEG_INFINITY];
+        assert_eq!(values.map(unit), values.map(|v| v.clamp(0.0, 1.0) + 0.0));
+        assert_eq!(unit(f32::NAN), 0.0);
+    }
 
     #[test]
     fn lanes_store_the_nearest_code() {

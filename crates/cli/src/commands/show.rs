@@ -18,6 +18,9 @@ pub(crate) struct Arguments {
     /// Write the reference picture of what is read back first to this file
     #[arg(long, value_name = "FILE")]
     pub(crate) png: Option<PathBuf>,
+    /// Print also how the adapter `cpu` draws it: the kernels of each draw, or why there are none
+    #[arg(long)]
+    pub(crate) kernels: bool,
     /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
@@ -43,6 +46,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     text.push('\n');
     for line in scene_text::lines(&case.scene) {
         text.push_str(&format!("{line}\n"));
+    }
+    if arguments.kernels {
+        text.push_str("\nkernels\n");
+        for line in etalon_cpu::kernels(&case.scene) {
+            text.push_str(&format!("  {line}\n"));
+        }
     }
     for variant in &case.variants {
         text.push_str(&format!("\nvariant {}\n", variant.name));

@@ -601,6 +601,22 @@ fn show_tells_a_case_and_draws_it() {
 }
 
 #[test]
+fn show_tells_the_kernels_of_a_case() {
+    let shown = |id: &str| {
+        let output = etalon(&["show", id, "--kernels"]).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let blended = shown("perf/blended-layers/size=256x256");
+    let due = "pass 0, draw 0: tiles; flat colours of vertices, a linear function of each code";
+    assert!(blended.contains(due), "{blended}");
+    let lines = shown("cull/lines");
+    assert!(
+        lines.contains("kernels\n  spans, since there is no kernel for "),
+        "{lines}"
+    );
+}
+
+#[test]
 fn a_run_has_its_cases_beside_its_page() {
     let out = tempfile::tempdir().unwrap();
     etalon(&[

@@ -1,6 +1,6 @@
 //! The depths of a triangle.
 
-use super::setup::{Triangle, point};
+use super::triangle::{Triangle, point};
 use crate::lanes::{Codes, LANES};
 use crate::linear::UNITS;
 use crate::steps::{Faithful, Steps};

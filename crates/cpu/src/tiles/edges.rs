@@ -1,7 +1,7 @@
 //! Edge functions, tile by tile and row by row.
 
 use super::lanes::Lane;
-use super::setup::{Triangle, clockwise};
+use super::triangle::{Triangle, clockwise};
 use crate::lanes::LANES;
 use crate::linear::UNITS;
 

@@ -12,6 +12,7 @@ mod depth_stencil;
 mod edges;
 mod image;
 mod lanes;
+mod listing;
 mod opaque;
 mod paint;
 mod plan;
@@ -20,7 +21,10 @@ mod scene;
 mod setup;
 mod texture;
 mod tile;
+mod triangle;
+mod work;
 
+pub(crate) use listing::lines;
 pub(crate) use plan::Plan;
 pub(crate) use scene::{Machine, TiledScene};
 

@@ -4,7 +4,7 @@ use super::TILE;
 use super::depth::Depths;
 use super::edges::Edges;
 use super::plan::DrawPlan;
-use super::tile::Work;
+use super::work::Work;
 use crate::lanes::LANES;
 use crate::linear::UNITS;
 use etalon_scene::{CompareFunction, DepthState};

@@ -385,6 +385,11 @@ impl Linear {
 }
 
 impl Kernel {
+    /// Returns true if the function leaves every texel as it is.
+    pub(crate) fn keeps(&self) -> bool {
+        matches!(self, Self::Keep)
+    }
+
     /// Applies the function to the texels that a mask holds, at a place of a sample's planes.
     #[inline(always)]
     pub(crate) fn masked(&self, planes: &mut [u32], at: usize, mask: &[Lane; LANES]) {

@@ -3,8 +3,9 @@
 use super::TILE;
 use super::image::{AREA, Image, texel, words};
 use super::plan::{PassPlan, Plan};
-use super::setup::{Input, Part, Placed, place};
+use super::setup::{Input, Part, place};
 use super::tile::{self, Layer, Tile};
+use super::triangle::Placed;
 use crate::pass::DISCARDED;
 use crate::steps::{Faithful, Steps};
 use crate::surface::depth_encoding;

@@ -3,14 +3,15 @@
 use super::TILE;
 use super::edges::{Edges, Touch};
 use super::image::Image;
-use super::paint::{Kernel, Paint};
+use super::paint::Paint;
 use super::plan::{DrawPlan, PassPlan, Shading};
 use super::texture::Texture;
+use super::triangle::{Placed, Triangle, point};
 use crate::lanes::LANES;
 use crate::linear::UNITS;
 use crate::raster::depth_bias;
 use crate::steps::{Faithful, Steps};
-use etalon_pipeline::{Plain, Point, front_facing, is_culled, signed_area, window_position};
+use etalon_pipeline::{Plain, front_facing, is_culled, window_position};
 use etalon_scene::{ColorTarget, Draw, LogicOperation, Multisample, PrimitiveVertices, Vertex};
 use std::ops::Range;
 
@@ -19,39 +20,6 @@ const FUNCTIONS: usize = 64;
 
 /// The paints that are known to later draws of a pass.
 const KNOWN: usize = 64;
-
-/// A vertex in the window.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Placed {
-    /// In sub-texel units.
-    pub(crate) at: [i32; 2],
-    pub(crate) z: f32,
-}
-
-/// A triangle that may cover samples.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Triangle {
-    /// In the order of the primitive, which the depth's plane depends on.
-    pub(crate) corners: [Placed; 3],
-    pub(crate) bias: f64,
-    /// The place of its vertices in its part, if its colour is a texture's.
-    pub(crate) vertices: u32,
-    /// The code of all its depths, if it is flat.
-    pub(crate) code: u32,
-    /// The place of its draw among the pass's kernels.
-    pub(crate) draw: u32,
-    /// The place of its paint in its part.
-    pub(crate) paint: u32,
-    /// The first and the last column and row of the texels that it may cover.
-    pub(crate) around: [i16; 4],
-    pub(crate) front: bool,
-    /// True if all of it has one depth.
-    pub(crate) flat: bool,
-    /// True if numbers of 32 bits hold its edge functions in its own surroundings.
-    pub(crate) small: bool,
-    /// True if scissor or viewport may cut it.
-    pub(crate) cut: bool,
-}
 
 /// The triangles of a range of a pass's primitives. Neighbours are filled by different threads, so that none may share
 /// a cache line.
@@ -455,28 +423,4 @@ pub(crate) fn tile_texels(pass: &PassPlan, [x, y]: [usize; 2]) -> [i32; 4] {
         (top + TILE).min(height),
     ];
     all.map(|v| v as i32)
-}
-
-/// Returns a position as the pipeline has it.
-pub(crate) fn point([x, y]: [i32; 2]) -> Point {
-    Point {
-        x: i64::from(x),
-        y: i64::from(y),
-    }
-}
-
-impl Kernel {
-    /// Returns true if the function leaves every texel as it is.
-    pub(crate) fn keeps(&self) -> bool {
-        matches!(self, Self::Keep)
-    }
-}
-
-/// Returns the clockwise order of a triangle's corners on the screen.
-pub(crate) fn clockwise(corners: &[Placed; 3]) -> [[i32; 2]; 3] {
-    let [a, b, c] = corners.map(|v| v.at);
-    match signed_area([a, b, c].map(point)) > 0 {
-        true => [a, c, b],
-        false => [a, b, c],
-    }
 }

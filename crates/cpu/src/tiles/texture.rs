@@ -1,7 +1,7 @@
 //! Textures: their nearest texels, as they are stored.
 
 use super::image::Image;
-use super::setup::{Triangle, point};
+use super::triangle::{Triangle, point};
 use crate::lanes::{Codes, LANES, Real};
 use crate::linear::{CENTER, UNITS};
 use etalon_pipeline::{DepthPlane, texel_position};

@@ -9,14 +9,16 @@ use super::edges::Edges;
 use super::image::{AREA, word};
 use super::lanes::{ALL, Lane, and, and_not, any, select, select_bytes};
 use super::opaque::{Opaque, Planes};
-use super::paint::{Kernel, Paint};
-use super::plan::{DrawPlan, PassPlan, Shading};
+use super::paint::Kernel;
+use super::plan::{PassPlan, Shading};
 use super::resolve::resolve;
-use super::setup::{Input, Part, Triangle, tile_texels};
-use super::texture::{Coordinates, Texture};
+use super::setup::{Input, Part, tile_texels};
+use super::texture::Coordinates;
+use super::triangle::Triangle;
+use super::work::Work;
 use crate::lanes::{Codes, LANES};
 use etalon_pipeline::shader::cost;
-use etalon_scene::{StencilFace, StencilOperation};
+use etalon_scene::StencilOperation;
 use fearless_simd::Simd;
 use std::hint::black_box;
 
@@ -81,17 +83,6 @@ pub(crate) struct Tile<'a> {
     pub(crate) resolved: &'a mut [u32],
     pub(crate) depth: Layer<'a, u32>,
     pub(crate) stencil: Layer<'a, u8>,
-}
-
-/// What the kernels read of a triangle in a tile.
-pub(crate) struct Work<'a> {
-    pub(crate) triangle: &'a Triangle,
-    pub(crate) plan: &'a DrawPlan,
-    face: Option<StencilFace>,
-    paint: &'a Paint,
-    /// The depths, unless the triangle is flat or none are tested.
-    pub(crate) depths: Option<Depths>,
-    texture: Option<(&'a Texture, Coordinates)>,
 }
 
 /// A tile being drawn.

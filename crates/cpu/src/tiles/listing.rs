@@ -1,0 +1,66 @@
+//! The kernels of a scene in words.
+
+use super::paint::{Kernel, Paint};
+use super::plan::{PassPlan, Plan, Shading};
+use etalon_scene::{Draw, Scene};
+
+/// Returns the kernels of a scene's draws, a line for each; or one line with the reason why it has none.
+pub(crate) fn lines(scene: &Scene, least: usize) -> Vec<String> {
+    let plan = match Plan::new(scene, least) {
+        Ok(plan) => plan,
+        Err(reason) => return vec![format!("spans, since there is no kernel for {reason}")],
+    };
+    let mut lines = Vec::new();
+    for (number, pass) in plan.passes.iter().enumerate() {
+        for draw_plan in &pass.draws {
+            let draw = &scene.passes[number].draws[draw_plan.index];
+            let mut line = format!("pass {number}, draw {}: tiles", draw_plan.index);
+            let colors = match draw_plan.shading {
+                Shading::Vertex => "flat colours of vertices",
+                Shading::Expensive(_) => "flat colours of vertices after work",
+                Shading::Facing => "a colour for each facing",
+                Shading::Uniform => "one colour",
+                Shading::Nothing => "no colour",
+                Shading::Texture { .. } => "nearest texels",
+            };
+            line.push_str(&format!(
+                "; {colors}, {}",
+                paint(draw, draw_plan.shading, pass)
+            ));
+            if let Some(depth) = &draw_plan.depth {
+                let write = if depth.write { ", written" } else { "" };
+                line.push_str(&format!("; depth {:?}{write}", depth.compare));
+            }
+            if draw_plan.stencil.is_some() {
+                line.push_str("; stencil");
+            }
+            if pass.positions.len() > 1 {
+                line.push_str(&format!("; {} samples", pass.positions.len()));
+            }
+            lines.push(line);
+        }
+    }
+    lines
+}
+
+/// Returns the kernel of a draw's first colour.
+fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
+    let color = match shading {
+        Shading::Texture { .. } => return "stored as they are",
+        Shading::Vertex | Shading::Expensive(_) => {
+            draw.mesh.vertices.first().map_or([0.0; 4], |v| v.color)
+        }
+        Shading::Facing | Shading::Uniform => draw.params.color,
+        Shading::Nothing => [0.0; 4],
+    };
+    let samples = pass.positions.len();
+    match Paint::new(draw, color, pass.channels, pass.logic, samples, false).kernel {
+        Kernel::Keep => "not written",
+        Kernel::Store(_) | Kernel::Replace(_) => "stored",
+        Kernel::Masked { .. } => "stored through a mask",
+        Kernel::Linear(_) => "a linear function of each code",
+        Kernel::Table(_) => "a table of each code",
+        Kernel::Lanes(_) => "plain arithmetic on bytes",
+        Kernel::Wide(_) => "plain arithmetic on codes",
+    }
+}

@@ -1,0 +1,19 @@
+//! A triangle in a tile, for its kernels.
+
+use super::depth::Depths;
+use super::paint::Paint;
+use super::plan::DrawPlan;
+use super::texture::{Coordinates, Texture};
+use super::triangle::Triangle;
+use etalon_scene::StencilFace;
+
+/// What the kernels read of a triangle in a tile.
+pub(crate) struct Work<'a> {
+    pub(crate) triangle: &'a Triangle,
+    pub(crate) plan: &'a DrawPlan,
+    pub(crate) face: Option<StencilFace>,
+    pub(crate) paint: &'a Paint,
+    /// The depths, unless the triangle is flat or none are tested.
+    pub(crate) depths: Option<Depths>,
+    pub(crate) texture: Option<(&'a Texture, Coordinates)>,
+}
