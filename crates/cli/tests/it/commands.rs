@@ -609,7 +609,7 @@ fn show_tells_the_kernels_of_a_case() {
     let blended = shown("perf/blended-layers/size=256x256");
     let due = "pass 0, draw 0: tiles; flat colours of vertices, a linear function of each code";
     assert!(blended.contains(due), "{blended}");
-    let lines = shown("cull/lines");
+    let lines = shown("stencil/masks-zero/compare=less/format=depth24plus-stencil8");
     assert!(
         lines.contains("kernels\n  spans, since there is no kernel for "),
         "{lines}"
