@@ -71,12 +71,11 @@ impl Depths {
         columns
     }
 
-    /// Returns the codes in a row of float depths that are in the range of all corners' depths.
+    /// Gives the codes in a row of float depths that are in the range of all corners' depths.
     #[inline(always)]
-    pub(crate) fn floats(&self, columns: &[f64; LANES], y: i32, sample: [i32; 2]) -> Codes {
+    pub(crate) fn floats(&self, columns: &[f64], y: i32, sample: [i32; 2], codes: &mut [u32]) {
         let down = f64::from(y * UNITS as i32 + sample[1] - self.origin[1]) * self.down;
         let [low, high] = self.ends;
-        let mut codes = [0; LANES];
         for (code, column) in codes.iter_mut().zip(columns) {
             let depth = (column + down) as f32;
             let depth = if depth < low { low } else { depth };
@@ -84,7 +83,6 @@ impl Depths {
             // Adding 0 removes the sign of a negative zero.
             *code = (depth + 0.0).to_bits();
         }
-        codes
     }
 
     /// Returns the codes at one point of the texels from one on.

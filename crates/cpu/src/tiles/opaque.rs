@@ -1,35 +1,85 @@
-//! Small opaque triangles: one colour, under a depth test or none.
+//! Opaque triangles: one colour, under a depth test or none.
 
 use super::TILE;
 use super::depth::Depths;
-use super::edges::Edges;
-use super::plan::DrawPlan;
-use super::work::Work;
+use super::edges::{Edges, Rows};
+use super::image::word;
+use super::paint::{Kernel, Paint};
+use super::plan::{DrawPlan, Shading};
+use super::triangle::Triangle;
 use crate::lanes::LANES;
-use crate::linear::UNITS;
-use etalon_scene::{CompareFunction, DepthState};
+use etalon_scene::CompareFunction;
 use fearless_simd::prelude::*;
-use fearless_simd::{i32x16, mask32x16, u32x16};
+use fearless_simd::{i32x8, i32x16, u32x8, u32x16};
 
 /// The lanes' numbers.
 const NUMBERS: [i32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
-/// A small triangle in a tile.
-pub(crate) struct Opaque<'a> {
-    edges: Edges<i32>,
-    depth: Option<DepthState>,
-    depths: Option<&'a Depths>,
-    code: u32,
+/// The lanes of narrow triangles.
+const NARROW: i32 = 8;
+
+/// What opaque triangles of a draw do to texels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Store {
+    /// The draw and the paint that it belongs to.
+    of: [u32; 2],
     /// The word that a texel of one word becomes.
     color: Option<u32>,
-    cut: bool,
-    /// The column of the first lanes, and the number of lanes side by side.
-    first: i32,
-    chunks: i32,
-    /// The first and the last row.
-    rows: [i32; 2],
-    /// The tile's left and top.
-    corner: [i32; 2],
+    /// Whether a code passes that is less than the stored one, equal and greater; `None` if depths are not tested.
+    passes: Option<[bool; 3]>,
+    /// True if the codes that pass are written.
+    write: bool,
+}
+
+impl Store {
+    /// Returns what a triangle does, if it is opaque.
+    #[inline(always)]
+    pub(crate) fn new(triangle: &Triangle, plan: &DrawPlan, paint: &Paint) -> Option<Self> {
+        let color = match &paint.kernel {
+            Kernel::Keep => None,
+            Kernel::Store(value) => Some(word(*value)),
+            Kernel::Replace(stored) if stored.words == 1 => Some(stored.values[0]),
+            _ => return None,
+        };
+        let shaded = matches!(
+            plan.shading,
+            Shading::Expensive(_) | Shading::Texture { .. }
+        );
+        (plan.stencil.is_none() && !shaded).then_some(Self {
+            of: [triangle.draw, triangle.paint],
+            color,
+            passes: plan.depth.map(|d| passing(d.compare)),
+            write: plan.depth.is_some_and(|d| d.write),
+        })
+    }
+
+    /// True if a triangle of the same part does the same.
+    #[inline(always)]
+    pub(crate) fn is_of(&self, triangle: &Triangle) -> bool {
+        self.of == [triangle.draw, triangle.paint]
+    }
+
+    /// True if texels are written.
+    #[inline(always)]
+    pub(crate) fn colors(&self) -> bool {
+        self.color.is_some()
+    }
+
+    /// True if depths are tested.
+    #[inline(always)]
+    pub(crate) fn tests(&self) -> bool {
+        self.passes.is_some()
+    }
+}
+
+/// An opaque triangle in a tile.
+pub(crate) struct Opaque<'a> {
+    pub(crate) store: &'a Store,
+    pub(crate) triangle: &'a Triangle,
+    pub(crate) edges: Edges,
+    pub(crate) depths: Option<Depths>,
+    /// Left, top, right and bottom of the tile's texels.
+    pub(crate) texels: [i32; 4],
 }
 
 /// A sample's planes and position.
@@ -43,10 +93,25 @@ pub(crate) struct Planes<'p> {
     pub(crate) depths: &'p mut [u32],
 }
 
+/// The lanes of a triangle's rows.
+#[derive(Clone, Copy)]
+struct Area {
+    /// The column of the first lanes, and the number of lanes side by side.
+    first: i32,
+    chunks: i32,
+    /// The first and the last row.
+    rows: [i32; 2],
+}
+
 /// The depth codes of a triangle.
 trait Source {
     /// Returns the codes of neighbouring texels of a row.
-    fn codes<S: Simd>(&mut self, simd: S, chunk: i32, texel: [i32; 2]) -> u32x16<S>;
+    fn codes<S: Simd, U: SimdInt<S, Element = u32>>(
+        &mut self,
+        simd: S,
+        chunk: i32,
+        texel: [i32; 2],
+    ) -> U;
 }
 
 /// One code.
@@ -54,8 +119,8 @@ struct Flat(u32);
 
 impl Source for Flat {
     #[inline(always)]
-    fn codes<S: Simd>(&mut self, simd: S, _: i32, _: [i32; 2]) -> u32x16<S> {
-        u32x16::splat(simd, self.0)
+    fn codes<S: Simd, U: SimdInt<S, Element = u32>>(&mut self, simd: S, _: i32, _: [i32; 2]) -> U {
+        U::splat(simd, self.0)
     }
 }
 
@@ -64,8 +129,13 @@ struct Any<'a>(&'a Depths, [i32; 2]);
 
 impl Source for Any<'_> {
     #[inline(always)]
-    fn codes<S: Simd>(&mut self, simd: S, _: i32, [x, y]: [i32; 2]) -> u32x16<S> {
-        u32x16::load_array(simd, self.0.codes(x, y, self.1))
+    fn codes<S: Simd, U: SimdInt<S, Element = u32>>(
+        &mut self,
+        simd: S,
+        _: i32,
+        [x, y]: [i32; 2],
+    ) -> U {
+        U::from_slice(simd, &self.0.codes(x, y, self.1)[..U::LEN])
     }
 }
 
@@ -80,163 +150,184 @@ struct Floats<'a> {
 
 impl Source for Floats<'_> {
     #[inline(always)]
-    fn codes<S: Simd>(&mut self, simd: S, chunk: i32, [x, y]: [i32; 2]) -> u32x16<S> {
+    fn codes<S: Simd, U: SimdInt<S, Element = u32>>(
+        &mut self,
+        simd: S,
+        chunk: i32,
+        [x, y]: [i32; 2],
+    ) -> U {
         if chunk != self.chunk {
             self.columns = self.depths.columns(x, self.position);
             self.chunk = chunk;
         }
-        let codes = self.depths.floats(&self.columns, y, self.position);
-        u32x16::load_array(simd, codes)
+        let mut codes = [0; LANES];
+        let columns = &self.columns[..U::LEN];
+        self.depths
+            .floats(columns, y, self.position, &mut codes[..U::LEN]);
+        U::from_slice(simd, &codes[..U::LEN])
     }
 }
 
-impl<'a> Opaque<'a> {
+impl Opaque<'_> {
+    /// Draws the covered texels of a sample.
     #[inline(always)]
-    pub(crate) fn new(work: &'a Work<'_>, texels: [i32; 4], color: Option<u32>) -> Self {
-        let triangle = work.triangle;
-        let [left, top, right, bottom] = texels;
-        let around = triangle.around.map(i32::from);
-        let lanes = LANES as i32;
+    pub(crate) fn draw<S: Simd>(&self, simd: S, planes: Planes<'_>) {
+        let [left, top, right, bottom] = self.texels;
+        let around = self.triangle.around.map(i32::from);
         let (start, last) = (around[0].max(left), around[2].min(right - 1));
+        let rows = [around[1].max(top), around[3].min(bottom - 1)];
         // What is narrow needs lanes once, wherever it stands.
+        let near = start.min(left + TILE as i32 - NARROW);
+        if last - near < NARROW {
+            let area = Area {
+                first: near,
+                chunks: 1,
+                rows,
+            };
+            return self.sample::<S, i32x8<S>, u32x8<S>>(simd, planes, area);
+        }
+        let lanes = LANES as i32;
         let near = start.min(left + TILE as i32 - lanes);
         let first = match last - near < lanes {
             true => near,
             false => start / lanes * lanes,
         };
-        let plan: &DrawPlan = work.plan;
-        Self {
-            edges: Edges::new(triangle),
-            depth: plan.depth,
-            depths: work.depths.as_ref(),
-            code: triangle.code,
-            color,
-            cut: triangle.cut,
+        let area = Area {
             first,
             chunks: (last - first) / lanes + 1,
-            rows: [around[1].max(top), around[3].min(bottom - 1)],
-            corner: [left, top],
-        }
+            rows,
+        };
+        self.sample::<S, i32x16<S>, u32x16<S>>(simd, planes, area);
     }
 
-    /// Draws the covered texels of a sample.
+    /// Draws the covered texels of a sample with lanes of a kind.
     #[inline(always)]
-    pub(crate) fn draw<S: Simd>(&self, simd: S, planes: Planes<'_>) {
+    fn sample<S, I, U>(&self, simd: S, planes: Planes<'_>, area: Area)
+    where
+        S: Simd,
+        I: SimdInt<S, Element = i32>,
+        U: SimdInt<S, Element = u32, Mask = I::Mask>,
+        I::Mask: Select<U>,
+    {
         let position = planes.position;
-        match self.depths {
-            _ if self.depth.is_none() => self.scan::<S, Flat, false>(simd, planes, Flat(0)),
-            None => self.scan::<S, Flat, true>(simd, planes, Flat(self.code)),
+        match &self.depths {
+            _ if !self.store.tests() => {
+                self.scan::<S, I, U, Flat, false>(simd, planes, area, Flat(0));
+            }
+            None => {
+                let source = Flat(self.triangle.code);
+                self.scan::<S, I, U, Flat, true>(simd, planes, area, source);
+            }
             Some(depths) if depths.are_floats() => {
                 let source = Floats {
                     depths,
                     position,
-                    columns: depths.columns(self.first, position),
+                    columns: depths.columns(area.first, position),
                     chunk: 0,
                 };
-                self.scan::<S, Floats<'_>, true>(simd, planes, source);
+                self.scan::<S, I, U, Floats<'_>, true>(simd, planes, area, source);
             }
-            Some(depths) => self.scan::<S, Any<'_>, true>(simd, planes, Any(depths, position)),
+            Some(depths) => {
+                let source = Any(depths, position);
+                self.scan::<S, I, U, Any<'_>, true>(simd, planes, area, source);
+            }
         }
     }
 
     /// Goes through rows and lanes, with depths or without.
     #[inline(always)]
-    fn scan<S: Simd, D: Source, const DEPTH: bool>(
+    fn scan<S, I, U, D, const DEPTH: bool>(
         &self,
         simd: S,
         planes: Planes<'_>,
+        area: Area,
         mut source: D,
-    ) {
+    ) where
+        S: Simd,
+        I: SimdInt<S, Element = i32>,
+        U: SimdInt<S, Element = u32, Mask = I::Mask>,
+        I::Mask: Select<U>,
+        D: Source,
+    {
         let Planes {
             position,
             rect,
             colors,
             depths,
         } = planes;
-        let units = UNITS as i32;
-        let numbers = i32x16::load_array(simd, NUMBERS);
-        let [across, down] = self.edges.growth();
-        let [first, last] = self.rows;
-        let at = self.edges.at([
-            self.first * units + position[0],
-            first * units + position[1],
-        ]);
+        let [left, top, ..] = self.texels;
+        let (lanes, zero) = (U::LEN as i32, I::splat(simd, 0));
+        let numbers = I::from_slice(simd, &NUMBERS[..I::LEN]);
+        let [first, last] = area.rows;
+        let Rows { at, across, down } = self.edges.rows(area.first, first, position);
         // Operations in closures would not be inlined.
         let mut values = [
-            numbers * (across[0] * units) + at[0],
-            numbers * (across[1] * units) + at[1],
-            numbers * (across[2] * units) + at[2],
+            numbers * across[0] + at[0],
+            numbers * across[1] + at[1],
+            numbers * across[2] + at[2],
         ];
-        let (lanes, zero) = (LANES as i32, i32x16::splat(simd, 0));
-        let write = self.depth.is_some_and(|d| d.write);
-        let [less, equal, greater] = self.passing();
+        let store = self.store;
+        let [less, equal, greater] = store.passes.unwrap_or_default();
         // Less and equal exclude one another, so that one of the three answers remains.
-        let less = mask32x16::splat(simd, less != greater);
-        let equal = mask32x16::splat(simd, equal != greater);
-        let greater = mask32x16::splat(simd, greater);
+        let less = I::Mask::splat(simd, less != greater);
+        let equal = I::Mask::splat(simd, equal != greater);
+        let greater = I::Mask::splat(simd, greater);
         let mut y = first;
         while y <= last {
-            let place = ((y - self.corner[1]) * TILE as i32 + self.first - self.corner[0]) as usize;
+            let place = ((y - top) * TILE as i32 + area.first - left) as usize;
             let mut chunk = 0;
             let mut here = values;
-            while chunk < self.chunks {
+            while chunk < area.chunks {
                 let mut covered = (here[0] | here[1] | here[2]).simd_ge(zero);
-                let x = self.first + chunk * lanes;
-                if self.cut {
+                let x = area.first + chunk * lanes;
+                if self.triangle.cut {
                     let columns = numbers + x;
                     let inside = columns.simd_ge(rect[0]) & columns.simd_lt(rect[2]);
                     let row = y >= rect[1] && y < rect[3];
-                    covered = covered & inside & mask32x16::splat(simd, row);
+                    covered = covered & inside & I::Mask::splat(simd, row);
                 }
                 let at = place + (chunk * lanes) as usize;
                 if DEPTH {
-                    let codes = source.codes(simd, chunk, [x, y]);
-                    let stored = row_lanes(depths, at);
-                    let old = u32x16::load_array_ref(simd, stored);
+                    let codes: U = source.codes(simd, chunk, [x, y]);
+                    let stored = &mut depths[at..at + U::LEN];
+                    let old = U::from_slice(simd, stored);
                     let below = codes.simd_lt(old) & less;
                     let same = codes.simd_eq(old) & equal;
                     covered &= greater ^ below ^ same;
-                    if write {
-                        covered.select(codes, old).store_array(stored);
+                    if store.write {
+                        covered.select(codes, old).store_slice(stored);
                     }
                 }
-                if let Some(color) = self.color {
-                    let stored = row_lanes(colors, at);
-                    let old = u32x16::load_array_ref(simd, stored);
-                    let new = u32x16::splat(simd, color);
-                    covered.select(new, old).store_array(stored);
+                if let Some(color) = store.color {
+                    let stored = &mut colors[at..at + U::LEN];
+                    let old = U::from_slice(simd, stored);
+                    let new = U::splat(simd, color);
+                    covered.select(new, old).store_slice(stored);
                 }
                 chunk += 1;
                 for (value, across) in here.iter_mut().zip(across) {
-                    *value += across * (lanes * units);
+                    *value += across * lanes;
                 }
             }
             for (value, down) in values.iter_mut().zip(down) {
-                *value += down * units;
+                *value += down;
             }
             y += 1;
         }
     }
-
-    /// Returns whether a code passes that is less than the stored one, equal and greater.
-    #[inline(always)]
-    fn passing(&self) -> [bool; 3] {
-        match self.depth.map(|d| d.compare) {
-            Some(CompareFunction::Never) => [false, false, false],
-            Some(CompareFunction::Less) => [true, false, false],
-            Some(CompareFunction::Equal) => [false, true, false],
-            Some(CompareFunction::LessEqual) => [true, true, false],
-            Some(CompareFunction::Greater) => [false, false, true],
-            Some(CompareFunction::NotEqual) => [true, false, true],
-            Some(CompareFunction::GreaterEqual) => [false, true, true],
-            Some(CompareFunction::Always) | None => [true, true, true],
-        }
-    }
 }
 
-/// Returns the lanes at a place of a plane.
+/// Returns whether a code passes that is less than the stored one, equal and greater.
 #[inline(always)]
-fn row_lanes(plane: &mut [u32], at: usize) -> &mut [u32; LANES] {
-    let (lanes, _) = plane[at..at + LANES].as_chunks_mut();
-    &mut lanes[0]
+fn passing(compare: CompareFunction) -> [bool; 3] {
+    match compare {
+        CompareFunction::Never => [false, false, false],
+        CompareFunction::Less => [true, false, false],
+        CompareFunction::Equal => [false, true, false],
+        CompareFunction::LessEqual => [true, true, false],
+        CompareFunction::Greater => [false, false, true],
+        CompareFunction::NotEqual => [true, false, true],
+        CompareFunction::GreaterEqual => [false, true, true],
+        CompareFunction::Always => [true, true, true],
+    }
 }

@@ -285,7 +285,6 @@ impl<'a> SetUp<'a> {
         let paint = self.paint(front, provoking);
         let flat = corners[0].z == corners[1].z && corners[0].z == corners[2].z;
         let bias = self.bias(&corners);
-        let within = |[low, high]: [i32; 2]| high - low <= super::edges::SMALL;
         let around = around.map(|v| v as i16);
         // Samples of a texel have rectangles of their own, which differ by a texel at most.
         let cut = left <= bounds[0] + 1
@@ -312,12 +311,15 @@ impl<'a> SetUp<'a> {
             around,
             front,
             flat,
-            small: within(wide) && within(high),
+            counter: area > 0,
             cut,
         };
+        // What covers a tile is wider and higher.
+        let side = TILE as i32 * units;
+        let covers = wide[1] - wide[0] > side && high[1] - high[0] > side;
         let index = self.part.triangles.len();
         self.part.triangles.push(triangle);
-        self.sort(index, &triangle);
+        self.sort(index, &triangle, covers);
     }
 
     /// Returns the bias of a triangle's depths.
@@ -385,15 +387,15 @@ impl<'a> SetUp<'a> {
         place
     }
 
-    /// Adds a triangle to the tiles that it touches.
+    /// Adds a triangle, which may cover tiles, to those that it touches.
     #[inline(always)]
-    fn sort(&mut self, index: usize, triangle: &Triangle) {
+    fn sort(&mut self, index: usize, triangle: &Triangle, covers: bool) {
         let [left, top, right, bottom] = triangle.around.map(|v| v as usize / TILE);
-        if left == right && top == bottom && triangle.small {
+        if left == right && top == bottom && !covers {
             self.part.bins[top * self.across + left].push(Entry::new(index, false));
             return;
         }
-        let edges = Edges::<i64>::new(triangle);
+        let edges = Edges::new(triangle);
         for y in top..=bottom {
             for x in left..=right {
                 let texels = tile_texels(self.pass, [x, y]);

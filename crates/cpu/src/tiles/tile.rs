@@ -6,11 +6,10 @@ use super::depth_stencil::{
     ANY, Decided, always_passes, compared, decided, operate, stencil_passes,
 };
 use super::edges::Edges;
-use super::image::{AREA, word};
+use super::image::AREA;
 use super::lanes::{ALL, Lane, and, and_not, any, select, select_bytes};
-use super::opaque::{Opaque, Planes};
-use super::paint::Kernel;
-use super::plan::{PassPlan, Shading};
+use super::opaque::{Opaque, Planes, Store};
+use super::plan::{DrawPlan, PassPlan, Shading};
 use super::resolve::resolve;
 use super::setup::{Input, Part, tile_texels};
 use super::texture::Coordinates;
@@ -120,16 +119,25 @@ pub(crate) fn draw<S: Simd>(
         tile,
     };
     for part in parts {
+        let mut last: Option<Store> = None;
         for entry in &part.bins[index] {
             let triangle = &part.triangles[entry.triangle()];
             let input = &inputs[triangle.draw as usize];
-            drawing.triangle(simd, triangle, input, part, entry.is_whole());
+            let whole = entry.is_whole();
+            match &last {
+                // The planes are ready for it.
+                Some(store) if !whole && store.is_of(triangle) => {
+                    drawing.opaque(simd, store, triangle, input, part);
+                }
+                _ => last = drawing.triangle(simd, triangle, input, part, whole),
+            }
         }
     }
     drawing.finish();
 }
 
 impl Drawing<'_, '_> {
+    /// Draws a triangle. Returns what it did to texels if it is opaque and covers a part of the tile.
     #[inline(always)]
     fn triangle<S: Simd>(
         &mut self,
@@ -138,43 +146,16 @@ impl Drawing<'_, '_> {
         input: &Input<'_>,
         part: &Part,
         whole: bool,
-    ) {
+    ) -> Option<Store> {
         let paint = &part.paints[triangle.paint as usize];
         let plan = input.plan;
         let face = plan
             .stencil
             .map(|s| if triangle.front { s.front } else { s.back });
-        let answer = match plan.depth {
-            None => Some(Decided::Pass),
-            Some(depth) if triangle.flat => decided(depth.compare, triangle.code, self.range),
-            Some(_) => None,
-        };
+        let answer = self.answer(triangle, plan);
         if (answer == Some(Decided::Fail) && face.is_none()) || paint.samples == 0 {
-            return;
+            return None;
         }
-        let depths = match (plan.depth, self.pass.depth) {
-            (Some(_), Some(encoding)) if !triangle.flat => {
-                Some(Depths::new(input.draw, triangle, encoding))
-            }
-            _ => None,
-        };
-        let work = Work {
-            triangle,
-            plan,
-            face,
-            paint,
-            depths,
-            texture: input.texture.as_ref().map(|texture| {
-                (
-                    texture,
-                    Coordinates::new(
-                        input.draw,
-                        triangle,
-                        &part.vertices[triangle.vertices as usize],
-                    ),
-                )
-            }),
-        };
         if !paint.kernel.keeps() {
             self.tile.color.touch(self.same);
         }
@@ -188,25 +169,62 @@ impl Drawing<'_, '_> {
         if self.same && !(whole && paint.samples & all == all) {
             self.expand();
         }
-        if whole || !self.opaque(simd, &work) {
-            self.samples(&work, whole, answer);
+        if !whole && let Some(store) = Store::new(triangle, plan, paint) {
+            self.opaque(simd, &store, triangle, input, part);
+            return Some(store);
         }
-        self.widen(&work, whole, answer);
+        let work = Work {
+            triangle,
+            plan,
+            face,
+            paint,
+            depths: self.depths(triangle, input),
+            texture: input.texture.as_ref().map(|texture| {
+                (
+                    texture,
+                    Coordinates::new(
+                        input.draw,
+                        triangle,
+                        &part.vertices[triangle.vertices as usize],
+                    ),
+                )
+            }),
+        };
+        self.samples(&work, whole, answer);
+        let all = whole && self.same && face.is_none() && work.texture.is_none();
+        self.widen(triangle, plan, all && answer == Some(Decided::Pass));
+        None
     }
 
-    /// Keeps the range of depths around what a triangle may have written.
+    /// Returns the answer of the depth test, if all texels have one.
     #[inline(always)]
-    fn widen(&mut self, work: &Work<'_>, whole: bool, answer: Option<Decided>) {
-        if !work.plan.depth.is_some_and(|d| d.write) {
+    fn answer(&self, triangle: &Triangle, plan: &DrawPlan) -> Option<Decided> {
+        match plan.depth {
+            None => Some(Decided::Pass),
+            Some(depth) if triangle.flat => decided(depth.compare, triangle.code, self.range),
+            Some(_) => None,
+        }
+    }
+
+    /// Returns the depths of a triangle, unless it is flat or none are tested.
+    #[inline(always)]
+    fn depths(&self, triangle: &Triangle, input: &Input<'_>) -> Option<Depths> {
+        match (input.plan.depth, self.pass.depth) {
+            (Some(_), Some(encoding)) if !triangle.flat => {
+                Some(Depths::new(input.draw, triangle, encoding))
+            }
+            _ => None,
+        }
+    }
+
+    /// Keeps the range of depths around what a triangle may have written, to all texels or some.
+    #[inline(always)]
+    fn widen(&mut self, triangle: &Triangle, plan: &DrawPlan, all: bool) {
+        if !plan.depth.is_some_and(|d| d.write) {
             return;
         }
-        let code = work.triangle.code;
-        let all = whole
-            && self.same
-            && work.face.is_none()
-            && work.texture.is_none()
-            && answer == Some(Decided::Pass);
-        self.range = match work.triangle.flat {
+        let code = triangle.code;
+        self.range = match triangle.flat {
             true if all => [code; 2],
             true => [self.range[0].min(code), self.range[1].max(code)],
             false => ANY,
@@ -284,44 +302,47 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Draws a small triangle that replaces colour, depth or both under a depth test. Returns false if it is another.
+    /// Draws a triangle that replaces colour, depth or both under a depth test.
     #[inline(always)]
-    fn opaque<S: Simd>(&mut self, simd: S, work: &Work<'_>) -> bool {
-        let color = match &work.paint.kernel {
-            Kernel::Keep => None,
-            Kernel::Store(value) => Some(word(*value)),
-            Kernel::Replace(stored) if stored.words == 1 => Some(stored.values[0]),
-            _ => return false,
-        };
-        let plain = work.face.is_none()
-            && !matches!(
-                work.plan.shading,
-                Shading::Expensive(_) | Shading::Texture { .. }
-            );
-        if !plain || !work.triangle.small {
-            return false;
+    fn opaque<S: Simd>(
+        &mut self,
+        simd: S,
+        store: &Store,
+        triangle: &Triangle,
+        input: &Input<'_>,
+        part: &Part,
+    ) {
+        let plan = input.plan;
+        if self.answer(triangle, plan) == Some(Decided::Fail) {
+            return;
         }
-        let opaque = Opaque::new(work, self.texels, color);
+        let opaque = Opaque {
+            store,
+            triangle,
+            edges: Edges::new(triangle),
+            depths: self.depths(triangle, input),
+            texels: self.texels,
+        };
+        let samples = part.paints[triangle.paint as usize].samples;
         for (sample, position) in self.pass.positions.iter().enumerate() {
-            if work.paint.samples & (1 << sample) == 0 {
+            if samples & (1 << sample) == 0 {
                 continue;
             }
-            let plane = sample * AREA..(sample + 1) * AREA;
             let planes = Planes {
                 position: *position,
-                rect: work.plan.rects[sample],
-                colors: match color {
-                    Some(_) => self.tile.color.sample(sample),
-                    None => &mut [],
+                rect: plan.rects[sample],
+                colors: match store.colors() {
+                    true => self.tile.color.sample(sample),
+                    false => &mut [],
                 },
-                depths: match work.plan.depth {
-                    Some(_) => &mut self.tile.depth.planes[plane],
-                    None => &mut [],
+                depths: match store.tests() {
+                    true => self.tile.depth.sample(sample),
+                    false => &mut [],
                 },
             };
             opaque.draw(simd, planes);
         }
-        true
+        self.widen(triangle, plan, false);
     }
 
     /// Draws the texels of one sample that a triangle covers: all of them if it covers the whole tile.
@@ -337,7 +358,7 @@ impl Drawing<'_, '_> {
         let first = around[0].max(left) / lanes * lanes;
         let (y_first, y_last) = (around[1].max(top), around[3].min(bottom - 1));
         let last = around[2].min(right - 1);
-        let edges = Edges::<i64>::new(triangle);
+        let edges = Edges::new(triangle);
         let mut rows = edges.rows(first, y_first, self.pass.positions[sample]);
         let rect = &work.plan.rects[sample];
         let cut = triangle.cut && !whole;

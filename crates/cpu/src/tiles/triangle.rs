@@ -1,6 +1,6 @@
 //! Triangles in the window.
 
-use etalon_pipeline::{Point, signed_area};
+use etalon_pipeline::Point;
 
 /// A vertex in the window.
 #[derive(Clone, Copy, Debug, Default)]
@@ -29,8 +29,8 @@ pub(crate) struct Triangle {
     pub(crate) front: bool,
     /// True if all of it has one depth.
     pub(crate) flat: bool,
-    /// True if numbers of 32 bits hold its edge functions in its own surroundings.
-    pub(crate) small: bool,
+    /// True if its corners stand counter-clockwise on the screen.
+    pub(crate) counter: bool,
     /// True if scissor or viewport may cut it.
     pub(crate) cut: bool,
 }
@@ -43,10 +43,11 @@ pub(crate) fn point([x, y]: [i32; 2]) -> Point {
     }
 }
 
-/// Returns the clockwise order of a triangle's corners on the screen.
-pub(crate) fn clockwise(corners: &[Placed; 3]) -> [[i32; 2]; 3] {
-    let [a, b, c] = corners.map(|v| v.at);
-    match signed_area([a, b, c].map(point)) > 0 {
+/// Returns the corners in clockwise order on the screen.
+#[inline(always)]
+pub(crate) fn clockwise(triangle: &Triangle) -> [[i32; 2]; 3] {
+    let [a, b, c] = [0, 1, 2].map(|i: usize| triangle.corners[i].at);
+    match triangle.counter {
         true => [a, c, b],
         false => [a, b, c],
     }
