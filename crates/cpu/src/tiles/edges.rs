@@ -1,6 +1,6 @@
 //! Edge functions, tile by tile and row by row.
 
-use super::lanes::Lane;
+use super::lanes::{ALL, Lane, any};
 use super::triangle::{Triangle, clockwise};
 use crate::lanes::LANES;
 use crate::linear::UNITS;
@@ -124,29 +124,36 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// Goes to the next row.
+    /// Returns the rows behind so many others.
     #[inline(always)]
-    pub(crate) fn next(&mut self) {
-        for (at, down) in self.at.iter_mut().zip(self.down) {
-            *at += down;
+    pub(crate) fn behind(&self, rows: i32) -> Self {
+        let ([a, b, c], [d, e, f]) = (self.at, self.down);
+        Self {
+            at: [a + d * rows, b + e * rows, c + f * rows],
+            ..*self
         }
     }
 
-    /// Returns the covered texels of the lanes that stand this many times their number behind the first.
+    /// Returns the covered lanes of those that stand so many texels behind the first; `None` if there are none.
     #[inline(always)]
-    pub(crate) fn covered(&self, chunk: i32) -> [Lane; LANES] {
-        let mut result = [0; LANES];
-        let mut at = self.at;
-        for (at, across) in at.iter_mut().zip(self.across) {
-            *at += across * (chunk * LANES as i32);
+    pub(crate) fn covered(&self, texels: i32) -> Option<[Lane; LANES]> {
+        // Each value by itself: in an array they would go through memory row by row.
+        let ([a, b, c], [d, e, f]) = (self.at, self.across);
+        let (a, b, c) = (a + d * texels, b + e * texels, c + f * texels);
+        let last = LANES as i32 - 1;
+        let (g, h, i) = (a + d * last, b + e * last, c + f * last);
+        if (a & g) | (b & h) | (c & i) < 0 {
+            return None;
         }
+        if (a | g) | (b | h) | (c | i) >= 0 {
+            return Some(ALL);
+        }
+        let mut result = [0; LANES];
         for (lane, result) in result.iter_mut().enumerate() {
-            let mut bits = 0;
-            for (at, across) in at.iter().zip(self.across) {
-                bits |= at + across * lane as i32;
-            }
+            let lane = lane as i32;
+            let bits = (a + d * lane) | (b + e * lane) | (c + f * lane);
             *result = !(bits >> 31);
         }
-        result
+        any(&result).then_some(result)
     }
 }

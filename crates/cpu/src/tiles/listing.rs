@@ -60,6 +60,8 @@ fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
         Kernel::Masked { .. } => "stored through a mask",
         Kernel::Linear(_) => "a linear function of each code",
         Kernel::Table(_) => "a table of each code",
+        Kernel::Weighted(_) => "factors of few channels",
+        Kernel::Affine(_) => "a product and a sum in each channel",
         Kernel::Lanes(_) => "plain arithmetic on bytes",
         Kernel::Wide(_) => "plain arithmetic on codes",
     }

@@ -11,6 +11,7 @@ use crate::lanes::LANES;
 use crate::linear::UNITS;
 use crate::raster::depth_bias;
 use crate::steps::{Faithful, Steps};
+use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Plain, front_facing, is_culled, window_position};
 use etalon_scene::{ColorTarget, Draw, LogicOperation, Multisample, PrimitiveVertices, Vertex};
 use std::ops::Range;
@@ -217,6 +218,8 @@ struct SetUp<'a> {
     part: &'a mut Part,
     /// The first of the draw's paints.
     first: usize,
+    /// The last code of a flat triangle's depths, with depth and bias.
+    code: Option<([u64; 2], u32)>,
     /// The last paint with its colour.
     last: Option<([u32; 4], u32)>,
     /// The least and the greatest offset of samples across and down.
@@ -237,6 +240,7 @@ impl<'a> SetUp<'a> {
             number,
             first: part.paints.len(),
             part,
+            code: None,
             last: None,
             samples: [ends(0), ends(1)],
             across: pass.size[0].div_ceil(TILE),
@@ -300,10 +304,7 @@ impl<'a> SetUp<'a> {
             bias,
             vertices: side,
             code: match (flat, self.pass.depth) {
-                (true, Some(encoding)) => {
-                    let depth = super::depth::held(self.draw, corners[0].z, bias);
-                    Faithful.depth_codes(encoding, [depth; LANES])[0]
-                }
+                (true, Some(encoding)) => self.code(encoding, corners[0].z, bias),
                 _ => 0,
             },
             draw: self.number as u32,
@@ -320,6 +321,21 @@ impl<'a> SetUp<'a> {
         let index = self.part.triangles.len();
         self.part.triangles.push(triangle);
         self.sort(index, &triangle, covers);
+    }
+
+    /// Returns the code of a flat triangle's depths.
+    #[inline(always)]
+    fn code(&mut self, encoding: ChannelEncoding, depth: f32, bias: f64) -> u32 {
+        let of = [u64::from(depth.to_bits()), bias.to_bits()];
+        if let Some((last, code)) = self.code
+            && last == of
+        {
+            return code;
+        }
+        let depth = super::depth::held(self.draw, depth, bias);
+        let code = Faithful.depth_codes(encoding, [depth; LANES])[0];
+        self.code = Some((of, code));
+        code
     }
 
     /// Returns the bias of a triangle's depths.

@@ -124,12 +124,12 @@ pub(crate) fn draw<S: Simd>(
             let triangle = &part.triangles[entry.triangle()];
             let input = &inputs[triangle.draw as usize];
             let whole = entry.is_whole();
-            match &last {
-                // The planes are ready for it.
-                Some(store) if !whole && store.is_of(triangle) => {
-                    drawing.opaque(simd, store, triangle, input, part);
-                }
-                _ => last = drawing.triangle(simd, triangle, input, part, whole),
+            // The planes are ready for another triangle of the same draw and paint.
+            if whole || last.as_ref().is_none_or(|store| !store.is_of(triangle)) {
+                last = drawing.triangle(triangle, input, part, whole);
+            }
+            if let Some(store) = &last {
+                drawing.opaque(simd, store, triangle, input, part);
             }
         }
     }
@@ -137,11 +137,11 @@ pub(crate) fn draw<S: Simd>(
 }
 
 impl Drawing<'_, '_> {
-    /// Draws a triangle. Returns what it did to texels if it is opaque and covers a part of the tile.
+    /// Draws a triangle. One that is opaque and covers a part of the tile is left to [`opaque`](Self::opaque): what it
+    /// does to texels is returned, and the planes are ready for it.
     #[inline(always)]
-    fn triangle<S: Simd>(
+    fn triangle(
         &mut self,
-        simd: S,
         triangle: &Triangle,
         input: &Input<'_>,
         part: &Part,
@@ -169,9 +169,9 @@ impl Drawing<'_, '_> {
         if self.same && !(whole && paint.samples & all == all) {
             self.expand();
         }
-        if !whole && let Some(store) = Store::new(triangle, plan, paint) {
-            self.opaque(simd, &store, triangle, input, part);
-            return Some(store);
+        let store = Store::new(triangle, plan, paint).filter(|_| !whole);
+        if store.is_some() {
+            return store;
         }
         let work = Work {
             triangle,
@@ -359,13 +359,21 @@ impl Drawing<'_, '_> {
         let (y_first, y_last) = (around[1].max(top), around[3].min(bottom - 1));
         let last = around[2].min(right - 1);
         let edges = Edges::new(triangle);
-        let mut rows = edges.rows(first, y_first, self.pass.positions[sample]);
+        let rows = edges.rows(first, y_first, self.pass.positions[sample]);
         let rect = &work.plan.rects[sample];
         let cut = triangle.cut && !whole;
         for y in y_first..=y_last {
+            let row = rows.behind(y - y_first);
             for chunk in 0..=(last - first) / lanes {
                 let x = first + chunk * lanes;
-                let mut mask = if whole { ALL } else { rows.covered(chunk) };
+                let covered = if whole {
+                    Some(ALL)
+                } else {
+                    row.covered(x - first)
+                };
+                let Some(mut mask) = covered else {
+                    continue;
+                };
                 if cut {
                     if y < rect[1] || y >= rect[3] {
                         continue;
@@ -375,11 +383,8 @@ impl Drawing<'_, '_> {
                         *covered &= -Lane::from(x >= rect[0] && x < rect[2]);
                     }
                 }
-                if any(&mask) {
-                    self.fragments(work, sample, [x, y], mask);
-                }
+                self.fragments(work, sample, [x, y], mask);
             }
-            rows.next();
         }
     }
 
