@@ -60,7 +60,7 @@ impl Linear {
         for i in 0..BYTES {
             let code = u16::from(bytes[i] ^ self.invert[i]);
             // 256 times the code times the fraction, in two parts that 16 bits hold.
-            let product = code * self.upper[i] + (code * self.lower[i] >> 8);
+            let product = code * self.upper[i] + ((code * self.lower[i]) >> 8);
             let sum = product
                 .saturating_add(self.plus[i])
                 .saturating_sub(self.minus[i]);
@@ -142,7 +142,7 @@ impl Channel {
 /// Returns 256 times a code times a 16-bit fraction.
 #[inline(always)]
 fn product(code: u8, factor: u16) -> u16 {
-    (u32::from(code) * u32::from(factor) >> 8) as u16
+    ((u32::from(code) * u32::from(factor)) >> 8) as u16
 }
 
 #[cfg(test)]
@@ -157,7 +157,7 @@ mod tests {
             std::array::from_fn(|i| (i + 10).min(255) as u8),
             std::array::from_fn(|i| (i * 3 / 4).saturating_sub(20) as u8),
         ];
-        let function = Linear::fitted(&tables, [0.5, -1.0, 1.0, 0.75]).unwrap();
+        let function = Linear::fitted(&tables, [0.5, -1.0, 1.0, 0.75]).expect("they are linear");
         for code in 0..=255_u8 {
             let bytes = function.applied(&[code; BYTES]);
             for (i, byte) in bytes.into_iter().enumerate() {

@@ -3,10 +3,11 @@
 use super::TILE;
 use super::edges::{Edges, Touch};
 use super::image::Image;
+use super::opaque::NARROW;
 use super::paint::Paint;
 use super::plan::{DrawPlan, PassPlan, Shading};
 use super::texture::Texture;
-use super::triangle::{Placed, Triangle, point};
+use super::triangle::{Placed, Rare, Shape, Triangle, point};
 use crate::lanes::LANES;
 use crate::linear::UNITS;
 use crate::raster::depth_bias;
@@ -31,8 +32,8 @@ pub(crate) struct Part {
     pub(crate) paints: Vec<Paint>,
     /// The first paints of draws, with all that they depend on.
     known: Vec<(Ingredients, u32)>,
-    /// The vertices of triangles with textures.
-    pub(crate) vertices: Vec<[u32; 3]>,
+    /// What few triangles have.
+    rare: Vec<Rare>,
     /// The entries of each tile, in the order of drawing.
     pub(crate) bins: Vec<Vec<Entry>>,
 }
@@ -153,9 +154,18 @@ impl Part {
         self.triangles.clear();
         self.paints.clear();
         self.known.clear();
-        self.vertices.clear();
+        self.rare.clear();
         self.bins.iter_mut().for_each(Vec::clear);
         self.bins.resize_with(tiles, Vec::new);
+    }
+
+    /// Returns what few triangles have of a triangle.
+    #[inline(always)]
+    pub(crate) fn rare(&self, triangle: &Triangle) -> Rare {
+        self.rare
+            .get(triangle.rare as usize)
+            .copied()
+            .unwrap_or_default()
     }
 
     /// Sets up and sorts the primitives of a range of the pass's numbers.
@@ -295,14 +305,29 @@ impl<'a> SetUp<'a> {
             || top <= bounds[1] + 1
             || right >= bounds[2] - 2
             || bottom >= bounds[3] - 2;
-        let side = self.part.vertices.len() as u32;
-        if let Shading::Texture { .. } = self.plan.shading {
-            self.part.vertices.push(vertices.map(|i| i as u32));
-        }
+        let textured = matches!(self.plan.shading, Shading::Texture { .. });
+        let rare = match textured || bias != 0.0 {
+            true => {
+                let vertices = vertices.map(|i| i as u32);
+                self.part.rare.push(Rare { bias, vertices });
+                self.part.rare.len() as u32 - 1
+            }
+            false => u32::MAX,
+        };
+        // What covers a tile is wider and higher.
+        let side = TILE as i32 * units;
+        let covers = wide[1] - wide[0] > side && high[1] - high[0] > side;
+        let tiles = around.map(|v| v as usize / TILE);
+        let narrow = i32::from(around[2] - around[0]) < NARROW;
+        let near = wide[1] - wide[0] <= side && high[1] - high[0] <= side;
+        let shape = match flat {
+            true if narrow && near && !cut && tiles[..2] == tiles[2..] => Shape::Small,
+            true => Shape::Flat,
+            false => Shape::Sloped,
+        };
         let triangle = Triangle {
             corners,
-            bias,
-            vertices: side,
+            rare,
             code: match (flat, self.pass.depth) {
                 (true, Some(encoding)) => self.code(encoding, corners[0].z, bias),
                 _ => 0,
@@ -311,13 +336,10 @@ impl<'a> SetUp<'a> {
             paint,
             around,
             front,
-            flat,
+            shape,
             counter: area > 0,
             cut,
         };
-        // What covers a tile is wider and higher.
-        let side = TILE as i32 * units;
-        let covers = wide[1] - wide[0] > side && high[1] - high[0] > side;
         let index = self.part.triangles.len();
         self.part.triangles.push(triangle);
         self.sort(index, &triangle, covers);

@@ -11,9 +11,9 @@ use super::lanes::{ALL, Lane, and, and_not, any, select, select_bytes};
 use super::opaque::{Opaque, Planes, Store};
 use super::plan::{DrawPlan, PassPlan, Shading};
 use super::resolve::resolve;
-use super::setup::{Input, Part, tile_texels};
+use super::setup::{Entry, Input, Part, tile_texels};
 use super::texture::Coordinates;
-use super::triangle::Triangle;
+use super::triangle::{Shape, Triangle};
 use super::work::Work;
 use crate::lanes::{Codes, LANES};
 use etalon_pipeline::shader::cost;
@@ -120,7 +120,8 @@ pub(crate) fn draw<S: Simd>(
     };
     for part in parts {
         let mut last: Option<Store> = None;
-        for entry in &part.bins[index] {
+        let mut entries = part.bins[index].as_slice();
+        while let [entry, rest @ ..] = entries {
             let triangle = &part.triangles[entry.triangle()];
             let input = &inputs[triangle.draw as usize];
             let whole = entry.is_whole();
@@ -128,9 +129,16 @@ pub(crate) fn draw<S: Simd>(
             if whole || last.as_ref().is_none_or(|store| !store.is_of(triangle)) {
                 last = drawing.triangle(triangle, input, part, whole);
             }
-            if let Some(store) = &last {
-                drawing.opaque(simd, store, triangle, input, part);
-            }
+            entries = match &last {
+                Some(store) if triangle.shape == Shape::Small => {
+                    drawing.small(simd, store, entries, input, part)
+                }
+                Some(store) => {
+                    drawing.opaque(simd, store, triangle, input, part);
+                    rest
+                }
+                None => rest,
+            };
         }
     }
     drawing.finish();
@@ -178,15 +186,11 @@ impl Drawing<'_, '_> {
             plan,
             face,
             paint,
-            depths: self.depths(triangle, input),
+            depths: self.depths(triangle, input, part),
             texture: input.texture.as_ref().map(|texture| {
                 (
                     texture,
-                    Coordinates::new(
-                        input.draw,
-                        triangle,
-                        &part.vertices[triangle.vertices as usize],
-                    ),
+                    Coordinates::new(input.draw, triangle, &part.rare(triangle).vertices),
                 )
             }),
         };
@@ -201,17 +205,18 @@ impl Drawing<'_, '_> {
     fn answer(&self, triangle: &Triangle, plan: &DrawPlan) -> Option<Decided> {
         match plan.depth {
             None => Some(Decided::Pass),
-            Some(depth) if triangle.flat => decided(depth.compare, triangle.code, self.range),
+            Some(depth) if triangle.is_flat() => decided(depth.compare, triangle.code, self.range),
             Some(_) => None,
         }
     }
 
     /// Returns the depths of a triangle, unless it is flat or none are tested.
     #[inline(always)]
-    fn depths(&self, triangle: &Triangle, input: &Input<'_>) -> Option<Depths> {
+    fn depths(&self, triangle: &Triangle, input: &Input<'_>, part: &Part) -> Option<Depths> {
         match (input.plan.depth, self.pass.depth) {
-            (Some(_), Some(encoding)) if !triangle.flat => {
-                Some(Depths::new(input.draw, triangle, encoding))
+            (Some(_), Some(encoding)) if !triangle.is_flat() => {
+                let bias = part.rare(triangle).bias;
+                Some(Depths::new(input.draw, triangle, bias, encoding))
             }
             _ => None,
         }
@@ -224,7 +229,7 @@ impl Drawing<'_, '_> {
             return;
         }
         let code = triangle.code;
-        self.range = match triangle.flat {
+        self.range = match triangle.is_flat() {
             true if all => [code; 2],
             true => [self.range[0].min(code), self.range[1].max(code)],
             false => ANY,
@@ -320,7 +325,7 @@ impl Drawing<'_, '_> {
             store,
             triangle,
             edges: Edges::new(triangle),
-            depths: self.depths(triangle, input),
+            depths: self.depths(triangle, input, part),
             texels: self.texels,
         };
         let samples = part.paints[triangle.paint as usize].samples;
@@ -343,6 +348,52 @@ impl Drawing<'_, '_> {
             opaque.draw(simd, planes);
         }
         self.widen(triangle, plan, false);
+    }
+
+    /// Draws the small triangles that entries begin with, as long as they do the same to texels as the first. Returns
+    /// the other entries.
+    #[inline(always)]
+    fn small<'e, S: Simd>(
+        &mut self,
+        simd: S,
+        store: &Store,
+        entries: &'e [Entry],
+        input: &Input<'_>,
+        part: &Part,
+    ) -> &'e [Entry] {
+        let is_alike = |entry: &&Entry| {
+            let triangle = &part.triangles[entry.triangle()];
+            triangle.shape == Shape::Small && store.is_of(triangle) && !entry.is_whole()
+        };
+        let count = entries.iter().take_while(is_alike).count();
+        let (alike, others) = entries.split_at(count);
+        let triangles = alike.iter().map(|e| &part.triangles[e.triangle()]);
+        let [first, ..] = alike else {
+            return others;
+        };
+        let samples = part.paints[part.triangles[first.triangle()].paint as usize].samples;
+        for (sample, position) in self.pass.positions.iter().enumerate() {
+            if samples & (1 << sample) == 0 {
+                continue;
+            }
+            let planes = Planes {
+                position: *position,
+                rect: input.plan.rects[sample],
+                colors: match store.colors() {
+                    true => self.tile.color.sample(sample),
+                    false => &mut [],
+                },
+                depths: match store.tests() {
+                    true => self.tile.depth.sample(sample),
+                    false => &mut [],
+                },
+            };
+            store.small(simd, triangles.clone(), planes, self.texels);
+        }
+        for triangle in triangles {
+            self.widen(triangle, input.plan, false);
+        }
+        others
     }
 
     /// Draws the texels of one sample that a triangle covers: all of them if it covers the whole tile.
