@@ -99,14 +99,28 @@ impl Changes {
     }
 }
 
-/// A series as measured, in units of the ruler, and the ruler's own.
+/// The logarithms of a series, of the ruler, and of the series in units of the ruler: as measured, and without a
+/// drift that goes through all of it.
 struct Logs {
-    raw: Sums,
+    measured: Sums,
+    measured_ruler: Option<Sums>,
+    level: Sums,
     ruled: Option<[Sums; 2]>,
 }
 
+/// The changes of a series, and the series without its drift. What looks like stairs with a drift in each is looked at
+/// again without that drift.
+fn without_drift(sums: Sums) -> (Vec<usize>, Sums) {
+    let places = segmentation::places(&sums);
+    match sums.without_drift(&places) {
+        Some(level) => (segmentation::places(&level), level),
+        None => (places, sums),
+    }
+}
+
 impl Logs {
-    fn new(points: &[Point]) -> Self {
+    /// The logarithms, and the changes that they show as measured and in units of the ruler.
+    fn new(points: &[Point]) -> (Self, [Vec<usize>; 2]) {
         let times: Vec<f64> = points.iter().map(|p| p.median.ln()).collect();
         let deviations = upper_normal((1.0 - CONFIDENCE) / 2.0);
         let error = |p: &Point| {
@@ -114,24 +128,34 @@ impl Logs {
                 .map_or(0.0, |[low, high]| (high / low).ln() / 2.0 / deviations)
         };
         let errors: Vec<f64> = points.iter().map(error).collect();
+        let measured = || Sums::new(clean(&times), &errors);
+        let (places, level) = without_drift(measured());
         let rulers: Option<Vec<f64>> = points.iter().map(|p| Some(p.ruler?.ln())).collect();
-        let ruled = rulers.map(|rulers| {
-            let ruled: Vec<f64> = times.iter().zip(&rulers).map(|(t, r)| t - r).collect();
-            let exact = vec![0.0; rulers.len()];
-            [
-                Sums::new(clean(&ruled), &errors),
-                Sums::new(clean(&rulers), &exact),
-            ]
-        });
-        Self {
-            raw: Sums::new(clean(&times), &errors),
-            ruled,
-        }
+        let Some(rulers) = rulers else {
+            let logs = Self {
+                measured: measured(),
+                measured_ruler: None,
+                level,
+                ruled: None,
+            };
+            return (logs, [places, Vec::new()]);
+        };
+        let ruled: Vec<f64> = times.iter().zip(&rulers).map(|(t, r)| t - r).collect();
+        let (hidden, ruled) = without_drift(Sums::new(clean(&ruled), &errors));
+        let ruler = || Sums::new(clean(&rulers), &vec![0.0; rulers.len()]);
+        let level_ruler = ruler().without_drift(&places).unwrap_or_else(ruler);
+        let logs = Self {
+            measured: measured(),
+            measured_ruler: Some(ruler()),
+            level,
+            ruled: Some([ruled, level_ruler]),
+        };
+        (logs, [places, hidden])
     }
 
     /// The tests of a step as measured, in units of the ruler, and of the ruler.
     fn tests(&self, [from, place, to]: [usize; 3]) -> (Test, Option<[Test; 2]>) {
-        let raw = segmentation::test(&self.raw, from, place, to);
+        let raw = segmentation::test(&self.level, from, place, to);
         let ruled = self.ruled.as_ref().map(|[ruled, ruler]| {
             let ruled = segmentation::test(ruled, from, place, to);
             [ruled, ruler.step(from, place, to)]
@@ -148,14 +172,13 @@ impl Logs {
 }
 
 fn analyze(points: &[Point]) -> Changes {
-    let logs = Logs::new(points);
     let runs = points.len();
-    let raw = segmentation::places(&logs.raw);
+    let (logs, [raw, hidden]) = Logs::new(points);
     // A machine that changes its pace all the time hides steps of the times, and none in units of the ruler.
     let mut found: Vec<(usize, bool)> = raw.iter().map(|place| (*place, false)).collect();
-    if let Some([ruled, _]) = &logs.ruled {
+    if !hidden.is_empty() {
         let far = |place: &usize| raw.iter().all(|other| place.abs_diff(*other) >= MIN_RUNS);
-        let hidden = segmentation::places(ruled).into_iter().filter(far);
+        let hidden = hidden.into_iter().filter(far);
         found.extend(hidden.map(|place| (place, true)));
         found.sort_unstable();
         let around = neighbourhoods(&found, runs);
@@ -170,7 +193,7 @@ fn analyze(points: &[Point]) -> Changes {
     Changes {
         points: changes.collect(),
         drifts: drifts(&logs, &places),
-        noise: logs.raw.noise(&places),
+        noise: logs.level.noise(&places),
         runs,
     }
 }
@@ -190,14 +213,14 @@ fn change(logs: &Logs, around: [usize; 3], hidden: bool) -> ChangePoint {
     let (raw, ruled) = logs.tests(around);
     let (sums, test) = match (&logs.ruled, &ruled) {
         (Some([sums, _]), Some([test, _])) if hidden => (sums, test),
-        _ => (&logs.raw, &raw),
+        _ => (&logs.level, &raw),
     };
     let [first, last] = sums.places(from, place, to);
     ChangePoint {
         index: place,
         between: [first - 1, last],
-        before: logs.raw.mean(from, place).exp(),
-        after: logs.raw.mean(place, to).exp(),
+        before: logs.measured.mean(from, place).exp(),
+        after: logs.measured.mean(place, to).exp(),
         ratio: ratio(&raw),
         ruled: ruled.as_ref().map(|[ruled, _]| ratio(ruled)),
         ruler: ruled.as_ref().map(|[_, ruler]| ratio(ruler)),
@@ -209,14 +232,17 @@ fn change(logs: &Logs, around: [usize; 3], hidden: bool) -> ChangePoint {
 }
 
 fn drifts(logs: &Logs, places: &[usize]) -> Vec<Drift> {
-    let runs = logs.raw.values().len();
+    let runs = logs.measured.values().len();
     let mut found = Vec::new();
     let mut from = 0;
     for to in places.iter().copied().chain([runs]) {
         if to - from >= MIN_DRIFT {
-            let climb = logs.raw.climb(from, to);
+            let climb = logs.measured.climb(from, to);
             if climb.p() <= LEVEL && climb.shift.abs() >= MINIMUM.ln() {
-                let ruler = logs.ruled.as_ref().map(|[_, ruler]| ruler.climb(from, to));
+                let ruler = logs
+                    .measured_ruler
+                    .as_ref()
+                    .map(|ruler| ruler.climb(from, to));
                 let along = |ruler: Test| {
                     let enough = BEYOND_RULER * ruler.shift.abs() > climb.shift.abs();
                     enough && ruler.shift * climb.shift > 0.0 && ruler.p() <= LEVEL

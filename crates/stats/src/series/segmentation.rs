@@ -81,11 +81,7 @@ struct Candidate {
 fn remove(sums: &Sums, found: &mut BTreeSet<usize>) {
     let runs = sums.values().len();
     let mut places: Vec<usize> = found.iter().copied().collect();
-    let judged = |places: &[usize], at: usize| {
-        let from = at.checked_sub(1).map_or(0, |before| places[before]);
-        let to = places.get(at + 1).copied().unwrap_or(runs);
-        judge(sums, from, places[at], to)
-    };
+    let judged = |places: &[usize], at: usize| judge(sums, places, at, runs);
     let mut all: Vec<Candidate> = (0..places.len()).map(|at| judged(&places, at)).collect();
     loop {
         let failing = all.iter().enumerate().filter(|(_, c)| !c.holds);
@@ -95,31 +91,42 @@ fn remove(sums: &Sums, found: &mut BTreeSet<usize>) {
         };
         all.remove(at);
         places.remove(at);
-        for near in [at.checked_sub(1), Some(at)].into_iter().flatten() {
-            if near < places.len() {
-                all[near] = judged(&places, near);
-            }
+        // Those too near to each other look past one another, so that more than two may see the gap.
+        for near in at.saturating_sub(MIN_RUNS)..places.len().min(at + MIN_RUNS) {
+            all[near] = judged(&places, near);
         }
     }
     *found = all.into_iter().map(|c| c.place).collect();
 }
 
-fn judge(sums: &Sums, from: usize, place: usize, to: usize) -> Candidate {
-    if place - from < MIN_RUNS || to - place < MIN_RUNS {
-        let evidence = 0.0;
+/// Judges a change between the nearest that are far enough from it. Of those that are too near to each other
+/// the one with the most evidence remains.
+fn judge(sums: &Sums, places: &[usize], at: usize, runs: usize) -> Candidate {
+    let place = places[at];
+    let before = places[..at].iter().rev();
+    let after = places[at + 1..].iter();
+    let from = before
+        .copied()
+        .chain([0])
+        .find(|other| place - other >= MIN_RUNS);
+    let to = after
+        .copied()
+        .chain([runs])
+        .find(|other| other - place >= MIN_RUNS);
+    let (Some(from), Some(to)) = (from, to) else {
         return Candidate {
             place,
             holds: false,
-            evidence,
+            evidence: 0.0,
         };
-    }
+    };
     let test = test(sums, from, place, to);
-    let holds = test.shift.abs() >= STEP.ln() && test.p_of_any_place() <= LEVEL;
-    let evidence = test.shift.abs() / test.error;
+    let alone = places[..at].last().is_none_or(|other| *other == from)
+        && places.get(at + 1).is_none_or(|other| *other == to);
     Candidate {
         place,
-        holds,
-        evidence,
+        holds: alone && test.shift.abs() >= STEP.ln() && test.p_of_any_place() <= LEVEL,
+        evidence: test.shift.abs() / test.error,
     }
 }
 

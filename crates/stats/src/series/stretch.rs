@@ -31,6 +31,7 @@ pub(super) struct Sums {
     /// Squares of the standard errors within runs.
     error: Vec<f64>,
     values: Vec<f64>,
+    errors: Vec<f64>,
 }
 
 /// The moments of a stretch, about its mean.
@@ -135,7 +136,41 @@ impl Sums {
             by_next: sums(&next),
             error: sums(&|i| errors[i] * errors[i]),
             values,
+            errors: errors.to_vec(),
         }
+    }
+
+    /// The same without the slope that all stretches between places have in common, if there is one.
+    pub(super) fn without_drift(&self, places: &[usize]) -> Option<Self> {
+        let mut from = 0;
+        let (mut by_index, mut index_squares, mut squares, mut by_next, mut error) =
+            (0.0, 0.0, 0.0, 0.0, 0.0);
+        for to in places.iter().copied().chain([self.values.len()]) {
+            if to > from {
+                let part = self.moments(from, to);
+                by_index += part.by_index;
+                index_squares += part.index_squares;
+                squares += part.squares;
+                by_next += part.by_next;
+                error += part.error;
+            }
+            from = to;
+        }
+        let runs = self.values.len() as f64;
+        let freedom = runs - places.len() as f64 - 2.0;
+        if freedom < 1.0 || index_squares <= 0.0 {
+            return None;
+        }
+        let slope = by_index / index_squares;
+        let explained = slope * by_index;
+        let left = (squares - explained).max(0.0);
+        let variance = variance(left, by_next - explained, error, runs, freedom);
+        let drifts = two_sided(slope.abs() / (variance / index_squares).sqrt(), freedom) <= LEVEL;
+        drifts.then(|| {
+            let values = self.values.iter().enumerate();
+            let level = values.map(|(i, value)| value - slope * i as f64);
+            Self::new(level.collect(), &self.errors)
+        })
     }
 
     /// All values.
