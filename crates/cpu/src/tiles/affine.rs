@@ -8,6 +8,7 @@ use super::lanes::{Lane, select};
 use crate::lanes::{Codes, LANES};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
+use fearless_simd::Simd;
 
 /// A function of the codes of each channel.
 #[derive(Debug)]
@@ -39,12 +40,18 @@ pub(crate) enum Join {
 impl Affine {
     /// Applies the function to lanes of a sample's planes, where a mask holds.
     #[inline(always)]
-    pub(crate) fn masked(&self, planes: &mut [u32], at: usize, mask: &[Lane; LANES]) {
+    pub(crate) fn masked<S: Simd>(
+        &self,
+        simd: S,
+        planes: &mut [u32],
+        at: usize,
+        mask: &[Lane; LANES],
+    ) {
         for (channel, term) in self.terms.iter().enumerate() {
             if let Some(term) = term {
                 let (lanes, _) = planes[channel * AREA + at..][..LANES].as_chunks_mut();
                 let mut new = [lanes[0]];
-                term.apply(&mut new);
+                term.apply(simd, &mut new);
                 select(&mut lanes[0], mask, &new[0]);
             }
         }
@@ -52,20 +59,28 @@ impl Affine {
 
     /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`].
     #[inline(always)]
-    pub(crate) fn whole(&self, planes: &mut [u32], count: usize) {
+    pub(crate) fn whole<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
         for (channel, term) in self.terms.iter().enumerate() {
             if let Some(term) = term {
                 let (lanes, _) = planes[channel * AREA..][..count].as_chunks_mut();
-                term.apply(lanes);
+                term.apply(simd, lanes);
             }
         }
     }
 }
 
 impl Term {
-    /// Applies the function to codes.
+    /// Applies the function to codes. A function of its own: it is large.
+    #[inline(never)]
+    fn apply<S: Simd>(&self, simd: S, codes: &mut [Codes]) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.encoded(codes),
+        );
+    }
+
     #[inline(always)]
-    fn apply(&self, codes: &mut [Codes]) {
+    fn encoded(&self, codes: &mut [Codes]) {
         use ChannelEncoding::{Float16, Float32, Unorm};
         // Known to the compiler.
         match self.encoding {

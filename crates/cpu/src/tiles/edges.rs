@@ -1,9 +1,11 @@
 //! Edge functions, tile by tile and row by row.
 
-use super::lanes::{ALL, Lane, any};
+use super::lanes::{ALL, Lane, NUMBERS, any};
 use super::triangle::{Triangle, clockwise};
 use crate::lanes::LANES;
 use crate::linear::UNITS;
+use fearless_simd::i32x16;
+use fearless_simd::prelude::*;
 
 /// The greatest magnitude of a row's first value. In a tile no edge function that is farther from 0 changes its sign,
 /// and none that is as near as this leaves 32 bits: it grows by at most 2²³ a texel, which is the greatest extent of
@@ -160,7 +162,7 @@ impl Rows {
 
     /// Returns the covered lanes of those that stand so many texels behind the first; `None` if there are none.
     #[inline(always)]
-    pub(crate) fn covered(&self, texels: i32) -> Option<[Lane; LANES]> {
+    pub(crate) fn covered<S: Simd>(&self, simd: S, texels: i32) -> Option<[Lane; LANES]> {
         // Each value by itself: in an array they would go through memory row by row.
         let ([a, b, c], [d, e, f]) = (self.at, self.across);
         let (a, b, c) = (a + d * texels, b + e * texels, c + f * texels);
@@ -172,12 +174,12 @@ impl Rows {
         if (a | g) | (b | h) | (c | i) >= 0 {
             return Some(ALL);
         }
+        let numbers = i32x16::from_slice(simd, &NUMBERS);
+        let bits = (numbers * d + a) | (numbers * e + b) | (numbers * f + c);
+        let [zero, all] = [0, -1].map(|v| i32x16::splat(simd, v));
         let mut result = [0; LANES];
-        for (lane, result) in result.iter_mut().enumerate() {
-            let lane = lane as i32;
-            let bits = (a + d * lane) | (b + e * lane) | (c + f * lane);
-            *result = !(bits >> 31);
-        }
+        let covered = bits.simd_ge(zero);
+        covered.select(all, zero).store_slice(&mut result);
         any(&result).then_some(result)
     }
 }

@@ -3,6 +3,7 @@
 use super::paint::{Kernel, Paint};
 use super::plan::{PassPlan, Plan, Shading};
 use etalon_scene::{Draw, Scene};
+use fearless_simd::{Level, dispatch};
 
 /// Returns the kernels of a scene's draws, a line for each; or one line with the reason why it has none.
 pub(crate) fn lines(scene: &Scene, least: usize) -> Vec<String> {
@@ -54,7 +55,10 @@ fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
         Shading::Nothing => [0.0; 4],
     };
     let samples = pass.positions.len();
-    match Paint::new(draw, color, pass.channels, pass.logic, samples, false).kernel {
+    let paint = dispatch!(Level::new(), simd => Paint::new(
+        simd, draw, color, pass.channels, pass.logic, samples, false
+    ));
+    match paint.kernel {
         Kernel::Keep => "not written",
         Kernel::Store(_) | Kernel::Replace(_) => "stored",
         Kernel::Masked { .. } => "stored through a mask",

@@ -4,6 +4,7 @@ use super::TILE;
 use super::depth::Depths;
 use super::edges::{Edges, Rows};
 use super::image::word;
+use super::lanes::NUMBERS;
 use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, Shading};
 use super::triangle::Triangle;
@@ -11,9 +12,6 @@ use crate::lanes::LANES;
 use etalon_scene::CompareFunction;
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x8, i32x16, u32x8, u32x16};
-
-/// The lanes' numbers.
-const NUMBERS: [i32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 /// The lanes of narrow triangles.
 pub(crate) const NARROW: i32 = 8;
@@ -71,8 +69,8 @@ impl Store {
         self.passes.is_some()
     }
 
-    /// Draws one sample of small triangles.
-    #[inline(always)]
+    /// Draws one sample of small triangles. A function of its own: it is large.
+    #[inline(never)]
     pub(crate) fn small<'t, S: Simd>(
         &self,
         simd: S,
@@ -80,12 +78,15 @@ impl Store {
         planes: Planes<'_>,
         texels: [i32; 4],
     ) {
-        match (self.tests(), self.colors()) {
-            (true, true) => self.rows::<S, true, true>(simd, triangles, planes, texels),
-            (true, false) => self.rows::<S, true, false>(simd, triangles, planes, texels),
-            (false, true) => self.rows::<S, false, true>(simd, triangles, planes, texels),
-            (false, false) => {}
-        }
+        simd.vectorize(
+            #[inline(always)]
+            || match (self.tests(), self.colors()) {
+                (true, true) => self.rows::<S, true, true>(simd, triangles, planes, texels),
+                (true, false) => self.rows::<S, true, false>(simd, triangles, planes, texels),
+                (false, true) => self.rows::<S, false, true>(simd, triangles, planes, texels),
+                (false, false) => {}
+            },
+        );
     }
 
     /// Draws one sample of small triangles row by row, with depths or colours or both.
@@ -244,9 +245,17 @@ impl Source for Floats<'_> {
 }
 
 impl Opaque<'_> {
-    /// Draws the covered texels of a sample.
-    #[inline(always)]
+    /// Draws the covered texels of a sample. A function of its own: it is large.
+    #[inline(never)]
     pub(crate) fn draw<S: Simd>(&self, simd: S, planes: Planes<'_>) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.lanes(simd, planes),
+        );
+    }
+
+    #[inline(always)]
+    fn lanes<S: Simd>(&self, simd: S, planes: Planes<'_>) {
         let [left, top, right, bottom] = self.texels;
         let around = self.triangle.around.map(i32::from);
         let (start, last) = (around[0].max(left), around[2].min(right - 1));

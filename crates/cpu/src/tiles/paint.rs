@@ -17,6 +17,7 @@ use etalon_pipeline::{Arithmetic, BlendInput, Plain};
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, Draw, LogicOperation,
 };
+use fearless_simd::Simd;
 
 /// The encodings of four channels, and how many of them there are.
 type Channels = ([ChannelEncoding; 4], usize);
@@ -83,8 +84,9 @@ pub(crate) struct Blending {
 
 impl Paint {
     /// Returns the paint of a source; with a function of any kind where no other is to be made.
-    #[inline(always)]
-    pub(crate) fn new(
+    #[inline(never)]
+    pub(crate) fn new<S: Simd>(
+        simd: S,
         draw: &Draw,
         source: [f32; 4],
         channels: &'static [ChannelEncoding],
@@ -112,7 +114,7 @@ impl Paint {
                 channels,
                 second_alpha: state.alpha_to_one,
             }
-            .kernel(quick),
+            .kernel(simd, quick),
         };
         Self {
             kernel,
@@ -122,8 +124,7 @@ impl Paint {
 }
 
 impl Blending {
-    #[inline(always)]
-    fn kernel(self, quick: bool) -> Kernel {
+    fn kernel<S: Simd>(self, simd: S, quick: bool) -> Kernel {
         let written = |c: usize| self.target.write_mask & (1 << c) != 0;
         let count = self.channels.len();
         if !(0..count).any(written) {
@@ -138,7 +139,7 @@ impl Blending {
                 };
             }
             let mut values = [0; 4];
-            for (c, codes) in self.codes(&[[0; LANES]; 4]).into_iter().enumerate() {
+            for (c, codes) in self.codes(simd, &[[0; LANES]; 4]).into_iter().enumerate() {
                 values[c] = codes[0];
             }
             return Kernel::Replace(Stored {
@@ -148,7 +149,7 @@ impl Blending {
             });
         }
         if replaces {
-            let [value, ..] = self.applied(&[[0; 4]; LANES]);
+            let [value, ..] = self.applied(simd, &[[0; 4]; LANES]);
             let keep = std::array::from_fn(|c| if c < count && !written(c) { 0xff } else { 0 });
             return match keep {
                 [0, 0, 0, 0] => Kernel::Store(value),
@@ -167,13 +168,17 @@ impl Blending {
             for (i, texel) in codes.iter_mut().enumerate() {
                 *texel = [(first + i) as u8; 4];
             }
-            for (i, texel) in self.applied(&codes).into_iter().enumerate() {
+            for (i, texel) in self.applied(simd, &codes).into_iter().enumerate() {
                 for (table, code) in table.iter_mut().zip(texel) {
                     table[first + i] = code;
                 }
             }
         }
-        match self.linear(&table) {
+        let linear = simd.vectorize(
+            #[inline(always)]
+            || self.linear(&table),
+        );
+        match linear {
             Some(linear) => Kernel::Linear(Box::new(linear)),
             None => Kernel::Table(table),
         }
@@ -360,15 +365,20 @@ impl Blending {
         (all, count)
     }
 
-    /// Returns the codes after the function, channel by channel.
-    #[inline(always)]
-    fn codes(&self, old: &[Codes; 4]) -> [Codes; 4] {
-        // The same for all channels, and known to the compiler.
-        if *self.channels == UNORM.0 {
-            self.codes_of(UNORM, old)
-        } else {
-            self.codes_of(self.channels(), old)
-        }
+    /// Returns the codes after the function, channel by channel. A function of its own: it is large.
+    #[inline(never)]
+    fn codes<S: Simd>(&self, simd: S, old: &[Codes; 4]) -> [Codes; 4] {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                // The same for all channels, and known to the compiler.
+                if *self.channels == UNORM.0 {
+                    self.codes_of(UNORM, old)
+                } else {
+                    self.codes_of(self.channels(), old)
+                }
+            },
+        )
     }
 
     #[inline(always)]
@@ -390,7 +400,7 @@ impl Blending {
 
     /// Returns texels of bytes after the function.
     #[inline(always)]
-    fn applied(&self, texels: &[Texel; LANES]) -> [Texel; LANES] {
+    fn applied<S: Simd>(&self, simd: S, texels: &[Texel; LANES]) -> [Texel; LANES] {
         let mut old = [[0; LANES]; 4];
         for (lane, texel) in texels.iter().enumerate() {
             let texel = u32::from_le_bytes(*texel);
@@ -398,7 +408,7 @@ impl Blending {
                 codes[lane] = texel >> (8 * c) & 0xff;
             }
         }
-        let new = self.codes(&old);
+        let new = self.codes(simd, &old);
         let mut result = *texels;
         for (lane, texel) in result.iter_mut().enumerate() {
             let word = new[0][lane] | new[1][lane] << 8 | new[2][lane] << 16 | new[3][lane] << 24;
@@ -409,12 +419,12 @@ impl Blending {
 
     /// Applies the function to lanes of a sample's planes, where a mask holds.
     #[inline(always)]
-    fn wide(&self, planes: &mut [u32], at: usize, mask: &[Lane; LANES]) {
+    fn wide<S: Simd>(&self, simd: S, planes: &mut [u32], at: usize, mask: &[Lane; LANES]) {
         let mut old = [[0; LANES]; 4];
         for (c, codes) in old.iter_mut().enumerate().take(self.channels.len()) {
             *codes = *lanes(planes, c * AREA + at);
         }
-        let new = self.codes(&old);
+        let new = self.codes(simd, &old);
         for (c, codes) in new.iter().enumerate().take(self.channels.len()) {
             select(lanes(planes, c * AREA + at), mask, codes);
         }
@@ -436,7 +446,13 @@ impl Kernel {
 
     /// Applies the function to the texels that a mask holds, at a place of a sample's planes.
     #[inline(always)]
-    pub(crate) fn masked(&self, planes: &mut [u32], at: usize, mask: &[Lane; LANES]) {
+    pub(crate) fn masked<S: Simd>(
+        &self,
+        simd: S,
+        planes: &mut [u32],
+        at: usize,
+        mask: &[Lane; LANES],
+    ) {
         match self {
             Self::Replace(stored) => {
                 for word in (0..stored.words).filter(|w| stored.written & (1 << w) != 0) {
@@ -445,8 +461,8 @@ impl Kernel {
                 }
                 return;
             }
-            Self::Affine(affine) => return affine.masked(planes, at, mask),
-            Self::Wide(blending) => return blending.wide(planes, at, mask),
+            Self::Affine(affine) => return affine.masked(simd, planes, at, mask),
+            Self::Wide(blending) => return blending.wide(simd, planes, at, mask),
             _ => {}
         }
         let texels: &mut [Texel; LANES] = bytemuck::cast_mut(lanes(planes, at));
@@ -470,19 +486,28 @@ impl Kernel {
                 }
             }
             Self::Weighted(weights) => {
-                let new = weights.applied(texels);
-                select_texels(texels, mask, &new);
+                let mut new = [*texels];
+                weights.apply(simd, &mut new);
+                select_texels(texels, mask, &new[0]);
             }
             Self::Lanes(blending) => {
-                let new = blending.applied(texels);
+                let new = blending.applied(simd, texels);
                 select_texels(texels, mask, &new);
             }
         }
     }
 
     /// Applies the function to the first texels of a sample's planes, whose number is a multiple of [`LANES`].
+    #[inline(never)]
+    pub(crate) fn whole<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.whole_of(simd, planes, count),
+        );
+    }
+
     #[inline(always)]
-    pub(crate) fn whole(&self, planes: &mut [u32], count: usize) {
+    fn whole_of<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
         match self {
             Self::Store(value) => return planes[..count].fill(word(*value)),
             Self::Replace(stored) => {
@@ -491,10 +516,10 @@ impl Kernel {
                 }
                 return;
             }
-            Self::Affine(affine) => return affine.whole(planes, count),
+            Self::Affine(affine) => return affine.whole(simd, planes, count),
             Self::Wide(blending) => {
                 for at in (0..count).step_by(LANES) {
-                    blending.wide(planes, at, &ALL);
+                    blending.wide(simd, planes, at, &ALL);
                 }
                 return;
             }
@@ -515,13 +540,11 @@ impl Kernel {
                 }
             }
             Self::Weighted(weights) => {
-                for chunk in texels.as_chunks_mut::<LANES>().0 {
-                    *chunk = weights.applied(chunk);
-                }
+                weights.apply(simd, texels.as_chunks_mut::<LANES>().0);
             }
             Self::Lanes(blending) => {
                 for chunk in texels.as_chunks_mut::<LANES>().0 {
-                    *chunk = blending.applied(chunk);
+                    *chunk = blending.applied(simd, chunk);
                 }
             }
         }

@@ -15,6 +15,7 @@ use crate::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Plain, front_facing, is_culled, window_position};
 use etalon_scene::{ColorTarget, Draw, LogicOperation, Multisample, PrimitiveVertices, Vertex};
+use fearless_simd::Simd;
 use std::ops::Range;
 
 /// The distinct colours of a blending draw for each of which a function of codes is made.
@@ -170,8 +171,9 @@ impl Part {
 
     /// Sets up and sorts the primitives of a range of the pass's numbers.
     #[inline(always)]
-    pub(crate) fn set_up(
+    pub(crate) fn set_up<S: Simd>(
         &mut self,
+        simd: S,
         pass: &PassPlan,
         inputs: &[Input<'_>],
         placed: &[Placed],
@@ -180,7 +182,7 @@ impl Part {
         for (number, input) in inputs.iter().enumerate() {
             let start = range.start.clamp(input.first, input.first + input.count);
             let end = range.end.clamp(start, input.first + input.count);
-            let mut draw = SetUp::new(pass, input, number, self);
+            let mut draw = SetUp::new(simd, pass, input, number, self);
             for primitive in start..end {
                 let (triangle, provoking) = input.primitive(primitive - input.first);
                 draw.triangle(
@@ -220,7 +222,8 @@ impl Ingredients {
 }
 
 /// The set-up of a draw's triangles.
-struct SetUp<'a> {
+struct SetUp<'a, S> {
+    simd: S,
     pass: &'a PassPlan,
     draw: &'a Draw,
     plan: &'a DrawPlan,
@@ -237,13 +240,20 @@ struct SetUp<'a> {
     across: usize,
 }
 
-impl<'a> SetUp<'a> {
-    fn new(pass: &'a PassPlan, input: &'a Input<'_>, number: usize, part: &'a mut Part) -> Self {
+impl<'a, S: Simd> SetUp<'a, S> {
+    fn new(
+        simd: S,
+        pass: &'a PassPlan,
+        input: &'a Input<'_>,
+        number: usize,
+        part: &'a mut Part,
+    ) -> Self {
         let ends = |axis: usize| {
             let all = || pass.positions.iter().map(|p| p[axis]);
             [all().min().unwrap_or(0), all().max().unwrap_or(0)]
         };
         Self {
+            simd,
             pass,
             draw: input.draw,
             plan: input.plan,
@@ -394,7 +404,6 @@ impl<'a> SetUp<'a> {
         }
     }
 
-    #[inline(always)]
     fn new_paint(&mut self, color: [f32; 4]) -> u32 {
         let bits = color.map(f32::to_bits);
         // Draws mostly have one colour, and one of few states.
@@ -409,6 +418,7 @@ impl<'a> SetUp<'a> {
         }
         let quick = self.part.paints.len() - self.first > FUNCTIONS;
         let paint = Paint::new(
+            self.simd,
             self.draw,
             color,
             self.pass.channels,

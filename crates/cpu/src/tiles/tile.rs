@@ -127,7 +127,7 @@ pub(crate) fn draw<S: Simd>(
             let whole = entry.is_whole();
             // The planes are ready for another triangle of the same draw and paint.
             if whole || last.as_ref().is_none_or(|store| !store.is_of(triangle)) {
-                last = drawing.triangle(triangle, input, part, whole);
+                last = drawing.triangle(simd, triangle, input, part, whole);
             }
             entries = match &last {
                 Some(store) if triangle.shape == Shape::Small => {
@@ -141,15 +141,16 @@ pub(crate) fn draw<S: Simd>(
             };
         }
     }
-    drawing.finish();
+    drawing.finish(simd);
 }
 
 impl Drawing<'_, '_> {
     /// Draws a triangle. One that is opaque and covers a part of the tile is left to [`opaque`](Self::opaque): what it
     /// does to texels is returned, and the planes are ready for it.
     #[inline(always)]
-    fn triangle(
+    fn triangle<S: Simd>(
         &mut self,
+        simd: S,
         triangle: &Triangle,
         input: &Input<'_>,
         part: &Part,
@@ -194,7 +195,7 @@ impl Drawing<'_, '_> {
                 )
             }),
         };
-        self.samples(&work, whole, answer);
+        self.samples(simd, &work, whole, answer);
         let all = whole && self.same && face.is_none() && work.texture.is_none();
         self.widen(triangle, plan, all && answer == Some(Decided::Pass));
         None
@@ -249,7 +250,7 @@ impl Drawing<'_, '_> {
 
     /// Draws a triangle sample by sample.
     #[inline(always)]
-    fn samples(&mut self, work: &Work<'_>, whole: bool, answer: Option<Decided>) {
+    fn samples<S: Simd>(&mut self, simd: S, work: &Work<'_>, whole: bool, answer: Option<Decided>) {
         // All samples were made different before a part of a tile is drawn.
         let planes = if self.same {
             1
@@ -264,15 +265,15 @@ impl Drawing<'_, '_> {
                 continue;
             }
             match decided {
-                Some(answer) => self.decided(work, sample, answer),
-                None => self.scan(work, sample, whole),
+                Some(answer) => self.decided(simd, work, sample, answer),
+                None => self.scan(simd, work, sample, whole),
             }
         }
     }
 
     /// Draws all texels of a sample, whose tests have one answer.
     #[inline(always)]
-    fn decided(&mut self, work: &Work<'_>, sample: usize, answer: Decided) {
+    fn decided<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, answer: Decided) {
         let [left, top, right, bottom] = self.texels;
         let start = sample * AREA;
         let range = start..start + (bottom - top) as usize * TILE;
@@ -303,7 +304,7 @@ impl Drawing<'_, '_> {
         if !work.paint.kernel.keeps() {
             let texels = range.len();
             let colors = self.tile.color.sample(sample);
-            work.paint.kernel.whole(colors, texels);
+            work.paint.kernel.whole(simd, colors, texels);
         }
     }
 
@@ -398,7 +399,7 @@ impl Drawing<'_, '_> {
 
     /// Draws the texels of one sample that a triangle covers: all of them if it covers the whole tile.
     #[inline(always)]
-    fn scan(&mut self, work: &Work<'_>, sample: usize, whole: bool) {
+    fn scan<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, whole: bool) {
         let triangle = work.triangle;
         let [left, top, right, bottom] = self.texels;
         let around = match whole {
@@ -420,7 +421,7 @@ impl Drawing<'_, '_> {
                 let covered = if whole {
                     Some(ALL)
                 } else {
-                    row.covered(x - first)
+                    row.covered(simd, x - first)
                 };
                 let Some(mut mask) = covered else {
                     continue;
@@ -434,14 +435,21 @@ impl Drawing<'_, '_> {
                         *covered &= -Lane::from(x >= rect[0] && x < rect[2]);
                     }
                 }
-                self.fragments(work, sample, [x, y], mask);
+                self.fragments(simd, work, sample, [x, y], mask);
             }
         }
     }
 
     /// Tests, blends and stores the fragments of one sample of neighbouring texels.
     #[inline(always)]
-    fn fragments(&mut self, work: &Work<'_>, sample: usize, at: [i32; 2], mut mask: [Lane; LANES]) {
+    fn fragments<S: Simd>(
+        &mut self,
+        simd: S,
+        work: &Work<'_>,
+        sample: usize,
+        at: [i32; 2],
+        mut mask: [Lane; LANES],
+    ) {
         let [x, y] = at;
         let [left, top, ..] = self.texels;
         let place = sample * AREA + (y - top) as usize * TILE + (x - left) as usize;
@@ -502,13 +510,15 @@ impl Drawing<'_, '_> {
             select(self.tile.color.lanes(place), &passed, &texels);
         } else if !work.paint.kernel.keeps() {
             let colors = self.tile.color.sample(sample);
-            work.paint.kernel.masked(colors, place % AREA, &passed);
+            work.paint
+                .kernel
+                .masked(simd, colors, place % AREA, &passed);
         }
     }
 
     /// Writes what is only noted so far, and resolves colour.
     #[inline(always)]
-    fn finish(&mut self) {
+    fn finish<S: Simd>(&mut self, simd: S) {
         let Tile {
             color,
             resolved,
@@ -522,6 +532,7 @@ impl Drawing<'_, '_> {
         if !resolved.is_empty() {
             let samples = self.pass.positions.len();
             resolve(
+                simd,
                 self.pass.channels,
                 color.planes,
                 samples,

@@ -8,6 +8,7 @@ use crate::lanes::{Codes, LANES, Real};
 use crate::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
 use etalon_scene::{BlendComponent, BlendFactor, BlendOperation};
+use fearless_simd::Simd;
 
 /// The encoding of all channels.
 const UNORM: ChannelEncoding = ChannelEncoding::Unorm(8);
@@ -104,9 +105,21 @@ impl Weights {
         })
     }
 
-    /// Returns texels after the function.
+    /// Applies the function to texels. A function of its own: it is large.
+    #[inline(never)]
+    pub(crate) fn apply<S: Simd>(&self, simd: S, texels: &mut [[Texel; LANES]]) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                for texels in texels {
+                    *texels = self.applied(texels);
+                }
+            },
+        );
+    }
+
     #[inline(always)]
-    pub(crate) fn applied(&self, texels: &[Texel; LANES]) -> [Texel; LANES] {
+    fn applied(&self, texels: &[Texel; LANES]) -> [Texel; LANES] {
         let words = bytemuck::cast::<_, Codes>(*texels).map(u32::from_le);
         let [r, g, b, a] = &self.channels;
         let last = stored(&words, 24);
