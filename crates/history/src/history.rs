@@ -239,12 +239,12 @@ impl History {
     /// # Errors
     /// When the file cannot be read or is damaged.
     pub fn records(&self, of: &AdapterRun) -> Result<Vec<(CaseId, OutcomeId)>, HistoryError> {
-        let (packed, count): (Vec<u8>, u32) = self
+        let packed: Vec<u8> = self
             .connection
-            .prepare_cached("SELECT outcomes, records FROM state WHERE id = ?1")
-            .and_then(|mut find| find.query_row([of.state], |row| Ok((row.get(0)?, row.get(1)?))))
+            .prepare_cached("SELECT outcomes FROM state WHERE id = ?1")
+            .and_then(|mut find| find.query_row([of.state], |row| row.get(0)))
             .map_err(HistoryError::database(&self.path))?;
-        let outcomes = unpack(&packed, count as usize);
+        let outcomes = unpack(&packed, of.records as usize);
         let drawn = self.drawn(of.drawn)?;
         let cases: Vec<u32> = drawn.iter().collect();
         match outcomes {
@@ -362,26 +362,21 @@ fn adapter_runs(connection: &Connection) -> rusqlite::Result<Vec<AdapterRun>> {
             Ok((row.get(0)?, (timeline.into(), MachineId(row.get(2)?))))
         })?
         .collect::<rusqlite::Result<_>>()?;
-    let states: HashMap<u32, (u32, u32)> = connection
-        .prepare("SELECT id, drawn, records FROM state")?
-        .query_map([], |row| Ok((row.get(0)?, (row.get(1)?, row.get(2)?))))?
-        .collect::<rusqlite::Result<_>>()?;
     let missing = || rusqlite::Error::QueryReturnedNoRows;
     connection
-        .prepare("SELECT chain, run, adapter, state FROM part")?
+        .prepare("SELECT chain, run, adapter, drawn, state, records FROM part")?
         .query_map([], |row| {
-            let (chain, state): (u32, u32) = (row.get(0)?, row.get(3)?);
+            let chain: u32 = row.get(0)?;
             let (timeline, machine) = chains.get(&chain).ok_or_else(missing)?;
-            let (drawn, records) = states.get(&state).ok_or_else(missing)?;
             Ok(AdapterRun {
                 run: RunId(row.get(1)?),
                 timeline: Rc::clone(timeline),
                 machine: *machine,
                 adapter: adapters.get(&row.get(2)?).cloned().ok_or_else(missing)?,
-                records: *records,
+                records: row.get(5)?,
                 chain,
-                state,
-                drawn: *drawn,
+                state: row.get(4)?,
+                drawn: row.get(3)?,
             })
         })?
         .collect()

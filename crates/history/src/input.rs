@@ -2,14 +2,13 @@
 
 mod bench;
 mod run;
+mod started;
 mod versions;
 
 use crate::dates::ReleaseDates;
 use crate::digest::Digesting;
 use crate::error::HistoryError;
 use crate::new_run::NewRun;
-use crate::time::parse_time;
-use etalon_frame::shortened;
 use etalon_record::{BENCH_FILE, RUN_FILE, VERSIONS_FILE};
 use flate2::read::MultiGzDecoder;
 use serde_json::{Map, Value};
@@ -94,12 +93,4 @@ fn open(path: &Path) -> Result<Digesting<Box<dyn Read>>, HistoryError> {
         true => Box::new(MultiGzDecoder::new(file)),
         false => Box::new(file),
     }))
-}
-
-/// The time at which a run began.
-fn started(path: &Path, text: &str) -> Result<i64, HistoryError> {
-    parse_time(text).ok_or_else(|| HistoryError::Header {
-        path: path.to_owned(),
-        message: format!("{:?} is no time", shortened(text)),
-    })
 }

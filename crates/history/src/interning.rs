@@ -3,6 +3,7 @@
 use crate::adapter::Adapter;
 use crate::digest::{of_parts, short};
 use crate::outcome::Outcome;
+use crate::packing::pack;
 use etalon_record::Machine;
 use rusqlite::{Connection, OptionalExtension, params};
 use std::collections::HashMap;
@@ -86,14 +87,11 @@ pub(crate) fn state(
     if let Some(found) = found {
         return Ok((found, false));
     }
-    let packed = crate::packing::pack(outcomes);
+    let packed =
+        pack(outcomes).map_err(|e| rusqlite::Error::ToSqlConversionFailure(Box::new(e)))?;
     let new = connection
-        .prepare_cached(
-            "INSERT INTO state (digest, drawn, records, outcomes) VALUES (?1, ?2, ?3, ?4) RETURNING id",
-        )?
-        .query_row(params![digest, drawn, outcomes.len() as i64, packed], |row| {
-            row.get(0)
-        })?;
+        .prepare_cached("INSERT INTO state (digest, outcomes) VALUES (?1, ?2) RETURNING id")?
+        .query_row(params![digest, packed], |row| row.get(0))?;
     Ok((new, true))
 }
 

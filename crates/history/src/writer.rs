@@ -200,9 +200,9 @@ impl<'a> Addition<'a> {
         let adapter = interning::adapter(self.connection, &new.adapter)?;
         self.connection
             .prepare_cached(
-                "INSERT INTO part (chain, run, adapter, state) VALUES (?1, ?2, ?3, ?4)",
+                "INSERT INTO part (chain, run, adapter, drawn, state, records) VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
             )?
-            .execute(params![chain, run, adapter, state])?;
+            .execute(params![chain, run, adapter, drawn, state, numbers.len() as i64])?;
         for (case, times) in &new.times {
             self.times(run, chain, case, times)?;
         }
@@ -237,8 +237,8 @@ impl<'a> Addition<'a> {
         let row = self
             .connection
             .prepare_cached(
-                "SELECT drawn.cases, state.records, state.outcomes FROM part JOIN state ON state.id = part.state \
-                 JOIN drawn ON drawn.id = state.drawn WHERE part.chain = ?1 ORDER BY part.run DESC LIMIT 1",
+                "SELECT drawn.cases, part.records, state.outcomes FROM part JOIN state ON state.id = part.state \
+                 JOIN drawn ON drawn.id = part.drawn WHERE part.chain = ?1 ORDER BY part.run DESC LIMIT 1",
             )?
             .query_row([chain], |row| {
                 Ok((row.get(0)?, row.get::<_, u32>(1)?, row.get::<_, Vec<u8>>(2)?))

@@ -1,6 +1,6 @@
 //! A `bench.jsonl`.
 
-use super::started;
+use super::started::started;
 use crate::adapter::Adapter;
 use crate::digest::Digesting;
 use crate::error::HistoryError;

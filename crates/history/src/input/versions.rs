@@ -3,7 +3,7 @@
 //! `etalon bisect` does not draw every case with every release: what lies between two of one standing is taken to have
 //! it. The history says so too, so that all releases have the same cases, and marks what was not drawn.
 
-use super::started;
+use super::started::started;
 use crate::adapter::Adapter;
 use crate::dates::ReleaseDates;
 use crate::digest::{Digesting, of_parts};

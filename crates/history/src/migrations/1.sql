@@ -71,12 +71,11 @@ CREATE TABLE drawn (
     cases BLOB NOT NULL
 ) STRICT;
 
--- All outcomes of an adapter in a run, in the order of the cases: deflated variable-length differences.
+-- All outcomes of an adapter in a run, in the order of the cases: deflated variable-length differences. The digest is of
+-- the cases, too.
 CREATE TABLE state (
     id INTEGER PRIMARY KEY,
     digest BLOB NOT NULL UNIQUE,
-    drawn INTEGER NOT NULL REFERENCES drawn,
-    records INTEGER NOT NULL,
     outcomes BLOB NOT NULL
 ) STRICT;
 
@@ -95,7 +94,9 @@ CREATE TABLE part (
     chain INTEGER NOT NULL REFERENCES chain,
     run INTEGER NOT NULL REFERENCES run,
     adapter INTEGER NOT NULL REFERENCES adapter,
+    drawn INTEGER NOT NULL REFERENCES drawn,
     state INTEGER NOT NULL REFERENCES state,
+    records INTEGER NOT NULL,
     PRIMARY KEY (chain, run)
 ) STRICT, WITHOUT ROWID;
 

@@ -9,7 +9,11 @@ use std::thread;
 use std::time::Duration;
 
 fn one(number: u8) -> NewRun {
-    let verdicts = if number % 2 == 0 { "ppf" } else { "pfp" };
+    let verdicts = if number.is_multiple_of(2) {
+        "ppf"
+    } else {
+        "pfp"
+    };
     run(number, "2026-01-01", vec![with("cpu", "1", verdicts)])
 }
 

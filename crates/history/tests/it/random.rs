@@ -78,6 +78,9 @@ fn part(outcomes: Vec<Outcome>) -> impl Strategy<Value = BTreeMap<String, Outcom
     btree_map(case, select(outcomes), 0..25)
 }
 
+/// Outcomes and version of each adapter, by its number.
+type Parts = BTreeMap<u8, (BTreeMap<String, Outcome>, u8)>;
+
 fn runs() -> impl Strategy<Value = Vec<NewRun>> {
     vec(outcome(), 1..6)
         .prop_flat_map(|outcomes| {
@@ -85,10 +88,7 @@ fn runs() -> impl Strategy<Value = Vec<NewRun>> {
             vec((adapters, 1u8..28, 0u32..2, any::<bool>()), 1..10)
         })
         .prop_map(|all| {
-            let one = |(at, (adapters, day, cores, label)): (
-                usize,
-                (BTreeMap<u8, (BTreeMap<String, Outcome>, u8)>, u8, u32, bool),
-            )| {
+            let one = |(at, (adapters, day, cores, label)): (usize, (Parts, u8, u32, bool))| {
                 let parts = adapters.into_iter().map(|(name, (outcomes, version))| {
                     let made: NewAdapter = adapter(&format!("gl:{name}"), &version.to_string());
                     let timed = |case: &&String| case.starts_with("perf/");

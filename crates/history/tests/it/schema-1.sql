@@ -71,12 +71,11 @@ CREATE TABLE drawn (
     cases BLOB NOT NULL
 ) STRICT;
 
--- All outcomes of an adapter in a run, in the order of the cases: deflated variable-length differences.
+-- All outcomes of an adapter in a run, in the order of the cases: deflated variable-length differences. The digest is of
+-- the cases, too.
 CREATE TABLE state (
     id INTEGER PRIMARY KEY,
     digest BLOB NOT NULL UNIQUE,
-    drawn INTEGER NOT NULL REFERENCES drawn,
-    records INTEGER NOT NULL,
     outcomes BLOB NOT NULL
 ) STRICT;
 
@@ -95,7 +94,9 @@ CREATE TABLE part (
     chain INTEGER NOT NULL REFERENCES chain,
     run INTEGER NOT NULL REFERENCES run,
     adapter INTEGER NOT NULL REFERENCES adapter,
+    drawn INTEGER NOT NULL REFERENCES drawn,
     state INTEGER NOT NULL REFERENCES state,
+    records INTEGER NOT NULL,
     PRIMARY KEY (chain, run)
 ) STRICT, WITHOUT ROWID;
 
@@ -149,16 +150,16 @@ INSERT INTO test_case VALUES (3, 'perf/made/n=2');
 INSERT INTO outcome VALUES (1, x'01010101010101010101010101010101', 'pass', NULL, NULL, 0, 0, '{}');
 INSERT INTO outcome VALUES (2, x'02020202020202020202020202020202', 'fail', NULL, NULL, 0, 0, '{"texels":{"total":4,"wrong":1,"imprecise":0,"open":0}}');
 INSERT INTO drawn VALUES (1, x'01010101010101010101010101010101', x'07');
-INSERT INTO state VALUES (1, x'01010101010101010101010101010101', 1, 3, x'6362620400');
-INSERT INTO state VALUES (2, x'02020202020202020202020202020202', 1, 3, x'6362600000');
+INSERT INTO state VALUES (1, x'01010101010101010101010101010101', x'6362620400');
+INSERT INTO state VALUES (2, x'02020202020202020202020202020202', x'6362600000');
 INSERT INTO tally VALUES (1, 'depth', 'pass', 0, 1);
 INSERT INTO tally VALUES (1, 'stencil', 'fail', 1, 1);
 INSERT INTO tally VALUES (1, 'perf', 'pass', 0, 1);
 INSERT INTO tally VALUES (2, 'depth', 'pass', 0, 1);
 INSERT INTO tally VALUES (2, 'stencil', 'pass', 0, 1);
 INSERT INTO tally VALUES (2, 'perf', 'pass', 0, 1);
-INSERT INTO part VALUES (1, 1, 1, 1);
-INSERT INTO part VALUES (1, 2, 1, 2);
+INSERT INTO part VALUES (1, 1, 1, 1, 1, 3);
+INSERT INTO part VALUES (1, 2, 1, 1, 2, 3);
 INSERT INTO change VALUES (1, 1, 1, 1);
 INSERT INTO change VALUES (2, 1, 1, 2);
 INSERT INTO change VALUES (2, 1, 2, 1);
