@@ -10,6 +10,9 @@
 //! the shape of the noise, its level is exact for any number of rounds, and single disturbed rounds
 //! hardly move it. [`smallest_visible`] tells which change that comparison would find. [`Slope`] is the rate of
 //! work of which two amounts were timed.
+//!
+//! Over many benches, [`change_points`] tells when the times of a case changed, and [`happenings`] when
+//! its verdict did.
 
 #![cfg_attr(
     test,
@@ -20,12 +23,19 @@ mod compare;
 mod rank;
 mod rate;
 mod samples;
+mod series;
+mod student;
 mod summary;
+mod verdicts;
 mod visible;
 
 pub use compare::{BEYOND_RULER, Comparison, Conclusion, LEVEL, MINIMUM, Ratio, Why, compare};
 pub use rank::MIN_ROUNDS;
 pub use rate::{Pair, RATE_CONFIDENCE, Slope, is_within, median_interval};
 pub use samples::{SampleError, Samples, quantile};
+pub use series::{
+    Cause, ChangePoint, Changes, Drift, MIN_RUNS, Point, PointError, STEP, change_points,
+};
 pub use summary::{CONFIDENCE, Summary, summarize};
+pub use verdicts::{Class, Event, Happening, Score, Scores, happenings, scores};
 pub use visible::{POWER, smallest_visible};

@@ -62,7 +62,7 @@ fn normal_rank(m: usize, n: usize, level: f64) -> usize {
 
 /// The value above which a standard normal variable lies with a small probability: Abramowitz and
 /// Stegun 26.2.23, error below 4.5e-4, for probabilities up to a half.
-fn upper_normal(probability: f64) -> f64 {
+pub(crate) fn upper_normal(probability: f64) -> f64 {
     let t = (-2.0 * probability.ln()).sqrt();
     let above = 2.515_517 + t * (0.802_853 + t * 0.010_328);
     let below = 1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308));

@@ -1,7 +1,9 @@
 //! Tests on simulated and on recorded samples.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
+mod nightly;
 mod recorded;
+mod series;
 mod simulated;
 
 use etalon_stats::{Conclusion, LEVEL};

@@ -1,0 +1,102 @@
+//! Precision and recall of change points on simulated series with planted steps, as a table:
+//!
+//! ```sh
+//! cargo run --release -p etalon-stats --example change_points
+//! ```
+//!
+//! `--series` prints the series instead, one a line with commas between times, for other tools;
+//! `--found FILE` prints the table of their answers: a line per series, the first run of each change.
+
+#[path = "../tests/it/nightly.rs"]
+mod nightly;
+
+use nightly::{MACHINES, Machine, RUNS, STEPS, Score, Series, alarms, series};
+use oorandom::Rand64;
+use std::{env, fs, process::ExitCode};
+
+/// Series of each machine and size.
+const SERIES: usize = 100;
+/// Sizes of steps in per cent; no steps at 0.
+const SIZES: [u32; 6] = [0, 1, 2, 5, 10, 20];
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match arguments.as_slice() {
+        [] => print(|series| alarms(&series.points)),
+        ["--series"] => {
+            for series in MACHINES
+                .iter()
+                .flat_map(|m| SIZES.iter().flat_map(|size| all(*m, *size)))
+            {
+                let times: Vec<String> = series
+                    .points
+                    .iter()
+                    .map(|p| format!("{:.9}", p.median))
+                    .collect();
+                println!("{}", times.join(","));
+            }
+        }
+        ["--found", file] => {
+            let text = match fs::read_to_string(file) {
+                Ok(text) => text,
+                Err(error) => {
+                    eprintln!("{file}: {error}");
+                    return ExitCode::FAILURE;
+                }
+            };
+            let mut lines = text.lines();
+            print(|_| {
+                let places = lines.next().unwrap_or_default().split(',');
+                places
+                    .filter_map(|place| place.trim().parse().ok())
+                    .collect()
+            });
+        }
+        _ => {
+            eprintln!("usage: change_points [--series | --found FILE]");
+            return ExitCode::FAILURE;
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+/// The series of a machine and a size, the same each time.
+fn all(machine: Machine, size: u32) -> Vec<Series> {
+    let mut random = Rand64::new(u128::from(size) + 1);
+    let one = |_| series(&mut random, machine, f64::from(size) / 100.0);
+    (0..SERIES).map(one).collect()
+}
+
+fn print(mut found: impl FnMut(&Series) -> Vec<usize>) {
+    println!(
+        "{SERIES} series of {RUNS} runs per cell, with {STEPS} steps each: recall / precision in per cent.\n\
+         none: false changes in 1,000 runs without a step.\n"
+    );
+    print!("{:<46}{:>6}", "", "none");
+    for size in &SIZES[1..] {
+        print!("{:>12}", format!("{size} %"));
+    }
+    println!();
+    for machine in MACHINES {
+        print!("{:<46}", machine.name);
+        for size in SIZES {
+            let mut score = Score::default();
+            for series in all(machine, size) {
+                score.add(&series.steps, &found(&series), RUNS);
+            }
+            match size {
+                0 => print!("{:>6.2}", 1000.0 * score.wrong as f64 / score.runs as f64),
+                _ => print!(
+                    "{:>12}",
+                    format!(
+                        "{:.0} / {:.0}",
+                        100.0 * score.recall(),
+                        100.0 * score.precision()
+                    )
+                ),
+            }
+        }
+        println!();
+    }
+}

@@ -1,0 +1,282 @@
+//! All that a series tells.
+
+use super::change::{Cause, ChangePoint, Drift, ratio};
+use super::clean::clean;
+use super::point::{Point, PointError, check};
+use super::segmentation::{self, WINDOW};
+use super::stretch::{MIN_RUNS, STEP, Sums, Test};
+use crate::compare::{BEYOND_RULER, LEVEL, MINIMUM};
+use crate::rank::upper_normal;
+use crate::summary::CONFIDENCE;
+
+/// The fewest runs that can drift.
+const MIN_DRIFT: usize = 20;
+
+/// What happened in a series.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Changes {
+    /// The change points, in order.
+    pub points: Vec<ChangePoint>,
+    /// The stretches that drift, in order.
+    pub drifts: Vec<Drift>,
+    /// The deviation of a run from the level of its stretch, as a logarithm: 0.01 is 1 %.
+    pub noise: f64,
+    /// The runs.
+    runs: usize,
+}
+
+/// Finds the change points of a series, oldest run first.
+///
+/// All runs must be of one case, adapter, machine and ruler. A change is reported if it lasts for [`MIN_RUNS`]
+/// runs, its size is [`STEP`] at least, and Student's test at the chosen place rules out noise at [`LEVEL`], once
+/// per 100 runs and the choice of the place allowed for.
+///
+/// Takes n log n steps for n runs, times the number of divisions that hold; see [`Changes::append`].
+///
+/// # Errors
+/// If a time is not finite and above zero, or an interval does not hold its median.
+pub fn change_points(points: &[Point]) -> Result<Changes, PointError> {
+    check(points)?;
+    let mut changes = analyze(points);
+    mark_returns(&mut changes.points);
+    Ok(changes)
+}
+
+impl Changes {
+    /// Returns the smallest step, as a ratio above 1, that will be found with probability [`crate::POWER`] when so many
+    /// runs have followed it; `None` where no step could be: with fewer than [`MIN_RUNS`] runs before or after.
+    pub fn visible(&self, after: usize) -> Option<f64> {
+        let last = self.points.last().map_or(0, |point| point.index);
+        let before = self.runs - last;
+        let enough = before.min(after) >= MIN_RUNS;
+        enough.then(|| Test::of_noise(self.noise, before, after).visible().exp())
+    }
+
+    /// Returns the first run that later ones can still matter to: [`Changes::append`] reads none before it.
+    ///
+    /// That is the change before the last one that 50 runs or more have followed.
+    pub fn settled(&self) -> usize {
+        let ends = self.points.iter().skip(1).map(|point| point.index);
+        let ends = ends.chain([self.runs]);
+        let long = |(_, (point, end)): &(usize, (&ChangePoint, usize))| end - point.index >= WINDOW;
+        let last = self.points.iter().zip(ends).enumerate().filter(long).last();
+        let before = last.and_then(|(at, _)| at.checked_sub(1));
+        before.map_or(0, |at| self.points[at].index)
+    }
+
+    /// The changes of a series that has grown. `all` holds the old runs and the new ones.
+    ///
+    /// Runs before [`Changes::settled`] are not looked at again, so that the cost grows with the runs since then and
+    /// not with the history. Their changes stay as they are.
+    ///
+    /// # Errors
+    /// As for [`change_points`].
+    pub fn append(&self, all: &[Point]) -> Result<Self, PointError> {
+        let start = self.settled().min(all.len());
+        check(&all[start..])?;
+        let mut tail = analyze(&all[start..]);
+        for point in &mut tail.points {
+            point.index += start;
+            point.between = point.between.map(|at| at + start);
+        }
+        for drift in &mut tail.drifts {
+            drift.from += start;
+            drift.to += start;
+        }
+        let kept = self.points.iter().take_while(|point| point.index <= start);
+        let mut points: Vec<ChangePoint> = kept.copied().collect();
+        points.append(&mut tail.points);
+        mark_returns(&mut points);
+        let kept = self.drifts.iter().take_while(|drift| drift.to <= start);
+        let mut drifts: Vec<Drift> = kept.copied().collect();
+        drifts.append(&mut tail.drifts);
+        Ok(Self {
+            points,
+            drifts,
+            noise: tail.noise,
+            runs: all.len(),
+        })
+    }
+}
+
+/// The logarithms of a series, of the ruler, and of the series in units of the ruler: as measured, and without a
+/// drift that goes through all of it.
+struct Logs {
+    measured: Sums,
+    measured_ruler: Option<Sums>,
+    level: Sums,
+    ruled: Option<[Sums; 2]>,
+}
+
+/// The changes of a series, and the series without its drift. What looks like stairs with a drift in each is looked at
+/// again without that drift.
+fn without_drift(sums: Sums) -> (Vec<usize>, Sums) {
+    let places = segmentation::places(&sums);
+    match sums.without_drift(&places) {
+        Some(level) => (segmentation::places(&level), level),
+        None => (places, sums),
+    }
+}
+
+impl Logs {
+    /// The logarithms, and the changes that they show as measured and in units of the ruler.
+    fn new(points: &[Point]) -> (Self, [Vec<usize>; 2]) {
+        let times: Vec<f64> = points.iter().map(|p| p.median.ln()).collect();
+        let deviations = upper_normal((1.0 - CONFIDENCE) / 2.0);
+        let error = |p: &Point| {
+            p.interval
+                .map_or(0.0, |[low, high]| (high / low).ln() / 2.0 / deviations)
+        };
+        let errors: Vec<f64> = points.iter().map(error).collect();
+        let measured = || Sums::new(clean(&times), &errors);
+        let (places, level) = without_drift(measured());
+        let rulers: Option<Vec<f64>> = points.iter().map(|p| Some(p.ruler?.ln())).collect();
+        let Some(rulers) = rulers else {
+            let logs = Self {
+                measured: measured(),
+                measured_ruler: None,
+                level,
+                ruled: None,
+            };
+            return (logs, [places, Vec::new()]);
+        };
+        let ruled: Vec<f64> = times.iter().zip(&rulers).map(|(t, r)| t - r).collect();
+        let (hidden, ruled) = without_drift(Sums::new(clean(&ruled), &errors));
+        let ruler = || Sums::new(clean(&rulers), &vec![0.0; rulers.len()]);
+        let level_ruler = ruler().without_drift(&places).unwrap_or_else(ruler);
+        let logs = Self {
+            measured: measured(),
+            measured_ruler: Some(ruler()),
+            level,
+            ruled: Some([ruled, level_ruler]),
+        };
+        (logs, [places, hidden])
+    }
+
+    /// The tests of a step as measured, in units of the ruler, and of the ruler.
+    fn tests(&self, [from, place, to]: [usize; 3]) -> (Test, Option<[Test; 2]>) {
+        let raw = segmentation::test(&self.level, from, place, to);
+        let ruled = self.ruled.as_ref().map(|[ruled, ruler]| {
+            let ruled = segmentation::test(ruled, from, place, to);
+            [ruled, ruler.step(from, place, to)]
+        });
+        (raw, ruled)
+    }
+
+    fn cause(&self, around: [usize; 3]) -> Cause {
+        match self.tests(around) {
+            (raw, Some([ruled, ruler])) => Cause::of(&raw, &ruled, &ruler),
+            (_, None) => Cause::NoRuler,
+        }
+    }
+}
+
+fn analyze(points: &[Point]) -> Changes {
+    let runs = points.len();
+    let (logs, [raw, hidden]) = Logs::new(points);
+    // A machine that changes its pace all the time hides steps of the times, and none in units of the ruler.
+    let mut found: Vec<(usize, bool)> = raw.iter().map(|place| (*place, false)).collect();
+    if !hidden.is_empty() {
+        let far = |place: &usize| raw.iter().all(|other| place.abs_diff(*other) >= MIN_RUNS);
+        let hidden = hidden.into_iter().filter(far);
+        found.extend(hidden.map(|place| (place, true)));
+        found.sort_unstable();
+        let around = neighbourhoods(&found, runs);
+        let mut causes = around.iter().map(|around| logs.cause(*around));
+        found.retain(|(_, hidden)| causes.next() == Some(Cause::Driver) || !hidden);
+    }
+    let around = neighbourhoods(&found, runs);
+    let hidden = found.iter().map(|(_, hidden)| *hidden);
+    let changes = around.iter().zip(hidden);
+    let changes = changes.map(|(around, hidden)| change(&logs, *around, hidden));
+    let places: Vec<usize> = found.iter().map(|(place, _)| *place).collect();
+    Changes {
+        points: changes.collect(),
+        drifts: drifts(&logs, &places),
+        noise: logs.level.noise(&places),
+        runs,
+    }
+}
+
+/// The place before, the place, and the place after, of each.
+fn neighbourhoods(found: &[(usize, bool)], runs: usize) -> Vec<[usize; 3]> {
+    let place = |at: usize| found.get(at).map_or(runs, |(place, _)| *place);
+    let before = |at: usize| at.checked_sub(1).map_or(0, place);
+    (0..found.len())
+        .map(|at| [before(at), place(at), place(at + 1)])
+        .collect()
+}
+
+/// The change at a place; `hidden` if it was found in units of the ruler.
+fn change(logs: &Logs, around: [usize; 3], hidden: bool) -> ChangePoint {
+    let [from, place, to] = around;
+    let (raw, ruled) = logs.tests(around);
+    let (sums, test) = match (&logs.ruled, &ruled) {
+        (Some([sums, _]), Some([test, _])) if hidden => (sums, test),
+        _ => (&logs.level, &raw),
+    };
+    let [first, last] = sums.places(from, place, to);
+    ChangePoint {
+        index: place,
+        between: [first - 1, last],
+        before: logs.measured.mean(from, place).exp(),
+        after: logs.measured.mean(place, to).exp(),
+        ratio: ratio(&raw),
+        ruled: ruled.as_ref().map(|[ruled, _]| ratio(ruled)),
+        ruler: ruled.as_ref().map(|[_, ruler]| ratio(ruler)),
+        p: test.p_of_any_place(),
+        visible: test.visible().exp(),
+        cause: logs.cause(around),
+        returns: false,
+    }
+}
+
+fn drifts(logs: &Logs, places: &[usize]) -> Vec<Drift> {
+    let runs = logs.measured.values().len();
+    let mut found = Vec::new();
+    let mut from = 0;
+    for to in places.iter().copied().chain([runs]) {
+        if to - from >= MIN_DRIFT {
+            let climb = logs.measured.climb(from, to);
+            if climb.p() <= LEVEL && climb.shift.abs() >= MINIMUM.ln() {
+                let ruler = logs
+                    .measured_ruler
+                    .as_ref()
+                    .map(|ruler| ruler.climb(from, to));
+                let along = |ruler: Test| {
+                    let enough = BEYOND_RULER * ruler.shift.abs() > climb.shift.abs();
+                    enough && ruler.shift * climb.shift > 0.0 && ruler.p() <= LEVEL
+                };
+                found.push(Drift {
+                    from,
+                    to,
+                    ratio: ratio(&climb),
+                    machine: ruler.is_some_and(along),
+                });
+            }
+        }
+        from = to;
+    }
+    found
+}
+
+/// Marks the changes both of whose levels the series has more than once.
+fn mark_returns(points: &mut [ChangePoint]) {
+    let levels: Vec<f64> = points
+        .first()
+        .map(|first| first.before.ln())
+        .into_iter()
+        .collect();
+    let levels: Vec<f64> = levels
+        .into_iter()
+        .chain(points.iter().map(|p| p.after.ln()))
+        .collect();
+    for (at, point) in points.iter_mut().enumerate() {
+        let reach = (point.ratio.high / point.ratio.low).ln() / 2.0;
+        let near = reach.max(STEP.ln());
+        let times = |level: f64| levels.iter().filter(|l| (*l - level).abs() <= near).count();
+        // Both levels within reach of each other say nothing.
+        let apart = (levels[at + 1] - levels[at]).abs() > 2.0 * near;
+        point.returns = apart && times(levels[at]) > 1 && times(levels[at + 1]) > 1;
+    }
+}

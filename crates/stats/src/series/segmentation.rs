@@ -1,0 +1,146 @@
+//! Where a series changes: weak changes first, then the removal of those that do not hold.
+//!
+//! As in Hunter (Fleming et al. 2023), the divisive search of Matteson and James (2014) goes over
+//! windows of a fixed length, so that two changes near each other do not hide one another in a long
+//! series, and takes all places at a lenient level. Then the weakest that fails the strict test between
+//! its neighbours is removed, and its neighbours are tested again, until all hold. What is only visible
+//! over more runs than a window has is looked for afterwards, in each stretch as a whole.
+
+use super::divergence::best_place;
+use super::stretch::{MIN_RUNS, STEP, Sums, Test};
+use crate::compare::LEVEL;
+use std::collections::BTreeSet;
+
+/// Runs of a window.
+pub(super) const WINDOW: usize = 50;
+/// The level of weak changes.
+const WEAK: f64 = 0.05;
+/// Rounds of search and removal, of which two or three are needed.
+const ROUNDS: usize = 8;
+
+/// The places of all changes, ascending.
+pub(super) fn places(sums: &Sums) -> Vec<usize> {
+    let runs = sums.values().len();
+    let mut found = BTreeSet::new();
+    // From both ends, so that a series backwards has the same changes.
+    for start in (0..runs).step_by(WINDOW / 2) {
+        let end = (start + WINDOW).min(runs);
+        split(sums, start, end, WEAK, &mut found);
+        split(sums, runs - end, runs - start, WEAK, &mut found);
+    }
+    remove(sums, &mut found);
+    for _ in 0..ROUNDS {
+        let before = found.clone();
+        let ends: Vec<usize> = found.iter().copied().chain([runs]).collect();
+        let mut start = 0;
+        for end in ends {
+            split(sums, start, end, WEAK, &mut found);
+            start = end;
+        }
+        remove(sums, &mut found);
+        found = settle(sums, &found);
+        remove(sums, &mut found);
+        if found == before {
+            break;
+        }
+    }
+    found.into_iter().collect()
+}
+
+/// The test by which a change between its neighbours is one: that of two levels, or on a line, where a line says more.
+pub(super) fn test(sums: &Sums, from: usize, place: usize, to: usize) -> Test {
+    match sums.is_rather_a_line(from, place, to) {
+        true => sums.step_of_line(from, place, to),
+        false => sums.step(from, place, to),
+    }
+}
+
+/// Divides a stretch and its parts as long as there are weak changes.
+fn split(sums: &Sums, from: usize, to: usize, level: f64, found: &mut BTreeSet<usize>) {
+    let Some(place) = best_place(&sums.values()[from..to], MIN_RUNS) else {
+        return;
+    };
+    let place = from + place;
+    if sums.step(from, place, to).p() > level {
+        return;
+    }
+    found.insert(place);
+    split(sums, from, place, level, found);
+    split(sums, place, to, level, found);
+}
+
+/// A change between its neighbours.
+struct Candidate {
+    place: usize,
+    holds: bool,
+    /// The size of the test's statistic.
+    evidence: f64,
+}
+
+/// Removes the weakest change that does not hold until all do.
+fn remove(sums: &Sums, found: &mut BTreeSet<usize>) {
+    let runs = sums.values().len();
+    let mut places: Vec<usize> = found.iter().copied().collect();
+    let judged = |places: &[usize], at: usize| judge(sums, places, at, runs);
+    let mut all: Vec<Candidate> = (0..places.len()).map(|at| judged(&places, at)).collect();
+    loop {
+        let failing = all.iter().enumerate().filter(|(_, c)| !c.holds);
+        let weakest = failing.min_by(|(_, a), (_, b)| a.evidence.total_cmp(&b.evidence));
+        let Some((at, _)) = weakest else {
+            break;
+        };
+        all.remove(at);
+        places.remove(at);
+        // Those too near to each other look past one another, so that more than two may see the gap.
+        for near in at.saturating_sub(MIN_RUNS)..places.len().min(at + MIN_RUNS) {
+            all[near] = judged(&places, near);
+        }
+    }
+    *found = all.into_iter().map(|c| c.place).collect();
+}
+
+/// Judges a change between the nearest that are far enough from it. Of those that are too near to each other
+/// the one with the most evidence remains.
+fn judge(sums: &Sums, places: &[usize], at: usize, runs: usize) -> Candidate {
+    let place = places[at];
+    let before = places[..at].iter().rev();
+    let after = places[at + 1..].iter();
+    let from = before
+        .copied()
+        .chain([0])
+        .find(|other| place - other >= MIN_RUNS);
+    let to = after
+        .copied()
+        .chain([runs])
+        .find(|other| other - place >= MIN_RUNS);
+    let (Some(from), Some(to)) = (from, to) else {
+        return Candidate {
+            place,
+            holds: false,
+            evidence: 0.0,
+        };
+    };
+    let test = test(sums, from, place, to);
+    let alone = places[..at].last().is_none_or(|other| *other == from)
+        && places.get(at + 1).is_none_or(|other| *other == to);
+    Candidate {
+        place,
+        holds: alone && test.shift.abs() >= STEP.ln() && test.p_of_any_place() <= LEVEL,
+        evidence: test.shift.abs() / test.error,
+    }
+}
+
+/// Moves each change to the place between its neighbours that fits best.
+fn settle(sums: &Sums, found: &BTreeSet<usize>) -> BTreeSet<usize> {
+    let runs = sums.values().len();
+    let places: Vec<usize> = found.iter().copied().collect();
+    let moved = places.iter().enumerate().map(|(at, place)| {
+        let from = at.checked_sub(1).map_or(0, |before| places[before]);
+        let to = places.get(at + 1).copied().unwrap_or(runs);
+        match sums.is_rather_a_line(from, *place, to) {
+            true => *place,
+            false => sums.best_place(from, *place, to),
+        }
+    });
+    moved.collect()
+}

@@ -1,0 +1,265 @@
+//! Verdicts over runs: what broke, what was fixed, and scores that a growing suite does not move.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What a verdict means for a history.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// Nothing is wrong.
+    Good,
+    /// Something is wrong.
+    Bad,
+    /// One run gave different verdicts.
+    Flaky,
+    /// The run has no verdict of the case.
+    Missing,
+}
+
+/// What happened to a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Event {
+    /// Bad, and was good or flaky.
+    Broken,
+    /// Good, and was bad or flaky.
+    Fixed,
+    /// Flaky, or good and bad in turn, and was neither.
+    Flaky,
+    /// There, and was not in the runs before.
+    Appeared,
+    /// Not there, and was in the run before.
+    Gone,
+}
+
+impl Event {
+    /// The words in reports, before the run.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Broken => "broken at",
+            Self::Fixed => "fixed at",
+            Self::Flaky => "flaky since",
+            Self::Appeared => "appeared at",
+            Self::Gone => "gone since",
+        }
+    }
+}
+
+/// An event, the run that shows it, and the run before that one: what happened lies between the two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Happening<K> {
+    /// The event.
+    pub event: Event,
+    /// The last run before.
+    pub after: K,
+    /// The first run that shows it.
+    pub at: K,
+}
+
+/// Changes from good to bad and back, no more than [`NEAR`] runs apart, that make a case flaky.
+const TURNS: usize = 4;
+/// Runs between such changes.
+const NEAR: usize = 3;
+
+/// Returns what happened to a case over runs, oldest first.
+///
+/// The first run is where a history begins and tells of no event. A run that did not select the case, or did not
+/// end, is to be left out; `Missing` says that a run of the whole suite has no verdict of it. What
+/// a case was before it was gone still counts when it appears again.
+///
+/// A case that is good and bad in turn four times, with at most three runs between, is flaky for that
+/// time, though each run alone was sure of its verdict.
+pub fn happenings<K: Copy>(runs: &[(K, Class)]) -> Vec<Happening<K>> {
+    let classes = with_turns(runs);
+    let mut found = Vec::new();
+    let mut known = None;
+    for (at, class) in classes.iter().enumerate() {
+        let before = at
+            .checked_sub(1)
+            .map(|before| (runs[before].0, classes[before]));
+        if let Some((after, last)) = before {
+            let mut tell = |event| {
+                let at = runs[at].0;
+                found.push(Happening { event, after, at });
+            };
+            match (last, class) {
+                (Class::Missing, Class::Missing) => {}
+                (_, Class::Missing) => tell(Event::Gone),
+                (Class::Missing, _) => tell(Event::Appeared),
+                _ => {}
+            }
+            match class {
+                _ if known.is_none_or(|known| known == *class) => {}
+                Class::Good => tell(Event::Fixed),
+                Class::Bad => tell(Event::Broken),
+                Class::Flaky => tell(Event::Flaky),
+                Class::Missing => {}
+            }
+        }
+        if *class != Class::Missing {
+            known = Some(*class);
+        }
+    }
+    found
+}
+
+/// The classes, with `Flaky` in place of stretches that are good and bad in turn.
+fn with_turns<K: Copy>(runs: &[(K, Class)]) -> Vec<Class> {
+    let mut classes: Vec<Class> = runs.iter().map(|(_, class)| *class).collect();
+    let sure: Vec<usize> = (0..classes.len())
+        .filter(|i| matches!(classes[*i], Class::Good | Class::Bad))
+        .collect();
+    let turns: Vec<usize> = sure
+        .windows(2)
+        .filter(|w| classes[w[0]] != classes[w[1]])
+        .map(|w| w[1])
+        .collect();
+    for group in turns.chunk_by(|a, b| b - a <= NEAR) {
+        if let ([first, .., last], true) = (group, group.len() >= TURNS) {
+            // The last turn begins what the case is afterwards.
+            for class in classes[*first..*last]
+                .iter_mut()
+                .filter(|c| **c != Class::Missing)
+            {
+                *class = Class::Flaky;
+            }
+        }
+    }
+    classes
+}
+
+/// How many cases of a set are good.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Score {
+    /// Good cases.
+    pub good: usize,
+    /// Cases with a verdict.
+    pub of: usize,
+}
+
+impl Score {
+    fn over<'a>(classes: impl Iterator<Item = &'a Class>) -> Self {
+        let mut score = Self::default();
+        for class in classes.filter(|class| **class != Class::Missing) {
+            score.of += 1;
+            score.good += usize::from(*class == Class::Good);
+        }
+        score
+    }
+
+    /// Returns the share of good cases, 0 to 1; `None` of no case.
+    pub fn share(self) -> Option<f64> {
+        (self.of > 0).then(|| self.good as f64 / self.of as f64)
+    }
+}
+
+/// The score of one run of a history.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scores {
+    /// Over the cases that all runs have: a change is one of the driver's.
+    pub common: Score,
+    /// Over all cases of the run: cases that appeared or went move it, too.
+    pub own: Score,
+}
+
+/// Returns the scores of runs, over what they have in common and over what each has.
+pub fn scores<K: Ord + Copy>(runs: &[BTreeMap<K, Class>]) -> Vec<Scores> {
+    let there = |run: &BTreeMap<K, Class>| -> BTreeSet<K> {
+        let cases = run.iter().filter(|(_, class)| **class != Class::Missing);
+        cases.map(|(case, _)| *case).collect()
+    };
+    let common = runs.iter().map(there).reduce(|all, run| &all & &run);
+    let common = common.unwrap_or_default();
+    let score = |run: &BTreeMap<K, Class>| Scores {
+        common: Score::over(
+            run.iter()
+                .filter(|(case, _)| common.contains(case))
+                .map(|(_, c)| c),
+        ),
+        own: Score::over(run.values()),
+    };
+    runs.iter().map(score).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use Event::{Appeared, Broken, Fixed, Flaky, Gone};
+
+    /// Events of a history in letters: good, bad, flaky, missing.
+    fn told(text: &str) -> Vec<(Event, usize)> {
+        let class = |letter| match letter {
+            'g' => Class::Good,
+            'b' => Class::Bad,
+            'f' => Class::Flaky,
+            _ => Class::Missing,
+        };
+        let runs: Vec<(usize, Class)> = text.chars().map(class).enumerate().collect();
+        let all = happenings(&runs);
+        assert!(all.iter().all(|h| h.after + 1 == h.at), "{text}: {all:?}");
+        all.into_iter().map(|h| (h.event, h.at)).collect()
+    }
+
+    #[test]
+    fn each_event_is_told_once_and_where_it_shows() {
+        assert_eq!(told(""), []);
+        assert_eq!(told("ggggg"), []);
+        assert_eq!(told("bbb"), []);
+        assert_eq!(told("ggbbb"), [(Broken, 2)]);
+        assert_eq!(told("bbg"), [(Fixed, 2)]);
+        assert_eq!(told("gbbbbbg"), [(Broken, 1), (Fixed, 6)]);
+        assert_eq!(told("gffg"), [(Flaky, 1), (Fixed, 3)]);
+        assert_eq!(told("gfb"), [(Flaky, 1), (Broken, 2)]);
+        assert_eq!(told("..gg.."), [(Appeared, 2), (Gone, 4)]);
+    }
+
+    #[test]
+    fn what_a_case_was_before_it_was_gone_counts() {
+        assert_eq!(told("g.g"), [(Gone, 1), (Appeared, 2)]);
+        assert_eq!(told("g..b"), [(Gone, 1), (Appeared, 3), (Broken, 3)]);
+        assert_eq!(told(".b"), [(Appeared, 1)]);
+    }
+
+    #[test]
+    fn good_and_bad_in_turn_is_flaky() {
+        assert_eq!(told("gggbgbgbbbbb"), [(Flaky, 3), (Broken, 7)]);
+        assert_eq!(told("ggbbggbbgggggg"), [(Flaky, 2), (Fixed, 8)]);
+        assert_eq!(
+            told("gb.gb.g"),
+            [
+                (Flaky, 1),
+                (Gone, 2),
+                (Appeared, 3),
+                (Gone, 5),
+                (Appeared, 6),
+                (Fixed, 6)
+            ]
+        );
+        // Three turns, or turns far apart, are a fix and what broke it.
+        assert_eq!(told("gbgb"), [(Broken, 1), (Fixed, 2), (Broken, 3)]);
+        assert_eq!(told("gbbbbggggbbbbgggg").len(), 4);
+    }
+
+    #[test]
+    fn scores_over_what_is_common_do_not_move_with_the_suite() {
+        let run = |cases: &[(u8, Class)]| cases.iter().copied().collect::<BTreeMap<u8, Class>>();
+        let before = run(&[(1, Class::Good), (2, Class::Good), (3, Class::Bad)]);
+        let after = run(&[
+            (1, Class::Good),
+            (2, Class::Good),
+            (4, Class::Bad),
+            (5, Class::Bad),
+            (6, Class::Missing),
+        ]);
+        let [b, a] = scores(&[before, after])[..] else {
+            panic!("two runs")
+        };
+        assert_eq!(b.common, Score { good: 2, of: 2 });
+        assert_eq!(a.common, b.common);
+        assert_eq!(
+            (b.own, a.own),
+            (Score { good: 2, of: 3 }, Score { good: 2, of: 4 })
+        );
+        assert_eq!(a.own.share(), Some(0.5));
+        assert_eq!(Score::default().share(), None);
+        assert!(scores::<u8>(&[]).is_empty());
+    }
+}
