@@ -45,3 +45,4 @@ pub use run::{RUN_FILES, RUN_FOLDERS, Written, dead_lines, table, write, write_r
 pub use site::{SITE_FILE, WrittenSite, write_site};
 pub use terminal::TableOptions;
 pub use versions::{versions_table, write_versions};
+pub use words::plain;

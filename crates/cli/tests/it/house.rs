@@ -67,6 +67,7 @@ const TABLE: [(&str, &[&str], &[&str]); 22] = [
             "explore",
             "frame",
             "gl",
+            "history",
             "mutants",
             "pipeline",
             "record",

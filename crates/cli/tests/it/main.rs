@@ -19,6 +19,7 @@ mod expectations;
 mod findings;
 mod fuzz;
 mod help;
+mod history;
 mod house;
 mod launchers;
 mod methods;
