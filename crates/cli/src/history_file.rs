@@ -43,6 +43,12 @@ impl LabelArguments {
     pub(crate) fn labels(&self) -> Result<Labels, Failure> {
         parse_labels(&self.texts).map_err(Failure::usage)
     }
+
+    /// The words that give the same labels again.
+    pub(crate) fn words(&self) -> impl Iterator<Item = &str> {
+        let each = self.texts.iter();
+        each.flat_map(|text| ["--label", text.as_str()])
+    }
 }
 
 /// Labels by which runs are chosen.

@@ -27,6 +27,7 @@ mod history_file;
 mod interruption;
 mod known_bugs;
 mod near;
+mod news;
 mod out_folder;
 mod output;
 mod processors;
