@@ -47,6 +47,8 @@ fn well_before(place: &Place, from: &str, to: &str) -> Vec<String> {
     let text: String = lines.collect();
     fs::create_dir_all(place.path(to)).unwrap();
     fs::write(place.path(to).join("run.jsonl"), text).unwrap();
+    let [from, to] = [from, to].map(|folder| place.path(folder).join("cases.txt"));
+    fs::copy(from, to).unwrap();
     bad
 }
 
