@@ -3,9 +3,9 @@
 use std::path::Path;
 
 /// The file of a run folder that holds the header and the records.
-pub(crate) const RUN_FILE: &str = "run.jsonl";
+pub const RUN_FILE: &str = "run.jsonl";
 /// The file of a bench folder that holds the header and the frame times.
-pub(crate) const BENCH_FILE: &str = "bench.jsonl";
+pub const BENCH_FILE: &str = "bench.jsonl";
 /// The file of a run folder that lists the selected ids, one per line, before sharding.
 pub const CASES_FILE: &str = "cases.txt";
 /// The file of a merged run that lists the records that no part has: adapter, space, case.

@@ -52,11 +52,11 @@ struct Format {
 }
 
 impl JsonLines<'_> {
-    /// Reads a file. `begin` makes the result of the header, and `take` adds a line to it or says why the
+    /// Reads the lines of a file. `begin` makes the result of the header, and `take` adds a line to it or says why the
     /// line cannot follow those before it.
     pub(crate) fn read<H: DeserializeOwned, L: DeserializeOwned, T>(
         &self,
-        file: File,
+        file: impl Read,
         begin: impl FnOnce(H) -> T,
         take: impl Fn(&mut T, L) -> Result<(), String>,
     ) -> Result<(T, Extent), RecordError> {

@@ -60,7 +60,7 @@ pub use dead::{Dead, DeadKind};
 pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations, Known, Source};
 pub use findings::{Evidence, Finding, Seen};
-pub use folder::{CASES_FILE, DEAD_FILE, FolderKind, MISSING_FILE};
+pub use folder::{BENCH_FILE, CASES_FILE, DEAD_FILE, FolderKind, MISSING_FILE, RUN_FILE};
 pub use frame_file::{FrameFile, FrameImage};
 pub use frame_writer::FrameWriter;
 pub use grade::Grade;

@@ -32,6 +32,16 @@ const MAX_FRAME: u64 = 512 << 20;
 /// The remedy for a damaged line.
 const REMEDY: &str = "remove the line, or record the run again";
 
+fn lines(path: &Path) -> JsonLines<'_> {
+    JsonLines {
+        path,
+        format: FORMAT,
+        max_header: MAX_HEADER,
+        max_line: MAX_LINE as u64,
+        remedy: REMEDY,
+    }
+}
+
 impl Run {
     /// Reads `run.jsonl` in a run folder. A last line that is not whole JSON is dropped and noted;
     /// any other line must parse.
@@ -51,24 +61,33 @@ impl Run {
             },
             _ => RecordError::io("read", &path)(e),
         })?;
-        let lines = JsonLines {
-            path: &path,
-            format: FORMAT,
-            max_header: MAX_HEADER,
-            max_line: MAX_LINE as u64,
-            remedy: REMEDY,
-        };
         let begin = |header| Self {
             header,
             records: Vec::new(),
             truncated: false,
         };
-        let (mut run, extent) = lines.read(file, begin, |run, record: Record| {
+        let (mut run, extent) = lines(&path).read(file, begin, |run, record: Record| {
             run.records.push(record);
             Ok(())
         })?;
         run.truncated = extent.truncated;
         Ok((run, extent.bytes))
+    }
+
+    /// Reads the lines of a `run.jsonl` from anywhere, without holding more than one record: `begin` makes the result
+    /// of the header, and `take` adds a record to it or says why the record cannot be. The second value is true if
+    /// the last line was cut off; it is dropped. Errors name `path`.
+    ///
+    /// # Errors
+    /// As [`Run::read`], and when `take` refuses a record.
+    pub fn fold<T>(
+        path: &Path,
+        text: impl Read,
+        begin: impl FnOnce(Header) -> T,
+        take: impl Fn(&mut T, Record) -> Result<(), String>,
+    ) -> Result<(T, bool), RecordError> {
+        let (result, extent) = lines(path).read(text, begin, take)?;
+        Ok((result, extent.truncated))
     }
 
     /// The number of records that a complete run has and this one lacks.

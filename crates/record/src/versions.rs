@@ -10,6 +10,7 @@ use crate::machine::Machine;
 use crate::verdict::Verdict;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// The name of the file.
@@ -181,20 +182,28 @@ impl Versions {
     /// When there is none, or it is damaged.
     pub fn read(folder: &Path) -> Result<Self, RecordError> {
         let path = folder.join(VERSIONS_FILE);
+        let file = File::open(&path).map_err(RecordError::io("open", &path))?;
+        Self::parse(&path, file)
+    }
+
+    /// Reads the lines of such a file from anywhere. Errors name `path`.
+    ///
+    /// # Errors
+    /// When it is damaged.
+    pub fn parse(path: &Path, text: impl Read) -> Result<Self, RecordError> {
         let lines = JsonLines {
-            path: &path,
+            path,
             format: VERSIONS_FORMAT,
             max_header: MAX_LINE,
             max_line: MAX_LINE,
             remedy: "bisect again",
         };
-        let file = File::open(&path).map_err(RecordError::io("open", &path))?;
         let begin = |header| Self {
             header,
             cases: Vec::new(),
         };
         let (versions, _) =
-            lines.read(file, begin, |versions: &mut Self, case: CaseVersions| {
+            lines.read(text, begin, |versions: &mut Self, case: CaseVersions| {
                 if case.verdicts.len() != versions.header.releases.len() {
                     return Err("the case has not one verdict per release".to_owned());
                 }

@@ -21,6 +21,7 @@ mod files;
 mod hunt;
 mod matrix;
 mod methods;
+mod news;
 mod numbers;
 mod page;
 mod picture;
@@ -40,8 +41,12 @@ pub use diff::runs;
 pub use error::ReportError;
 pub use hunt::{WrittenHunt, hunt_table, write_hunt};
 pub use matrix::matrix_table;
+pub use news::{News, NewsEntry, Since, news_table};
 pub use picture::{Ringed, ringed_pictures};
-pub use run::{RUN_FILES, RUN_FOLDERS, Written, dead_lines, table, write, write_run};
+pub use run::{
+    RUN_FILES, RUN_FOLDERS, Written, dead_lines, table, write, write_run, write_run_with_news,
+};
 pub use site::{SITE_FILE, WrittenSite, write_site};
 pub use terminal::TableOptions;
 pub use versions::{versions_table, write_versions};
+pub use words::plain;

@@ -7,7 +7,7 @@ mod texel;
 mod verdict;
 
 pub(crate) use header::{machine, settings};
-pub(crate) use plain::plain;
+pub use plain::plain;
 pub(crate) use record::{headline, process_end};
 pub(crate) use texel::{
     allowed, channel_of, code_and_value, code_text, multisampled, place, value_text,

@@ -4,6 +4,7 @@ use crate::cases::{build, library};
 use crate::catalogue::catalogue;
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::Format;
+use crate::news::NewsArguments;
 use crate::output::{say, summarize, summarize_json, table_options};
 use crate::{provenance, report_files};
 use clap::Args;
@@ -25,6 +26,8 @@ pub(crate) struct Arguments {
     /// Replace the run or bench in the folder
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) news: NewsArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
@@ -35,6 +38,7 @@ const NAMED: usize = 20;
 
 /// Merges runs into one and names the records that are missing.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    arguments.news.check()?;
     let out = &arguments.out;
     for folder in &arguments.folders {
         if same(folder, out) {
@@ -70,7 +74,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if built_in {
         write_catalogue(out, &run)?;
     }
-    let written = etalon_report::write_run(out, &run).map_err(Failure::incomplete)?;
+    let news = arguments.news.news(&run)?;
+    let written = etalon_report::write_run_with_news(out, &run, news.as_ref())
+        .map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
         summarize_json(&json!({
@@ -81,10 +87,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "disagreeing": merged.disagreeing.iter().map(pair).collect::<Vec<_>>(),
             "unexpected": merged.unexpected,
             "improvements": merged.improvements,
+            "news": news,
             "folder": out,
             "report": written.html,
         }))?;
     } else {
+        if let Some(news) = &news {
+            summarize(&etalon_report::news_table(news, table_options()));
+        }
         summarize(&etalon_report::table(&run, table_options()));
         summarize(&format!("\nReport: {}\n", written.html.display()));
     }
@@ -92,10 +102,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if !merged.missing.is_empty() || !merged.empty.is_empty() {
         return Err(Failure::incomplete(holes(&merged, out)));
     }
+    arguments.news.tell_how_to_add(out);
+    let unexpected = news.map_or(merged.unexpected, |news| news.counted());
     Ok(match merged {
-        Merged {
-            unexpected: 1.., ..
-        } => UNEXPECTED,
+        _ if unexpected > 0 => UNEXPECTED,
         Merged {
             improvements: 1.., ..
         } => IMPROVED,

@@ -12,6 +12,7 @@ use crate::expectations::{self, today};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::interruption::{how_to_resume, listen};
+use crate::news::NewsArguments;
 use crate::out_folder::Out;
 use crate::output::{say, summarize, summarize_json, table_options};
 use crate::processors::processors;
@@ -76,6 +77,8 @@ pub(crate) struct Arguments {
     /// and remove improved ones. Refused if the variable CI is set
     #[arg(long)]
     pub(crate) bless: bool,
+    #[command(flatten)]
+    pub(crate) news: NewsArguments,
     /// Draw shard M of N, chosen by a hash of the id; 1/1 is everything. Default: the shard given by the
     /// variables of GitLab, Bazel, Slurm or a Kubernetes indexed job
     #[arg(long, value_name = "M/N", value_parser = crate::shard::parse)]
@@ -147,6 +150,7 @@ fn parse_percent(text: &str) -> Result<f64, String> {
 
 /// Draws the selected cases on the selected adapters, judges them, writes records and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    arguments.news.check()?;
     let mut cases = chosen(&arguments.selection)?;
     if arguments.selection.globs.is_empty() {
         // A folder with nothing else in it means them.
@@ -246,7 +250,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let library = library(arguments.selection.cases.as_ref())?;
     etalon_report::write_catalogue(&arguments.out, &catalogue(&library, &cases))
         .map_err(Failure::incomplete)?;
-    let written = etalon_report::write_run(&arguments.out, &run).map_err(Failure::incomplete)?;
+    let news = arguments.news.news(&run)?;
+    let written = etalon_report::write_run_with_news(&arguments.out, &run, news.as_ref())
+        .map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         summarize_json(&json!({
             "records": outcome.records,
@@ -259,10 +265,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             "dead_expectations": dead,
             "adapters": names,
             "verdicts": verdicts(&run),
+            "news": news,
             "folder": arguments.out,
             "report": written.html,
         }))?;
     } else {
+        if let Some(news) = &news {
+            summarize(&etalon_report::news_table(news, table_options()));
+        }
         summarize(&etalon_report::table(&run, table_options()));
         summarize(&rechecked(arguments.recheck, outcome.rechecks));
         summarize(&format!("\nReport: {}\n", written.html.display()));
@@ -280,6 +290,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             how_to_resume()
         )));
     }
+    arguments.news.tell_how_to_add(&arguments.out);
     if let Some(path) = &blessed {
         let all_adapters = arguments.adapters.is_empty();
         let cases = arguments.selection.cases.as_ref();
@@ -299,10 +310,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
         enough
     });
+    let unexpected = news.map_or(outcome.unexpected, |news| news.counted());
     Ok(match outcome {
-        RunSummary {
-            unexpected: 1.., ..
-        } => UNEXPECTED,
+        _ if unexpected > 0 => UNEXPECTED,
         _ if !asserted || arguments.strict_expectations && !dead.is_empty() => UNEXPECTED,
         RunSummary {
             improvements: 1.., ..

@@ -79,6 +79,9 @@ fn manual_pages_are_printed_and_written() {
         "etalon",
         "etalon-expectations-import",
         "etalon-expectations-export",
+        "etalon-history-add",
+        "etalon-history-show",
+        "etalon-history-triage",
     ]
     .iter()
     .map(|name| format!("{name}.1"))

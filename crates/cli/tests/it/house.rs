@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 21] = [
+const TABLE: [(&str, &[&str], &[&str]); 22] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -55,6 +55,7 @@ const TABLE: [(&str, &[&str], &[&str]); 21] = [
     ),
     ("bundle", &["backend", "frame"], &[]),
     ("explore", &["case", "frame", "scene"], &[]),
+    ("history", &["frame", "record", "stats"], &[]),
     ("report", &["frame", "methods", "record", "stats"], &[]),
     (
         "cli",
@@ -66,6 +67,7 @@ const TABLE: [(&str, &[&str], &[&str]); 21] = [
             "explore",
             "frame",
             "gl",
+            "history",
             "mutants",
             "pipeline",
             "record",

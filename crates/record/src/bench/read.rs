@@ -8,7 +8,7 @@ use crate::folder::BENCH_FILE;
 use crate::json_lines::JsonLines;
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 /// A recorded bench.
@@ -46,8 +46,20 @@ impl Bench {
             },
             _ => RecordError::io("read", &path)(e),
         })?;
+        Self::parse_prefix(&path, file)
+    }
+
+    /// Reads the lines of a `bench.jsonl` from anywhere. Errors name `path`.
+    ///
+    /// # Errors
+    /// As [`Bench::read`].
+    pub fn parse(path: &Path, text: impl Read) -> Result<Self, RecordError> {
+        Ok(Self::parse_prefix(path, text)?.0)
+    }
+
+    fn parse_prefix(path: &Path, text: impl Read) -> Result<(Self, u64), RecordError> {
         let lines = JsonLines {
-            path: &path,
+            path,
             format: BENCH_FORMAT,
             max_header: u64::MAX,
             max_line: u64::MAX,
@@ -58,7 +70,7 @@ impl Bench {
             records: Vec::new(),
             places: HashMap::new(),
         };
-        let (assembly, extent) = lines.read(file, begin, Assembly::take)?;
+        let (assembly, extent) = lines.read(text, begin, Assembly::take)?;
         let bench = Self {
             header: assembly.header,
             records: assembly.records,

@@ -6,6 +6,7 @@
 
 use crate::command;
 use crate::export::status::{incomplete, particulars};
+use crate::news::{News, NewsEntry};
 use crate::numbers::{count, percent_of};
 use crate::run::grid::Tally;
 use crate::run::unexpected::unexpected_records;
@@ -58,13 +59,17 @@ impl Text {
 }
 
 /// The file.
-pub(crate) fn summary(run: &Run) -> String {
+pub(crate) fn summary(run: &Run, news: Option<&News>) -> String {
     let mut text = Text {
         text: String::new(),
         until: 0,
     };
     text.section(100_000);
-    head(&mut text, run);
+    head(&mut text, run, news);
+    if let Some(news) = news {
+        text.section(200_000);
+        told(&mut text, news);
+    }
     if !run.records.is_empty() {
         text.section(250_000);
         adapters(&mut text, run);
@@ -80,13 +85,14 @@ pub(crate) fn summary(run: &Run) -> String {
     text.text
 }
 
-fn head(text: &mut Text, run: &Run) {
+fn head(text: &mut Text, run: &Run, news: Option<&News>) {
     let h = &run.header;
     text.line("# etalon\n");
     if let Some(why) = incomplete(run) {
         text.line(&format!("**✗ Incomplete: {why}.**\n"));
     }
-    let bad = run.records.iter().filter(|r| r.unexpected()).count() as u64;
+    let all = run.records.iter().filter(|r| r.unexpected()).count() as u64;
+    let bad = news.map_or(all, News::counted);
     if bad > 0 {
         text.line(&format!("**✗ {}.**\n", count(bad, "unexpected record")));
     } else if !run.records.is_empty() {
@@ -118,6 +124,34 @@ fn head(text: &mut Text, run: &Run) {
         escaped(&h.machine.os, 200),
     ));
     text.line(&format!("{}\n", code(&h.command.join(" "), 2000)));
+}
+
+/// What is new since the run before, then what is as it was.
+fn told(text: &mut Text, news: &News) {
+    for (title, entries) in news.sections() {
+        if entries.is_empty() {
+            continue;
+        }
+        let n = entries.len();
+        text.line(&format!("## {n} {title}\n"));
+        text.lines(entries, LISTED / 4, |entry: &NewsEntry| {
+            format!(
+                "- **{}** {} on {}: {}",
+                escaped(&entry.verdict, 60),
+                code(&entry.case, 400),
+                code(&entry.adapter, 100),
+                escaped(&entry.note, 300)
+            )
+        });
+        text.line("");
+    }
+    text.line("## Compared with\n");
+    text.lines(&news.since, LISTED / 4, |since| {
+        let run = since.run.as_deref();
+        let run = run.unwrap_or("no earlier run of this adapter");
+        format!("- {}: {}", code(&since.adapter, 100), escaped(run, 300))
+    });
+    text.line("");
 }
 
 /// A row per adapter, a column per verdict that occurs.

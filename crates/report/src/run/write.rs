@@ -7,6 +7,7 @@ use crate::error::ReportError;
 use crate::export::{ctrf, deqp, junit, markdown};
 use crate::files::replace;
 use crate::methods::{self, Methods};
+use crate::news::News;
 use etalon_record::{Dead, Run};
 use std::fs;
 use std::panic::resume_unwind;
@@ -70,6 +71,18 @@ pub fn write(folder: &Path) -> Result<Written, ReportError> {
 /// Returns an error if the folder cannot be written to or its list of dead expectations cannot be read. A frame file
 /// that is missing or damaged is no error: the page names it.
 pub fn write_run(folder: &Path, run: &Run) -> Result<Written, ReportError> {
+    write_run_with_news(folder, run, None)
+}
+
+/// [`write_run`] of a run that was compared with the one before it: the summary tells news first.
+///
+/// # Errors
+/// As [`write_run`].
+pub fn write_run_with_news(
+    folder: &Path,
+    run: &Run,
+    news: Option<&News>,
+) -> Result<Written, ReportError> {
     let found = Methods::of(run);
     let dead = Dead::read(folder)?;
     // The page reads frames and takes as long as all others together.
@@ -78,7 +91,7 @@ pub fn write_run(folder: &Path, run: &Run) -> Result<Written, ReportError> {
             let page = index::page(folder, run, &dead, found.as_ref());
             replace(folder, HTML, page.as_bytes())
         });
-        let others = others(folder, run, found.as_ref());
+        let others = others(folder, run, found.as_ref(), news);
         let html = html.join().unwrap_or_else(|panic| resume_unwind(panic));
         (html, others)
     });
@@ -89,7 +102,12 @@ pub fn write_run(folder: &Path, run: &Run) -> Result<Written, ReportError> {
 }
 
 /// All reports but the page, whose path is written where it will stand.
-fn others(folder: &Path, run: &Run, found: Option<&Methods<'_>>) -> Result<Written, ReportError> {
+fn others(
+    folder: &Path,
+    run: &Run,
+    found: Option<&Methods<'_>>,
+    news: Option<&News>,
+) -> Result<Written, ReportError> {
     let methods = match found {
         Some(found) => {
             let page = methods::page(folder, run, found);
@@ -100,7 +118,7 @@ fn others(folder: &Path, run: &Run, found: Option<&Methods<'_>>) -> Result<Writt
     let grid = Grid::new(run);
     let junit = replace(folder, JUNIT, junit::xml(run, &grid)?.as_bytes())?;
     let ctrf = replace(folder, CTRF, &ctrf::json(run, &grid)?)?;
-    let summary = replace(folder, SUMMARY, markdown::summary(run).as_bytes())?;
+    let summary = replace(folder, SUMMARY, markdown::summary(run, news).as_bytes())?;
     let results = lists(folder, run, &grid)?;
     Ok(Written {
         html: folder.join(HTML),

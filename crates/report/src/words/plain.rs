@@ -2,7 +2,7 @@
 
 /// Text without control characters, which a terminal would obey, and no longer than so many
 /// characters.
-pub(crate) fn plain(text: &str, longest: usize) -> String {
+pub fn plain(text: &str, longest: usize) -> String {
     let clean = |c: char| {
         // Invisible characters that turn the reading direction could make one id look like another.
         let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');

@@ -1,0 +1,275 @@
+//! `etalon history add`.
+
+use crate::failure::{Failure, INCOMPLETE, USAGE};
+use crate::flags::Format;
+use crate::history_file::{DatabaseArguments, LabelArguments, failure};
+use crate::output::{say, summarize, summarize_json};
+use clap::Args;
+use etalon_history::{
+    Added, HistoryError, Kind, Labels, NewRun, ReleaseDates, RunId, Writer, read_runs,
+};
+use etalon_report::{plain, quoted};
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The release dates that are compiled in.
+const DATES: &str = include_str!("../../../../../ci/history/releases.json");
+/// Its name in messages.
+const DATES_NAME: &str = "ci/history/releases.json";
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Folders that `etalon run`, `bench` or `bisect` wrote, or their run.jsonl, bench.jsonl or versions.jsonl, packed by
+    /// gzip or not
+    #[arg(value_name = "RUN", required = true)]
+    pub(crate) runs: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) database: DatabaseArguments,
+    #[command(flatten)]
+    pub(crate) labels: LabelArguments,
+    /// Use these release dates instead of the built-in ones, a JSON file: {"line": {"version": "2026-01-31"}}
+    #[arg(long, value_name = "FILE")]
+    pub(crate) dates: Option<PathBuf>,
+    /// Add runs that lack records, too
+    #[arg(long)]
+    pub(crate) incomplete: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+/// What became of one run.
+struct Told<'a> {
+    path: &'a Path,
+    run: &'a NewRun,
+    id: RunId,
+    is_new: bool,
+}
+
+/// Adds runs to a history. A run that cannot be added is named, and the others are added.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let labels = arguments.labels.labels()?;
+    let dates = dates(arguments.dates.as_deref())?;
+    let mut writer = Writer::open(&arguments.database.path()).map_err(failure)?;
+    let mut codes = Vec::new();
+    let mut told = Vec::new();
+    for path in &arguments.runs {
+        let runs = match ready(path, &dates, &labels, arguments.incomplete) {
+            Ok(runs) => runs,
+            Err(Failure { code, message }) => {
+                say!("etalon: {message}");
+                codes.push(code);
+                continue;
+            }
+        };
+        for run in &runs {
+            let (id, is_new) = match writer.add(run) {
+                Ok(Added::New(id)) => (id, true),
+                Ok(Added::Already(id)) => (id, false),
+                Err(error @ HistoryError::Twice { .. }) => {
+                    say!("etalon: {}: {error}", path.display());
+                    codes.push(USAGE);
+                    continue;
+                }
+                Err(error) => return Err(failure(error)),
+            };
+            let one = Told {
+                path,
+                run,
+                id,
+                is_new,
+            };
+            match arguments.format {
+                Format::Text => summarize(&one.line()),
+                Format::Json => told.push(one.json()),
+            }
+        }
+    }
+    if arguments.format == Format::Json {
+        summarize_json(&told)?;
+    }
+    Ok([USAGE, INCOMPLETE]
+        .into_iter()
+        .find(|code| codes.contains(code))
+        .unwrap_or(0))
+}
+
+fn dates(path: Option<&Path>) -> Result<ReleaseDates, Failure> {
+    match path {
+        None => ReleaseDates::parse(Path::new(DATES_NAME), DATES),
+        Some(path) => {
+            let text = fs::read_to_string(path)
+                .map_err(|e| Failure::usage(format!("cannot read {}: {e}", path.display())))?;
+            ReleaseDates::parse(path, &text)
+        }
+    }
+    .map_err(Failure::usage)
+}
+
+/// Reads what is to be added, with its labels.
+fn ready(
+    path: &Path,
+    dates: &ReleaseDates,
+    labels: &Labels,
+    incomplete: bool,
+) -> Result<Vec<NewRun>, Failure> {
+    let mut runs = read_runs(path, dates).map_err(failure)?;
+    if let Some(run) = runs.iter().find(|run| run.missing > 0 && !incomplete) {
+        return Err(Failure::incomplete(lacks(path, run)));
+    }
+    let line = |run: &NewRun| {
+        run.adapters
+            .first()
+            .map_or(String::new(), |a| a.adapter.line.clone())
+    };
+    let undated = place_undated(&mut runs);
+    if let (Some(run), false) = (runs.first(), undated.is_empty()) {
+        say!(
+            "{}: no release date is known of {} {}; each stands behind the release before it, or where it was drawn if \
+             it is the last: --dates FILE gives dates",
+            path.display(),
+            plain(&line(run), 60),
+            plain(&undated.join(", "), 400),
+        );
+    }
+    for run in &mut runs {
+        run.labels = labels.clone();
+    }
+    Ok(runs)
+}
+
+fn lacks(path: &Path, run: &NewRun) -> String {
+    let (what, command) = match run.kind {
+        Kind::Bench => ("rounds", "bench"),
+        _ => ("records", "run"),
+    };
+    let folder = match path.is_dir() {
+        true => path,
+        false => path.parent().unwrap_or(path),
+    };
+    format!(
+        "{}: {} {what} are missing; draw them with `etalon {command} … --resume --out {}`, or add it as it is with --incomplete",
+        path.display(),
+        run.missing,
+        quoted(&folder.display().to_string())
+    )
+}
+
+/// Gives releases without a date that of a neighbour, so that they stand in the order of their line, and returns their
+/// versions. Those at the end keep none: they stand at the time at which they were drawn.
+fn place_undated(runs: &mut [NewRun]) -> Vec<String> {
+    let dates: Vec<Option<i64>> = runs.iter().map(|run| run.released).collect();
+    let mut undated = Vec::new();
+    for (at, run) in runs.iter_mut().enumerate() {
+        if run.kind != Kind::Release || run.released.is_some() {
+            continue;
+        }
+        undated.extend(run.adapters.first().map(|a| a.adapter.version.clone()));
+        let later = dates[at..].iter().flatten().next();
+        let earlier = dates[..at].iter().rev().flatten().next();
+        // Of equal times, the one that was added first stands first.
+        run.released = later.map(|later| *earlier.unwrap_or(later));
+    }
+    undated
+}
+
+impl Told<'_> {
+    fn records(&self) -> usize {
+        self.run.adapters.iter().map(|a| a.outcomes.len()).sum()
+    }
+
+    fn line(&self) -> String {
+        let Self { path, run, id, .. } = self;
+        let path = plain(&path.display().to_string(), 400);
+        if !self.is_new {
+            return format!("{path} is run {id} already\n");
+        }
+        let names = run.adapters.iter().map(|a| plain(&a.adapter.name, 60));
+        let names: Vec<String> = names.take(20).collect();
+        let more = match run.adapters.len().saturating_sub(names.len()) {
+            0 => String::new(),
+            n => format!(" and {n} more"),
+        };
+        let missing = match run.missing {
+            0 => String::new(),
+            n => format!(", {n} missing"),
+        };
+        format!(
+            "{path} is run {id}: {} with {} records{missing} of {}{more}\n",
+            run.kind,
+            self.records(),
+            names.join(", ")
+        )
+    }
+
+    fn json(&self) -> Value {
+        let names = self.run.adapters.iter().map(|a| &a.adapter.name);
+        json!({
+            "path": self.path,
+            "run": self.id.number(),
+            "added": self.is_new,
+            "kind": self.run.kind.name(),
+            "records": self.records(),
+            "missing": self.run.missing,
+            "adapters": names.collect::<Vec<_>>(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_history::{Adapter, NewAdapter};
+    use etalon_record::Machine;
+
+    fn release(version: &str, released: Option<i64>) -> NewRun {
+        NewRun {
+            digest: [0; 32],
+            header: [0; 32],
+            kind: Kind::Release,
+            etalon: String::new(),
+            commit: None,
+            machine: Machine::default(),
+            started: 100,
+            released,
+            profile: None,
+            ruler: None,
+            missing: 0,
+            labels: Labels::new(),
+            adapters: vec![NewAdapter::new(Adapter {
+                name: format!("a@{version}"),
+                backend: String::new(),
+                device: String::new(),
+                driver: String::new(),
+                driver_version: String::new(),
+                driver_id: String::new(),
+                api_version: String::new(),
+                software: true,
+                line: "a".to_owned(),
+                version: version.to_owned(),
+            })],
+        }
+    }
+
+    #[test]
+    fn a_release_without_a_date_stands_in_its_order() {
+        let dates = [None, Some(10), None, Some(20), None];
+        let mut runs: Vec<NewRun> = ["1", "2", "3", "4", "5"]
+            .iter()
+            .zip(dates)
+            .map(|(version, date)| release(version, date))
+            .collect();
+        assert_eq!(place_undated(&mut runs), ["1", "3", "5"]);
+        let placed: Vec<Option<i64>> = runs.iter().map(|run| run.released).collect();
+        assert_eq!(placed, [Some(10), Some(10), Some(10), Some(20), None]);
+    }
+
+    #[test]
+    fn the_dates_that_are_compiled_in_parse_and_climb() {
+        let dates = dates(None).unwrap();
+        let of = |version| dates.of("swiftshader", version).unwrap();
+        assert!(of("106.0.2") < of("118.0.0") && of("118.0.0") < of("153.0.0"));
+        assert_eq!(dates.of("lavapipe", "26.2.6"), None);
+    }
+}

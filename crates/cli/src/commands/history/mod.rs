@@ -1,0 +1,33 @@
+//! `etalon history`: runs over time.
+
+mod add;
+mod open;
+mod place;
+mod series;
+mod show;
+mod sparkline;
+mod triage;
+mod verdicts;
+
+use crate::failure::Failure;
+use clap::Subcommand;
+
+/// Runs over time, in one file.
+#[derive(Debug, Subcommand)]
+pub(crate) enum HistoryCommand {
+    /// Add runs, benches and the releases of `etalon bisect`; what is there already is not added again
+    Add(add::Arguments),
+    /// Show one case over all runs: since when it is broken, fixed or flaky, and when its frame times changed
+    Show(show::Arguments),
+    /// List what is open, or say of a case or of a change of its times what it is
+    Triage(triage::Arguments),
+}
+
+/// Runs a command of the history.
+pub(crate) fn run(command: &HistoryCommand) -> Result<u8, Failure> {
+    match command {
+        HistoryCommand::Add(arguments) => add::run(arguments),
+        HistoryCommand::Show(arguments) => show::run(arguments),
+        HistoryCommand::Triage(arguments) => triage::run(arguments),
+    }
+}

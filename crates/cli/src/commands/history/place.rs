@@ -1,0 +1,65 @@
+//! Where something stands in a history: its run, its driver and its commit, in words.
+
+use etalon_history::{AdapterRun, History, RunId, RunInfo, format_time};
+use etalon_report::plain;
+use serde_json::{Value, json};
+
+/// The most characters of a version or a label.
+const LONGEST: usize = 80;
+
+/// The adapter of a timeline in a run.
+pub(super) fn part<'h>(history: &'h History, run: RunId, timeline: &str) -> Option<&'h AdapterRun> {
+    let mut parts = history.adapters(run).iter();
+    parts.find(|part| *part.timeline == *timeline)
+}
+
+/// The day of a run.
+pub(super) fn day(run: &RunInfo) -> String {
+    format_time(run.time()).chars().take(10).collect()
+}
+
+/// A run in words: its number and day.
+pub(super) fn run_text(history: &History, run: RunId) -> String {
+    match history.run(run) {
+        Some(info) => format!("run {run} ({})", day(info)),
+        None => format!("run {run}"),
+    }
+}
+
+/// The driver's version and the suite's commit in a run.
+pub(super) fn versions(history: &History, run: RunId, timeline: &str) -> [String; 2] {
+    let driver = part(history, run, timeline)
+        .map(|part| plain(part.adapter.shown_version(), LONGEST))
+        .filter(|version| !version.is_empty());
+    let commit = history.run(run).map(|info| match &info.commit {
+        Some(commit) => plain(commit, 12).trim_end_matches('…').to_owned(),
+        None => plain(&info.etalon, LONGEST),
+    });
+    [driver, commit].map(|text| text.unwrap_or_else(|| "unknown".to_owned()))
+}
+
+/// What differs between two runs: driver and suite.
+pub(super) fn range_text(history: &History, timeline: &str, [after, at]: [RunId; 2]) -> String {
+    let [before, now] = [after, at].map(|run| versions(history, run, timeline));
+    let of = |what: &str, i: usize| match before[i] == now[i] {
+        true => format!("{what} {}", now[i]),
+        false => format!("{what} {} to {}", before[i], now[i]),
+    };
+    format!("{}, {}", of("driver", 0), of("suite", 1))
+}
+
+/// A run for programs.
+pub(super) fn run_json(history: &History, run: RunId, timeline: &str) -> Value {
+    let info = history.run(run);
+    let part = part(history, run, timeline);
+    json!({
+        "run": run.number(),
+        "digest": info.map(RunInfo::digest_text),
+        "time": info.map(|info| format_time(info.time())),
+        "kind": info.map(|info| info.kind.name()),
+        "driver": part.map(|part| &part.adapter.driver),
+        "driver_version": part.map(|part| part.adapter.shown_version()),
+        "commit": info.and_then(|info| info.commit.as_ref()),
+        "labels": info.map(|info| &info.labels),
+    })
+}

@@ -1,0 +1,379 @@
+//! Frame times of one case on one adapter and machine over runs, and when they changed.
+
+use super::place::{range_text, run_json, run_text};
+use super::sparkline;
+use super::verdicts::is_meant;
+use clap::ValueEnum;
+use etalon_history::{
+    History, HistoryError, Labels, MachineId, RunId, SeriesKey, Step, Subject, TimePoint,
+    TriageEntry, TriageState,
+};
+use etalon_record::Time;
+use etalon_report::plain;
+use etalon_stats::{Cause, ChangePoint, Changes, Drift, Point, Ratio, change_points};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// What people said last of each subject.
+pub(super) type States = BTreeMap<Subject, TriageEntry>;
+
+/// The runs behind a change for which its smallest visible size is told.
+const AFTER: usize = 10;
+
+/// A time of which the history has series.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum SeriesTime {
+    /// From the start of a frame until the device is done.
+    Wall,
+    /// From the start of a frame until the last call that submits work returns.
+    Cpu,
+    /// Between the GPU timestamps of a frame.
+    Gpu,
+    /// Reading a frame back.
+    ReadBack,
+}
+
+impl From<SeriesTime> for Time {
+    fn from(time: SeriesTime) -> Self {
+        match time {
+            SeriesTime::Wall => Self::Wall,
+            SeriesTime::Cpu => Self::Cpu,
+            SeriesTime::Gpu => Self::Gpu,
+            SeriesTime::ReadBack => Self::ReadBack,
+        }
+    }
+}
+
+/// Frame times over runs, all with the same ruler.
+pub(super) struct Series {
+    /// The case, the timeline and the machine.
+    pub(super) key: SeriesKey,
+    /// The case's id.
+    case: String,
+    /// The time.
+    time: Time,
+    /// The runs, oldest first; at least one.
+    runs: Vec<RunId>,
+    /// Their times.
+    points: Vec<Point>,
+    /// What changed.
+    changes: Changes,
+}
+
+/// The series of a case, one for each machine and ruler.
+pub(super) fn series_of(
+    history: &History,
+    case: &str,
+    timeline: &str,
+    time: Time,
+    labels: &Labels,
+) -> Result<Vec<Series>, HistoryError> {
+    let Some(id) = history.case_id(case)? else {
+        return Ok(Vec::new());
+    };
+    let mut keys: Vec<SeriesKey> = history
+        .adapter_runs()
+        .iter()
+        .filter(|part| *part.timeline == *timeline)
+        .map(|part| SeriesKey {
+            case: id,
+            timeline: part.timeline.clone(),
+            machine: part.machine,
+        })
+        .collect();
+    keys.sort_unstable();
+    keys.dedup();
+    let mut found = Vec::new();
+    for key in keys {
+        found.extend(of_key(history, &key, case, time, labels)?);
+    }
+    Ok(found)
+}
+
+/// The series of a key, one for each ruler: times beside different ones do not compare.
+pub(super) fn of_key(
+    history: &History,
+    key: &SeriesKey,
+    case: &str,
+    time: Time,
+    labels: &Labels,
+) -> Result<Vec<Series>, HistoryError> {
+    let mut by_ruler: BTreeMap<Option<&str>, Vec<(RunId, Point)>> = BTreeMap::new();
+    for timed in history.series(key)? {
+        let (Some(info), Some(point)) = (history.run(timed.run), point(&timed, time)) else {
+            continue;
+        };
+        if is_meant(history, timed.run, labels) {
+            let ruler = info.ruler.as_deref();
+            by_ruler.entry(ruler).or_default().push((timed.run, point));
+        }
+    }
+    let mut found = Vec::new();
+    for (runs, points) in by_ruler.into_values().map(|all| all.into_iter().unzip()) {
+        let points: Vec<Point> = points;
+        let changes = change_points(&points).map_err(|error| {
+            let path = history.path().to_owned();
+            let message = format!("the times of {case}: {error}");
+            HistoryError::Damaged { path, message }
+        })?;
+        found.push(Series {
+            key: key.clone(),
+            case: case.to_owned(),
+            time,
+            runs,
+            points,
+            changes,
+        });
+    }
+    Ok(found)
+}
+
+/// What a run says of a series; `None` where this time was not measured or is no time.
+fn point(timed: &TimePoint, time: Time) -> Option<Point> {
+    let is_time = |time: &f64| time.is_finite() && *time > 0.0;
+    let median = timed.times.median(time).filter(is_time)?;
+    let holds = |[low, high]: &[f64; 2]| is_time(low) && *low <= median && median <= *high;
+    Some(Point {
+        median,
+        interval: timed
+            .times
+            .interval
+            .filter(|_| time == Time::Wall)
+            .map(|ends| ends.map(f64::from))
+            .filter(holds),
+        ruler: timed.times.ruler_median().filter(is_time),
+    })
+}
+
+/// The change of a ratio in per cent, with its sign.
+fn percent(ratio: f64) -> String {
+    format!("{:+.1} %", (ratio - 1.0) * 100.0)
+}
+
+fn range(ratio: &Ratio) -> String {
+    format!(
+        "{} ({} to {})",
+        percent(ratio.estimate),
+        percent(ratio.low),
+        percent(ratio.high)
+    )
+}
+
+fn milliseconds(seconds: f64) -> String {
+    let ms = seconds * 1000.0;
+    let digits = if ms < 10.0 { 3 } else { 1 };
+    format!("{ms:.digits$} ms")
+}
+
+impl Series {
+    /// The change points.
+    pub(super) fn changes(&self) -> &[ChangePoint] {
+        &self.changes.points
+    }
+
+    /// The first run behind a change.
+    pub(super) fn first_run(&self, change: &ChangePoint) -> RunId {
+        self.runs[change.index]
+    }
+
+    /// The first run behind the step that holds this run between its ends; `None` where none does.
+    pub(super) fn step_at(&self, run: RunId) -> Option<RunId> {
+        let holds = |change: &&ChangePoint| self.holds(change, run);
+        let mut changes = self.changes.points.iter();
+        // Neighbours may share an end: the one that begins with the run is meant.
+        let exact = changes.clone().find(|c| self.first_run(c) == run);
+        exact
+            .or_else(|| changes.find(holds))
+            .map(|c| self.first_run(c))
+    }
+
+    /// True if the change may lie right before this run.
+    fn holds(&self, change: &ChangePoint, run: RunId) -> bool {
+        let [after, at] = change.between;
+        self.runs[after + 1..=at].contains(&run)
+    }
+
+    /// The machine of the series.
+    pub(super) fn machine(&self) -> MachineId {
+        self.key.machine
+    }
+
+    /// What people said last of a change. More runs may move a change within its ends, so that an entry about another run
+    /// between them is about it.
+    pub(super) fn state<'s>(
+        &self,
+        states: &'s States,
+        change: &ChangePoint,
+    ) -> Option<&'s TriageEntry> {
+        let entry = |run: RunId| {
+            states.get(&Subject {
+                case: self.case.clone(),
+                timeline: self.key.timeline.to_string(),
+                step: Some(Step {
+                    machine: self.key.machine,
+                    time: self.time,
+                    run,
+                }),
+            })
+        };
+        entry(self.first_run(change)).or_else(|| {
+            let [after, at] = change.between;
+            let runs = self.runs[after + 1..=at].iter();
+            runs.rev().find_map(|run| entry(*run))
+        })
+    }
+
+    /// A change in words.
+    pub(super) fn change_line(
+        &self,
+        history: &History,
+        states: &States,
+        change: &ChangePoint,
+    ) -> String {
+        let [after, at] = change.between.map(|at| self.runs[at]);
+        let state = self.state(states, change);
+        let returns = match change.returns {
+            true => ", which goes back and forth",
+            false => "",
+        };
+        let ruler = change.ruler.map_or(String::new(), |ruler| {
+            format!(", ruler {}", percent(ruler.estimate))
+        });
+        format!(
+            "{} at {}: {} to {}{returns}; between runs {after} and {at}: {}; smallest visible change {}; {}{ruler}; {}",
+            range(&change.ratio),
+            run_text(history, self.first_run(change)),
+            milliseconds(change.before),
+            milliseconds(change.after),
+            range_text(history, &self.key.timeline, [after, at]),
+            percent(change.visible),
+            change.cause.text(),
+            state_text(state)
+        )
+    }
+
+    /// The series in words: lines of a terminal.
+    pub(super) fn lines(&self, history: &History, states: &States) -> Vec<String> {
+        let machine = history.machine(self.key.machine);
+        let machine = machine.map_or(String::new(), |m| {
+            format!(" ({}, {} cores)", plain(&m.cpu, 80), m.cores)
+        });
+        let times: Vec<f64> = self.points.iter().map(|p| p.median).collect();
+        let last = times.last().copied().map_or(String::new(), milliseconds);
+        let mut lines = vec![
+            format!(
+                "{} time on machine {}{machine}, {} runs, last {last}",
+                self.time.name(),
+                self.key.machine,
+                times.len()
+            ),
+            format!("  times  {}", sparkline::of_times(&times)),
+        ];
+        let rulers: Vec<f64> = self.points.iter().filter_map(|p| p.ruler).collect();
+        if rulers.len() == times.len() {
+            lines.push(format!("  ruler  {}", sparkline::of_times(&rulers)));
+        }
+        for change in &self.changes.points {
+            lines.push(format!("  {}", self.change_line(history, states, change)));
+        }
+        for Drift {
+            from,
+            to,
+            ratio,
+            machine,
+        } in &self.changes.drifts
+        {
+            let whose = if *machine {
+                "the ruler drifts along"
+            } else {
+                "the ruler does not"
+            };
+            lines.push(format!(
+                "  drift of {} from {} to {}; {whose}",
+                range(ratio),
+                run_text(history, self.runs[*from]),
+                run_text(history, self.runs[to - 1])
+            ));
+        }
+        lines.push(format!("  {}", self.outlook()));
+        lines
+    }
+
+    /// What a change from now on would have to be.
+    fn outlook(&self) -> String {
+        match self.changes.visible(AFTER) {
+            Some(visible) => format!(
+                "noise {:.1} %; a step of {} would be seen {AFTER} runs later",
+                self.changes.noise * 100.0,
+                percent(visible)
+            ),
+            None => "too few runs since to see a change".to_owned(),
+        }
+    }
+
+    /// The series for programs.
+    pub(super) fn json(&self, history: &History, states: &States) -> Value {
+        let points = self.runs.iter().zip(&self.points).map(|(run, point)| {
+            json!({ "run": run.number(), "seconds": point.median, "ruler": point.ruler })
+        });
+        let ratio = |r: &Ratio| json!({"estimate": r.estimate, "low": r.low, "high": r.high});
+        let changes = self.changes.points.iter().map(|change| {
+            let state = self.state(states, change);
+            json!({
+                "run": self.first_run(change).number(),
+                "between": change.between.map(|at| run_json(history, self.runs[at], &self.key.timeline)),
+                "before": change.before,
+                "after": change.after,
+                "ratio": ratio(&change.ratio),
+                "ruler": change.ruler.as_ref().map(ratio),
+                "ruled": change.ruled.as_ref().map(ratio),
+                "p": change.p,
+                "visible": change.visible,
+                "cause": cause_name(change.cause),
+                "returns": change.returns,
+                "state": state_name(state),
+                "reason": state.map(|entry| &entry.reason),
+            })
+        });
+        let drifts = self.changes.drifts.iter().map(|drift| {
+            json!({
+                "from": self.runs[drift.from].number(),
+                "to": self.runs[drift.to - 1].number(),
+                "ratio": ratio(&drift.ratio),
+                "machine": drift.machine,
+            })
+        });
+        json!({
+            "time": self.time.name(),
+            "machine": self.key.machine.number(),
+            "noise": self.changes.noise,
+            "visible": self.changes.visible(AFTER),
+            "points": points.collect::<Vec<_>>(),
+            "changes": changes.collect::<Vec<_>>(),
+            "drifts": drifts.collect::<Vec<_>>(),
+        })
+    }
+}
+
+fn cause_name(cause: Cause) -> &'static str {
+    match cause {
+        Cause::Driver => "driver",
+        Cause::Machine => "machine",
+        Cause::Unclear => "unclear",
+        Cause::NoRuler => "no-ruler",
+    }
+}
+
+/// The name of the state that an entry gives; new without one.
+pub(super) fn state_name(entry: Option<&TriageEntry>) -> &'static str {
+    entry.map_or(TriageState::New, |entry| entry.state).name()
+}
+
+/// The state that an entry gives, with its reason.
+pub(super) fn state_text(entry: Option<&TriageEntry>) -> String {
+    let reason = entry.map_or("", |entry| entry.reason.as_str());
+    match reason {
+        "" => state_name(entry).to_owned(),
+        reason => format!("{}: {}", state_name(entry), plain(reason, 300)),
+    }
+}

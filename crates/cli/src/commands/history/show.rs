@@ -1,0 +1,247 @@
+//! `etalon history show`.
+
+use super::place::run_text;
+use super::series::{Series, SeriesTime, States, series_of, state_name, state_text};
+use super::sparkline;
+use super::verdicts::{Verdicts, verdicts};
+use crate::failure::Failure;
+use crate::flags::Format;
+use crate::history_file::{DatabaseArguments, OnlyArguments, failure};
+use crate::near::did_you_mean;
+use crate::output::{print, print_json};
+use clap::Args;
+use etalon_history::{History, HistoryError, Labels, RunId, Subject, TriageEntry, format_time};
+use etalon_record::Standing;
+use etalon_report::plain;
+use serde_json::json;
+use std::rc::Rc;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Id of the case; without one, the runs are listed
+    #[arg(value_name = "CASE")]
+    pub(crate) case: Option<String>,
+    /// Show this adapter; may be repeated. Default: all that have the case. Releases of a line are together under their
+    /// name before the `@`
+    #[arg(long = "adapter", value_name = "NAME")]
+    pub(crate) adapters: Vec<String>,
+    /// The time whose changes are shown
+    #[arg(long, value_enum, default_value = "wall")]
+    time: SeriesTime,
+    #[command(flatten)]
+    pub(crate) labels: OnlyArguments,
+    #[command(flatten)]
+    pub(crate) database: DatabaseArguments,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+/// Shows one case over all runs, or the runs.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let labels = arguments.labels.labels()?;
+    let history = History::open_read(&arguments.database.path()).map_err(failure)?;
+    let timelines = known_timelines(&history, &arguments.adapters)?;
+    let Some(case) = &arguments.case else {
+        return list(&history, &timelines, &labels, arguments.format);
+    };
+    known_case(&history, case)?;
+    let told = || -> Result<_, HistoryError> {
+        let states = history.triage_states()?;
+        let mut all = Vec::new();
+        for of_adapter in verdicts(&history, case, &timelines, &labels)? {
+            let (timeline, time) = (&of_adapter.timeline, arguments.time.into());
+            let series = series_of(&history, case, timeline, time, &labels)?;
+            all.push((of_adapter, series));
+        }
+        Ok((states, all))
+    };
+    let (states, all) = told().map_err(failure)?;
+    if all.is_empty() {
+        return Err(Failure::nothing(format!(
+            "no run with these labels has {} on these adapters",
+            plain(case, 300)
+        )));
+    }
+    match arguments.format {
+        Format::Text => print(&text(&history, case, &states, &all))?,
+        Format::Json => {
+            let adapters = all.iter().map(|(of_adapter, series)| {
+                let entry = states.get(&subject(case, &of_adapter.timeline));
+                let mut value = of_adapter.json(&history);
+                value["state"] = json!(state_name(entry));
+                value["reason"] = json!(entry.map(|entry| &entry.reason));
+                let series = series.iter().map(|s| s.json(&history, &states));
+                value["series"] = series.collect();
+                value
+            });
+            let adapters: Vec<_> = adapters.collect();
+            print_json(&json!({ "case": case, "adapters": adapters }))?;
+        }
+    }
+    Ok(0)
+}
+
+/// Lists the runs, oldest first.
+fn list(
+    history: &History,
+    timelines: &[Rc<str>],
+    labels: &Labels,
+    format: Format,
+) -> Result<u8, Failure> {
+    let mut text = String::new();
+    let mut values = Vec::new();
+    for run in history.runs() {
+        let of_run = history.adapters(run.id).iter();
+        let parts: Vec<_> = of_run.filter(|p| timelines.contains(&p.timeline)).collect();
+        if parts.is_empty()
+            || !labels
+                .iter()
+                .all(|(key, value)| run.labels.get(key) == Some(value))
+        {
+            continue;
+        }
+        if format == Format::Json {
+            values.push(json!({
+                "run": run.id.number(),
+                "digest": run.digest_text(),
+                "kind": run.kind.name(),
+                "time": format_time(run.time()),
+                "commit": run.commit,
+                "profile": run.profile,
+                "missing": run.missing,
+                "resumed": run.resumed.map(RunId::number),
+                "labels": run.labels,
+                "adapters": parts.iter().map(|p| &*p.timeline).collect::<Vec<_>>(),
+            }));
+            continue;
+        }
+        let names: Vec<String> = parts.iter().map(|p| plain(&p.timeline, 60)).collect();
+        let mut notes: Vec<String> = run
+            .labels
+            .iter()
+            .map(|(key, value)| format!("{}={}", plain(key, 60), plain(value, 60)))
+            .collect();
+        if run.missing > 0 {
+            notes.push(format!("{} missing", run.missing));
+        }
+        notes.extend(run.resumed.map(|later| format!("resumed as run {later}")));
+        text.push_str(&format!(
+            "{}  {}  {}  {}  {}\n",
+            run.id,
+            format_time(run.time()),
+            run.kind,
+            names.join(", "),
+            notes.join(", ")
+        ));
+    }
+    match format {
+        Format::Text => print(&text)?,
+        Format::Json => print_json(&values)?,
+    }
+    Ok(0)
+}
+
+/// Refuses a case that the history does not know.
+pub(super) fn known_case(history: &History, case: &str) -> Result<(), Failure> {
+    if history.case_id(case).map_err(failure)?.is_some() {
+        return Ok(());
+    }
+    let cases = history.cases().map_err(failure)?;
+    let near = did_you_mean(case, cases.iter().map(|case| &**case));
+    Err(Failure::usage(format!(
+        "{} has no case `{}`{near}",
+        history.path().display(),
+        plain(case, 300)
+    )))
+}
+
+/// The timelines of these names; all where none is named.
+pub(super) fn known_timelines(
+    history: &History,
+    names: &[String],
+) -> Result<Vec<Rc<str>>, Failure> {
+    let all = history.timelines();
+    if names.is_empty() {
+        return Ok(all);
+    }
+    let mut found = Vec::new();
+    for name in names {
+        let known = all.iter().find(|timeline| ***timeline == **name);
+        let Some(known) = known else {
+            let near = did_you_mean(name, all.iter().map(|timeline| &**timeline));
+            return Err(Failure::usage(format!(
+                "{} has no adapter `{}`{near}",
+                history.path().display(),
+                plain(name, 100)
+            )));
+        };
+        found.push(Rc::clone(known));
+    }
+    Ok(found)
+}
+
+/// The verdict of a case on an adapter, as a subject of triage.
+pub(super) fn subject(case: &str, timeline: &str) -> Subject {
+    Subject {
+        case: case.to_owned(),
+        timeline: timeline.to_owned(),
+        step: None,
+    }
+}
+
+fn text(history: &History, case: &str, states: &States, all: &[(Verdicts, Vec<Series>)]) -> String {
+    let mut lines = vec![plain(case, 400)];
+    for (of_adapter, series) in all {
+        lines.push(String::new());
+        let entry = states.get(&subject(case, &of_adapter.timeline));
+        lines.extend(verdict_lines(history, of_adapter, entry));
+        for one in series {
+            let indented = one.lines(history, states).into_iter();
+            lines.extend(indented.map(|line| format!("  {line}")));
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+fn verdict_lines(
+    history: &History,
+    of_adapter: &Verdicts,
+    entry: Option<&TriageEntry>,
+) -> Vec<String> {
+    let records = &of_adapter.records;
+    let standings: Vec<Standing> = records.iter().map(|d| d.outcome.standing()).collect();
+    let ends = [records.first(), records.last()]
+        .map(|drawn| drawn.map_or(String::new(), |drawn| run_text(history, drawn.run)));
+    let mut lines = vec![format!(
+        "{}  {} runs, {} to {}",
+        plain(&of_adapter.timeline, 100),
+        records.len(),
+        ends[0],
+        ends[1]
+    )];
+    let each = match sparkline::size(records.len()) {
+        1 => String::new(),
+        n => format!("  (each sign: the worst of {n} runs)"),
+    };
+    lines.push(format!("  {}{each}", sparkline::of_standings(&standings)));
+    let happened = of_adapter.lines(history);
+    if happened.is_empty() {
+        lines.push("  nothing happened".to_owned());
+    }
+    lines.extend(happened.into_iter().map(|line| format!("  {line}")));
+    if let Some(drawn) = of_adapter.last() {
+        let mut now = format!("  now {}", drawn.outcome.verdict.name());
+        if drawn.outcome.inferred {
+            now.push_str(" (not drawn: it lies between two releases of this standing)");
+        }
+        if let Some(reason) = &drawn.outcome.expected {
+            now.push_str(&format!(", expected: {}", plain(reason, 300)));
+        }
+        if drawn.outcome.unexpected() || entry.is_some() {
+            now.push_str(&format!("; triage {}", state_text(entry)));
+        }
+        lines.push(now);
+    }
+    lines
+}

@@ -1,0 +1,258 @@
+//! `etalon history triage`.
+
+use super::open::{Open, open_steps, open_verdicts};
+use super::series::{SeriesTime, series_of, state_text};
+use super::show::{known_case, known_timelines, subject};
+use super::verdicts::verdicts;
+use crate::failure::Failure;
+use crate::flags::Format;
+use crate::history_file::{DatabaseArguments, OnlyArguments, failure};
+use crate::output::{print, print_json, summarize, summarize_json};
+use clap::{Args, ValueEnum};
+use etalon_history::{
+    History, Labels, MachineId, RunId, Step, Subject, TriageEntry, TriageState, Writer, format_time,
+};
+use etalon_report::plain;
+use serde_json::json;
+use std::time::SystemTime;
+
+/// The entries of each kind that are printed.
+const PRINTED: usize = 40;
+
+/// What people say of a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum State {
+    /// Nobody has looked yet.
+    New,
+    /// It is a change of the driver.
+    Real,
+    /// It does not matter.
+    Ignored,
+    /// It has been mended.
+    Fixed,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Cases to speak of; without any, what is open is listed
+    #[arg(value_name = "CASE", requires_all = ["adapters", "state"])]
+    pub(crate) cases: Vec<String>,
+    /// The adapter; may be repeated. Without a case, what is open on it is listed
+    #[arg(long = "adapter", value_name = "NAME")]
+    pub(crate) adapters: Vec<String>,
+    /// The state: a bad verdict that is real or ignored does not count in `etalon run --history`
+    #[arg(long, value_enum, requires = "cases")]
+    pub(crate) state: Option<State>,
+    /// Why; every state but new needs a reason
+    #[arg(
+        long,
+        value_name = "TEXT",
+        default_value = "",
+        hide_default_value = true,
+        requires = "state"
+    )]
+    pub(crate) reason: String,
+    /// Who says so. Default: the variable USER
+    #[arg(long, value_name = "NAME", requires = "state")]
+    pub(crate) author: Option<String>,
+    /// Speak of the change of frame times at this run, not of the verdict
+    #[arg(long, value_name = "RUN", requires = "cases")]
+    pub(crate) step: Option<u32>,
+    /// The time of the change, or whose open changes are listed
+    #[arg(long, value_enum, default_value = "wall")]
+    time: SeriesTime,
+    /// Also list what is settled
+    #[arg(long, conflicts_with = "cases")]
+    pub(crate) all: bool,
+    #[command(flatten)]
+    pub(crate) labels: OnlyArguments,
+    #[command(flatten)]
+    pub(crate) database: DatabaseArguments,
+    /// Output format
+    #[arg(long, value_enum, default_value = "text")]
+    pub(crate) format: Format,
+}
+
+/// Lists what is open, or adds entries.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let labels = arguments.labels.labels()?;
+    let path = arguments.database.path();
+    let history = History::open_read(&path).map_err(failure)?;
+    let Some(state) = arguments.state else {
+        return list(arguments, &history, &labels);
+    };
+    if state != State::New && arguments.reason.trim().is_empty() {
+        return Err(Failure::usage(
+            "a state needs a reason: say why with --reason TEXT",
+        ));
+    }
+    let subjects = subjects(arguments, &history, &labels)?;
+    // A reader holds no lock, but its file must not be replaced below it.
+    drop(history);
+    let mut writer = Writer::open(&path).map_err(failure)?;
+    let entries = subjects.into_iter().map(|subject| TriageEntry {
+        at: now(),
+        author: author(arguments),
+        subject,
+        state: state.into(),
+        reason: arguments.reason.trim().to_owned(),
+    });
+    let entries: Vec<TriageEntry> = entries.collect();
+    for entry in &entries {
+        writer.triage(entry).map_err(failure)?;
+    }
+    match arguments.format {
+        Format::Text => {
+            let lines = entries.iter().map(|entry| line(entry) + "\n");
+            summarize(&lines.collect::<String>());
+        }
+        Format::Json => summarize_json(&entries.iter().map(entry_json).collect::<Vec<_>>())?,
+    }
+    Ok(0)
+}
+
+fn now() -> i64 {
+    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+    since.map_or(0, |since| since.as_secs().try_into().unwrap_or(i64::MAX))
+}
+
+fn author(arguments: &Arguments) -> String {
+    let user = || std::env::var("USER").unwrap_or_default();
+    arguments.author.clone().unwrap_or_else(user)
+}
+
+/// What the command line speaks of. Everything is looked up before anything is written.
+fn subjects(
+    arguments: &Arguments,
+    history: &History,
+    labels: &Labels,
+) -> Result<Vec<Subject>, Failure> {
+    let timelines = known_timelines(history, &arguments.adapters)?;
+    let mut subjects = Vec::new();
+    for case in &arguments.cases {
+        known_case(history, case)?;
+        let known = verdicts(history, case, &timelines, labels).map_err(failure)?;
+        for timeline in &timelines {
+            if !known.iter().any(|of| of.timeline == *timeline) {
+                return Err(Failure::usage(format!(
+                    "no run has `{}` on {}; `etalon history show` tells which adapters have it",
+                    plain(case, 300),
+                    plain(timeline, 100)
+                )));
+            }
+            let mut subject = subject(case, timeline);
+            if let Some(run) = arguments.step {
+                subject.step = Some(step(arguments, history, &subject, run, labels)?);
+            }
+            subjects.push(subject);
+        }
+    }
+    Ok(subjects)
+}
+
+/// The step at a run.
+fn step(
+    arguments: &Arguments,
+    history: &History,
+    subject: &Subject,
+    run: u32,
+    labels: &Labels,
+) -> Result<Step, Failure> {
+    let time = arguments.time.into();
+    let all =
+        series_of(history, &subject.case, &subject.timeline, time, labels).map_err(failure)?;
+    let found: Option<(MachineId, RunId)> = all.iter().find_map(|series| {
+        let step = series.step_at(RunId::from(run))?;
+        Some((series.machine(), step))
+    });
+    let Some((machine, run)) = found else {
+        let known = all.iter().flat_map(|series| {
+            let changes = series.changes().iter();
+            changes.map(|change| series.first_run(change).to_string())
+        });
+        let known: Vec<String> = known.collect();
+        let known = match known.is_empty() {
+            true => "there is no change".to_owned(),
+            false => format!("changes are at {}", known.join(", ")),
+        };
+        return Err(Failure::usage(format!(
+            "the {} time of `{}` on {} does not change at run {run}: {known}",
+            time.name(),
+            plain(&subject.case, 300),
+            plain(&subject.timeline, 100)
+        )));
+    };
+    Ok(Step { machine, time, run })
+}
+
+impl From<State> for TriageState {
+    fn from(state: State) -> Self {
+        match state {
+            State::New => Self::New,
+            State::Real => Self::Real,
+            State::Ignored => Self::Ignored,
+            State::Fixed => Self::Fixed,
+        }
+    }
+}
+
+/// An entry in words.
+fn line(entry: &TriageEntry) -> String {
+    let Subject {
+        case,
+        timeline,
+        step,
+    } = &entry.subject;
+    let of = step.map_or(String::new(), |step| {
+        format!(", {} time from run {} on", step.time.name(), step.run)
+    });
+    format!(
+        "{} on {}{of}: {}",
+        plain(case, 400),
+        plain(timeline, 100),
+        state_text(Some(entry))
+    )
+}
+
+fn entry_json(entry: &TriageEntry) -> serde_json::Value {
+    json!({
+        "case": entry.subject.case,
+        "adapter": entry.subject.timeline,
+        "step": entry.subject.step.map(|step| json!({
+            "machine": step.machine.number(),
+            "time": step.time.name(),
+            "run": step.run.number(),
+        })),
+        "state": entry.state.name(),
+        "reason": entry.reason,
+        "author": entry.author,
+        "at": format_time(entry.at),
+    })
+}
+
+fn list(arguments: &Arguments, history: &History, labels: &Labels) -> Result<u8, Failure> {
+    let timelines = known_timelines(history, &arguments.adapters)?;
+    let settled = arguments.all;
+    let states = history.triage_states().map_err(failure)?;
+    let time = arguments.time.into();
+    let bad = open_verdicts(history, &timelines, labels, &states, settled).map_err(failure)?;
+    let steps = open_steps(history, &timelines, labels, &states, time, settled).map_err(failure)?;
+    if arguments.format == Format::Json {
+        let each = |all: &[Open]| all.iter().map(|open| open.json.clone()).collect::<Vec<_>>();
+        print_json(&json!({ "verdicts": each(&bad), "steps": each(&steps) }))?;
+        return Ok(0);
+    }
+    let what = if settled { "" } else { "open " };
+    let mut text = String::new();
+    for (title, all) in [("bad verdicts", &bad), ("changes of frame times", &steps)] {
+        text.push_str(&format!("{} {what}{title}\n", all.len()));
+        for open in all.iter().take(PRINTED) {
+            text.push_str(&format!("  {}\n", open.line));
+        }
+        if let Some(more @ 1..) = all.len().checked_sub(PRINTED) {
+            text.push_str(&format!("  and {more} more (--format json has all)\n"));
+        }
+    }
+    print(&text)?;
+    Ok(0)
+}

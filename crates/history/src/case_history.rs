@@ -1,0 +1,99 @@
+//! One case over all runs.
+
+use crate::error::HistoryError;
+use crate::history::History;
+use crate::ids::{OutcomeId, RunId};
+use crate::runs::AdapterRun;
+use std::collections::HashMap;
+use std::rc::Rc;
+
+/// One case on one adapter over the runs that drew it.
+#[derive(Clone, Debug)]
+pub struct CaseHistory {
+    /// The timeline of the adapter.
+    pub timeline: Rc<str>,
+    /// Its records by the times of their runs; at least one. Runs that have no record of the case have no point.
+    pub points: Vec<Point>,
+}
+
+/// The record of one case on one adapter in one run.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// The run.
+    pub run: RunId,
+    /// The outcome, which [`History::outcome`] gives.
+    pub outcome: OutcomeId,
+    /// The place of the adapter among [`History::adapter_runs`]: its driver, version and machine.
+    pub place: usize,
+}
+
+impl Point {
+    /// The adapter as the run found it.
+    pub fn adapter<'a>(&self, history: &'a History) -> &'a AdapterRun {
+        &history.adapter_runs()[self.place]
+    }
+}
+
+impl History {
+    /// One case on all adapters, or on one, by timeline; empty where the history does not know the case.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is damaged.
+    pub fn case_history(
+        &self,
+        case: &str,
+        timeline: Option<&str>,
+    ) -> Result<Vec<CaseHistory>, HistoryError> {
+        let Some(case) = self.case_id(case)? else {
+            return Ok(Vec::new());
+        };
+        let wrong = HistoryError::database(self.path());
+        // Changes by chain, in the order of adding.
+        let mut changes: HashMap<u32, Vec<(RunId, OutcomeId)>> = HashMap::new();
+        let mut statement = self
+            .connection()
+            .prepare_cached("SELECT chain, run, outcome FROM change WHERE test_case = ?1")
+            .map_err(&wrong)?;
+        let rows = statement
+            .query_map([case.0], |row| {
+                Ok((row.get(0)?, (RunId(row.get(1)?), OutcomeId(row.get(2)?))))
+            })
+            .map_err(&wrong)?;
+        for row in rows {
+            let (chain, change) = row.map_err(&wrong)?;
+            changes.entry(chain).or_default().push(change);
+        }
+
+        let mut found: Vec<CaseHistory> = Vec::new();
+        let mut places: HashMap<&str, usize> = HashMap::new();
+        for (place, part) in self.adapter_runs().iter().enumerate() {
+            let Some(changes) = changes.get(&part.chain) else {
+                continue;
+            };
+            let wanted = timeline.is_none_or(|t| *t == *part.timeline);
+            if !wanted || !self.has_record(part, case)? {
+                continue;
+            }
+            let before = changes.partition_point(|(run, _)| *run <= part.run);
+            let outcome = before.checked_sub(1).map(|at| changes[at].1);
+            let Some(outcome) = outcome else {
+                let message = format!("run {} has no row of case {case}", part.run);
+                return Err(HistoryError::damaged(self.path(), message));
+            };
+            let at = *places.entry(&part.timeline).or_insert_with(|| {
+                found.push(CaseHistory {
+                    timeline: Rc::clone(&part.timeline),
+                    points: Vec::new(),
+                });
+                found.len() - 1
+            });
+            found[at].points.push(Point {
+                run: part.run,
+                outcome,
+                place,
+            });
+        }
+        found.sort_by(|a, b| a.timeline.cmp(&b.timeline));
+        Ok(found)
+    }
+}

@@ -1,0 +1,67 @@
+//! Sets of cases: a bit for each case, by its number.
+
+/// A set of cases.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct CaseSet {
+    /// Bit `n` of all bytes is case `n + 1`. There is no zero byte at the end.
+    bits: Vec<u8>,
+}
+
+impl CaseSet {
+    /// The set of these numbers, which are above zero.
+    pub(crate) fn new(cases: impl IntoIterator<Item = u32>) -> Self {
+        let mut bits = Vec::new();
+        for case in cases {
+            let at = case.saturating_sub(1) as usize;
+            if bits.len() <= at / 8 {
+                bits.resize(at / 8 + 1, 0);
+            }
+            bits[at / 8] |= 1 << (at % 8);
+        }
+        Self { bits }
+    }
+
+    /// The set of stored bytes.
+    pub(crate) fn from_bytes(bits: Vec<u8>) -> Self {
+        Self { bits }
+    }
+
+    pub(crate) fn bytes(&self) -> &[u8] {
+        &self.bits
+    }
+
+    /// True if the case is in the set.
+    pub(crate) fn contains(&self, case: u32) -> bool {
+        let at = case.wrapping_sub(1) as usize;
+        let byte = self.bits.get(at / 8);
+        byte.is_some_and(|byte| byte >> (at % 8) & 1 == 1)
+    }
+
+    /// The numbers, ascending.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = u32> + '_ {
+        let all = self.bits.iter().zip(0u32..);
+        all.flat_map(|(byte, at)| {
+            let in_byte = (0..8).filter(move |bit| byte >> bit & 1 == 1);
+            in_byte.map(move |bit| at * 8 + bit + 1)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
+
+    proptest! {
+        #[test]
+        fn a_set_holds_what_was_put_in(cases in prop::collection::btree_set(1u32..5000, 0..300)) {
+            let set = CaseSet::new(cases.iter().copied());
+            prop_assert_eq!(&set.iter().collect::<BTreeSet<u32>>(), &cases);
+            for case in 0..5010 {
+                prop_assert_eq!(set.contains(case), cases.contains(&case));
+            }
+            prop_assert_eq!(CaseSet::from_bytes(set.bytes().to_vec()), set);
+        }
+    }
+}

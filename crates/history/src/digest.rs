@@ -1,0 +1,88 @@
+//! Digests of what is read.
+
+use sha2::{Digest, Sha256};
+use std::io::{self, Read};
+
+/// A reader that digests what passes through it.
+pub(crate) struct Digesting<R> {
+    inner: R,
+    all: Sha256,
+    /// Of the first line alone.
+    first: Sha256,
+    in_first: bool,
+}
+
+impl<R> Digesting<R> {
+    pub(crate) fn new(inner: R) -> Self {
+        Self {
+            inner,
+            all: Sha256::new(),
+            first: Sha256::new(),
+            in_first: true,
+        }
+    }
+
+    /// The digests of all that was read, and of its first line.
+    pub(crate) fn digests(self) -> ([u8; 32], [u8; 32]) {
+        (self.all.finalize().into(), self.first.finalize().into())
+    }
+}
+
+impl<R: Read> Read for Digesting<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.inner.read(buffer)?;
+        let bytes = &buffer[..count];
+        self.all.update(bytes);
+        if self.in_first {
+            let end = bytes.iter().position(|b| *b == b'\n');
+            self.first.update(&bytes[..end.unwrap_or(count)]);
+            self.in_first = end.is_none();
+        }
+        Ok(count)
+    }
+}
+
+/// A digest of several parts, which cannot run into each other.
+pub(crate) fn of_parts(parts: &[&[u8]]) -> [u8; 32] {
+    let mut all = Sha256::new();
+    for part in parts {
+        all.update((part.len() as u64).to_le_bytes());
+        all.update(part);
+    }
+    all.finalize().into()
+}
+
+/// The first half of a digest, by which equal contents are found.
+pub(crate) fn short(digest: [u8; 32]) -> [u8; 16] {
+    let mut half = [0; 16];
+    half.copy_from_slice(&digest[..16]);
+    half
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_line_has_a_digest_of_its_own() {
+        let digests = |text: &str| {
+            let mut reader = Digesting::new(text.as_bytes());
+            let mut bytes = Vec::new();
+            // Small pieces, so that lines end inside and at their ends.
+            while (&mut reader).take(3).read_to_end(&mut bytes).unwrap() > 0 {}
+            assert_eq!(bytes, text.as_bytes());
+            reader.digests()
+        };
+        let (all, first) = digests("header\none\n");
+        let (longer, same) = digests("header\none\ntwo\n");
+        assert_ne!(all, longer);
+        assert_eq!(first, same);
+        assert_eq!(first, <[u8; 32]>::from(Sha256::digest(b"header")));
+        assert_eq!(all, <[u8; 32]>::from(Sha256::digest(b"header\none\n")));
+    }
+
+    #[test]
+    fn parts_do_not_run_into_each_other() {
+        assert_ne!(of_parts(&[b"ab", b"c"]), of_parts(&[b"a", b"bc"]));
+    }
+}

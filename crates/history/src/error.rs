@@ -1,0 +1,167 @@
+//! Errors of the history.
+
+use crate::labels::LabelError;
+use etalon_record::RecordError;
+use rusqlite::ErrorCode;
+use std::io;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a history could not be read or written, or a run not be added.
+#[derive(Debug, Error)]
+pub enum HistoryError {
+    /// There is no such file.
+    #[error("there is no history at {}; `etalon history add RUN` makes one", path.display())]
+    None {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file is something else.
+    #[error("{} is no history of etalon; name another file with --db", path.display())]
+    Other {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A newer version of the suite wrote the file.
+    #[error(
+        "{} has schema {found}, and this etalon knows schemas up to {known}: use the etalon that wrote it, or name \
+         another file with --db",
+        path.display()
+    )]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// Its schema.
+        found: u32,
+        /// The newest schema that is known.
+        known: u32,
+    },
+    /// Another process holds the file for too long.
+    #[error("{} is in use by another process; try again when that has ended", path.display())]
+    Busy {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The disk is full.
+    #[error(
+        "no space is left for {}; free some and do it again: what was added before is kept",
+        path.display()
+    )]
+    Full {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file cannot be written to.
+    #[error("{} cannot be written to; change its permissions, or copy it and name the copy with --db", path.display())]
+    ReadOnly {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file is damaged.
+    #[error("{} is damaged: {message}; restore a copy, or add the run folders to a new file", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        message: String,
+    },
+    /// The database refused.
+    #[error("cannot use {}: {source}", path.display())]
+    Database {
+        /// The file.
+        path: PathBuf,
+        /// Its error.
+        source: rusqlite::Error,
+    },
+    /// The system refused to read or write.
+    #[error("cannot {action} {}: {source}", path.display())]
+    Io {
+        /// `read`, `create`.
+        action: &'static str,
+        /// The file or folder.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
+    /// The path holds nothing that can be added.
+    #[error(
+        "{} holds no run.jsonl, bench.jsonl or versions.jsonl; name a folder that `etalon run`, `bench` or `bisect` wrote",
+        path.display()
+    )]
+    NoRun {
+        /// The path.
+        path: PathBuf,
+    },
+    /// A run, bench or list of versions is damaged.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// A value of a header cannot be.
+    #[error("{}:1: {message}; record it again", path.display())]
+    Header {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        message: String,
+    },
+    /// A file of release dates does not parse.
+    #[error("{}: {message}", path.display())]
+    Dates {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        message: String,
+    },
+    /// A label cannot be.
+    #[error(transparent)]
+    Label(#[from] LabelError),
+    /// A run holds one adapter twice.
+    #[error("the run holds the adapter {adapter:?} twice")]
+    Twice {
+        /// The adapter's name.
+        adapter: String,
+    },
+    /// There is no such run.
+    #[error("{} has no run {run}; `etalon history show` lists runs", path.display())]
+    NoSuchRun {
+        /// The history.
+        path: PathBuf,
+        /// The number.
+        run: u32,
+    },
+}
+
+impl HistoryError {
+    /// The error for what the database says of the file.
+    pub(crate) fn database(path: &Path) -> impl Fn(rusqlite::Error) -> Self + '_ {
+        move |source| {
+            let path = path.to_owned();
+            match source.sqlite_error_code() {
+                Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked) => Self::Busy { path },
+                Some(ErrorCode::DiskFull) => Self::Full { path },
+                Some(ErrorCode::ReadOnly) => Self::ReadOnly { path },
+                Some(ErrorCode::NotADatabase) => Self::Other { path },
+                Some(ErrorCode::DatabaseCorrupt) => Self::Damaged {
+                    path,
+                    message: source.to_string(),
+                },
+                _ => Self::Database { path, source },
+            }
+        }
+    }
+
+    pub(crate) fn damaged(path: &Path, message: impl Into<String>) -> Self {
+        Self::Damaged {
+            path: path.to_owned(),
+            message: message.into(),
+        }
+    }
+
+    pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::Io {
+            action,
+            path,
+            source,
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Frame times of one case on one adapter in one run.
+//!
+//! The round is the unit of what is said of times, so its median is kept and its frames are not. Times are 32-bit
+//! floats: seven digits are more than any clock has.
+
+use etalon_record::{BenchRecord, Time, Times};
+use etalon_stats::quantile;
+
+/// Frame times of one case on one adapter in one run, in seconds. Of a bench, each list has the median of each round;
+/// of a method case in a run, one median. A list is empty where that time was not measured in every round.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FrameTimes {
+    /// Timed frames in all rounds.
+    pub frames: u32,
+    /// A frame until the device was done.
+    pub wall: Vec<f32>,
+    /// A frame until the last call that submits work returned.
+    pub cpu: Vec<f32>,
+    /// A frame between GPU timestamps.
+    pub gpu: Vec<f32>,
+    /// Reading a frame back.
+    pub read_back: Vec<f32>,
+    /// The ruler's time for each round: fixed work on the processor. Empty in runs.
+    pub ruler: Vec<f32>,
+    /// Two times between which the median wall time of a method case lies.
+    pub interval: Option<[f32; 2]>,
+}
+
+impl FrameTimes {
+    /// The areas of which times are kept.
+    pub const AREAS: [&'static str; 2] = ["methods", "perf"];
+
+    /// True if times of this case are kept.
+    pub fn are_kept(case: &str) -> bool {
+        case.split_once('/')
+            .is_some_and(|(area, _)| Self::AREAS.contains(&area))
+    }
+
+    /// The rounds' medians of one time; empty where it is not kept or was not measured.
+    pub fn of(&self, time: Time) -> &[f32] {
+        match time {
+            Time::Wall => &self.wall,
+            Time::Cpu => &self.cpu,
+            Time::Gpu => &self.gpu,
+            Time::ReadBack => &self.read_back,
+            Time::Prepare | Time::First => &[],
+        }
+    }
+
+    /// The median over rounds of one time.
+    pub fn median(&self, time: Time) -> Option<f64> {
+        median(self.of(time).iter().copied().map(f64::from))
+    }
+
+    /// The median over rounds of the ruler's time.
+    pub fn ruler_median(&self) -> Option<f64> {
+        median(self.ruler.iter().copied().map(f64::from))
+    }
+
+    /// The times of a bench; `None` without a round.
+    pub fn of_bench(record: &BenchRecord) -> Option<Self> {
+        let rounds = record.rounds.len();
+        let medians = |time: Time| -> Vec<f32> {
+            let each = record.samples(time).into_iter();
+            let medians: Vec<f32> = each
+                .filter_map(|samples| median(samples.iter().copied()))
+                .map(|t| t as f32)
+                .collect();
+            // Values must stand beside the ruler of their own round.
+            match medians.len() == rounds {
+                true => medians,
+                false => Vec::new(),
+            }
+        };
+        let frames: usize = record.rounds.iter().map(|r| r.wall.len()).sum();
+        (rounds > 0).then(|| Self {
+            frames: u32::try_from(frames).unwrap_or(u32::MAX),
+            wall: medians(Time::Wall),
+            cpu: medians(Time::Cpu),
+            gpu: medians(Time::Gpu),
+            read_back: medians(Time::ReadBack),
+            ruler: record
+                .rounds
+                .iter()
+                .map(|r| r.ruler_time() as f32)
+                .collect(),
+            interval: None,
+        })
+    }
+}
+
+impl From<&Times> for FrameTimes {
+    fn from(times: &Times) -> Self {
+        Self {
+            frames: times.samples,
+            wall: vec![times.wall as f32],
+            cpu: vec![times.cpu as f32],
+            gpu: times.gpu.iter().map(|t| *t as f32).collect(),
+            read_back: Vec::new(),
+            ruler: Vec::new(),
+            interval: times.interval.map(|of| of.map(|t| t as f32)),
+        }
+    }
+}
+
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    quantile(&sorted, 0.5)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_of_two_areas_are_kept() {
+        for (case, due) in [
+            ("perf/quad/size=1", true),
+            ("methods/transparency/windows", true),
+            ("depth/compare", false),
+            ("perf", false),
+            ("perfect/a", false),
+        ] {
+            assert_eq!(FrameTimes::are_kept(case), due, "{case}");
+        }
+    }
+
+    #[test]
+    fn medians_are_of_the_rounds() {
+        let times = FrameTimes {
+            wall: vec![3.0, 1.0, 2.0],
+            ..FrameTimes::default()
+        };
+        assert_eq!(times.median(Time::Wall), Some(2.0));
+        assert_eq!(times.median(Time::Gpu), None);
+        assert_eq!(times.ruler_median(), None);
+    }
+}

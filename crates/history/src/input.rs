@@ -1,0 +1,96 @@
+//! Reading what is added: the folders and files that `etalon run`, `bench` and `bisect` wrote.
+
+mod bench;
+mod run;
+mod started;
+mod versions;
+
+use crate::dates::ReleaseDates;
+use crate::digest::Digesting;
+use crate::error::HistoryError;
+use crate::new_run::NewRun;
+use etalon_record::{BENCH_FILE, RUN_FILE, VERSIONS_FILE};
+use flate2::read::MultiGzDecoder;
+use serde_json::{Map, Value};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::{Path, PathBuf};
+
+/// The most bytes of a header that are looked at to tell what a file is.
+const MAX_HEADER: u64 = 16 << 20;
+/// What gzip files begin with.
+const GZIP: [u8; 2] = [0x1f, 0x8b];
+
+/// Reads what is to be added: a folder with `run.jsonl`, `bench.jsonl` or `versions.jsonl`, each of them also with
+/// `.gz` behind it, or such a file of any name. A list of versions gives one run for each release.
+///
+/// # Errors
+/// When there is no such file, or it is damaged.
+pub fn read_runs(path: &Path, dates: &ReleaseDates) -> Result<Vec<NewRun>, HistoryError> {
+    let file = match path.is_dir() {
+        true => in_folder(path)?,
+        false => path.to_owned(),
+    };
+    match What::of(&file)? {
+        What::Run => Ok(vec![run::read(&file, open(&file)?)?]),
+        What::Bench => Ok(vec![bench::read(&file, open(&file)?)?]),
+        What::Versions => versions::read(&file, open(&file)?, dates),
+    }
+}
+
+fn in_folder(folder: &Path) -> Result<PathBuf, HistoryError> {
+    let plain = [BENCH_FILE, RUN_FILE, VERSIONS_FILE];
+    let packed = plain.map(|name| format!("{name}.gz"));
+    let names = plain.into_iter().chain(packed.iter().map(String::as_str));
+    let mut paths = names.map(|name| folder.join(name));
+    paths
+        .find(|path| path.is_file())
+        .ok_or_else(|| HistoryError::NoRun {
+            path: folder.to_owned(),
+        })
+}
+
+/// What a file holds.
+enum What {
+    Run,
+    Bench,
+    Versions,
+}
+
+impl What {
+    /// Tells by the header, since files are renamed.
+    fn of(path: &Path) -> Result<Self, HistoryError> {
+        let none = || HistoryError::NoRun {
+            path: path.to_owned(),
+        };
+        let mut line = Vec::new();
+        BufReader::new(open(path)?.take(MAX_HEADER))
+            .read_until(b'\n', &mut line)
+            .map_err(HistoryError::io("read", path))?;
+        let header: Map<String, Value> = serde_json::from_slice(&line).map_err(|_| none())?;
+        let has = |keys: &[&str]| keys.iter().all(|key| header.contains_key(*key));
+        match () {
+            () if !has(&["format"]) => Err(none()),
+            () if has(&["releases"]) => Ok(Self::Versions),
+            () if has(&["ruler"]) => Ok(Self::Bench),
+            () if has(&["adapters"]) => Ok(Self::Run),
+            // A newer format may have other keys; the reader of runs names it.
+            () => Ok(Self::Run),
+        }
+    }
+}
+
+/// Opens a file, packed or not, and digests what is unpacked.
+fn open(path: &Path) -> Result<Digesting<Box<dyn Read>>, HistoryError> {
+    let opened = || File::open(path).map_err(HistoryError::io("read", path));
+    let mut begin = Vec::new();
+    opened()?
+        .take(GZIP.len() as u64)
+        .read_to_end(&mut begin)
+        .map_err(HistoryError::io("read", path))?;
+    let file = BufReader::with_capacity(1 << 16, opened()?);
+    Ok(Digesting::new(match begin == GZIP {
+        true => Box::new(MultiGzDecoder::new(file)),
+        false => Box::new(file),
+    }))
+}

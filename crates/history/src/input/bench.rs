@@ -1,0 +1,56 @@
+//! A `bench.jsonl`.
+
+use super::started::started;
+use crate::adapter::Adapter;
+use crate::digest::Digesting;
+use crate::error::HistoryError;
+use crate::frame_times::FrameTimes;
+use crate::kind::Kind;
+use crate::labels::Labels;
+use crate::new_run::{NewAdapter, NewRun};
+use crate::outcome::Outcome;
+use etalon_record::Bench;
+use std::io::Read;
+use std::path::Path;
+
+pub(super) fn read(path: &Path, mut text: Digesting<impl Read>) -> Result<NewRun, HistoryError> {
+    let bench = Bench::parse(path, &mut text)?;
+    let (digest, header_digest) = text.digests();
+    let missing = bench.missing();
+    let header = bench.header;
+    let mut adapters: Vec<NewAdapter> = header
+        .adapters
+        .iter()
+        .map(|a| NewAdapter::new(Adapter::from(a)))
+        .collect();
+    for record in &bench.records {
+        let name = &record.picture.adapter;
+        // The reader has refused pictures of other adapters.
+        let Some(adapter) = adapters.iter_mut().find(|a| a.adapter.name == *name) else {
+            continue;
+        };
+        let case = record.picture.case.clone();
+        if FrameTimes::are_kept(&case)
+            && let Some(times) = FrameTimes::of_bench(record)
+        {
+            adapter.times.insert(case.clone(), times);
+        }
+        // What share was asserted is not kept: a picture does not say of how many channels.
+        adapter.take(case, Outcome::new(record.picture.verdict));
+    }
+    Ok(NewRun {
+        digest,
+        header: header_digest,
+        kind: Kind::Bench,
+        started: started(path, &header.started)?,
+        released: None,
+        missing,
+        etalon: header.etalon,
+        commit: header.commit,
+        machine: header.machine,
+        profile: Some(header.profile),
+        ruler: Some(header.ruler),
+        labels: Labels::new(),
+        adapters,
+    })
+}

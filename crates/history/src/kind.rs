@@ -1,0 +1,39 @@
+//! What a run of the history was.
+
+use std::fmt;
+
+/// What a run of the history was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    /// `etalon run`.
+    Run,
+    /// `etalon bench`.
+    Bench,
+    /// One release of a line that `etalon bisect` went through.
+    Release,
+}
+
+impl Kind {
+    /// Every kind.
+    pub const ALL: [Self; 3] = [Self::Run, Self::Bench, Self::Release];
+
+    /// The name in the database and in exports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Run => "run",
+            Self::Bench => "bench",
+            Self::Release => "release",
+        }
+    }
+
+    /// The kind of this name.
+    pub fn of(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

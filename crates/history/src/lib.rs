@@ -1,0 +1,65 @@
+//! Runs over time, in one SQLite file: what was added, and how cases and frame times went since.
+//!
+//! [`read_runs`] reads what `etalon run`, `bench` and `bisect` wrote, and a [`Writer`] adds it. Nothing is ever changed or
+//! removed; the same run twice adds nothing. A [`History`] reads: its [runs](History::runs) with their
+//! [adapters](History::adapters), [one case](History::case_history) over all runs, [two runs](History::compare)
+//! compared, [counts](History::tallies) by area and verdict, [series](History::series) of frame times with the ruler,
+//! and [every record](History::each_record). What people say of changes is a [log](TriageEntry) in the same file.
+//!
+//! A **timeline** is an adapter over its runs. It has the adapter's name, but for the releases that `etalon bisect` went
+//! through, which are all in the timeline of the name before the `@`.
+
+#![cfg_attr(
+    test,
+    expect(clippy::unwrap_used, reason = "a test that panics has failed")
+)]
+
+mod adapter;
+mod case_history;
+mod case_set;
+mod compare;
+mod connection;
+mod dates;
+mod digest;
+mod error;
+mod every_record;
+mod frame_times;
+mod history;
+mod ids;
+mod input;
+mod interning;
+mod kind;
+mod labels;
+mod new_run;
+mod outcome;
+mod packing;
+mod rows;
+mod runs;
+mod schema;
+mod series;
+mod tally;
+mod time;
+mod triage;
+mod triage_log;
+mod writer;
+
+pub use adapter::Adapter;
+pub use case_history::{CaseHistory, Point};
+pub use compare::{AdapterComparison, Change, ChangeKind, Comparison};
+pub use dates::ReleaseDates;
+pub use error::HistoryError;
+pub use frame_times::FrameTimes;
+pub use history::History;
+pub use ids::{CaseId, MachineId, OutcomeId, RunId};
+pub use input::read_runs;
+pub use kind::Kind;
+pub use labels::{LabelError, Labels, parse_labels};
+pub use new_run::{NewAdapter, NewRun};
+pub use outcome::{Asserted, Measures, MethodMeasures, Outcome};
+pub use runs::{AdapterRun, RunInfo};
+pub use schema::SCHEMA;
+pub use series::{SeriesKey, TimePoint};
+pub use tally::Tally;
+pub use time::{format_time, parse_time};
+pub use triage::{Step, Subject, TriageEntry, TriageState};
+pub use writer::{Added, Writer};

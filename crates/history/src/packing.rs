@@ -1,0 +1,99 @@
+//! Packed lists: the outcomes of an adapter in a run, and frame times.
+
+use flate2::Compression;
+use flate2::read::DeflateDecoder;
+use flate2::write::DeflateEncoder;
+use std::io::{self, Read, Write};
+
+/// Packs numbers: differences to the number before, as variable-length integers, deflated.
+pub(crate) fn pack(numbers: &[u32]) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(numbers.len() * 2);
+    let mut before = 0;
+    for number in numbers {
+        let difference = i64::from(*number) - before;
+        before = i64::from(*number);
+        // Small numbers of either sign become small ones without.
+        let mut rest = ((difference << 1) ^ (difference >> 63)) as u64;
+        while rest >= 0x80 {
+            bytes.push(rest as u8 | 0x80);
+            rest >>= 7;
+        }
+        bytes.push(rest as u8);
+    }
+    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::default());
+    encoder.write_all(&bytes)?;
+    encoder.finish()
+}
+
+/// Unpacks as many numbers as were packed; `None` if there are others.
+pub(crate) fn unpack(packed: &[u8], count: usize) -> Option<Vec<u32>> {
+    // A number takes five bytes at most.
+    let most = (count as u64).saturating_mul(5);
+    let mut bytes = Vec::with_capacity(count * 2);
+    DeflateDecoder::new(packed)
+        .take(most + 1)
+        .read_to_end(&mut bytes)
+        .ok()?;
+    let mut numbers = Vec::with_capacity(count);
+    let mut bytes = bytes.into_iter();
+    let mut before = 0i64;
+    while let Some(first) = bytes.next() {
+        let mut rest = u64::from(first & 0x7f);
+        let mut last = first;
+        let mut shift = 7;
+        while last & 0x80 != 0 {
+            last = bytes.next()?;
+            if shift > 28 {
+                return None;
+            }
+            rest |= u64::from(last & 0x7f) << shift;
+            shift += 7;
+        }
+        before += (rest >> 1) as i64 ^ -((rest & 1) as i64);
+        numbers.push(u32::try_from(before).ok()?);
+    }
+    (numbers.len() == count).then_some(numbers)
+}
+
+/// Packs times.
+pub(crate) fn pack_times(times: &[f32]) -> Vec<u8> {
+    times.iter().flat_map(|t| t.to_le_bytes()).collect()
+}
+
+/// Unpacks times; `None` if the bytes are not whole ones.
+pub(crate) fn unpack_times(bytes: &[u8]) -> Option<Vec<f32>> {
+    let (times, rest) = bytes.as_chunks::<4>();
+    let times = times.iter().map(|t| f32::from_le_bytes(*t)).collect();
+    rest.is_empty().then_some(times)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn numbers_come_back(numbers in prop::collection::vec(prop_oneof![0u32..50, any::<u32>()], 0..200)) {
+            let packed = pack(&numbers).unwrap();
+            prop_assert_eq!(unpack(&packed, numbers.len()), Some(numbers.clone()));
+            prop_assert_eq!(unpack(&packed, numbers.len() + 1), None);
+        }
+
+        #[test]
+        fn times_come_back(times in prop::collection::vec(0f32..10.0, 0..50)) {
+            prop_assert_eq!(unpack_times(&pack_times(&times)), Some(times));
+        }
+
+        #[test]
+        fn damaged_bytes_end_well(bytes in prop::collection::vec(any::<u8>(), 0..100), count in 0usize..100) {
+            let _ = unpack(&bytes, count);
+        }
+    }
+
+    #[test]
+    fn equal_numbers_take_almost_nothing() {
+        assert!(pack(&[7; 14_000]).unwrap().len() < 100);
+        assert_eq!(unpack_times(&[1, 2, 3]), None);
+    }
+}

@@ -1,0 +1,157 @@
+//! The schema of the file, and how older ones become it.
+//!
+//! Each migration leads from one schema to the next, in a transaction of its own. A migration that was released does
+//! not change any more.
+
+use crate::error::HistoryError;
+use rusqlite::{Connection, Transaction, TransactionBehavior};
+use std::path::Path;
+
+/// The number that tells the file from other databases: "etln".
+const APPLICATION: i32 = 0x6574_6c6e;
+
+/// The migrations; the first makes schema 1 of nothing.
+pub(crate) const MIGRATIONS: [&str; 1] = [include_str!("migrations/1.sql")];
+
+/// The schema that is written.
+pub const SCHEMA: u32 = MIGRATIONS.len() as u32;
+
+/// What a file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Found {
+    /// It has no table.
+    Empty,
+    /// It is a history of this schema.
+    Schema(u32),
+}
+
+/// Tells what a file is.
+pub(crate) fn look(path: &Path, connection: &Connection) -> Result<Found, HistoryError> {
+    let wrong = HistoryError::database(path);
+    let number = |name: &str| -> Result<i32, HistoryError> {
+        connection
+            .query_row(&format!("PRAGMA {name}"), [], |row| row.get(0))
+            .map_err(&wrong)
+    };
+    let (application, schema) = (number("application_id")?, number("user_version")?);
+    if application == APPLICATION {
+        return Ok(Found::Schema(u32::try_from(schema).unwrap_or(u32::MAX)));
+    }
+    let tables: i64 = connection
+        .query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))
+        .map_err(&wrong)?;
+    if application == 0 && schema == 0 && tables == 0 {
+        return Ok(Found::Empty);
+    }
+    Err(HistoryError::Other {
+        path: path.to_owned(),
+    })
+}
+
+/// Brings a file to the last of these migrations' schemas.
+pub(crate) fn migrate(
+    path: &Path,
+    connection: &mut Connection,
+    migrations: &[&str],
+) -> Result<(), HistoryError> {
+    let wrong = HistoryError::database(path);
+    let known = migrations.len() as u32;
+    loop {
+        // Another process may migrate at the same time, so what was found counts only inside of the transaction.
+        let schema = match look(path, connection)? {
+            Found::Empty => 0,
+            Found::Schema(schema) => schema,
+        };
+        if schema > known {
+            return Err(HistoryError::Newer {
+                path: path.to_owned(),
+                found: schema,
+                known,
+            });
+        }
+        if schema == known {
+            return Ok(());
+        }
+        let step = Transaction::new(connection, TransactionBehavior::Immediate).map_err(&wrong)?;
+        let now = match look(path, &step)? {
+            Found::Empty => 0,
+            Found::Schema(schema) => schema,
+        };
+        if now == schema
+            && let Some(sql) = migrations.get(schema as usize)
+        {
+            step.execute_batch(sql).map_err(&wrong)?;
+            step.pragma_update(None, "application_id", APPLICATION)
+                .map_err(&wrong)?;
+            step.pragma_update(None, "user_version", schema + 1)
+                .map_err(&wrong)?;
+        }
+        step.commit().map_err(&wrong)?;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn memory() -> Connection {
+        Connection::open_in_memory().unwrap()
+    }
+
+    #[test]
+    fn every_schema_leads_to_the_last() {
+        let path = Path::new("history.db");
+        for from in 0..=MIGRATIONS.len() {
+            let mut connection = memory();
+            migrate(path, &mut connection, &MIGRATIONS[..from]).unwrap();
+            migrate(path, &mut connection, &MIGRATIONS).unwrap();
+            let found = look(path, &connection).unwrap();
+            assert_eq!(found, Found::Schema(SCHEMA));
+            // Once more does nothing.
+            migrate(path, &mut connection, &MIGRATIONS).unwrap();
+        }
+    }
+
+    #[test]
+    fn rows_live_through_later_migrations_and_a_failing_one_changes_nothing() {
+        let path = Path::new("history.db");
+        let mut connection = memory();
+        migrate(path, &mut connection, &["CREATE TABLE a (x)"]).unwrap();
+        connection.execute("INSERT INTO a VALUES (7)", []).unwrap();
+        let failing = [
+            "CREATE TABLE a (x)",
+            "ALTER TABLE a ADD COLUMN y; CREATE TABLE a (x)",
+        ];
+        migrate(path, &mut connection, &failing).unwrap_err();
+        assert_eq!(look(path, &connection).unwrap(), Found::Schema(1));
+        let steps = [
+            "CREATE TABLE a (x)",
+            "ALTER TABLE a ADD COLUMN y",
+            "UPDATE a SET y = x + 1",
+        ];
+        migrate(path, &mut connection, &steps).unwrap();
+        let y: i64 = connection
+            .query_row("SELECT y FROM a", [], |row| row.get(0))
+            .unwrap();
+        assert_eq!(y, 8);
+        assert_eq!(look(path, &connection).unwrap(), Found::Schema(3));
+    }
+
+    #[test]
+    fn newer_and_other_files_are_refused() {
+        let path = Path::new("history.db");
+        let mut connection = memory();
+        migrate(path, &mut connection, &MIGRATIONS).unwrap();
+        connection.pragma_update(None, "user_version", 99).unwrap();
+        let error = migrate(path, &mut connection, &MIGRATIONS).unwrap_err();
+        assert!(
+            matches!(error, HistoryError::Newer { found: 99, .. }),
+            "{error}"
+        );
+
+        let mut other = memory();
+        other.execute_batch("CREATE TABLE mine (x)").unwrap();
+        let error = migrate(path, &mut other, &MIGRATIONS).unwrap_err();
+        assert!(matches!(error, HistoryError::Other { .. }), "{error}");
+    }
+}

@@ -1,0 +1,81 @@
+//! What people say of a change: a log to which entries are added, and of which the last one about a subject counts.
+
+use crate::ids::{MachineId, RunId};
+use etalon_record::Time;
+use std::fmt;
+
+/// The state that people give a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum TriageState {
+    /// Nobody has looked yet.
+    New,
+    /// It is a change of the driver.
+    Real,
+    /// It does not matter, for a reason that the entry gives.
+    Ignored,
+    /// It has been mended.
+    Fixed,
+}
+
+impl TriageState {
+    /// Every state.
+    pub const ALL: [Self; 4] = [Self::New, Self::Real, Self::Ignored, Self::Fixed];
+
+    /// The name in commands, in the database and in exports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::New => "new",
+            Self::Real => "real",
+            Self::Ignored => "ignored",
+            Self::Fixed => "fixed",
+        }
+    }
+
+    /// The state of this name.
+    pub fn of(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|state| state.name() == name)
+    }
+}
+
+impl fmt::Display for TriageState {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What an entry speaks of: the verdict of a case, or a step of its frame times.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Subject {
+    /// The case's id.
+    pub case: String,
+    /// The timeline of the adapter.
+    pub timeline: String,
+    /// The step; `None` where the entry speaks of the verdict.
+    pub step: Option<Step>,
+}
+
+/// A step of a series of frame times.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Step {
+    /// The machine of the series.
+    pub machine: MachineId,
+    /// The time.
+    pub time: Time,
+    /// The first run behind the step.
+    pub run: RunId,
+}
+
+/// An entry of the log.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TriageEntry {
+    /// When it was made, in seconds since 1970.
+    pub at: i64,
+    /// Who made it, or empty.
+    pub author: String,
+    /// What it speaks of.
+    pub subject: Subject,
+    /// The state.
+    pub state: TriageState,
+    /// The reason, or empty.
+    pub reason: String,
+}

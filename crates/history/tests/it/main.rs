@@ -1,0 +1,10 @@
+//! A history from outside: what was added comes back, whatever happens to the file.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+mod adding;
+mod comparing;
+mod files;
+mod folders;
+mod made;
+mod migrations;
+mod random;

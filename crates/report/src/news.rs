@@ -1,0 +1,102 @@
+//! What a run tells that the run before it did not.
+
+use crate::terminal::TableOptions;
+use crate::words::plain;
+use serde::Serialize;
+
+/// The most entries of a kind that a terminal lists.
+const LISTED: usize = 20;
+
+/// A run compared with the last run of each of its adapters.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct News {
+    /// Each adapter with the run that it was compared with, in words.
+    pub since: Vec<Since>,
+    /// What is unexpected and was not, the gravest first.
+    pub broken: Vec<NewsEntry>,
+    /// What was unexpected and is not.
+    pub fixed: Vec<NewsEntry>,
+    /// What is unexpected as before.
+    pub old: Vec<NewsEntry>,
+    /// What is unexpected, and people said that it is real or does not matter. It does not count.
+    pub triaged: Vec<NewsEntry>,
+}
+
+/// An adapter and the run that it was compared with.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Since {
+    /// The adapter's name.
+    pub adapter: String,
+    /// The run before, with its driver and commit; `None` where there is none to compare with.
+    pub run: Option<String>,
+}
+
+/// One record, and what is said of it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct NewsEntry {
+    /// The case.
+    pub case: String,
+    /// The adapter.
+    pub adapter: String,
+    /// The verdict of this run.
+    pub verdict: String,
+    /// What it was before, or why it does not count.
+    pub note: String,
+}
+
+impl News {
+    /// The number of records that count against the run.
+    pub fn counted(&self) -> u64 {
+        (self.broken.len() + self.old.len()) as u64
+    }
+
+    /// The kinds of entries in the order in which they are told, each with its title.
+    pub(crate) fn sections(&self) -> [(&'static str, &[NewsEntry]); 4] {
+        [
+            ("broken since the last run", &self.broken),
+            ("fixed since the last run", &self.fixed),
+            ("unexpected as before", &self.old),
+            ("settled by triage, not counted", &self.triaged),
+        ]
+    }
+}
+
+/// The news for a terminal, what is new first. Always ends in a newline.
+pub fn news_table(news: &News, options: TableOptions) -> String {
+    let mut text = String::new();
+    for since in &news.since {
+        let adapter = plain(&since.adapter, 60);
+        text.push_str(&match &since.run {
+            Some(run) => format!("{adapter}: compared with {}\n", plain(run, 400)),
+            None => format!("{adapter}: no earlier run to compare with\n"),
+        });
+    }
+    for (at, (title, entries)) in news.sections().into_iter().enumerate() {
+        let color = ["31", "32", "0", "0"][at];
+        let head = format!("{} {title}", entries.len());
+        if entries.is_empty() && at > 1 {
+            continue;
+        }
+        text.push_str(&match entries.is_empty() {
+            true => format!("{head}\n"),
+            false => format!("{}\n", options.paint(&head, color)),
+        });
+        for entry in entries.iter().take(LISTED) {
+            text.push_str(&format!("  {}\n", line(entry)));
+        }
+        if let Some(more @ 1..) = entries.len().checked_sub(LISTED) {
+            text.push_str(&format!("  and {}\n", format_args!("{more} more")));
+        }
+    }
+    text
+}
+
+fn line(entry: &NewsEntry) -> String {
+    format!(
+        "{}  {}  {}: {}",
+        entry.verdict,
+        plain(&entry.adapter, 60),
+        plain(&entry.case, 300),
+        plain(&entry.note, 400)
+    )
+}
