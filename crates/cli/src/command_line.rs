@@ -1,8 +1,8 @@
 //! The command line: one subcommand per file of `commands`.
 
 use crate::commands::{
-    adapters, bench, bisect, bundle, check, completions, diff, expectations, explain, fuzz, list,
-    man, merge, mutants, reduce, report, run, show, site,
+    adapters, bench, bisect, bundle, check, completions, diff, expectations, explain, fuzz,
+    history, list, man, merge, mutants, reduce, report, run, show, site,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -48,6 +48,9 @@ pub(crate) enum Command {
     Bench(bench::Arguments),
     /// Compare two runs or two benches: verdicts, pixels, times
     Diff(diff::Arguments),
+    /// Keep runs, benches and releases over time in one file, and tell what changed and when
+    #[command(subcommand)]
+    History(history::HistoryCommand),
     /// Find the releases of a driver that draw cases wrong
     Bisect(bisect::Arguments),
     /// Explain one texel, operation by operation, with rules and citations

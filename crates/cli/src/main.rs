@@ -23,6 +23,7 @@ mod expectations;
 mod failure;
 mod failure_groups;
 mod flags;
+mod history_file;
 mod interruption;
 mod known_bugs;
 mod near;
@@ -65,6 +66,7 @@ fn main() -> ExitCode {
         Command::Expectations(command) => commands::expectations::run(&command),
         Command::Bench(arguments) => commands::bench::run(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),
+        Command::History(command) => commands::history::run(&command),
         Command::Site(arguments) => commands::site::run(&arguments),
         Command::Bisect(arguments) => commands::bisect::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),

@@ -2,7 +2,7 @@
 //! `cargo run --release -p etalon-report --example history_page -- DATABASE FOLDER`.
 #![expect(clippy::unwrap_used, reason = "an example may stop at the first error")]
 
-use etalon_history::History;
+use etalon_history::{History, Labels};
 use etalon_report::write_history;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -15,7 +15,7 @@ fn main() {
     };
     let start = Instant::now();
     let history = History::open_read(database).unwrap();
-    let written = write_history(&history, folder).unwrap();
+    let written = write_history(&history, &Labels::new(), folder).unwrap();
     println!(
         "{}: {:.2} MB; {} files, {:.1} MB in all, in {:.1?}",
         written.html.display(),

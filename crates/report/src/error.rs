@@ -63,8 +63,8 @@ pub enum ReportError {
     /// A history could not be read.
     #[error(transparent)]
     History(#[from] HistoryError),
-    /// A history has no run.
-    #[error("{} holds no run; `etalon history add RUN` adds one", path.display())]
+    /// A history has no run of these labels.
+    #[error("{} holds no such run; `etalon history add RUN` adds one, and `etalon history show` lists them", path.display())]
     NoRuns {
         /// The file.
         path: PathBuf,

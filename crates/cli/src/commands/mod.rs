@@ -10,6 +10,7 @@ pub(crate) mod diff;
 pub(crate) mod expectations;
 pub(crate) mod explain;
 pub(crate) mod fuzz;
+pub(crate) mod history;
 pub(crate) mod list;
 pub(crate) mod man;
 pub(crate) mod merge;

@@ -11,7 +11,7 @@ use super::times::{Series, Timed};
 use crate::words::machine;
 use etalon_history::{History, Kind, TriageEntry, format_time};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 /// The bytes at which a file ends and the next begins.
@@ -155,30 +155,88 @@ pub(super) fn cases(cases: &[Rc<str>], order: &[usize]) -> Value {
     all.collect()
 }
 
-/// The course of a case on all timelines: timeline, first and last run, spans, gaps, events, as far as there are any.
-pub(super) fn case(
-    id: &str,
-    courses: &[Courses],
-    case: usize,
-    times: Option<usize>,
-    said: &[&TriageEntry],
-) -> String {
-    let all: Vec<Value> = courses
-        .iter()
-        .enumerate()
-        .filter_map(|(line, of)| {
-            let course = of.of[case].as_ref()?;
-            Some(course_data(line, course, of))
-        })
-        .collect();
-    let said: Vec<Value> = said.iter().map(|entry| entry_data(entry)).collect();
-    let mut value = vec![json!(id), json!(all), json!(times.map_or(-1, |t| t as i64))];
-    if !said.is_empty() {
-        value.push(json!(said));
-    }
-    Value::from(value).to_string()
+/// Files of courses. Cases of one file that went the same way share a text, which most do.
+pub(super) struct CaseFiles {
+    /// The place of the first case of each file among all cases.
+    pub(super) first: Vec<usize>,
+    files: Vec<String>,
+    now: CaseFile,
 }
 
+/// A file in the making.
+#[derive(Default)]
+struct CaseFile {
+    numbers: HashMap<String, usize>,
+    courses: Vec<String>,
+    of: Vec<usize>,
+    /// The place of a case within the file, the file of its times or -1, and what people said.
+    more: Vec<Value>,
+    bytes: usize,
+}
+
+impl CaseFiles {
+    pub(super) fn new() -> Self {
+        Self {
+            first: vec![0],
+            files: Vec::new(),
+            now: CaseFile::default(),
+        }
+    }
+
+    /// Adds the case at this place: its course on all timelines, the file of its times, what people said.
+    pub(super) fn push(
+        &mut self,
+        place: usize,
+        case: usize,
+        courses: &[Courses],
+        times: Option<usize>,
+        said: &[&TriageEntry],
+    ) {
+        if self.now.bytes > FILE {
+            self.files.push(std::mem::take(&mut self.now).text());
+            self.first.push(place);
+        }
+        let now = &mut self.now;
+        let on_line = |(line, of): (usize, &Courses)| {
+            let course = of.of[case].as_ref()?;
+            Some(course_data(line, course, of))
+        };
+        let all = courses.iter().enumerate().filter_map(on_line);
+        let text = all.collect::<Value>().to_string();
+        now.bytes += 4;
+        let number = match now.numbers.get(&text) {
+            Some(number) => *number,
+            None => {
+                now.bytes += text.len();
+                now.numbers.insert(text.clone(), now.courses.len());
+                now.courses.push(text);
+                now.courses.len() - 1
+            }
+        };
+        if times.is_some() || !said.is_empty() {
+            let said: Vec<Value> = said.iter().map(|entry| entry_data(entry)).collect();
+            let more = json!([now.of.len(), times.map_or(-1, |t| t as i64), said]);
+            now.bytes += more.to_string().len();
+            now.more.push(more);
+        }
+        now.of.push(number);
+    }
+
+    /// The texts of all files.
+    pub(super) fn finish(mut self) -> (Vec<usize>, Vec<String>) {
+        self.files.push(self.now.text());
+        (self.first, self.files)
+    }
+}
+
+impl CaseFile {
+    fn text(self) -> String {
+        let (courses, of, more) = (self.courses.join(","), json!(self.of), json!(self.more));
+        format!("[[{courses}],{of},{more}]")
+    }
+}
+
+/// Timeline, first and last run, spans, and gaps and events as far as there are any.
 fn course_data(line: usize, course: &Course, of: &Courses) -> Value {
     let spans: Vec<u32> = course
         .spans

@@ -10,7 +10,7 @@ use maud::{Markup, html};
 use serde_json::{Value, json};
 
 /// The most columns of a table on the start page.
-const COLUMNS: usize = 10;
+const COLUMNS: usize = 8;
 
 /// A timeline and what is counted on it.
 pub(super) struct Counted<'a> {

@@ -269,10 +269,17 @@ fn of_times(
     case: &str,
     told: &[Told<'_>],
 ) -> Vec<Item> {
-    let recent = |point: &ChangePoint| point.index + RECENT >= timed.points.len();
+    let line = &told[series.line].line.runs;
+    // The end of a series that nobody measures any more is no news.
+    let is_measured = timed.runs.last() == line.last().map(|run| &run.place);
+    let recent = |point: &ChangePoint| {
+        let place = timed.runs[point.index];
+        line.partition_point(|run| run.place < place) + RECENT >= line.len()
+    };
     let mut items = Vec::new();
     for (point, state, fresh) in timed.told() {
         let is_open = state.is_none_or(|entry| entry.state == TriageState::New);
+        let fresh = fresh && is_measured;
         if !(fresh || is_open && recent(point)) {
             continue;
         }

@@ -136,6 +136,7 @@ fn last_runs(start: &Start<'_>) -> Markup {
             thead { tr {
                 th scope="col" { "Adapter" } th scope="col" { "Last run" } th scope="col" { "Run before" }
                 @for word in ["Broken", "Flaky", "Fixed", "Appeared", "Gone"] { th.num scope="col" { (word) } }
+                th scope="col" { "Last change" }
             } }
             tbody { @for (line, counts) in start.told.iter().zip(&start.news.counts) {
                 tr {
@@ -145,10 +146,18 @@ fn last_runs(start: &Start<'_>) -> Markup {
                     @for (kind, n) in counts.iter().enumerate() {
                         td.num.f[kind == 0 && *n > 0].o[kind == 1 && *n > 0].p[kind == 2 && *n > 0] { (n) }
                     }
+                    td { @match last_change(line) { Some(at) => (run(line, at)), None => "none" } }
                 }
             } }
         } }
     }
+}
+
+/// The last run that shows an event.
+fn last_change(told: &Told<'_>) -> Option<usize> {
+    let courses = told.courses.of.iter().flatten();
+    let events = courses.flat_map(|course| &course.events);
+    events.map(|event| event.at as usize).max()
 }
 
 /// A curve per family and adapter. Families that never moved are folded away.

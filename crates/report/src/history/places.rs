@@ -1,6 +1,6 @@
 //! The runs of a history in order, and those of each timeline.
 
-use etalon_history::{AdapterRun, History, Kind, RunId, RunInfo, format_time};
+use etalon_history::{AdapterRun, History, Kind, Labels, RunId, RunInfo, format_time};
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -33,11 +33,16 @@ pub(super) struct LineRun<'a> {
 }
 
 impl<'a> Places<'a> {
-    pub(super) fn new(history: &'a History) -> Self {
+    /// The runs that have all of these labels.
+    pub(super) fn new(history: &'a History, only: &Labels) -> Self {
         let runs: Vec<&RunInfo> = history
             .runs()
             .iter()
             .filter(|run| run.resumed.is_none())
+            .filter(|run| {
+                only.iter()
+                    .all(|(key, value)| run.labels.get(key) == Some(value))
+            })
             .collect();
         let of: HashMap<RunId, usize> = runs.iter().map(|run| run.id).zip(0..).collect();
         let names = history.timelines();

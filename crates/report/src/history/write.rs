@@ -1,7 +1,7 @@
 //! Writing the pages of a history.
 
 use super::courses::Courses;
-use super::data::{self, Packed, file};
+use super::data::{self, CaseFiles, Packed, file};
 use super::families::Families;
 use super::folder::{Folder, HISTORY_PAGE_FILE};
 use super::looks::Looks;
@@ -12,7 +12,7 @@ use super::places::Places;
 use super::scores::Scores;
 use super::times::{self, Series};
 use crate::error::ReportError;
-use etalon_history::{History, TriageEntry};
+use etalon_history::{History, Labels, TriageEntry};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -30,13 +30,17 @@ pub struct WrittenHistory {
     pub bytes: u64,
 }
 
-/// Writes the pages of a history into a folder. An earlier page in it is replaced, and stays as it is if an error is
+/// Writes the pages of the runs of a history that have these labels, or of all where there are none, into a folder. An earlier page in it is replaced, and stays as it is if an error is
 /// returned.
 ///
 /// # Errors
-/// Returns an error if the history cannot be read or has no run, or the folder holds something else or cannot be written to.
-pub fn write_history(history: &History, to: &Path) -> Result<WrittenHistory, ReportError> {
-    let places = Places::new(history);
+/// Returns an error if the history cannot be read or has no such run, or the folder holds something else or cannot be written to.
+pub fn write_history(
+    history: &History,
+    only: &Labels,
+    to: &Path,
+) -> Result<WrittenHistory, ReportError> {
+    let places = Places::new(history, only);
     if places.runs.is_empty() {
         return Err(ReportError::NoRuns {
             path: history.path().to_owned(),
@@ -99,7 +103,7 @@ pub fn write_history(history: &History, to: &Path) -> Result<WrittenHistory, Rep
     for entry in log.iter().filter(|entry| entry.subject.step.is_none()) {
         said.entry(&entry.subject.case).or_default().push(entry);
     }
-    let (mut packed, mut timed) = (Packed::new(), Packed::new());
+    let (mut files, mut timed) = (CaseFiles::new(), Packed::new());
     for (rank, case) in order.iter().enumerate() {
         let id = &cases[*case];
         let times = of_case.get(case).map(|series| {
@@ -107,10 +111,11 @@ pub fn write_history(history: &History, to: &Path) -> Result<WrittenHistory, Rep
             timed.last()
         });
         let said = said.get(&**id).map_or(&[][..], Vec::as_slice);
-        packed.push(rank, &data::case(id, &courses, *case, times, said));
+        files.push(rank, *case, &courses, times, said);
     }
-    for (number, text) in packed.files.iter().enumerate() {
-        write(&format!("case-{number}"), &format!("[{text}]"))?;
+    let (first, files) = files.finish();
+    for (number, text) in files.iter().enumerate() {
+        write(&format!("case-{number}"), text)?;
     }
     for (number, text) in timed.files.iter().enumerate() {
         write(&format!("times-{number}"), &format!("[{text}]"))?;
@@ -134,11 +139,6 @@ pub fn write_history(history: &History, to: &Path) -> Result<WrittenHistory, Rep
     }
 
     let names: Vec<&str> = places.timelines.iter().map(|line| &*line.name).collect();
-    let first: Vec<&str> = packed
-        .first
-        .iter()
-        .map(|rank| &*cases[order[*rank]])
-        .collect();
     let index = json!({ "timelines": names, "cases": first, "runs": events.first });
     let html = page(&Start {
         history,

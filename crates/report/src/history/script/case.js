@@ -1,14 +1,19 @@
 // One case over all runs of every adapter.
 const STRIP = 900;
 const MOST_ROWS = 300;
+const LOST = "A file of this page cannot be loaded: is the folder data beside it?";
 
 async function showCase(id, into) {
-  const number = placeOf(index.cases, id);
-  const [known, file] = await Promise.all([runs(), number < 0 ? [] : need("case-" + number)]);
-  if (!known || !file) return fail(into, "A file of this page cannot be loaded: is the folder data beside it?");
-  const entry = file.find(one => one[0] === id);
-  if (!entry) return fail(into, "This history has no case of this name.");
-  const [, courses, times, said = []] = entry;
+  const [known, names] = await Promise.all([runs(), allCases()]);
+  if (!known || !names) return fail(into, LOST);
+  const place = placeOf(names, id);
+  if (names[place] !== id) return fail(into, "This history has no case of this name.");
+  const number = placeOf(index.cases, place);
+  const file = await need("case-" + number);
+  if (!file) return fail(into, LOST);
+  const at = place - index.cases[number];
+  const courses = file[0][file[1][at]];
+  const [, times, said] = file[2].find(([which]) => which === at) || [at, -1, []];
   const body = [];
   for (const course of courses) body.push(courseOf(known, course, said));
   if (!courses.length) body.push(make("p", {}, "No run of this case gave a verdict."));
@@ -17,7 +22,7 @@ async function showCase(id, into) {
     const held = await need("times-" + times);
     const found = held && held.find(one => one[0] === id);
     if (found) into.append(...charts(known, found[1]));
-    else fail(into, "The file of the frame times cannot be loaded: is the folder data beside this page?");
+    else fail(into, LOST);
   }
 }
 

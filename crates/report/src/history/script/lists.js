@@ -22,7 +22,7 @@ function labelOf(text) {
 async function showRun(text, into) {
   const [known, names] = await Promise.all([runs(), allCases()]);
   const run = known && known.runs.find(one => String(one.id) === text);
-  if (!run || !names) return fail(into, known ? "This history has no run of this number." : "A file of this page cannot be loaded: is the folder data beside it?");
+  if (!run || !names) return fail(into, known ? "This history has no run of this number." : LOST);
   const number = placeOf(index.runs, run.place);
   const file = number < 0 ? [] : await need("run-" + number);
   const facts = [
@@ -55,7 +55,7 @@ async function showAdapter(name, into) {
   const known = await runs();
   const line = known && known.lines.find(one => one.name === name);
   const data = line && await need("adapter-" + line.number);
-  if (!data) return fail(into, line || known ? "This history has no such adapter." : "A file of this page cannot be loaded: is the folder data beside it?");
+  if (!data) return fail(into, line || known ? "This history has no such adapter." : LOST);
   const shown = [...data.areas.keys()].filter(area => data.rows.some(([, cells]) => cells[area]));
   const percent = (good, of) => of ? (100 * good / of).toFixed(2).replace(/^100\.00$/, "100") + " %" : "–";
   const rows = data.rows.slice(0, MOST_ROWS).map(([at, row]) => cells(told(line.runs[at]), ...shown.map(area => {
@@ -73,7 +73,7 @@ async function showAdapter(name, into) {
 
 async function showNews(_, into) {
   const lines = await need("news");
-  if (!lines) return fail(into, "A file of this page cannot be loaded: is the folder data beside it?");
+  if (!lines) return fail(into, LOST);
   into.append(make("ul", { class: "news" }, ...lines.map(([colour, word, subject, isFamily, text, chip]) => {
     const link = isFamily ? make("a", { href: "#q=" + encoded(subject) }, make("code", {}, subject)) : caseLink(subject);
     return make("li", { class: colour }, make("b", {}, word), " ", link, chip ? make("span", { class: "chip" }, chip) : "", " ", make("span", { class: "h" }, text));
@@ -82,7 +82,7 @@ async function showNews(_, into) {
 
 async function showFound(text, into) {
   const names = await allCases();
-  if (!names) return fail(into, "A file of this page cannot be loaded: is the folder data beside it?");
+  if (!names) return fail(into, LOST);
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   const found = names.filter(id => words.every(word => id.toLowerCase().includes(word)));
   $("view-state").textContent = counted(found.length, "case") + (found.length > MOST_FOUND ? ", the first " + MOST_FOUND : "");
