@@ -399,7 +399,7 @@ pub(super) fn events(
         .collect()
 }
 
-/// The most lines of news that a page shows.
+/// The most lines of news that are kept.
 const NEWS: usize = 5_000;
 
 /// All lines of news.

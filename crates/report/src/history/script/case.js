@@ -1,6 +1,6 @@
 // One case over all runs of every adapter.
 const STRIP = 900;
-const MOST_ROWS = 300;
+const MOST_ROWS = 100;
 const LOST = "A file of this page cannot be loaded: is the folder data beside it?";
 
 async function showCase(id, into) {
@@ -42,12 +42,15 @@ function courseOf(known, [number, first, last, flat, gapList = [], eventList = [
   const events = [];
   for (let i = 0; i < eventList.length; i += 3) events.push({ kind: eventList[i], after: eventList[i + 1], at: eventList[i + 2] });
   const now = spans[spans.length - 1];
+  // A release that was not drawn is told apart in the list of spans alone.
+  let since = spans.length - 1;
+  while (since > 0 && spans[since - 1].look.text === now.look.text) since--;
   const gone = last < line.runs.length - 1 && line.runs.slice(last + 1).some(one => one.whole);
   const section = make("section", { class: "course" },
     make("h2", {}, line.name),
     make("p", {},
       make("span", { class: "chip " + now.look.colour }, now.look.text), gone ? " until " : " since ",
-      ...told(line.runs[gone ? last : now.from]), ". ", counted(last - first + 1, "run"), " from ", runLink(line.runs[first]), " to ", runLink(line.runs[last]), "."));
+      ...told(line.runs[gone ? last : spans[since].from]), ". ", counted(last - first + 1, "run"), " from ", runLink(line.runs[first]), " to ", runLink(line.runs[last]), "."));
   if (now.look.reason) section.append(make("p", { class: "note" }, "Expected: " + now.look.reason));
   section.append(strip(line, spans, missing, first, last));
   for (const [timeline, state, at, author, reason] of said.filter(one => one[0] === line.name)) {

@@ -1,5 +1,6 @@
 // The views of a run, of an adapter, of all news, and of a search.
 const MOST_FOUND = 200;
+const MOST_NEWS = 500;
 let ids = null;
 
 async function allCases() {
@@ -74,7 +75,8 @@ async function showAdapter(name, into) {
 async function showNews(_, into) {
   const lines = await need("news");
   if (!lines) return fail(into, LOST);
-  into.append(make("ul", { class: "news" }, ...lines.map(([colour, word, subject, isFamily, text, chip]) => {
+  if (lines.length > MOST_NEWS) into.append(make("p", { class: "cap" }, "The worst " + MOST_NEWS + " of " + whole(lines.length) + "."));
+  into.append(make("ul", { class: "news" }, ...lines.slice(0, MOST_NEWS).map(([colour, word, subject, isFamily, text, chip]) => {
     const link = isFamily ? make("a", { href: "#q=" + encoded(subject) }, make("code", {}, subject)) : caseLink(subject);
     return make("li", { class: colour }, make("b", {}, word), " ", link, chip ? make("span", { class: "chip" }, chip) : "", " ", make("span", { class: "h" }, text));
   })));
