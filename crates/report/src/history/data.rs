@@ -354,10 +354,10 @@ fn ranges(numbers: &[usize]) -> Vec<usize> {
 
 /// A number in four digits.
 fn number(value: f64) -> Value {
-    let digits = 3 - value.abs().log10().floor() as i32;
     if !value.is_finite() || value == 0.0 {
         return json!(0);
     }
+    let digits = 3 - value.abs().log10().floor() as i32;
     let text = format!("{:.*}", usize::try_from(digits.min(12)).unwrap_or(0), value);
     let short = match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.'),

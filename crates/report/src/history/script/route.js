@@ -42,11 +42,11 @@ async function route() {
   const into = make("div", { id: "view-body" });
   // A search keeps the focus in its field.
   const searching = name === "q" && document.activeElement === $("q");
-  $("view-title").textContent = view[0](text);
   $("view-state").textContent = "";
-  document.title = view[0](text) + " – etalon";
   await view[1](text, into);
   if (turn !== shown) return;
+  $("view-title").textContent = view[0](text);
+  document.title = view[0](text) + " – etalon";
   $("view-body").replaceWith(into);
   place(searching);
   $("start").hidden = true;
