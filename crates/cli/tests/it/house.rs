@@ -56,7 +56,11 @@ const TABLE: [(&str, &[&str], &[&str]); 22] = [
     ("bundle", &["backend", "frame"], &[]),
     ("explore", &["case", "frame", "scene"], &[]),
     ("history", &["frame", "record", "stats"], &[]),
-    ("report", &["frame", "methods", "record", "stats"], &[]),
+    (
+        "report",
+        &["frame", "history", "methods", "record", "stats"],
+        &[],
+    ),
     (
         "cli",
         &[
