@@ -1,11 +1,12 @@
-//! Frame times of three 16 by 16 cases, of four cases of `perf`, of sixteen blended full-screen quads, and of a million
-//! small triangles: dispatch, fill rate and setup.
+//! Frame times of three 16 by 16 cases, of five cases of `perf`, of sixteen blended full-screen quads, and of a million
+//! small triangles: dispatch, fill rate and setup. Beside them what memory allows.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_backend::Backend;
 use etalon_case::{CaseFile, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_scene::Scene;
+use std::hint::black_box;
 
 const IDS: [&str; 3] = [
     "depth/compare/compare=less/format=depth24plus/write=true",
@@ -14,9 +15,10 @@ const IDS: [&str; 3] = [
 ];
 
 /// Large cases that are drawn in tiles.
-const LARGE: [&str; 4] = [
+const LARGE: [&str; 5] = [
     "perf/triangles-100k/size=1280x720",
     "perf/multisample-triangles-100k/size=1280x720",
+    "perf/culling/cull=back/size=1280x720",
     "perf/state-changes/size=1280x720",
     "perf/blended-layers/size=1280x720",
 ];
@@ -92,5 +94,18 @@ fn raster(c: &mut Criterion) {
     bench("1280x720, 1000000 small triangles", &small_triangles(), 10);
 }
 
-criterion_group!(benches, raster);
+/// The bytes of 1280 by 720 texels of four bytes, set and copied on one thread: what memory allows.
+fn memory(c: &mut Criterion) {
+    let (from, mut to) = (vec![1_u32; 1280 * 720], vec![0_u32; 1280 * 720]);
+    let mut group = c.benchmark_group("memory");
+    group.bench_function("set 1280x720", |b| {
+        b.iter(|| black_box(&mut to).fill(black_box(7)))
+    });
+    group.bench_function("copy 1280x720", |b| {
+        b.iter(|| black_box(&mut to).copy_from_slice(black_box(&from)));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, raster, memory);
 criterion_main!(benches);

@@ -152,7 +152,6 @@ impl Store {
 pub(crate) struct Opaque<'a> {
     pub(crate) store: &'a Store,
     pub(crate) triangle: &'a Triangle,
-    pub(crate) edges: Edges,
     pub(crate) depths: Option<Depths>,
     /// Left, top, right and bottom of the tile's texels.
     pub(crate) texels: [i32; 4],
@@ -343,7 +342,10 @@ impl Opaque<'_> {
         let (lanes, zero) = (U::LEN as i32, I::splat(simd, 0));
         let numbers = I::from_slice(simd, &NUMBERS[..I::LEN]);
         let [first, last] = area.rows;
-        let Rows { at, across, down } = self.edges.rows(area.first, first, position);
+        let Rows { at, across, down } = match self.triangle.is_near() {
+            true => Edges::near(self.triangle, [area.first, first], position),
+            false => Edges::new(self.triangle).rows(area.first, first, position),
+        };
         // Operations in closures would not be inlined.
         let mut values = [
             numbers * across[0] + at[0],

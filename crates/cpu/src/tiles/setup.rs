@@ -330,10 +330,12 @@ impl<'a, S: Simd> SetUp<'a, S> {
         let tiles = around.map(|v| v as usize / TILE);
         let narrow = i32::from(around[2] - around[0]) < NARROW;
         let near = wide[1] - wide[0] <= side && high[1] - high[0] <= side;
-        let shape = match flat {
-            true if narrow && near && !cut && tiles[..2] == tiles[2..] => Shape::Small,
-            true => Shape::Flat,
-            false => Shape::Sloped,
+        let shape = match (flat, near) {
+            (true, true) if narrow && !cut && tiles[..2] == tiles[2..] => Shape::Small,
+            (true, true) => Shape::FlatNear,
+            (true, false) => Shape::Flat,
+            (false, true) => Shape::SlopedNear,
+            (false, false) => Shape::Sloped,
         };
         let triangle = Triangle {
             corners,

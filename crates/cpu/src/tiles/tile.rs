@@ -325,7 +325,6 @@ impl Drawing<'_, '_> {
         let opaque = Opaque {
             store,
             triangle,
-            edges: Edges::new(triangle),
             depths: self.depths(triangle, input, part),
             texels: self.texels,
         };

@@ -50,8 +50,12 @@ pub(crate) struct Rare {
 pub(crate) enum Shape {
     /// Of several depths.
     Sloped,
+    /// The same, and not larger than a tile.
+    SlopedNear,
     /// Of one depth.
     Flat,
+    /// The same, and not larger than a tile.
+    FlatNear,
     /// Of one depth, within one tile, in few columns, and cut by nothing.
     Small,
 }
@@ -60,7 +64,13 @@ impl Triangle {
     /// True if all of it has one depth.
     #[inline(always)]
     pub(crate) fn is_flat(&self) -> bool {
-        self.shape != Shape::Sloped
+        matches!(self.shape, Shape::Flat | Shape::FlatNear | Shape::Small)
+    }
+
+    /// True if it is not larger than a tile.
+    #[inline(always)]
+    pub(crate) fn is_near(&self) -> bool {
+        !matches!(self.shape, Shape::Flat | Shape::Sloped)
     }
 }
 
