@@ -1,6 +1,7 @@
 //! `etalon history`: runs over time.
 
 mod add;
+mod export;
 mod open;
 mod place;
 mod series;
@@ -17,6 +18,8 @@ use clap::Subcommand;
 pub(crate) enum HistoryCommand {
     /// Add runs, benches and the releases of `etalon bisect`; what is there already is not added again
     Add(add::Arguments),
+    /// Write the history for other programs: tables, samples, series of frame times
+    Export(export::Arguments),
     /// Show one case over all runs: since when it is broken, fixed or flaky, and when its frame times changed
     Show(show::Arguments),
     /// List what is open, or say of a case or of a change of its times what it is
@@ -27,6 +30,7 @@ pub(crate) enum HistoryCommand {
 pub(crate) fn run(command: &HistoryCommand) -> Result<u8, Failure> {
     match command {
         HistoryCommand::Add(arguments) => add::run(arguments),
+        HistoryCommand::Export(arguments) => export::run(arguments),
         HistoryCommand::Show(arguments) => show::run(arguments),
         HistoryCommand::Triage(arguments) => triage::run(arguments),
     }
